@@ -1,0 +1,299 @@
+#include "band/heat.hpp"
+
+#include <cmath>
+
+namespace thawslide::band {
+
+namespace {
+
+using mpm::ContactLayout;
+using mpm::HatLayout;
+using mpm::MomentumLayout;
+
+template <int Dim, class Real>
+mpm::Stencil<Dim, Real> hat_stencil(const mpm::SparseGrid<Dim, Real>& grid, std::uint64_t tile,
+                                    const mpm::Particles<Dim, Real>& particles, std::uint32_t p) {
+  return mpm::make_stencil<mpm::Linear<Real>, Dim, Real>(
+      grid, tile, particles.position.template get<Vector<Real, Dim>>(p), Real(0));
+}
+
+// The face of the domain a node lies on, if that face has a condition for heat; null otherwise.
+template <int Dim, class Real>
+const HeatFace<Real>* face_of(const BandModel<Dim, Real>& model, const Vector<Real, Dim>& position) {
+  constexpr Real round_off = static_cast<Real>(1e-9);
+  for (int a = 0; a < Dim; ++a) {
+    const HeatFace<Real>& lower = model.faces[2 * a];
+    const HeatFace<Real>& upper = model.faces[2 * a + 1];
+    if (lower.kind != FaceHeat::insulated && position[a] <= round_off * model.extent[a]) {
+      return &lower;
+    }
+    if (upper.kind != FaceHeat::insulated && position[a] >= model.extent[a] * (Real(1) - round_off)) {
+      return &upper;
+    }
+  }
+  return nullptr;
+}
+
+// Nodal temperature and pore pressure; a prescribed temperature takes its node before gradients are formed.
+template <int Dim, class Real>
+void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                    const mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& work) {
+  work.state.resize(grid.blocks().size());
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+      const auto& hats = nodes.hats(b, k);
+      auto& state = work.state(b, k);
+      state.fill(Real(0));
+      if (hats[HatLayout::volume] > Real(0)) {
+        state[0] = hats[HatLayout::temperature] / hats[HatLayout::volume];
+        state[1] = hats[HatLayout::pore_pressure] / hats[HatLayout::volume];
+        const HeatFace<Real>* face = face_of(model, mpm::node_position(grid, b, k));
+        if (face != nullptr && face->kind == FaceHeat::temperature) {
+          state[0] = face->value;
+        }
+      }
+    }
+  });
+}
+
+// Eq. 19's sums over particles: conduction and advection, and the capacity with the tangent to the heat content.
+template <int Dim, class Real, class Content>
+void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Content& content,
+                   const mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
+  auto& patches = work.rates.patches(grid.tiles().size());
+  parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    auto& patch = patches[t];
+    patch.clear();
+    mpm::Patch<Dim, Real, 3> state;
+    load_patch(grid, t, work.state, state);
+    const auto& tile = grid.tiles()[t];
+    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      const auto stencil = hat_stencil(grid, tile.key, particles, p);
+      Vector<Real, Dim> temperature_gradient = Vector<Real, Dim>::Zero();
+      Vector<Real, Dim> pressure_gradient = Vector<Real, Dim>::Zero();
+      stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
+        temperature_gradient += state.records[place][0] * slope;
+        pressure_gradient += state.records[place][1] * slope;
+      });
+      const Real scaling = particles.thermal_scaling(p);
+      const Real volume = particles.volume(p);
+      Vector<Real, Dim> flow = Vector<Real, Dim>::Zero();
+      if (model.conduction) {
+        const Real conductivity =
+            physics::conductivity(model.phases, particles.porosity(p), particles.liquid_saturation(p));
+        flow = -volume * scaling * conductivity * temperature_gradient;
+      }
+      Real advection = 0;
+      const Real hydraulic = model.hydraulic_conductivity[static_cast<std::size_t>(particles.material(p))];
+      if (model.advection && model.seepage && hydraulic > Real(0) &&
+          particles.temperature(p) >= model.reference_temperature) {
+        const Real mobility = scaling * hydraulic / model.phases.water_unit_weight;
+        advection = volume * model.phases.water_density * model.phases.water_heat_capacity * mobility *
+                    pressure_gradient.dot(temperature_gradient);
+      }
+      const Real capacity = particles.initial_volume(p) / scaling *
+                            content.apparent_capacity(particles.temperature(p), particles.initial_porosity(p));
+      stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
+        auto& node = patch.records[place];
+        node[0] += flow.dot(slope);
+        node[1] += weight * advection;
+        node[2] += weight * capacity;
+      });
+    }
+  });
+  sum_patches(grid, work.rates);
+}
+
+// The nodal rate of temperature with the capacity given by `capacity_at`; friction heat and face conditions come in here.
+template <int Dim, class Real, class CapacityAt>
+HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
+                           bool first_step, const mpm::Nodes<Dim, Real>& nodes, const CapacityAt& capacity_at,
+                           HeatNodes<Dim, Real>& work) {
+  std::vector<HeatGain<Real>> gains(grid.blocks().size());
+  std::vector<std::uint8_t> orphans(grid.blocks().size(), 0);
+  work.orphan.resize(grid.blocks().size());
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    HeatGain<Real>& gain = gains[b];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+      const auto& rates = work.rates(b, k);
+      const Real friction = nodes.contact(b, k)[ContactLayout::friction_heat];
+      const Real capacity = capacity_at(b, k);
+      Real& rate = work.state(b, k)[2];
+      rate = Real(0);
+      work.orphan(b, k)[0] = Real(0);
+      gain.friction += dt * friction;
+      if (!(capacity > Real(0))) {
+        if (friction > Real(0)) {
+          work.orphan(b, k)[0] = friction / nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
+          orphans[b] = 1;
+        }
+        continue;
+      }
+      Real power = rates[0] + rates[1] + friction;
+      gain.advection += dt * rates[1];
+      const HeatFace<Real>* face = face_of(model, mpm::node_position(grid, b, k));
+      if (face != nullptr && face->kind == FaceHeat::temperature) {
+        const auto& hats = nodes.hats(b, k);
+        const Real mapped = hats[HatLayout::temperature] / hats[HatLayout::volume];
+        rate = first_step ? (face->value - mapped) / dt : Real(0);
+        gain.boundary += dt * (capacity * rate - power);
+        continue;
+      }
+      if (face != nullptr && face->kind == FaceHeat::flux) {
+        // A full row of cells gives its face node half a cell of volume: area = 2 V / cell.
+        const Real inflow = face->value * Real(2) * nodes.hats(b, k)[HatLayout::volume] / grid.cell();
+        gain.boundary += dt * inflow;
+        power += inflow;
+      }
+      rate = power / capacity;
+    }
+  });
+  HeatGain<Real> sum;
+  work.any_orphan = false;
+  for (std::size_t b = 0; b < gains.size(); ++b) {
+    sum.friction += gains[b].friction;
+    sum.boundary += gains[b].boundary;
+    sum.advection += gains[b].advection;
+    work.any_orphan = work.any_orphan || orphans[b] != 0;
+  }
+  return sum;
+}
+
+template <int Dim, class Real>
+Real interpolated_rate(const mpm::Stencil<Dim, Real>& stencil, const mpm::Patch<Dim, Real, 3>& state) {
+  Real rate = 0;
+  stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
+    rate += weight * state.records[place][2];
+  });
+  return rate;
+}
+
+// Secant capacity along the predicted change, to particles and nodes: with it the sum of what particles take equals what
+// nodes give.
+template <int Dim, class Real, class Content>
+void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Content& content, Real dt,
+                             HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
+  auto& patches = work.capacity.patches(grid.tiles().size());
+  parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    auto& patch = patches[t];
+    patch.clear();
+    mpm::Patch<Dim, Real, 3> state;
+    load_patch(grid, t, work.state, state);
+    const auto& tile = grid.tiles()[t];
+    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      const auto stencil = hat_stencil(grid, tile.key, particles, p);
+      const Real change = dt * interpolated_rate(stencil, state);
+      const Real secant = content.secant_capacity(particles.temperature(p), change, particles.initial_porosity(p));
+      particles.secant_capacity(p) = secant;
+      const Real capacity = particles.initial_volume(p) / particles.thermal_scaling(p) * secant;
+      stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
+        patch.records[place][0] += weight * capacity;
+      });
+    }
+  });
+  sum_patches(grid, work.capacity);
+}
+
+// Eq. 18 for the heat content: what the nodes give goes into each particle's account, and its temperature follows.
+template <int Dim, class Real, class Content>
+void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                       const Content& content, Real dt, HeatNodes<Dim, Real>& work,
+                       mpm::Particles<Dim, Real>& particles) {
+  parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    mpm::Patch<Dim, Real, 3> state;
+    mpm::Patch<Dim, Real, 1> orphan;
+    load_patch(grid, t, work.state, state);
+    if (work.any_orphan) {
+      load_patch(grid, t, work.orphan, orphan);
+    }
+    const auto& tile = grid.tiles()[t];
+    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      const auto stencil = hat_stencil(grid, tile.key, particles, p);
+      Real gain = particles.secant_capacity(p) * dt * interpolated_rate(stencil, state);
+      if (work.any_orphan) {
+        const auto wide = mpm::make_stencil<mpm::Ugimp<Real>, Dim, Real>(
+            grid, tile.key, particles.position.template get<Vector<Real, Dim>>(p),
+            model.half_size[static_cast<std::size_t>(particles.body(p))]);
+        Real specific = 0;
+        wide.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
+          specific += weight * orphan.records[place][0];
+        });
+        gain += dt * specific * particles.mass(p) * particles.thermal_scaling(p) / particles.initial_volume(p);
+      }
+      const Real old_temperature = particles.temperature(p);
+      particles.previous_temperature(p) = old_temperature;
+      if (gain != Real(0)) {
+        particles.heat_content(p) += gain;
+        particles.temperature(p) =
+            content.temperature(particles.heat_content(p), particles.initial_porosity(p), old_temperature);
+        particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
+        particles.porosity(p) = physics::updated_porosity(model.phases, particles.porosity(p), Real(0),
+                                                          particles.temperature(p) - old_temperature);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
+                            bool first_step, const mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& work,
+                            mpm::Particles<Dim, Real>& particles) {
+  return model.with_heat_content([&](const auto& content) {
+    set_node_state(grid, model, nodes, work);
+    flows_to_grid(grid, model, content, particles, work);
+    solve_rates(
+        grid, model, dt, first_step, nodes, [&](std::size_t b, std::size_t k) { return work.rates(b, k)[2]; }, work);
+    secant_capacity_to_grid(grid, content, dt, work, particles);
+    const HeatGain<Real> gain = solve_rates(
+        grid, model, dt, first_step, nodes, [&](std::size_t b, std::size_t k) { return work.capacity(b, k)[0]; }, work);
+    heat_to_particles(grid, model, content, dt, work, particles);
+    return gain;
+  });
+}
+
+template <int Dim, class Real>
+void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+  model.with_heat_content([&](const auto& content) {
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.heat_content(p) = content.content(particles.temperature(p), particles.initial_porosity(p));
+      particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
+      particles.initial_saturation(p) = particles.liquid_saturation(p);
+      particles.previous_temperature(p) = particles.temperature(p);
+    }
+  });
+}
+
+template <int Dim, class Real>
+Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
+                  mpm::Particles<Dim, Real>& particles) {
+  const Real band_scaling = thickness > Real(0) ? grid.cell() / thickness : Real(1);
+  Real added = 0;
+  for (const std::uint32_t p : grid.order()) {
+    const bool scaled = model.region == ScaledRegion::all || particles.in_band(p) != 0;
+    const Real scaling = scaled ? band_scaling : Real(1);
+    const Real old = particles.thermal_scaling(p);
+    if (scaling != old) {
+      added += particles.initial_volume(p) * particles.heat_content(p) * (Real(1) / scaling - Real(1) / old);
+      particles.thermal_scaling(p) = scaling;
+    }
+  }
+  return added;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                             \
+  template HeatGain<Real> conduct_heat<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&,    \
+                                                  Real, bool, const mpm::Nodes<Dim, Real>&, HeatNodes<Dim, Real>&,   \
+                                                  mpm::Particles<Dim, Real>&);                                       \
+  template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);                \
+  template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real,        \
+                                        mpm::Particles<Dim, Real>&);
+THAWSLIDE_INSTANTIATE(2, double)
+THAWSLIDE_INSTANTIATE(3, double)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::band

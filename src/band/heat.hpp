@@ -1,0 +1,44 @@
+// Heat on the grid (Eqs. 9, 18-20), with the shear band scaling of Sec. 2.3: as if the grid were xi times finer.
+#pragma once
+
+#include "band/model.hpp"
+#include "mpm/nodes.hpp"
+#include "mpm/particles.hpp"
+
+namespace thawslide::band {
+
+// Heat that came into the body in one step [J], by source.
+template <class Real>
+struct HeatGain {
+  Real friction = 0;
+  Real boundary = 0;
+  Real advection = 0;
+};
+
+// Records of the heat stage at a node.
+template <int Dim, class Real>
+struct HeatNodes {
+  mpm::NodeRecords<Dim, Real, 3> rates;     // heat flow in [W], advection [W], capacity [J/K]
+  mpm::NodeRecords<Dim, Real, 1> capacity;  // with the secant capacity [J/K]
+  mpm::NodeRecords<Dim, Real, 3> state;     // temperature [C], pore pressure [Pa], rate of temperature [K/s]
+  mpm::NodeRecords<Dim, Real, 1> orphan;    // friction heat of nodes without hat weight, per mass [W/kg]
+  bool any_orphan = false;
+};
+
+// Heat content, temperature and saturation of all particles after dt. first_step: prescribed temperatures jump now.
+template <int Dim, class Real>
+HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
+                            bool first_step, const mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& work,
+                            mpm::Particles<Dim, Real>& particles);
+
+// Sets heat content and saturation from temperature and porosity (at t = 0).
+template <int Dim, class Real>
+void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles);
+
+// Gives each particle the scaling xi = cell / thickness now in force (1 outside the region); returns the heat [J] the
+// change adds at constant temperature and pressure. thickness 0: no band, xi = 1.
+template <int Dim, class Real>
+Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
+                  mpm::Particles<Dim, Real>& particles);
+
+}  // namespace thawslide::band

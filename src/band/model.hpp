@@ -1,0 +1,57 @@
+// What heat and pore pressure need to know, the same for every step.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "physics/freezing.hpp"
+#include "physics/heat_content.hpp"
+#include "physics/mixture.hpp"
+
+namespace thawslide::band {
+
+enum class FaceHeat { insulated, temperature, flux };
+
+template <class Real>
+struct HeatFace {
+  FaceHeat kind = FaceHeat::insulated;
+  Real value = 0;  // [C], or [W/m2] into the body
+};
+
+enum class ScaledRegion { all, first_layer };
+
+template <class Real>
+using AnyHeatContent = std::variant<physics::HeatContent<Real, physics::PowerLawCurve<Real>>,
+                                    physics::HeatContent<Real, physics::LinearCurve<Real>>>;
+
+template <int Dim, class Real>
+struct BandModel {
+  physics::Phases<Real> phases;
+  AnyHeatContent<Real> heat_content;
+  Real reference_temperature = 0;  // Tref [C]
+  bool heat = true;
+  bool conduction = true;
+  bool advection = true;
+  HeatFace<Real> faces[2 * Dim] = {};
+  Vector<Real, Dim> extent;  // upper corner of the domain [m]
+  ScaledRegion region = ScaledRegion::all;
+  bool lubrication = true;  // off: Eq. 25 sees the initial porosity and saturation (Sec. 3.3)
+
+  bool pressure = true;
+  bool thermal_pressurization = true;
+  bool seepage = true;
+  Real clapeyron_sign = 1;  // +1 as usual, -1 as Eq. 4 prints it
+  bool normal_thickness = true;
+  bool thickness_each_step = true;
+  Real gravity = 0;                                // magnitude [m/s2]
+  std::vector<Real> hydraulic_conductivity;        // by material [m/s]
+  std::vector<Real> half_size;                     // of a body's particles, in cells
+
+  // Calls work(content) with the heat content law of the run.
+  template <class Work>
+  decltype(auto) with_heat_content(const Work& work) const {
+    return std::visit(work, heat_content);
+  }
+};
+
+}  // namespace thawslide::band

@@ -1,0 +1,174 @@
+#include "band/pore_pressure.hpp"
+
+#include "physics/clapeyron.hpp"
+#include "physics/pressurization.hpp"
+
+namespace thawslide::band {
+
+namespace {
+
+using mpm::HatLayout;
+
+template <int Dim, class Real>
+bool melted_before(const BandModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles, std::uint32_t p) {
+  return particles.previous_temperature(p) >= model.reference_temperature;
+}
+
+// Frozen or partly frozen: the liquid follows the ice (Eq. 4).
+template <int Dim, class Real>
+void set_frozen_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t p) {
+  particles.liquid_pressure(p) =
+      physics::liquid_pressure_clapeyron(model.phases, particles.ice_pressure(p), particles.temperature(p),
+                                         model.reference_temperature, model.clapeyron_sign);
+  particles.pore_pressure(p) =
+      physics::pore_pressure(particles.liquid_saturation(p), particles.liquid_pressure(p), particles.ice_pressure(p));
+}
+
+// Pressure at which the liquid starts when the last ice melts, continuous with Eq. 4 at Tref.
+template <int Dim, class Real>
+Real melting_pressure(const BandModel<Dim, Real>& model, Real ice_pressure) {
+  return ice_pressure * model.phases.water_density / model.phases.ice_density;
+}
+
+// Seepage between melted particles (Eq. 23 with the consistent scaling: xi over an unscaled flow, V / xi of pore space);
+// frozen particles keep their pressure and act as sinks.
+template <int Dim, class Real>
+void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                     const mpm::Nodes<Dim, Real>& nodes, SeepageNodes<Dim, Real>& work,
+                     const mpm::Particles<Dim, Real>& particles) {
+  work.pressure.resize(grid.blocks().size());
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+      const auto& hats = nodes.hats(b, k);
+      work.pressure(b, k)[0] =
+          hats[HatLayout::volume] > Real(0) ? hats[HatLayout::pore_pressure] / hats[HatLayout::volume] : Real(0);
+    }
+  });
+  auto& patches = work.flows.patches(grid.tiles().size());
+  parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    auto& patch = patches[t];
+    patch.clear();
+    mpm::Patch<Dim, Real, 1> pressure;
+    load_patch(grid, t, work.pressure, pressure);
+    const auto& tile = grid.tiles()[t];
+    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      const Real hydraulic = model.hydraulic_conductivity[static_cast<std::size_t>(particles.material(p))];
+      if (!melted_before(model, particles, p) || !(hydraulic > Real(0))) {
+        continue;
+      }
+      const auto stencil = mpm::make_stencil<mpm::Linear<Real>, Dim, Real>(
+          grid, tile.key, particles.position.template get<Vector<Real, Dim>>(p), Real(0));
+      Vector<Real, Dim> gradient = Vector<Real, Dim>::Zero();
+      stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
+        gradient += pressure.records[place][0] * slope;
+      });
+      const Real scaling = particles.thermal_scaling(p);
+      const Real volume = particles.volume(p);
+      const Real mobility = hydraulic / model.phases.water_unit_weight;
+      const Vector<Real, Dim> flow = -volume * scaling * mobility * model.phases.water_bulk_modulus * gradient;
+      const Real pore_space = volume / scaling * particles.porosity(p) * particles.liquid_saturation(p);
+      stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
+        patch.records[place][0] += flow.dot(slope);
+        patch.records[place][1] += weight * pore_space;
+      });
+    }
+  });
+  sum_patches(grid, work.flows);
+}
+
+// Rate of pressure by seepage at a particle (Eq. 22).
+template <int Dim, class Real>
+Real seepage_rate(const mpm::Stencil<Dim, Real>& stencil, const mpm::Patch<Dim, Real, 2>& flows) {
+  Real rate = 0;
+  stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
+    const auto& node = flows.records[place];
+    if (weight > Real(0) && node[1] > Real(0)) {
+      rate += weight * node[0] / node[1];
+    }
+  });
+  return rate;
+}
+
+template <int Dim, class Real>
+void pressurize(const BandModel<Dim, Real>& model, bool was_melted, Real seepage_change,
+                mpm::Particles<Dim, Real>& particles, std::uint32_t p) {
+  const Real start = melting_pressure(model, particles.ice_pressure(p));
+  if (!model.thermal_pressurization) {
+    particles.liquid_pressure(p) = start;
+  } else {
+    const Real from = was_melted ? particles.previous_temperature(p) : model.reference_temperature;
+    const Real coefficient =
+        physics::undrained_pressure_coefficient(model.phases, particles.porosity(p), particles.liquid_saturation(p));
+    particles.liquid_pressure(p) = (was_melted ? particles.liquid_pressure(p) : start) +
+                                   coefficient * (particles.temperature(p) - from) + seepage_change;
+  }
+  particles.pore_pressure(p) = particles.liquid_pressure(p);
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                         const FlowDepth<Dim, Real>& depth, Real dt, const mpm::Nodes<Dim, Real>& nodes,
+                         SeepageNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
+  const bool seepage = model.seepage && model.thermal_pressurization;
+  if (seepage) {
+    seepage_to_grid(grid, model, nodes, work, particles);
+  }
+  parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    mpm::Patch<Dim, Real, 2> flows;
+    if (seepage) {
+      load_patch(grid, t, work.flows, flows);
+    }
+    const auto& tile = grid.tiles()[t];
+    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      particles.ice_pressure(p) = physics::ice_pressure(model.phases, model.gravity, particles.flow_depth(p));
+      if (particles.temperature(p) < model.reference_temperature) {
+        set_frozen_pressure(model, particles, p);
+        continue;
+      }
+      const bool was_melted = melted_before(model, particles, p);
+      Real seepage_change = 0;
+      if (seepage && was_melted) {
+        const auto stencil = mpm::make_stencil<mpm::Linear<Real>, Dim, Real>(
+            grid, tile.key, particles.position.template get<Vector<Real, Dim>>(p), Real(0));
+        seepage_change = dt * seepage_rate(stencil, flows);
+      }
+      pressurize(model, was_melted, seepage_change, particles, p);
+      if (seepage && depth.depth_below_top(grid, particles, p) < Real(0.5) * grid.cell()) {
+        particles.liquid_pressure(p) = Real(0);  // the free surface is at atmospheric pressure
+        particles.pore_pressure(p) = Real(0);
+      }
+    }
+  });
+}
+
+template <int Dim, class Real>
+void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (!model.pressure) {
+      particles.pore_pressure(p) = Real(0);
+      continue;
+    }
+    particles.ice_pressure(p) = physics::ice_pressure(model.phases, model.gravity, particles.flow_depth(p));
+    if (particles.temperature(p) < model.reference_temperature) {
+      set_frozen_pressure(model, particles, p);
+    } else {
+      particles.liquid_pressure(p) = melting_pressure(model, particles.ice_pressure(p));
+      particles.pore_pressure(p) = particles.liquid_pressure(p);
+    }
+  }
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                              \
+  template void drain_pore_pressure<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&,        \
+                                               const FlowDepth<Dim, Real>&, Real, const mpm::Nodes<Dim, Real>&,       \
+                                               SeepageNodes<Dim, Real>&, mpm::Particles<Dim, Real>&);                 \
+  template void set_pore_pressure<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);
+THAWSLIDE_INSTANTIATE(2, double)
+THAWSLIDE_INSTANTIATE(3, double)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::band

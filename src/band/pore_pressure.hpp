@@ -1,0 +1,28 @@
+// Pore pressure (Eqs. 4, 8, 21-23): Clapeyron while ice and water coexist, then thermal pressurization and seepage.
+#pragma once
+
+#include "band/averages.hpp"
+#include "band/model.hpp"
+#include "mpm/nodes.hpp"
+#include "mpm/particles.hpp"
+
+namespace thawslide::band {
+
+// Records of the pore pressure stage at a node.
+template <int Dim, class Real>
+struct SeepageNodes {
+  mpm::NodeRecords<Dim, Real, 1> pressure;  // [Pa]
+  mpm::NodeRecords<Dim, Real, 2> flows;     // inflow times K_L [Pa m3/s], pore space of melted particles [m3]
+};
+
+// Pore pressure of all particles after dt; to follow conduct_heat in a step, and average_on_grid at its start.
+template <int Dim, class Real>
+void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                         const FlowDepth<Dim, Real>& depth, Real dt, const mpm::Nodes<Dim, Real>& nodes,
+                         SeepageNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles);
+
+// Pressures at t = 0, from temperature and flow depth. A melted particle starts from P_L = P_I / r.
+template <int Dim, class Real>
+void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles);
+
+}  // namespace thawslide::band

@@ -1,0 +1,20 @@
+// Marks and small constants every room shares.
+#pragma once
+
+// A function with this mark may be called from host and from device code.
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define THAWSLIDE_HD __host__ __device__
+#else
+#define THAWSLIDE_HD
+#endif
+
+namespace thawslide {
+
+// Absolute temperature of 0 degrees Celsius [K].
+template <class Real>
+inline constexpr Real celsius_to_kelvin = static_cast<Real>(273.15);
+
+template <class Real>
+inline constexpr Real pi = static_cast<Real>(3.14159265358979323846);
+
+}  // namespace thawslide

@@ -1,0 +1,201 @@
+// The case: everything a run needs to know, typed, fully checked and never changed after it was read. Units are SI,
+// angles in degrees, temperatures in degrees Celsius. parameters.cpp declares each member once (key, unit, range, default).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/table.hpp"
+
+namespace thawslide::config {
+
+using Point = std::array<double, 3>;  // x, y in 2D (third 0); x, y, z in 3D
+
+enum class Stepping { fixed, adaptive };
+enum class BoundaryKind { open, roller, fixed };
+enum class TerrainKind { none, flat, plane, profile };
+enum class LawKind { elastic, mohr_coulomb };
+enum class CurveKind { power_law, linear };
+enum class BodyShape { box, polygon, surface };
+enum class ShapeFunction { ugimp, linear };
+enum class InitialStress { geostatic, none, settle };
+enum class FrictionLaw { constant, lubricated };
+enum class CohesionLaw { constant, slip, ice, time };
+enum class FrictionClamp { keep_cohesion, joint };
+enum class BandRegion { all, first_layer };
+enum class ClapeyronSign { usual, printed };
+enum class ThicknessDirection { normal, vertical };
+enum class ThicknessUpdate { each_step, frozen };
+enum class HeatBoundaryKind { insulated, temperature, flux };
+
+struct General {
+  std::string title;
+  int dimension = 2;
+  double width = 0.0;  // m; 0: extensive results are per metre of width (2D)
+  double gravity = 9.81;
+  double gravity_tilt = 0.0;  // degrees, turned from -up towards +x
+};
+
+struct Time {
+  double end = 0.0;
+  Stepping stepping = Stepping::fixed;
+  double step = 0.0;      // s; fixed step, or the largest adaptive one
+  double safety = 0.8;    // of the limits, adaptive
+  double output_interval = 1.0;   // s between snapshots
+  double history_interval = 0.0;  // s between history rows; 0: every step
+};
+
+struct Grid {
+  double cell = 0.0;
+  Point min{};  // the domain
+  Point max{};
+  // kinds of boundary at x_min, x_max, y_min, y_max, z_min, z_max
+  std::array<BoundaryKind, 6> boundary{};
+};
+
+struct Terrain {
+  TerrainKind kind = TerrainKind::none;
+  double elevation = 0.0;  // m: of the flat ground, or of the plane at x = 0
+  double slope = 0.0;      // degrees, the plane falls towards +x
+  std::string file;        // CSV with columns distance_m,terrain_elevation_m[,surface_elevation_m]; absolute once read
+  bool extend = false;
+};
+
+struct Phases {
+  double rock_density = 2750, ice_density = 917, water_density = 1000;
+  double rock_heat_capacity = 858, ice_heat_capacity = 2040, water_heat_capacity = 4180;
+  double rock_conductivity = 3.0, ice_conductivity = 2.22, water_conductivity = 0.58;
+  double rock_expansion = 3e-5, ice_expansion = 5.1e-5, water_expansion = 2.75e-4;
+  double water_bulk_modulus = 1e9;
+  double latent_heat = 333.5e3;
+  double water_unit_weight = 9810;
+  double ice_to_rock_density_ratio = 1.0 / 3.0;  // Eq. 2 as the paper rounds it
+};
+
+struct Freezing {
+  CurveKind curve = CurveKind::power_law;
+  double exponent = 5.0;            // power law, Eq. 24
+  double slope = 0.5;               // 1/K, linear curve m of Sec. 3.1
+  double reference_temperature = 0.0;
+};
+
+struct Material {
+  LawKind law = LawKind::mohr_coulomb;
+  double youngs_modulus = 0, poisson_ratio = 0;
+  double friction_angle = 0, dilation_angle = 0;
+  double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps); equal: none
+  double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
+  double viscosity_time = 0;                   // s, Kelvin-Voigt
+  double hydraulic_conductivity = 0;           // m/s
+};
+
+struct Body {
+  std::string material;
+  BodyShape shape = BodyShape::box;
+  Point min{}, max{};                              // box
+  std::vector<std::array<double, 2>> vertices;     // polygon (2D)
+  int particles_per_axis = 2;                      // per cell and axis
+  InitialField temperature{-10.0};
+  InitialField porosity{0.375};
+  Point velocity{};
+};
+
+struct Frame {
+  Point min{}, max{};   // box at t = 0; moves with its velocity
+  std::string axis;     // x, y or z: the component it prescribes
+  double velocity = 0;  // m/s
+};
+
+struct Mechanics {
+  bool enabled = true;
+  ShapeFunction shape_function = ShapeFunction::ugimp;
+  InitialStress initial_stress = InitialStress::geostatic;
+  double k0 = -1.0;  // negative: nu / (1 - nu)
+  bool slope_shear = false;
+  double settle_time = 0.0;      // s, InitialStress::settle
+  double settle_damping = 0.0;   // 1/s, during settling
+  double mass_damping = 0.0;     // 1/s, during the run
+};
+
+struct Basal {
+  FrictionLaw friction = FrictionLaw::lubricated;
+  double friction_angle = 0;  // degrees
+  double lubrication_exponent = 2.0;
+  double min_solid_fraction = 0.05, max_solid_fraction = 0.85;
+  double cohesion = 0;
+  CohesionLaw cohesion_law = CohesionLaw::slip;
+  double residual_cohesion = 0;
+  double slip_distance = 0;        // m, d_c of the slip law
+  double cohesion_loss_time = 0;   // s, the time law
+  FrictionClamp clamp = FrictionClamp::keep_cohesion;
+  bool cap_pressure = false;       // P <= N
+  double heat_fraction = 1.0;      // energy conversion coefficient
+};
+
+struct Mechanisms {  // Sec. 3.3
+  bool deformation = true, lubrication = true, pressurization = true;
+};
+
+struct Band {
+  Table thickness;  // m over time; empty: no band, xi = 1
+  BandRegion region = BandRegion::all;
+};
+
+struct HeatBoundary {
+  HeatBoundaryKind kind = HeatBoundaryKind::insulated;
+  double value = 0;  // C, or W/m2 into the body
+};
+
+struct Heat {
+  bool enabled = true;
+  bool latent = true;
+  bool conduction = true;
+  bool advection = true;
+  std::array<HeatBoundary, 6> boundary{};
+};
+
+struct Pressure {
+  bool enabled = true;
+  bool thermal_pressurization = true;  // off: once melted the liquid keeps r^-1 P_I
+  ClapeyronSign clapeyron = ClapeyronSign::usual;
+  bool seepage = true;
+  ThicknessDirection thickness_direction = ThicknessDirection::normal;
+  ThicknessUpdate thickness_update = ThicknessUpdate::each_step;
+};
+
+struct Checkpoint {
+  double interval = 0;  // s; 0: only at the end
+};
+
+struct Report {
+  std::vector<double> times;  // s, of the snapshot figures; empty: six even times
+  std::string targets;        // CSV: quantity,time_s,value,unit,source
+};
+
+struct Case {
+  std::string name;    // of the run
+  std::string file;    // absolute path of the case file
+  General general;
+  Time time;
+  Grid grid;
+  Terrain terrain;
+  Phases phases;
+  Freezing freezing;
+  std::map<std::string, Material> materials;
+  std::map<std::string, Body> bodies;
+  std::map<std::string, Frame> frames;
+  Mechanics mechanics;
+  Basal basal;
+  Mechanisms mechanisms;
+  Band band;
+  Heat heat;
+  Pressure pressure;
+  Checkpoint checkpoint;
+  Report report;
+};
+
+}  // namespace thawslide::config

@@ -1,0 +1,16 @@
+// What must hold between several keys of a case, and between keys and files.
+#pragma once
+
+#include "config/case.hpp"
+#include "config/profile_csv.hpp"
+#include "config/reading.hpp"
+
+namespace thawslide::config {
+
+// Adds a problem for each thing that does not fit. Checks whose keys already have a problem are left out.
+void check_case(const Case& checked, Reading& reading);
+
+// The part on terrain, bodies and frames. `profile` is empty where there is none, or it could not be read.
+void check_bodies(const Case& checked, const ProfileTable& profile, Reading& reading);
+
+}  // namespace thawslide::config

@@ -1,0 +1,128 @@
+#include "config/overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "config/declaration.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<std::string> split_at_dots(const std::string& key) {
+  std::vector<std::string> parts(1);
+  for (const char letter : key) {
+    if (letter == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += letter;
+    }
+  }
+  return parts;
+}
+
+Place place_of(const Override& override) {
+  return {fmt::format("--set {}={}", override.key, override.value), 0, 0, true};
+}
+
+// The value as TOML; a bare word is a text. Nothing (and a problem) for what looks like TOML but is not.
+std::optional<toml::table> parse_value(const Override& override, Reading& reading) {
+  try {
+    toml::table parsed = toml::parse("value = " + override.value, std::string_view("--set"));
+    if (parsed.size() == 1) {
+      return parsed;
+    }
+  } catch (const toml::parse_error& error) {
+    const bool is_bare = std::string_view("[{\"'").find(override.value.empty() ? '"' : override.value.front()) ==
+                         std::string_view::npos;
+    if (is_bare) {
+      toml::table text;
+      text.insert_or_assign("value", override.value);
+      return text;
+    }
+  }
+  reading.problems.add(place_of(override),
+                       fmt::format("'{}' is not one TOML value. Write for example --set band.thickness=0.1, "
+                                   "--set grid.min='[0, 0]' or --set terrain.type=flat.",
+                                   override.value));
+  reading.unsound.insert(override.key);
+  return std::nullopt;
+}
+
+// A key of a named table must name one that the file has: otherwise a slip of the pen would make a second body.
+bool names_existing_table(const Override& override, const std::vector<std::string>& parts, const toml::table& root,
+                          Reading& reading) {
+  if (parts.size() < 3) {
+    return true;
+  }
+  for (const auto& table : tables()) {
+    if (!table->is_named() || table->name != parts[0]) {
+      continue;
+    }
+    std::vector<std::string> names;
+    if (const toml::table* found = root.get_as<toml::table>(parts[0])) {
+      for (const auto& [key, node] : *found) {
+        names.emplace_back(key.str());
+      }
+    }
+    if (std::find(names.begin(), names.end(), parts[1]) == names.end()) {
+      reading.problems.add(place_of(override), fmt::format("there is no {} '{}'{} In the case file: {}.", parts[0], parts[1],
+                                                           nearest(parts[1], names).empty() ? "." : did_you_mean(parts[1], names),
+                                                           names.empty() ? "none" : list_words(names)));
+      return false;
+    }
+  }
+  return true;
+}
+
+void apply(const Override& override, toml::table& root, Reading& reading) {
+  const std::vector<std::string> parts = split_at_dots(override.key);
+  if (!names_existing_table(override, parts, root, reading)) {
+    return;
+  }
+  const std::optional<toml::table> value = parse_value(override, reading);
+  if (!value) {
+    return;
+  }
+  toml::table* table = &root;
+  for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
+    toml::node* inner = table->get(parts[k]);
+    if (inner == nullptr || !inner->is_table()) {
+      table->insert_or_assign(parts[k], toml::table{});
+    }
+    table = table->get_as<toml::table>(parts[k]);
+  }
+  // The copy has no place in a file, by which Reading::place_of knows that it came from the command line.
+  value->get("value")->visit([&](const auto& node) { table->insert_or_assign(parts.back(), node); });
+}
+
+}  // namespace
+
+Override parse_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const Override override{trimmed(text.substr(0, equals)),
+                          equals == std::string::npos ? "" : trimmed(text.substr(equals + 1))};
+  const std::vector<std::string> parts = split_at_dots(override.key);
+  const bool has_key = std::none_of(parts.begin(), parts.end(), [](const std::string& part) { return part.empty(); });
+  if (equals == std::string::npos || !has_key) {
+    throw UserError(fmt::format("--set {}: allowed: TABLE.KEY=VALUE, for example --set band.thickness=0.1.", text));
+  }
+  return override;
+}
+
+void apply_overrides(toml::table& root, Reading& reading) {
+  for (const Override& override : reading.overrides) {
+    apply(override, root, reading);
+  }
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,178 @@
+// The parameters of matter and bodies: [phases], [freezing], [material.NAME], [body.NAME], [frame.NAME].
+#include "config/table_declaration.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+Parameter<Phases> phase(double Phases::*member, std::string key, std::string unit, Range range, std::string text,
+                        std::string source = "Table 1") {
+  return parameter(member, {.key = std::move(key),
+                            .unit = std::move(unit),
+                            .range = range,
+                            .text = std::move(text),
+                            .source = std::move(source)});
+}
+
+std::vector<Parameter<Phases>> phase_parameters() {
+  const Range positive = above(0);
+  const Range not_negative = at_least(0);
+  return {
+      phase(&Phases::rock_density, "rock_density", "kg/m3", positive, "intrinsic density of the rock grains"),
+      phase(&Phases::ice_density, "ice_density", "kg/m3", positive, "intrinsic density of ice"),
+      phase(&Phases::water_density, "water_density", "kg/m3", positive, "intrinsic density of water"),
+      phase(&Phases::rock_heat_capacity, "rock_heat_capacity", "J/kg/K", positive, "specific heat of the rock grains"),
+      phase(&Phases::ice_heat_capacity, "ice_heat_capacity", "J/kg/K", positive, "specific heat of ice"),
+      phase(&Phases::water_heat_capacity, "water_heat_capacity", "J/kg/K", positive, "specific heat of water"),
+      phase(&Phases::rock_conductivity, "rock_conductivity", "W/m/K", not_negative,
+            "heat conductivity of the rock grains"),
+      phase(&Phases::ice_conductivity, "ice_conductivity", "W/m/K", not_negative, "heat conductivity of ice"),
+      phase(&Phases::water_conductivity, "water_conductivity", "W/m/K", not_negative, "heat conductivity of water"),
+      phase(&Phases::rock_expansion, "rock_expansion", "1/K", not_negative, "thermal expansion of the rock grains"),
+      phase(&Phases::ice_expansion, "ice_expansion", "1/K", not_negative, "thermal expansion of ice"),
+      phase(&Phases::water_expansion, "water_expansion", "1/K", not_negative, "thermal expansion of water"),
+      phase(&Phases::water_bulk_modulus, "water_bulk_modulus", "Pa", positive, "bulk modulus of water, K_L"),
+      phase(&Phases::latent_heat, "latent_heat", "J/kg", not_negative, "latent heat of melting, L_f"),
+      phase(&Phases::water_unit_weight, "water_unit_weight", "N/m3", positive,
+            "unit weight of water in Darcy's law, gamma_w", "Eq. 22"),
+      phase(&Phases::ice_to_rock_density_ratio, "ice_to_rock_density_ratio", "", not_negative,
+            "weight of ice in the effective solid fraction n_e, which the paper rounds to 1/3", "Eq. 2"),
+  };
+}
+
+std::vector<Parameter<Freezing>> freezing_parameters() {
+  return {
+      parameter(&Freezing::curve,
+                {.key = "curve", .text = "liquid saturation over temperature", .source = "Eq. 24, Sec. 3.1"}),
+      parameter(&Freezing::exponent,
+                {.key = "exponent", .range = above(0), .text = "of the power law", .source = "Eq. 24"}),
+      parameter(&Freezing::slope,
+                {.key = "slope", .unit = "1/K", .range = above(0), .text = "of the linear curve, m", .source = "Sec. 3.1"}),
+      parameter(&Freezing::reference_temperature,
+                {.key = "reference_temperature",
+                 .unit = "C",
+                 .range = inside(-273.15, 100),
+                 .text = "temperature above which all is water, Tref",
+                 .source = "Eq. 4"}),
+  };
+}
+
+bool is_mechanical(const Case& whole, const Material&) { return whole.mechanics.enabled; }
+
+bool is_plastic(const Case& whole, const Material& material) {
+  return whole.mechanics.enabled && material.law == LawKind::mohr_coulomb && whole.mechanisms.deformation;
+}
+
+std::vector<Parameter<Material>> material_parameters() {
+  const std::string when_plastic =
+      "when the law is \"mohr_coulomb\" and mechanics.enabled and mechanisms.deformation are true";
+  const std::string when_mechanical = "when mechanics.enabled is true";
+  return {
+      parameter(&Material::law, {.key = "law", .text = "stress law", .source = "Eqs. 10, 11"}),
+      parameter(&Material::youngs_modulus, {.key = "youngs_modulus",
+                                            .unit = "Pa",
+                                            .range = above(0),
+                                            .text = "Young's modulus",
+                                            .source = "Tables 2, 3"})
+          .required_if(when_mechanical, is_mechanical),
+      parameter(&Material::poisson_ratio, {.key = "poisson_ratio",
+                                           .range = inside(-1, 0.5),
+                                           .text = "Poisson's ratio",
+                                           .source = "Tables 2, 3"})
+          .required_if(when_mechanical, is_mechanical),
+      parameter(&Material::friction_angle, {.key = "friction_angle",
+                                            .unit = "degrees",
+                                            .range = {.low = 0, .high = 90, .high_open = true},
+                                            .text = "internal friction angle",
+                                            .source = "Eq. 11"})
+          .required_if(when_plastic, is_plastic),
+      parameter(&Material::dilation_angle, {.key = "dilation_angle",
+                                            .unit = "degrees",
+                                            .range = {.low = 0, .high = 90, .high_open = true},
+                                            .text = "dilation angle, at most the friction angle; the paper gives none"}),
+      parameter(&Material::cohesion, {.key = "cohesion",
+                                      .unit = "Pa",
+                                      .range = at_least(0),
+                                      .text = "internal cohesion before any plastic strain, c_0",
+                                      .source = "Eq. 11"})
+          .required_if(when_plastic, is_plastic),
+      parameter(&Material::residual_cohesion, {.key = "residual_cohesion",
+                                               .unit = "Pa",
+                                               .range = at_least(0),
+                                               .text = "cohesion after large plastic strain, c_f",
+                                               .source = "Sec. 4"})
+          .otherwise("cohesion, that is no softening",
+                     [](const Case&, Material& material) { material.residual_cohesion = material.cohesion; }),
+      parameter(&Material::tension_cutoff, {.key = "tension_cutoff",
+                                            .unit = "Pa",
+                                            .range = {.low = 0, .infinity_allowed = true},
+                                            .text = "largest principal tension; inf: the cone's apex alone"}),
+      parameter(&Material::viscosity_time, {.key = "viscosity_time",
+                                            .unit = "s",
+                                            .range = at_least(0),
+                                            .text = "Kelvin-Voigt time: viscous stress over elastic stress rate"}),
+      parameter(&Material::hydraulic_conductivity, {.key = "hydraulic_conductivity",
+                                                    .unit = "m/s",
+                                                    .range = at_least(0),
+                                                    .text = "hydraulic conductivity k_L",
+                                                    .source = "Eq. 22"}),
+  };
+}
+
+std::vector<Parameter<Body>> body_parameters() {
+  const auto is_box = [](const Case&, const Body& body) { return body.shape == BodyShape::box; };
+  const auto is_polygon = [](const Case&, const Body& body) { return body.shape == BodyShape::polygon; };
+  const std::string when_box = "when the shape is \"box\"";
+  return {
+      parameter(&Body::material, {.key = "material", .text = "name of the material the body is made of"}).required(),
+      parameter(&Body::shape, {.key = "shape", .text = "how the space of the body is told"}),
+      parameter(&Body::min, {.key = "min", .unit = "m", .text = "lowest corner of the box"}).required_if(when_box, is_box),
+      parameter(&Body::max, {.key = "max", .unit = "m", .text = "highest corner of the box"}).required_if(when_box, is_box),
+      parameter(&Body::vertices, {.key = "vertices", .unit = "m", .text = "corners of the polygon, in order", .dimension = 2})
+          .required_if("when the shape is \"polygon\"", is_polygon),
+      parameter(&Body::particles_per_axis, {.key = "particles_per_axis",
+                                            .range = between(1, 16),
+                                            .text = "particles per cell along each axis: 2 gives 4 per cell in 2D"}),
+      parameter(&Body::temperature, {.key = "temperature",
+                                     .unit = "C",
+                                     .range = {.low = -273.15, .high = 100, .low_open = true},
+                                     .text = "initial temperature; depth [m] is below the body's surface"}),
+      parameter(&Body::porosity, {.key = "porosity",
+                                  .range = inside(0, 0.95),
+                                  .text = "initial porosity: share of ice and water in the volume",
+                                  .source = "Eq. 1, Table 2"}),
+      parameter(&Body::velocity, {.key = "velocity", .unit = "m/s", .text = "initial velocity"}),
+  };
+}
+
+std::vector<Parameter<Frame>> frame_parameters() {
+  return {
+      parameter(&Frame::min, {.key = "min", .unit = "m", .text = "lowest corner of the box at t = 0"}).required(),
+      parameter(&Frame::max, {.key = "max", .unit = "m", .text = "highest corner of the box at t = 0"}).required(),
+      parameter(&Frame::axis,
+                {.key = "axis",
+                 .text = "the velocity component that is prescribed inside the box",
+                 .words = {{"x", "along x"}, {"y", "along y, up in 2D"}, {"z", "along z, up in 3D"}}})
+          .required(),
+      parameter(&Frame::velocity,
+                {.key = "velocity", .unit = "m/s", .text = "the prescribed velocity, with which the box moves", .source = "Sec. 3.2"})
+          .required(),
+  };
+}
+
+}  // namespace
+
+void declare_material(Tables& tables) {
+  tables.push_back(std::make_unique<SingleTable<Phases>>("phases", "Rock grains, ice and water", &Case::phases,
+                                                         phase_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Freezing>>("freezing", "Liquid saturation over temperature",
+                                                           &Case::freezing, freezing_parameters()));
+  tables.push_back(std::make_unique<NamedTable<Material>>("material", "A material, by a name of your choice",
+                                                          &Case::materials, material_parameters()));
+  tables.push_back(std::make_unique<NamedTable<Body>>("body", "A body of particles, by a name of your choice",
+                                                      &Case::bodies, body_parameters()));
+  tables.push_back(std::make_unique<NamedTable<Frame>>("frame", "A rigid box that prescribes one velocity component",
+                                                       &Case::frames, frame_parameters()));
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,187 @@
+// The parameters of the model: [mechanics], [basal], [mechanisms], [band], [heat], [pressure].
+#include "config/table_declaration.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+std::vector<Parameter<Mechanics>> mechanics_parameters() {
+  const auto settles = [](const Case&, const Mechanics& mechanics) {
+    return mechanics.initial_stress == InitialStress::settle;
+  };
+  const std::string when_settling = "when mechanics.initial_stress is \"settle\"";
+  return {
+      parameter(&Mechanics::enabled, {.key = "enabled", .text = "false: nothing moves", .source = "Sec. 3.1"}),
+      parameter(&Mechanics::shape_function, {.key = "shape_function", .text = "shape functions of momentum"}),
+      parameter(&Mechanics::initial_stress, {.key = "initial_stress", .text = "stress at t = 0; the paper is silent"}),
+      parameter(&Mechanics::k0, {.key = "k0",
+                                 .range = at_least(0),
+                                 .text = "ratio of sideways to vertical initial stress, geostatic"})
+          .otherwise("nu / (1 - nu) of each material"),
+      parameter(&Mechanics::slope_shear,
+                {.key = "slope_shear", .text = "add the shear stress of an infinite slope to the geostatic stress"}),
+      parameter(&Mechanics::settle_time,
+                {.key = "settle_time", .unit = "s", .range = above(0), .text = "time the body settles before t = 0"})
+          .required_if(when_settling, settles),
+      parameter(&Mechanics::settle_damping, {.key = "settle_damping",
+                                             .unit = "1/s",
+                                             .range = above(0),
+                                             .text = "damping of velocities while the body settles"})
+          .required_if(when_settling, settles),
+      parameter(&Mechanics::mass_damping, {.key = "mass_damping",
+                                           .unit = "1/s",
+                                           .range = at_least(0),
+                                           .text = "damping of velocities during the run"}),
+  };
+}
+
+bool loses_cohesion(const Case& whole, const Basal& basal, CohesionLaw law) {
+  return whole.terrain.kind != TerrainKind::none && basal.cohesion_law == law && basal.cohesion > 0;
+}
+
+std::vector<Parameter<Basal>> friction_parameters() {
+  return {
+      parameter(&Basal::friction,
+                {.key = "friction", .text = "law of the friction coefficient mu_e", .source = "Eqs. 17, 25"}),
+      parameter(&Basal::friction_angle, {.key = "friction_angle",
+                                         .unit = "degrees",
+                                         .range = {.low = 0, .high = 90, .high_open = true},
+                                         .text = "basal friction angle phi_f",
+                                         .source = "Eq. 25, Tables 2, 3"})
+          .required_if("when there is a terrain",
+                       [](const Case& whole, const Basal&) {
+                         return whole.terrain.kind != TerrainKind::none && whole.mechanics.enabled;
+                       }),
+      parameter(&Basal::lubrication_exponent,
+                {.key = "lubrication_exponent", .range = above(0), .text = "omega", .source = "Eq. 25"}),
+      parameter(&Basal::min_solid_fraction, {.key = "min_solid_fraction",
+                                             .range = between(0, 1),
+                                             .text = "effective solid fraction at which friction vanishes, n_min",
+                                             .source = "Eq. 25"}),
+      parameter(&Basal::max_solid_fraction, {.key = "max_solid_fraction",
+                                             .range = between(0, 1),
+                                             .text = "effective solid fraction at which friction is whole, n_max",
+                                             .source = "Eq. 25"}),
+      parameter(&Basal::clamp,
+                {.key = "clamp", .text = "where the frictional strength is kept from being negative", .source = "Eq. 17"}),
+      parameter(&Basal::cap_pressure,
+                {.key = "cap_pressure", .text = "pore pressure acts up to the normal stress only", .source = "Eq. 17"}),
+      parameter(&Basal::heat_fraction, {.key = "heat_fraction",
+                                        .range = between(0, 1),
+                                        .text = "share of friction work that becomes heat: energy conversion coefficient",
+                                        .source = "Secs. 3.3, 4"}),
+  };
+}
+
+std::vector<Parameter<Basal>> cohesion_parameters() {
+  return {
+      parameter(&Basal::cohesion, {.key = "cohesion",
+                                   .unit = "Pa",
+                                   .range = at_least(0),
+                                   .text = "cohesion c_S along the ground at t = 0",
+                                   .source = "Eq. 17"}),
+      parameter(&Basal::cohesion_law, {.key = "cohesion_law", .text = "how the cohesion along the ground is lost"}),
+      parameter(&Basal::residual_cohesion, {.key = "residual_cohesion",
+                                            .unit = "Pa",
+                                            .range = at_least(0),
+                                            .text = "cohesion that is left, c_r, of the laws \"slip\" and \"time\""}),
+      parameter(&Basal::slip_distance, {.key = "slip_distance",
+                                        .unit = "m",
+                                        .range = above(0),
+                                        .text = "slip over which the cohesion falls to 1/e, d_c, of the law \"slip\""})
+          .required_if("when basal.cohesion > 0 and basal.cohesion_law is \"slip\"",
+                       [](const Case& whole, const Basal& basal) {
+                         return loses_cohesion(whole, basal, CohesionLaw::slip);
+                       }),
+      parameter(&Basal::cohesion_loss_time, {.key = "cohesion_loss_time",
+                                             .unit = "s",
+                                             .range = at_least(0),
+                                             .text = "when the cohesion is lost, of the law \"time\""})
+          .required_if("when basal.cohesion > 0 and basal.cohesion_law is \"time\"",
+                       [](const Case& whole, const Basal& basal) {
+                         return loses_cohesion(whole, basal, CohesionLaw::time);
+                       }),
+  };
+}
+
+std::vector<Parameter<Basal>> basal_parameters() {
+  std::vector<Parameter<Basal>> result = friction_parameters();
+  for (auto& cohesion : cohesion_parameters()) {
+    result.push_back(std::move(cohesion));
+  }
+  return result;
+}
+
+std::vector<Parameter<Mechanisms>> mechanism_parameters() {
+  return {
+      parameter(&Mechanisms::deformation,
+                {.key = "deformation", .text = "D; false: the yield strength is out of reach", .source = "Sec. 3.3"}),
+      parameter(&Mechanisms::lubrication,
+                {.key = "lubrication",
+                 .text = "L; false: Eq. 25 at the initial porosity and saturation",
+                 .source = "Sec. 3.3"}),
+      parameter(&Mechanisms::pressurization,
+                {.key = "pressurization",
+                 .text = "P; false: no pore pressure at the ground, ice pressure included",
+                 .source = "Sec. 3.3"}),
+  };
+}
+
+std::vector<Parameter<Band>> band_parameters() {
+  return {
+      parameter(&Band::thickness, {.key = "thickness",
+                                   .unit = "m",
+                                   .range = above(0),
+                                   .text = "thickness e of the shear band over time; xi = grid.cell / e",
+                                   .source = "Sec. 2.3, Eq. 19"})
+          .otherwise("no band: xi = 1"),
+      parameter(&Band::region, {.key = "region", .text = "particles that xi acts on", .source = "Sec. 2.3"}),
+  };
+}
+
+std::vector<Parameter<Heat>> heat_parameters() {
+  return {
+      parameter(&Heat::enabled, {.key = "enabled", .text = "false: temperatures stay", .source = "Eq. 9"}),
+      parameter(&Heat::latent, {.key = "latent", .text = "latent heat of melting and freezing", .source = "Eq. 9"}),
+      parameter(&Heat::conduction, {.key = "conduction", .text = "heat conduction", .source = "Eq. 18"}),
+      parameter(&Heat::advection, {.key = "advection", .text = "heat carried by seeping water", .source = "Eq. 9"}),
+  };
+}
+
+std::vector<Parameter<Pressure>> pressure_parameters() {
+  return {
+      parameter(&Pressure::enabled, {.key = "enabled", .text = "false: pore pressure is not computed"}),
+      parameter(&Pressure::thermal_pressurization,
+                {.key = "thermal_pressurization",
+                 .text = "false: once melted the water keeps the pressure of the ice over r",
+                 .source = "Eq. 23"}),
+      parameter(&Pressure::clapeyron,
+                {.key = "clapeyron", .text = "sign of the Clapeyron equation", .source = "Eq. 4"}),
+      parameter(&Pressure::seepage, {.key = "seepage", .text = "Darcy flow of melted pore water", .source = "Eq. 22"}),
+      parameter(&Pressure::thickness_direction,
+                {.key = "thickness_direction", .text = "direction of the thickness H in P_I = rho_I g H"}),
+      parameter(&Pressure::thickness_update,
+                {.key = "thickness_update", .text = "when the thickness H is computed"}),
+  };
+}
+
+}  // namespace
+
+void declare_model(Tables& tables) {
+  tables.push_back(std::make_unique<SingleTable<Mechanics>>("mechanics", "Momentum and stress", &Case::mechanics,
+                                                            mechanics_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Basal>>("basal", "Friction and cohesion along the ground", &Case::basal,
+                                                        basal_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Mechanisms>>("mechanisms", "The mechanisms of Sec. 3.3, on or off",
+                                                             &Case::mechanisms, mechanism_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Band>>("band", "The shear band along the ground", &Case::band,
+                                                       band_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Heat>>("heat", "Heat and phase change", &Case::heat, heat_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Heat>>(
+      "heat.boundary", "Temperature or heat flux at the sides of the grid", &Case::heat,
+      six_sides(&Heat::boundary, "heat condition")));
+  tables.push_back(
+      std::make_unique<SingleTable<Pressure>>("pressure", "Pore pressure", &Case::pressure, pressure_parameters()));
+}
+
+}  // namespace thawslide::config

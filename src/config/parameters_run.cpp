@@ -1,0 +1,120 @@
+// The parameters of a run as a whole: [case], [time], [grid], [terrain], [checkpoint], [report].
+#include "config/table_declaration.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+std::vector<Parameter<General>> general_parameters() {
+  return {
+      parameter(&General::title, {.key = "title", .text = "title for figures and reports"}),
+      parameter(&General::dimension,
+                {.key = "dimension", .range = between(2, 3), .text = "2: plane strain, y is up; 3: z is up"}),
+      parameter(&General::width, {.key = "width",
+                                  .unit = "m",
+                                  .range = at_least(0),
+                                  .text = "width that extensive results are multiplied by; 0: results per metre of width",
+                                  .dimension = 2}),
+      parameter(&General::gravity, {.key = "gravity", .unit = "m/s2", .range = at_least(0), .text = "gravity"}),
+      parameter(&General::gravity_tilt,
+                {.key = "gravity_tilt",
+                 .unit = "degrees",
+                 .range = inside(-90, 90),
+                 .text = "turn of gravity from straight down towards +x: an incline on a level grid",
+                 .source = "Sec. 3.3"}),
+  };
+}
+
+std::vector<Parameter<Time>> time_parameters() {
+  return {
+      parameter(&Time::end, {.key = "end", .unit = "s", .range = above(0), .text = "simulated time"}).required(),
+      parameter(&Time::stepping, {.key = "stepping", .text = "how the time step is chosen"}),
+      parameter(&Time::step, {.key = "step",
+                              .unit = "s",
+                              .range = above(0),
+                              .text = "the fixed time step, or the largest adaptive one"})
+          .required_if("when time.stepping is \"fixed\"",
+                       [](const Case&, const Time& time) { return time.stepping == Stepping::fixed; })
+          .otherwise("time.end, that is no cap", [](const Case&, Time& time) { time.step = time.end; }),
+      parameter(&Time::safety, {.key = "safety",
+                                .range = {.low = 0, .high = 1, .low_open = true},
+                                .text = "share of the smallest limit that an adaptive step takes"}),
+      parameter(&Time::output_interval,
+                {.key = "output_interval", .unit = "s", .range = above(0), .text = "time between snapshots"}),
+      parameter(&Time::history_interval,
+                {.key = "history_interval",
+                 .unit = "s",
+                 .range = at_least(0),
+                 .text = "time between rows of history.csv; 0: a row every step"}),
+  };
+}
+
+std::vector<Parameter<Grid>> grid_parameters() {
+  return {
+      parameter(&Grid::cell, {.key = "cell", .unit = "m", .range = above(0), .text = "side of a grid cell"}).required(),
+      parameter(&Grid::min, {.key = "min", .unit = "m", .text = "lowest corner of the domain"}).required(),
+      parameter(&Grid::max, {.key = "max", .unit = "m", .text = "highest corner of the domain"}).required(),
+  };
+}
+
+bool has_profile(const Case& whole) { return whole.terrain.kind == TerrainKind::profile; }
+
+std::vector<Parameter<Terrain>> terrain_parameters() {
+  return {
+      parameter(&Terrain::kind, {.key = "type", .text = "the rigid ground that bodies slide on"}),
+      parameter(&Terrain::elevation,
+                {.key = "elevation", .unit = "m", .text = "of the flat ground, or of the plane at x = 0"}),
+      parameter(&Terrain::slope, {.key = "slope",
+                                  .unit = "degrees",
+                                  .range = inside(-90, 90),
+                                  .text = "slope of the plane, which falls towards +x"}),
+      parameter(&Terrain::file,
+                {.key = "file",
+                 .text = "CSV file with the columns distance_m,terrain_elevation_m[,surface_elevation_m]",
+                 .is_path = true})
+          .required_if("when terrain.type is \"profile\"",
+                       [](const Case& whole, const Terrain&) { return has_profile(whole); }),
+      parameter(&Terrain::extend,
+                {.key = "extend", .text = "continue the last gradient of the profile where the domain is longer"}),
+  };
+}
+
+std::vector<Parameter<Checkpoint>> checkpoint_parameters() {
+  return {parameter(&Checkpoint::interval, {.key = "interval",
+                                            .unit = "s",
+                                            .range = at_least(0),
+                                            .text = "simulated time between checkpoints; 0: only at the end"})};
+}
+
+std::vector<Parameter<Report>> report_parameters() {
+  return {
+      parameter(&Report::times, {.key = "times",
+                                 .unit = "s",
+                                 .range = at_least(0),
+                                 .text = "times of the snapshot figures; none: six even times"}),
+      parameter(&Report::targets, {.key = "targets",
+                                   .text = "CSV file of observed values, columns quantity,time_s,value,unit,source",
+                                   .is_path = true}),
+  };
+}
+
+}  // namespace
+
+void declare_run(Tables& tables) {
+  tables.push_back(
+      std::make_unique<SingleTable<General>>("case", "The case as a whole", &Case::general, general_parameters()));
+  tables.push_back(
+      std::make_unique<SingleTable<Time>>("time", "Time, its steps and outputs", &Case::time, time_parameters()));
+  tables.push_back(
+      std::make_unique<SingleTable<Grid>>("grid", "The background grid", &Case::grid, grid_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Grid>>(
+      "grid.boundary", "What the sides of the grid do to velocities", &Case::grid,
+      six_sides(&Grid::boundary, "velocity condition")));
+  tables.push_back(std::make_unique<SingleTable<Terrain>>("terrain", "The ground", &Case::terrain, terrain_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Checkpoint>>("checkpoint", "States to resume from", &Case::checkpoint,
+                                                             checkpoint_parameters()));
+  tables.push_back(
+      std::make_unique<SingleTable<Report>>("report", "Figures and comparisons", &Case::report, report_parameters()));
+}
+
+}  // namespace thawslide::config

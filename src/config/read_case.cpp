@@ -1,0 +1,157 @@
+#include "config/read_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "base/error.hpp"
+#include "config/checks.hpp"
+#include "config/declaration.hpp"
+#include "config/overrides.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The names of the files in a folder that end so, or of all that is in it; empty if it cannot be read.
+std::vector<std::string> names_in(const fs::path& folder, const std::string& ending) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (ending.empty() || entry->path().extension() == ending) {
+      names.push_back(entry->path().filename().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// The case file meant by a file or a folder; throws where there is none.
+fs::path find_case_file(const fs::path& given) {
+  std::error_code error;
+  if (fs::is_regular_file(given, error)) {
+    return given;
+  }
+  if (!fs::is_directory(given, error)) {
+    const fs::path normal = given.has_filename() ? given : given.parent_path();
+    throw UserError(fmt::format("{}: there is no such file or folder{} Give a case file, or a folder with a case.toml.",
+                                given.string(), [&] {
+                                  const std::string hint =
+                                      did_you_mean(normal.filename().string(), names_in(normal.parent_path(), ""));
+                                  return hint.empty() ? "." : hint;
+                                }()));
+  }
+  const fs::path file = given / "case.toml";
+  if (!fs::is_regular_file(file, error)) {
+    const std::vector<std::string> others = names_in(given, ".toml");
+    throw UserError(fmt::format("{}: the folder has no case.toml. {}", given.string(),
+                                others.empty() ? "Give a case file, or a folder with a case.toml."
+                                               : fmt::format("Give one of its case files: {}.", list_words(others))));
+  }
+  return file;
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (!stream) {
+    throw UserError(fmt::format("{}: the file cannot be read. Check its permissions.", file.string()));
+  }
+  return text;
+}
+
+toml::table parse(const std::string& text, const std::string& file) {
+  try {
+    toml::table root = toml::parse(text, std::string_view(file));
+    if (root.empty()) {
+      throw UserError(fmt::format(
+          "{}:1:1: the file is empty; a case has at least [time], [grid], [material.NAME] and [body.NAME].", file));
+    }
+    return root;
+  } catch (const toml::parse_error& error) {
+    const auto& begin = error.source().begin;
+    throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. Correct the line; https://toml.io tells the rules.", file,
+                                begin.line, begin.column, error.description()));
+  }
+}
+
+// Names at the top of the file that are no tables of ours.
+void report_unknown_tables(const toml::table& root, Reading& reading) {
+  std::set<std::string> top;
+  std::vector<std::string> titles;
+  for (const auto& table : tables()) {
+    top.insert(table->name.substr(0, table->name.find('.')));
+    titles.push_back(table->title());
+  }
+  for (const auto& [key, node] : root) {
+    const std::string word(key.str());
+    if (top.count(word) > 0) {
+      continue;
+    }
+    std::string homes;
+    for (const auto& table : tables()) {
+      for (const Entry& entry : table->entries()) {
+        if (entry.rule->key == word && !node.is_table()) {
+          homes += (homes.empty() ? "" : " or ") + table->title();
+        }
+      }
+    }
+    const std::vector<std::string> known(top.begin(), top.end());
+    const std::string hint = homes.empty() ? did_you_mean(word, known) : "; it belongs in " + homes + ".";
+    reading.problems.add(reading.place_of(word, key.source()),
+                         fmt::format("{} is not known{} Allowed: {}.",
+                                     node.is_table() ? "table [" + word + "]" : "key '" + word + "' outside of a table",
+                                     hint.empty() ? "." : hint, list_words(titles)));
+  }
+}
+
+std::string name_of(const fs::path& absolute_file) {
+  const std::string folder = absolute_file.parent_path().filename().string();
+  const std::string stem = absolute_file.stem().string();
+  return absolute_file.filename() == "case.toml" ? folder : folder + "-" + stem;
+}
+
+void read_tables(const toml::table& root, Case& result, Reading& reading) {
+  for (const auto& table : tables()) {
+    table->read(root, result, reading);
+    if (table->name == "case") {
+      reading.dimension = reading.sound({"case.dimension"}) ? result.general.dimension : 0;
+    }
+  }
+  report_unknown_tables(root, reading);
+  for (const auto& table : tables()) {
+    table->complete(result, reading);
+  }
+}
+
+}  // namespace
+
+Case read_case(const fs::path& case_file_or_folder, const std::vector<std::string>& sets) {
+  Reading reading;
+  for (const std::string& set : sets) {
+    reading.overrides.push_back(parse_override(set));
+  }
+  const fs::path file = find_case_file(case_file_or_folder);
+  reading.file = file.string();
+  const fs::path absolute = fs::absolute(file).lexically_normal();
+  reading.folder = absolute.parent_path();
+
+  Case result;
+  result.name = name_of(absolute);
+  result.file = absolute.string();
+  toml::table root = parse(read_text(file), reading.file);
+  apply_overrides(root, reading);
+  read_tables(root, result, reading);
+  check_case(result, reading);
+  reading.problems.raise_if_any();
+  return result;
+}
+
+}  // namespace thawslide::config

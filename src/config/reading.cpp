@@ -1,0 +1,162 @@
+#include "config/reading.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace thawslide::config {
+
+namespace {
+
+// One dotted name is the other, or a table around it.
+bool within(const std::string& inner, const std::string& outer) {
+  return inner == outer || (inner.size() > outer.size() && inner.compare(0, outer.size(), outer) == 0 &&
+                            inner[outer.size()] == '.');
+}
+
+}  // namespace
+
+Place Reading::place_of(const std::string& dotted, const toml::source_region& region) const {
+  if (region.begin.line > 0) {
+    return {file, region.begin.line, region.begin.column, false};
+  }
+  for (auto override = overrides.rbegin(); override != overrides.rend(); ++override) {
+    if (within(dotted, override->key) || within(override->key, dotted)) {
+      return {fmt::format("--set {}={}", override->key, override->value), 0, 0, true};
+    }
+  }
+  return {file, 0, 0, false};
+}
+
+Place Reading::place_of(const std::string& dotted) const {
+  for (std::string name = dotted; !name.empty();) {
+    const auto found = places.find(name);
+    if (found != places.end()) {
+      return found->second;
+    }
+    const std::size_t dot = name.rfind('.');
+    name.resize(dot == std::string::npos ? 0 : dot);
+  }
+  return {file, 0, 0, false};
+}
+
+bool Reading::sound(std::initializer_list<std::string> dotted) const {
+  for (const std::string& key : dotted) {
+    if (unsound.count(key) > 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Reading::report(const std::string& dotted, std::string message) {
+  problems.add(place_of(dotted), std::move(message));
+  unsound.insert(dotted);
+}
+
+std::string describe_node(const toml::node& node) {
+  if (const auto* text = node.as_string()) {
+    return fmt::format("the text \"{}\"", text->get());
+  }
+  if (const auto* number = node.as_floating_point()) {
+    return plain_number(number->get());
+  }
+  if (const auto* whole = node.as_integer()) {
+    return fmt::format("{}", whole->get());
+  }
+  if (const auto* truth = node.as_boolean()) {
+    return truth->get() ? "true" : "false";
+  }
+  if (const auto* array = node.as_array()) {
+    return fmt::format("an array of {}", array->size());
+  }
+  return node.is_table() ? "a table" : "a date or time";
+}
+
+bool ValueReader::fail(const toml::node& node, const std::string& message) const {
+  const std::string remedy =
+      default_text.empty() ? "" : fmt::format(" Correct it, or leave it out for the default {}.", default_text);
+  reading.problems.add(reading.place_of(key, node.source()), fmt::format("{} {}.{}", key, message, remedy));
+  reading.unsound.insert(key);
+  return false;
+}
+
+bool ValueReader::fail_type(const toml::node& node) const {
+  std::string message = fmt::format("is {}; allowed: {}", describe_node(node), allowed);
+  if (const auto* text = node.as_string(); text != nullptr && !text->get().empty()) {
+    char* end = nullptr;
+    const double value = std::strtod(text->get().c_str(), &end);
+    if (*end == '\0' && rule.range.holds(value)) {
+      message += "; remove the quotes";
+    }
+  }
+  return fail(node, message);
+}
+
+bool ValueReader::finite_number(const toml::node& node, double& value) const {
+  if (!node.is_number()) {
+    return fail_type(node);
+  }
+  const double found = *node.value<double>();
+  if (!std::isfinite(found)) {
+    return fail(node, fmt::format("is {}; allowed: a finite number", plain_number(found)));
+  }
+  value = found;
+  return true;
+}
+
+bool ValueReader::number_in_range(const toml::node& node, double& value) const {
+  if (!node.is_number()) {
+    return fail_type(node);
+  }
+  const double found = *node.value<double>();
+  if (!rule.range.holds(found)) {
+    return fail(node, fmt::format("is {}; allowed: {}{}{} ({})", plain_number(found), rule.range.text(),
+                                  rule.unit.empty() ? "" : " ", rule.unit, rule.text));
+  }
+  value = found;
+  return true;
+}
+
+bool ValueReader::numbers(const toml::node& node, std::vector<double>& values, bool in_range) const {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) {
+    return fail_type(node);
+  }
+  std::vector<double> found;
+  for (const toml::node& element : *array) {
+    double value = 0.0;
+    if (!(in_range ? number_in_range(element, value) : finite_number(element, value))) {
+      return false;
+    }
+    found.push_back(value);
+  }
+  values = std::move(found);
+  return true;
+}
+
+bool ValueReader::resolve_path(const toml::node& node, std::string& path) const {
+  namespace fs = std::filesystem;
+  const bool from_command_line = reading.place_of(key, node.source()).command_line;
+  std::error_code error;
+  const fs::path base = from_command_line ? fs::current_path(error) : reading.folder;
+  const fs::path whole = (base / path).lexically_normal();
+  if (!from_command_line) {
+    const fs::path inside = fs::weakly_canonical(whole, error).lexically_relative(fs::weakly_canonical(base, error));
+    if (fs::path(path).is_absolute() || inside.empty() || *inside.begin() == "..") {
+      return fail(node, fmt::format("is \"{}\", which lies outside the folder of the case file; allowed: a file in that "
+                                    "folder. Copy it there, or give its path with --set {}=PATH",
+                                    path, key));
+    }
+  }
+  if (!fs::is_regular_file(whole, error)) {
+    return fail(node, fmt::format("is \"{}\": no such file ({}); allowed: {}", path, whole.parent_path().string(),
+                                  from_command_line ? "a file, told from where you are"
+                                                    : "a file, told from the folder of the case file"));
+  }
+  path = whole.string();
+  return true;
+}
+
+}  // namespace thawslide::config

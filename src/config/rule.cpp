@@ -1,0 +1,68 @@
+#include "config/rule.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace thawslide::config {
+
+bool Range::holds(double value) const {
+  if (std::isnan(value) || (std::isinf(value) && !infinity_allowed)) {
+    return false;
+  }
+  return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+}
+
+std::string Range::text() const {
+  const bool has_low = std::isfinite(low);
+  const bool has_high = std::isfinite(high);
+  std::string text = "any number";
+  if (has_low && has_high && low_open == high_open) {
+    text = fmt::format("between {} and {}, ends {}", plain_number(low), plain_number(high),
+                       low_open ? "excluded" : "included");
+  } else if (has_low && has_high) {
+    text = fmt::format("{} {} and {} {}", low_open ? ">" : ">=", plain_number(low), high_open ? "<" : "<=",
+                       plain_number(high));
+  } else if (has_low) {
+    text = fmt::format("{} {}", low_open ? ">" : ">=", plain_number(low));
+  } else if (has_high) {
+    text = fmt::format("{} {}", high_open ? "<" : "<=", plain_number(high));
+  }
+  return infinity_allowed ? text + ", or inf" : text;
+}
+
+Range above(double low) {
+  Range range;
+  range.low = low;
+  range.low_open = true;
+  return range;
+}
+
+Range at_least(double low) {
+  Range range;
+  range.low = low;
+  return range;
+}
+
+Range between(double low, double high) {
+  Range range;
+  range.low = low;
+  range.high = high;
+  return range;
+}
+
+Range inside(double low, double high) {
+  Range range = between(low, high);
+  range.low_open = true;
+  range.high_open = true;
+  return range;
+}
+
+std::string plain_number(double value) { return fmt::format("{}", value); }
+
+std::string number_text(double value) {
+  const std::string text = plain_number(value);
+  return text.find_first_of(".enia") == std::string::npos ? text + ".0" : text;
+}
+
+}  // namespace thawslide::config

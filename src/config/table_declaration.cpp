@@ -1,0 +1,140 @@
+#include "config/table_declaration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace thawslide::config {
+
+namespace {
+
+// Tables that stand directly in this one: "boundary" in [grid].
+std::vector<std::string> tables_inside(const std::string& dotted) {
+  std::vector<std::string> result;
+  for (const auto& table : tables()) {
+    if (table->name.size() > dotted.size() && table->name.compare(0, dotted.size() + 1, dotted + ".") == 0) {
+      result.push_back(table->name.substr(dotted.size() + 1));
+    }
+  }
+  return result;
+}
+
+// The tables, other than this one, that have a parameter of this key.
+std::vector<std::string> tables_with(const std::string& key, const std::string& dotted) {
+  std::vector<std::string> result;
+  for (const auto& table : tables()) {
+    for (const Entry& entry : table->entries()) {
+      if (entry.rule->key == key && table->name != dotted) {
+        result.push_back(table->title());
+      }
+    }
+  }
+  return result;
+}
+
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
+           letter == '_' || letter == '-';
+  });
+}
+
+}  // namespace
+
+const Tables& tables() {
+  static const Tables all = [] {
+    Tables result;
+    declare_run(result);
+    declare_material(result);
+    declare_model(result);
+    return result;
+  }();
+  return all;
+}
+
+const toml::node* find_node(const toml::table& root, const std::string& dotted) {
+  const std::size_t dot = dotted.find('.');
+  const toml::node* node = root.get(dotted.substr(0, dot));
+  if (dot == std::string::npos || node == nullptr) {
+    return node;
+  }
+  // A parent that is no table is reported where it is read itself.
+  return node->is_table() ? find_node(*node->as_table(), dotted.substr(dot + 1)) : nullptr;
+}
+
+bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading) {
+  reading.places[dotted] = reading.place_of(dotted, node.source());
+  if (!node.is_table()) {
+    reading.report(dotted, fmt::format("'{}' is {}; allowed: one table. Write [{}] on a line of its own and its keys below",
+                                       dotted, describe_node(node), dotted));
+    return false;
+  }
+  return true;
+}
+
+void report_unknown_keys(const toml::table& table, const std::string& dotted, const std::vector<std::string>& known,
+                         Reading& reading) {
+  std::vector<std::string> allowed = known;
+  const std::vector<std::string> inside = tables_inside(dotted);
+  allowed.insert(allowed.end(), inside.begin(), inside.end());
+  for (const auto& [key, node] : table) {
+    const std::string word(key.str());
+    if (std::find(allowed.begin(), allowed.end(), word) != allowed.end()) {
+      continue;
+    }
+    const std::string whole = join(dotted, word);
+    const std::vector<std::string> elsewhere = tables_with(word, dotted);
+    std::string hint = elsewhere.empty() ? did_you_mean(word, allowed)
+                                         : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
+    reading.problems.add(reading.place_of(whole, key.source()),
+                         fmt::format("key '{}' is not known in [{}]{} Allowed here: {}.", whole, dotted,
+                                     hint.empty() ? "." : hint + (hint.back() == '?' ? "" : "."), list_words(allowed)));
+    reading.unsound.insert(whole);
+  }
+}
+
+std::vector<std::string> table_names(const toml::node& node, const std::string& kind, Reading& reading) {
+  std::vector<std::string> names;
+  if (!enter_table(node, kind, reading)) {
+    return names;
+  }
+  for (const auto& [key, child] : *node.as_table()) {
+    const std::string name(key.str());
+    const std::string dotted = join(kind, name);
+    reading.places[dotted] = reading.place_of(dotted, child.is_table() ? child.source() : key.source());
+    if (!child.is_table()) {
+      reading.report(dotted, fmt::format("'{}' stands in [{}], which needs a name; write [{}.NAME] with a name of your "
+                                         "choice above it",
+                                         name, kind, kind));
+    } else if (!is_plain_name(name)) {
+      reading.report(dotted, fmt::format("'{}' cannot name a {}; allowed: letters a to z, digits, '_' and '-'", name, kind));
+    } else {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+void report_missing(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
+                    Reading& reading) {
+  const std::string reason = when == "always" ? "it has no default" : "it is needed " + when;
+  reading.report(join(table, rule.key), fmt::format("key '{}' is missing: {}. Add '{} = ...' to [{}]: {}, {}.",
+                                                    join(table, rule.key), reason, rule.key, table, rule.text, type));
+}
+
+bool check_dimension(const toml::node& node, const std::string& dotted, const Rule& rule, Reading& reading) {
+  if (rule.dimension == 0 || reading.dimension == 0 || rule.dimension == reading.dimension) {
+    return true;
+  }
+  reading.problems.add(reading.place_of(dotted, node.source()),
+                       fmt::format("{} has a meaning only in {} dimensions, and case.dimension is {}. Remove it.", dotted,
+                                   rule.dimension == 2 ? "two" : "three", reading.dimension));
+  reading.unsound.insert(dotted);
+  return false;
+}
+
+std::string value_line(const Rule& rule, const std::string& value) {
+  return fmt::format("{} = {}{}{}\n", rule.key, value, rule.unit.empty() ? "" : "  # ", rule.unit);
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,182 @@
+// The two kinds of tables, over any section of the Case: [band], and [body.NAME].
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/declaration.hpp"
+
+namespace thawslide::config {
+
+// "[band]" of "band", and the key as a path below it.
+inline std::string join(const std::string& table, const std::string& key) { return table + "." + key; }
+
+// The node of a dotted table name; nullptr where the file has none.
+const toml::node* find_node(const toml::table& root, const std::string& dotted);
+// Notes the place of a table and tells whether it is one.
+bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading);
+// Reports the keys of a table that no parameter has.
+void report_unknown_keys(const toml::table& table, const std::string& dotted, const std::vector<std::string>& known,
+                         Reading& reading);
+// Reports what stands beside the named tables of [body]; returns the names.
+std::vector<std::string> table_names(const toml::node& node, const std::string& kind, Reading& reading);
+void report_missing(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
+                    Reading& reading);
+bool check_dimension(const toml::node& node, const std::string& dotted, const Rule& rule, Reading& reading);
+// One line "key = value  # unit".
+std::string value_line(const Rule& rule, const std::string& value);
+
+// The parameters of one section, whatever table they stand in.
+template <class Section>
+class SectionParameters {
+ public:
+  explicit SectionParameters(std::vector<Parameter<Section>> parameters) : parameters_(std::move(parameters)) {}
+
+  [[nodiscard]] std::vector<Entry> entries() const {
+    std::vector<Entry> entries;
+    for (const auto& p : parameters_) {
+      entries.push_back({&p.rule, p.type, p.default_text(), p.required_words, p.otherwise_words, p.words, p.schema});
+    }
+    return entries;
+  }
+
+  void read(const toml::table& table, const std::string& dotted, Section& section, Reading& reading) const {
+    std::vector<std::string> known;
+    for (const auto& p : parameters_) {
+      known.push_back(p.rule.key);
+      const toml::node* node = table.get(p.rule.key);
+      if (node == nullptr) {
+        continue;
+      }
+      const std::string key = join(dotted, p.rule.key);
+      reading.places[key] = reading.place_of(key, node->source());
+      if (check_dimension(*node, key, p.rule, reading)) {
+        p.read(*node, ValueReader{reading, key, p.rule, p.default_text(), p.type}, section);
+      }
+    }
+    report_unknown_keys(table, dotted, known, reading);
+  }
+
+  void complete(const std::string& dotted, const Case& whole, Section& section, Reading& reading) const {
+    for (const auto& p : parameters_) {
+      if (reading.given(join(dotted, p.rule.key))) {
+        continue;
+      }
+      if (p.is_required && p.is_required(whole, section)) {
+        report_missing(dotted, p.rule, p.type, p.required_words, reading);
+      } else if (p.fill) {
+        p.fill(whole, section);
+      }
+    }
+  }
+
+  void write(const Case& whole, const Section& section, const WriteContext& context, std::string& out) const {
+    const Section defaults{};
+    for (const auto& p : parameters_) {
+      const std::string value = p.write(section, p.rule, context);
+      const bool may_be_absent = !p.required_words.empty() || (!p.otherwise_words.empty() && !p.fill);
+      const bool is_absent = may_be_absent && !(p.is_required && p.is_required(whole, section)) &&
+                             value == p.write(defaults, p.rule, context);
+      const bool elsewhere = p.rule.dimension != 0 && p.rule.dimension != context.dimension;
+      if (!is_absent && !elsewhere) {
+        out += value_line(p.rule, value);
+      }
+    }
+  }
+
+ private:
+  std::vector<Parameter<Section>> parameters_;
+};
+
+// A parameter for each side of the grid, bound to an array of six.
+template <class Section, class T>
+std::vector<Parameter<Section>> six_sides(std::array<T, 6> Section::*member, const std::string& text) {
+  const std::array<std::string, 6> sides{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+  std::vector<Parameter<Section>> result;
+  for (std::size_t side = 0; side < sides.size(); ++side) {
+    result.push_back(element(member, side,
+                             {.key = sides[side],
+                              .text = text + " at the side " + sides[side],
+                              .dimension = side < 4 ? 0 : 3}));
+  }
+  return result;
+}
+
+// A table that stands once, bound to a member of the Case.
+template <class Section>
+class SingleTable : public TableDeclaration {
+ public:
+  SingleTable(std::string table_name, std::string table_text, Section Case::*member,
+              std::vector<Parameter<Section>> parameters)
+      : TableDeclaration(std::move(table_name), std::move(table_text)), member_(member), section_(std::move(parameters)) {}
+
+  [[nodiscard]] bool is_named() const override { return false; }
+  [[nodiscard]] std::vector<Entry> entries() const override { return section_.entries(); }
+  void read(const toml::table& root, Case& result, Reading& reading) const override {
+    const toml::node* node = find_node(root, name);
+    if (node != nullptr && enter_table(*node, name, reading)) {
+      section_.read(*node->as_table(), name, result.*member_, reading);
+    }
+  }
+  void complete(Case& result, Reading& reading) const override {
+    section_.complete(name, result, result.*member_, reading);
+  }
+  void write(const Case& source, const WriteContext& context, std::string& out) const override {
+    out += "\n[" + name + "]\n";
+    section_.write(source, source.*member_, context, out);
+  }
+  [[nodiscard]] std::vector<std::string> names(const Case&) const override { return {}; }
+
+ private:
+  Section Case::*member_;
+  SectionParameters<Section> section_;
+};
+
+// A table that stands as often as there are names, bound to a map of the Case.
+template <class Section>
+class NamedTable : public TableDeclaration {
+ public:
+  using Map = std::map<std::string, Section>;
+
+  NamedTable(std::string table_name, std::string table_text, Map Case::*member, std::vector<Parameter<Section>> parameters)
+      : TableDeclaration(std::move(table_name), std::move(table_text)), member_(member), section_(std::move(parameters)) {}
+
+  [[nodiscard]] bool is_named() const override { return true; }
+  [[nodiscard]] std::vector<Entry> entries() const override { return section_.entries(); }
+  void read(const toml::table& root, Case& result, Reading& reading) const override {
+    const toml::node* node = find_node(root, name);
+    if (node == nullptr) {
+      return;
+    }
+    for (const std::string& own_name : table_names(*node, name, reading)) {
+      section_.read(*node->as_table()->get_as<toml::table>(own_name), join(name, own_name), (result.*member_)[own_name],
+                    reading);
+    }
+  }
+  void complete(Case& result, Reading& reading) const override {
+    for (auto& [own_name, section] : result.*member_) {
+      section_.complete(join(name, own_name), result, section, reading);
+    }
+  }
+  void write(const Case& source, const WriteContext& context, std::string& out) const override {
+    for (const auto& [own_name, section] : source.*member_) {
+      out += "\n[" + join(name, own_name) + "]\n";
+      section_.write(source, section, context, out);
+    }
+  }
+  [[nodiscard]] std::vector<std::string> names(const Case& source) const override {
+    std::vector<std::string> result;
+    for (const auto& [own_name, section] : source.*member_) {
+      result.push_back(own_name);
+    }
+    return result;
+  }
+
+ private:
+  Map Case::*member_;
+  SectionParameters<Section> section_;
+};
+
+}  // namespace thawslide::config

@@ -1,0 +1,193 @@
+// Values that are a number or an inline table: tables over time, initial fields, heat boundaries.
+#include <cmath>
+#include <utility>
+
+#include "config/values.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+using nlohmann::json;
+
+const Rule rule_of_numbers{};
+
+std::string write_array(const std::vector<double>& numbers) {
+  return Value<Numbers>::write(numbers, rule_of_numbers, WriteContext{});
+}
+
+std::string write_table(const Table& table, const char* abscissa) {
+  if (table.is_constant()) {
+    return table.value.empty() ? "" : number_text(table.value.front());
+  }
+  return fmt::format("{{ {} = {}, value = {} }}", abscissa, write_array(table.abscissa), write_array(table.value));
+}
+
+json table_schema(const std::vector<const char*>& abscissae, const Rule& rule) {
+  const json number = Value<double>::schema(rule);
+  const json numbers = {{"type", "array"}, {"items", number}};
+  json any_of = json::array({number});
+  for (const char* abscissa : abscissae) {
+    any_of.push_back({{"type", "object"},
+                      {"additionalProperties", false},
+                      {"required", json::array({abscissa, "value"})},
+                      {"properties",
+                       {{abscissa, {{"type", "array"}, {"items", {{"type", "number"}}}}}, {"value", numbers}}}});
+  }
+  return {{"anyOf", any_of}};
+}
+
+std::vector<std::string> keys_of(const toml::table& table) {
+  std::vector<std::string> keys;
+  for (const auto& [key, node] : table) {
+    keys.emplace_back(key.str());
+  }
+  return keys;
+}
+
+// Reads { ABSCISSA = [...], value = [...] }: equal lengths, ascending, a jump being two equal abscissae.
+bool read_table(const toml::table& node, const std::string& abscissa, const ValueReader& at, Table& table) {
+  Table found;
+  if (!at.numbers(*node.get(abscissa), found.abscissa, false) || !at.numbers(*node.get("value"), found.value, true)) {
+    return false;
+  }
+  if (found.abscissa.size() != found.value.size() || found.value.empty()) {
+    return at.fail(node, fmt::format("has {} entries of {} and {} of value; allowed: as many of both, at least one",
+                                     found.abscissa.size(), abscissa, found.value.size()));
+  }
+  for (std::size_t k = 1; k < found.abscissa.size(); ++k) {
+    const bool descends = found.abscissa[k] < found.abscissa[k - 1];
+    const bool third_at_a_jump = k > 1 && found.abscissa[k] == found.abscissa[k - 2];
+    if (descends || third_at_a_jump) {
+      return at.fail(*node.get(abscissa)->as_array()->get(k),
+                     fmt::format("holds {} {} after {}; allowed: ascending, and a jump as two equal entries", abscissa,
+                                 plain_number(found.abscissa[k]), plain_number(found.abscissa[k - 1])));
+    }
+  }
+  table = std::move(found);
+  return true;
+}
+
+bool has_exactly(const toml::table& table, const std::string& abscissa) {
+  return table.size() == 2 && table.contains(abscissa) && table.contains("value");
+}
+
+bool fail_keys(const toml::node& node, const ValueReader& at) {
+  return at.fail(node, fmt::format("is a table with {}; allowed: {}",
+                                   node.as_table()->empty() ? "no key" : "the keys " + list_words(keys_of(*node.as_table())),
+                                   at.allowed));
+}
+
+std::string range_and_unit(const Rule& rule) {
+  const std::string range = rule.range.text();
+  return fmt::format("{}{}{}", range == "any number" ? "" : ", " + range, rule.unit.empty() ? "" : " [" + rule.unit,
+                     rule.unit.empty() ? "" : "]");
+}
+
+}  // namespace
+
+// table over time
+std::string Value<Table>::type(const Rule& rule) {
+  return fmt::format("a number or {{ time = [...], value = [...] }}{}", range_and_unit(rule));
+}
+bool Value<Table>::read(const toml::node& node, const ValueReader& at, Table& value) {
+  if (const toml::table* table = node.as_table()) {
+    return has_exactly(*table, "time") ? read_table(*table, "time", at, value) : fail_keys(node, at);
+  }
+  double number = 0.0;
+  if (!at.number_in_range(node, number)) {
+    return false;
+  }
+  value = Table(number);
+  return true;
+}
+std::string Value<Table>::write(const Table& value, const Rule&, const WriteContext&) {
+  return write_table(value, "time");
+}
+json Value<Table>::schema(const Rule& rule) { return table_schema({"time"}, rule); }
+
+// initial field
+std::string Value<InitialField>::type(const Rule& rule) {
+  return fmt::format("a number, {{ depth = [...], value = [...] }} or {{ x = [...], value = [...] }}{}",
+                     range_and_unit(rule));
+}
+bool Value<InitialField>::read(const toml::node& node, const ValueReader& at, InitialField& value) {
+  InitialField found;
+  if (const toml::table* table = node.as_table()) {
+    found.over = has_exactly(*table, "depth") ? InitialField::Over::depth : InitialField::Over::x;
+    const char* abscissa = found.over == InitialField::Over::depth ? "depth" : "x";
+    if (!has_exactly(*table, abscissa)) {
+      return fail_keys(node, at);
+    }
+    if (!read_table(*table, abscissa, at, found.table)) {
+      return false;
+    }
+  } else {
+    double number = 0.0;
+    if (!at.number_in_range(node, number)) {
+      return false;
+    }
+    found = InitialField(number);
+  }
+  value = std::move(found);
+  return true;
+}
+std::string Value<InitialField>::write(const InitialField& value, const Rule&, const WriteContext&) {
+  return write_table(value.table, value.over == InitialField::Over::depth ? "depth" : "x");
+}
+json Value<InitialField>::schema(const Rule& rule) { return table_schema({"depth", "x"}, rule); }
+
+// heat boundary
+std::string Value<HeatBoundary>::type(const Rule&) {
+  return "\"insulated\", { temperature = T } with T > -273.15 [C] or { flux = q } with q into the body [W/m2]";
+}
+bool Value<HeatBoundary>::read(const toml::node& node, const ValueReader& at, HeatBoundary& value) {
+  if (const auto* text = node.as_string()) {
+    if (text->get() != "insulated") {
+      return at.fail_type(node);
+    }
+    value = HeatBoundary{};
+    return true;
+  }
+  const toml::table* table = node.as_table();
+  if (table == nullptr) {
+    return at.fail_type(node);
+  }
+  const bool is_temperature = table->contains("temperature");
+  if (table->size() != 1 || (!is_temperature && !table->contains("flux"))) {
+    return fail_keys(node, at);
+  }
+  HeatBoundary found;
+  found.kind = is_temperature ? HeatBoundaryKind::temperature : HeatBoundaryKind::flux;
+  const toml::node& number = *table->get(is_temperature ? "temperature" : "flux");
+  if (!at.finite_number(number, found.value)) {
+    return false;
+  }
+  if (is_temperature && found.value <= -273.15) {
+    return at.fail(number, fmt::format("has the temperature {}; allowed: > -273.15 C", plain_number(found.value)));
+  }
+  value = found;
+  return true;
+}
+std::string Value<HeatBoundary>::write(const HeatBoundary& value, const Rule&, const WriteContext&) {
+  switch (value.kind) {
+    case HeatBoundaryKind::temperature:
+      return fmt::format("{{ temperature = {} }}", number_text(value.value));
+    case HeatBoundaryKind::flux:
+      return fmt::format("{{ flux = {} }}", number_text(value.value));
+    case HeatBoundaryKind::insulated:
+      break;
+  }
+  return quoted("insulated");
+}
+json Value<HeatBoundary>::schema(const Rule&) {
+  const auto object = [](const char* key) {
+    return json{{"type", "object"},
+                {"additionalProperties", false},
+                {"required", json::array({key})},
+                {"properties", {{key, {{"type", "number"}}}}}};
+  };
+  return {{"anyOf", json::array({json{{"enum", json::array({"insulated"})}}, object("temperature"), object("flux")})}};
+}
+
+}  // namespace thawslide::config

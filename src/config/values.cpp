@@ -1,0 +1,259 @@
+#include "config/values.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace thawslide::config {
+
+namespace {
+
+using nlohmann::json;
+
+bool in_words(const std::vector<Word>& words, const std::string& found) {
+  for (const Word& word : words) {
+    if (word.word == found) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string with_range(const std::string& type, const Rule& rule) {
+  const std::string range = rule.range.text();
+  const std::string unit = rule.unit.empty() ? "" : " [" + rule.unit + "]";
+  return range == "any number" ? type + unit : fmt::format("{}, {}{}", type, range, unit);
+}
+
+json range_schema(const Range& range, const char* type) {
+  json schema = {{"type", type}};
+  if (std::isfinite(range.low)) {
+    schema[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
+  }
+  if (std::isfinite(range.high)) {
+    schema[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
+  }
+  return schema;
+}
+
+json array_schema(const json& items) { return {{"type", "array"}, {"items", items}}; }
+
+json number_schema() { return {{"type", "number"}}; }
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') {
+      result += '\\';
+      result += letter;
+    } else if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) {
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(letter)));
+    } else {
+      result += letter;
+    }
+  }
+  return result + "\"";
+}
+
+std::string list_of_words(const std::vector<Word>& words) {
+  std::vector<std::string> names;
+  for (const Word& word : words) {
+    names.push_back(quoted(word.word));
+  }
+  return list_words(names);
+}
+
+json word_schema(const std::vector<Word>& words) {
+  json names = json::array();
+  for (const Word& word : words) {
+    names.push_back(word.word);
+  }
+  return {{"enum", names}};
+}
+
+bool read_word(const toml::node& node, const ValueReader& at, const std::vector<Word>& words, std::string& found) {
+  const auto* text = node.as_string();
+  if (text == nullptr) {
+    return at.fail_type(node);
+  }
+  if (!in_words(words, text->get())) {
+    std::vector<std::string> names;
+    for (const Word& word : words) {
+      names.push_back(word.word);
+    }
+    return at.fail(node, fmt::format("is \"{}\"{} Allowed: {}", text->get(),
+                                     nearest(text->get(), names).empty() ? ";" : did_you_mean(text->get(), names),
+                                     list_of_words(words)));
+  }
+  found = text->get();
+  return true;
+}
+
+// double
+std::string Value<double>::type(const Rule& rule) { return with_range("a number", rule); }
+bool Value<double>::read(const toml::node& node, const ValueReader& at, double& value) {
+  return at.number_in_range(node, value);
+}
+std::string Value<double>::write(const double& value, const Rule&, const WriteContext&) { return number_text(value); }
+json Value<double>::schema(const Rule& rule) { return range_schema(rule.range, "number"); }
+
+// int
+std::string Value<int>::type(const Rule& rule) { return with_range("a whole number", rule); }
+bool Value<int>::read(const toml::node& node, const ValueReader& at, int& value) {
+  double number = 0.0;
+  if (!node.is_integer()) {
+    return at.fail_type(node);
+  }
+  if (!at.number_in_range(node, number)) {
+    return false;
+  }
+  value = static_cast<int>(number);
+  return true;
+}
+std::string Value<int>::write(const int& value, const Rule&, const WriteContext&) { return fmt::format("{}", value); }
+json Value<int>::schema(const Rule& rule) { return range_schema(rule.range, "integer"); }
+
+// bool
+std::string Value<bool>::type(const Rule&) { return "true or false"; }
+bool Value<bool>::read(const toml::node& node, const ValueReader& at, bool& value) {
+  const auto* truth = node.as_boolean();
+  if (truth == nullptr) {
+    return at.fail_type(node);
+  }
+  value = truth->get();
+  return true;
+}
+std::string Value<bool>::write(const bool& value, const Rule&, const WriteContext&) { return value ? "true" : "false"; }
+json Value<bool>::schema(const Rule&) { return {{"type", "boolean"}}; }
+
+// text: a title, a name, one of a few words, or a path
+std::string Value<std::string>::type(const Rule& rule) {
+  if (!rule.words.empty()) {
+    return "one of " + list_of_words(rule.words);
+  }
+  return rule.is_path ? "the path of a file, in quotes" : "a text in quotes";
+}
+bool Value<std::string>::read(const toml::node& node, const ValueReader& at, std::string& value) {
+  if (!at.rule.words.empty()) {
+    return read_word(node, at, at.rule.words, value);
+  }
+  const auto* text = node.as_string();
+  if (text == nullptr) {
+    return at.fail_type(node);
+  }
+  std::string found = text->get();
+  if (at.rule.is_path && !found.empty() && !at.resolve_path(node, found)) {
+    return false;
+  }
+  value = std::move(found);
+  return true;
+}
+std::string Value<std::string>::write(const std::string& value, const Rule& rule, const WriteContext& context) {
+  if (!rule.is_path || value.empty()) {
+    return quoted(value);
+  }
+  const std::filesystem::path path(value);
+  if (!context.input_folder.empty()) {
+    return quoted((context.input_folder / path.filename()).generic_string());
+  }
+  const std::filesystem::path relative = path.lexically_relative(context.case_folder);
+  const bool is_inside = !relative.empty() && *relative.begin() != "..";
+  return quoted(is_inside ? relative.generic_string() : path.generic_string());
+}
+json Value<std::string>::schema(const Rule& rule) {
+  return rule.words.empty() ? json{{"type", "string"}} : word_schema(rule.words);
+}
+
+// point
+std::string Value<Point>::type(const Rule& rule) {
+  return fmt::format("an array of 2 numbers, x and y (3 in three dimensions){}",
+                     rule.unit.empty() ? "" : " [" + rule.unit + "]");
+}
+bool Value<Point>::read(const toml::node& node, const ValueReader& at, Point& value) {
+  std::vector<double> found;
+  if (!at.numbers(node, found, false)) {
+    return false;
+  }
+  const auto dimension = static_cast<std::size_t>(at.reading.dimension);
+  if (dimension == 0 ? (found.size() != 2 && found.size() != 3) : found.size() != dimension) {
+    return at.fail(node, fmt::format("is an array of {} numbers; allowed: {} numbers, as case.dimension is {}",
+                                     found.size(), dimension, dimension));
+  }
+  value = {found[0], found[1], found.size() > 2 ? found[2] : 0.0};
+  return true;
+}
+std::string Value<Point>::write(const Point& value, const Rule&, const WriteContext& context) {
+  const std::string plane = fmt::format("[{}, {}", number_text(value[0]), number_text(value[1]));
+  return context.dimension == 3 ? fmt::format("{}, {}]", plane, number_text(value[2])) : plane + "]";
+}
+json Value<Point>::schema(const Rule&) {
+  json schema = array_schema(number_schema());
+  schema["minItems"] = 2;
+  schema["maxItems"] = 3;
+  return schema;
+}
+
+// polygon
+std::string Value<Vertices>::type(const Rule&) { return "an array of at least 3 pairs [x, y] [m]"; }
+bool Value<Vertices>::read(const toml::node& node, const ValueReader& at, Vertices& value) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() < 3) {
+    return at.fail_type(node);
+  }
+  Vertices found;
+  for (const toml::node& element : *array) {
+    std::vector<double> pair;
+    if (!at.numbers(element, pair, false)) {
+      return false;
+    }
+    if (pair.size() != 2) {
+      return at.fail(element, fmt::format("holds a vertex of {} numbers; allowed: pairs [x, y]", pair.size()));
+    }
+    found.push_back({pair[0], pair[1]});
+  }
+  value = std::move(found);
+  return true;
+}
+std::string Value<Vertices>::write(const Vertices& value, const Rule&, const WriteContext&) {
+  std::vector<std::string> pairs;
+  for (const auto& vertex : value) {
+    pairs.push_back(fmt::format("[{}, {}]", number_text(vertex[0]), number_text(vertex[1])));
+  }
+  return "[" + list_words(pairs) + "]";
+}
+json Value<Vertices>::schema(const Rule&) {
+  json schema = array_schema(array_schema(number_schema()));
+  schema["minItems"] = 3;
+  return schema;
+}
+
+// ascending numbers
+std::string Value<Numbers>::type(const Rule& rule) { return with_range("an array of ascending numbers", rule); }
+bool Value<Numbers>::read(const toml::node& node, const ValueReader& at, Numbers& value) {
+  Numbers found;
+  if (!at.numbers(node, found, true)) {
+    return false;
+  }
+  for (std::size_t k = 1; k < found.size(); ++k) {
+    if (!(found[k] > found[k - 1])) {
+      return at.fail(*node.as_array()->get(k), fmt::format("holds {} after {}; allowed: ascending numbers",
+                                                           plain_number(found[k]), plain_number(found[k - 1])));
+    }
+  }
+  value = std::move(found);
+  return true;
+}
+std::string Value<Numbers>::write(const Numbers& value, const Rule&, const WriteContext&) {
+  std::vector<std::string> texts;
+  for (const double number : value) {
+    texts.push_back(number_text(number));
+  }
+  return "[" + list_words(texts) + "]";
+}
+json Value<Numbers>::schema(const Rule& rule) { return array_schema(range_schema(rule.range, "number")); }
+
+// Tables, initial fields and heat boundaries: value_tables.cpp.
+
+}  // namespace thawslide::config

@@ -1,0 +1,99 @@
+// How each type of the Case is written in a case file: reading, writing, words for it, editor schema.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "config/case.hpp"
+#include "config/reading.hpp"
+#include "config/words.hpp"
+
+namespace thawslide::config {
+
+// What writing a case needs to know beside the value.
+struct WriteContext {
+  int dimension = 2;
+  std::filesystem::path case_folder;   // paths are told from here
+  std::filesystem::path input_folder;  // if not empty: paths are this folder and the file's name
+};
+
+// Each specialisation has: type (words), read (reports and returns false where the node is wrong), write (TOML text),
+// schema (JSON schema), words (those allowed, if it is one of a few).
+template <class T>
+struct Value;
+
+// What most types share: no words.
+struct ValueWithoutWords {
+  static std::vector<Word> words() { return {}; }
+};
+
+#define THAWSLIDE_DECLARE_VALUE(Type)                                             \
+  template <>                                                                     \
+  struct Value<Type> : ValueWithoutWords {                                        \
+    static std::string type(const Rule& rule);                                    \
+    static bool read(const toml::node& node, const ValueReader& at, Type& value); \
+    static std::string write(const Type& value, const Rule&, const WriteContext&); \
+    static nlohmann::json schema(const Rule& rule);                               \
+  };
+
+using Vertices = std::vector<std::array<double, 2>>;
+using Numbers = std::vector<double>;
+
+THAWSLIDE_DECLARE_VALUE(double)
+THAWSLIDE_DECLARE_VALUE(int)
+THAWSLIDE_DECLARE_VALUE(bool)
+THAWSLIDE_DECLARE_VALUE(std::string)
+THAWSLIDE_DECLARE_VALUE(Point)         // as many numbers as the case has dimensions
+THAWSLIDE_DECLARE_VALUE(Vertices)      // [[x, y], ...]
+THAWSLIDE_DECLARE_VALUE(Numbers)       // ascending
+THAWSLIDE_DECLARE_VALUE(Table)         // number | { time = [...], value = [...] }
+THAWSLIDE_DECLARE_VALUE(InitialField)  // number | { depth = [...], value = [...] } | { x = [...], value = [...] }
+THAWSLIDE_DECLARE_VALUE(HeatBoundary)  // "insulated" | { temperature = T } | { flux = q }
+
+#undef THAWSLIDE_DECLARE_VALUE
+
+// A word out of a list, with the nearest one where it is misspelt.
+bool read_word(const toml::node& node, const ValueReader& at, const std::vector<Word>& words, std::string& found);
+std::string list_of_words(const std::vector<Word>& words);
+nlohmann::json word_schema(const std::vector<Word>& words);
+std::string quoted(const std::string& text);
+
+template <class Enum>
+  requires std::is_enum_v<Enum>
+struct Value<Enum> {
+  static std::vector<Word> words() {
+    std::vector<Word> words;
+    for (const Choice<Enum>& choice : choices(Enum{})) {
+      words.push_back({choice.word, choice.text});
+    }
+    return words;
+  }
+  static std::string type(const Rule&) { return "one of " + list_of_words(words()); }
+  static bool read(const toml::node& node, const ValueReader& at, Enum& value) {
+    std::string found;
+    if (!read_word(node, at, words(), found)) {
+      return false;
+    }
+    for (const Choice<Enum>& choice : choices(Enum{})) {
+      value = choice.word == found ? choice.value : value;
+    }
+    return true;
+  }
+  static std::string write(const Enum& value, const Rule&, const WriteContext&) {
+    for (const Choice<Enum>& choice : choices(Enum{})) {
+      if (choice.value == value) {
+        return quoted(choice.word);
+      }
+    }
+    return quoted("");
+  }
+  static nlohmann::json schema(const Rule&) { return word_schema(words()); }
+};
+
+}  // namespace thawslide::config

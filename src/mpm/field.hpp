@@ -1,0 +1,135 @@
+// One particle quantity, declared once: name, unit, shape, where it is written. Re-ordering, snapshots and checkpoints
+// walk the list of fields that FieldList keeps.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/aligned.hpp"
+#include "base/error.hpp"
+
+namespace thawslide::mpm {
+
+enum class FieldShape { scalar, vector, tensor };  // tensor: symmetric, order xx yy zz xy [yz xz]
+
+struct FieldInfo {
+  const char* name;
+  const char* unit;
+  FieldShape shape = FieldShape::scalar;
+  bool in_snapshot = false;
+  bool in_checkpoint = true;
+};
+
+class FieldBase {
+ public:
+  explicit FieldBase(const FieldInfo& info) : info_(info) {}
+  virtual ~FieldBase() = default;
+  FieldBase(const FieldBase&) = delete;
+  FieldBase& operator=(const FieldBase&) = delete;
+
+  [[nodiscard]] const FieldInfo& info() const { return info_; }
+  [[nodiscard]] virtual int components() const = 0;
+  [[nodiscard]] virtual bool is_integer() const = 0;
+  [[nodiscard]] virtual double value(std::size_t particle, int component) const = 0;
+  virtual void resize(std::size_t particles) = 0;
+  // Particle k becomes the one that stood at order[k].
+  virtual void reorder(const std::vector<std::uint32_t>& order) = 0;
+  [[nodiscard]] virtual std::vector<std::byte> bytes() const = 0;
+  virtual void set_bytes(const std::vector<std::byte>& bytes) = 0;
+
+ private:
+  FieldInfo info_;
+};
+
+// All fields of a set of particles, in order of declaration.
+class FieldList {
+ public:
+  void add(FieldBase* field) { fields_.push_back(field); }
+  [[nodiscard]] const std::vector<FieldBase*>& all() const { return fields_; }
+
+ private:
+  std::vector<FieldBase*> fields_;
+};
+
+// Storage in blocks of 8 particles: the 8 values of one component lie in one cache line, components follow one another.
+template <class T, int Components>
+class Field final : public FieldBase {
+ public:
+  static constexpr std::size_t lanes = 8;
+
+  Field(FieldList& list, const FieldInfo& info) : FieldBase(info) { list.add(this); }
+
+  [[nodiscard]] T& operator()(std::size_t particle, int component = 0) { return data_[position(particle, component)]; }
+  [[nodiscard]] const T& operator()(std::size_t particle, int component = 0) const {
+    return data_[position(particle, component)];
+  }
+
+  template <class Vector>
+  [[nodiscard]] Vector get(std::size_t particle) const {
+    Vector v;
+    for (int c = 0; c < Components; ++c) {
+      v[c] = (*this)(particle, c);
+    }
+    return v;
+  }
+  template <class Vector>
+  void set(std::size_t particle, const Vector& v) {
+    for (int c = 0; c < Components; ++c) {
+      (*this)(particle, c) = v[c];
+    }
+  }
+
+  [[nodiscard]] int components() const override { return Components; }
+  [[nodiscard]] bool is_integer() const override { return std::is_integral_v<T>; }
+  [[nodiscard]] double value(std::size_t particle, int component) const override {
+    return static_cast<double>((*this)(particle, component));
+  }
+
+  void resize(std::size_t particles) override {
+    particles_ = particles;
+    data_.assign((particles + lanes - 1) / lanes * lanes * Components, T{});
+  }
+
+  void reorder(const std::vector<std::uint32_t>& order) override {
+    spare_.resize(data_.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      for (int c = 0; c < Components; ++c) {
+        spare_[position(k, c)] = data_[position(order[k], c)];
+      }
+    }
+    data_.swap(spare_);
+  }
+
+  [[nodiscard]] std::vector<std::byte> bytes() const override {
+    std::vector<std::byte> all(particles_ * Components * sizeof(T));
+    for (std::size_t k = 0; k < particles_; ++k) {
+      for (int c = 0; c < Components; ++c) {
+        std::memcpy(&all[(k * Components + static_cast<std::size_t>(c)) * sizeof(T)], &(*this)(k, c), sizeof(T));
+      }
+    }
+    return all;
+  }
+  void set_bytes(const std::vector<std::byte>& all) override {
+    THAWSLIDE_ASSERT(all.size() == particles_ * Components * sizeof(T), "field {}: {} bytes for {} particles",
+                     info().name, all.size(), particles_);
+    for (std::size_t k = 0; k < particles_; ++k) {
+      for (int c = 0; c < Components; ++c) {
+        std::memcpy(&(*this)(k, c), &all[(k * Components + static_cast<std::size_t>(c)) * sizeof(T)], sizeof(T));
+      }
+    }
+  }
+
+ private:
+  static std::size_t position(std::size_t particle, int component) {
+    return (particle / lanes * Components + static_cast<std::size_t>(component)) * lanes + particle % lanes;
+  }
+
+  std::size_t particles_ = 0;
+  AlignedVector<T> data_, spare_;
+};
+
+}  // namespace thawslide::mpm

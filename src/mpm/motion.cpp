@@ -1,0 +1,264 @@
+#include "mpm/motion.hpp"
+
+#include <cmath>
+
+#include "physics/kinematics.hpp"
+
+namespace thawslide::mpm {
+
+namespace {
+
+// Calls work(shape) with the shape functions chosen.
+template <class Real, class Work>
+void with_shape(ShapeKind kind, const Work& work) {
+  if (kind == ShapeKind::ugimp) {
+    work(Ugimp<Real>{});
+  } else {
+    work(Linear<Real>{});
+  }
+}
+
+template <int Dim, class Real>
+Stencil<Dim, Real> momentum_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile, std::uint32_t p,
+                                    const Particles<Dim, Real>& particles, const MotionModel<Dim, Real>& model,
+                                    auto shape) {
+  return make_stencil<decltype(shape), Dim, Real>(grid, tile, particles.position.template get<Vector<Real, Dim>>(p),
+                                                  model.bodies[static_cast<std::size_t>(particles.body(p))].half_size);
+}
+
+// sigma.G for a tensor stored as xx yy zz xy [yz xz].
+template <int Dim, class Real, class Stress>
+Vector<Real, Dim> traction(const Stress& s, const Vector<Real, Dim>& g) {
+  if constexpr (Dim == 2) {
+    return {s[0] * g[0] + s[3] * g[1], s[3] * g[0] + s[1] * g[1]};
+  } else {
+    return {s[0] * g[0] + s[3] * g[1] + s[5] * g[2], s[3] * g[0] + s[1] * g[1] + s[4] * g[2],
+            s[5] * g[0] + s[4] * g[1] + s[2] * g[2]};
+  }
+}
+
+template <class Real>
+Real double_contraction(const SymmetricTensor<Real>& a, const SymmetricTensor<Real>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + Real(2) * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
+                      const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes) {
+  using Layout = MomentumLayout<Dim>;
+  auto& patches = nodes.momentum.patches(grid.tiles().size());
+  with_shape<Real>(model.shape, [&](auto shape) {
+    parallel_for(grid.tiles().size(), [&](std::size_t t) {
+      auto& patch = patches[t];
+      patch.clear();
+      const auto& tile = grid.tiles()[t];
+      for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+        const std::uint32_t p = grid.order()[k];
+        const Real mass = particles.mass(p);
+        const Real volume = particles.volume(p);
+        const auto velocity = particles.velocity.template get<Vector<Real, Dim>>(p);
+        Eigen::Matrix<Real, Particles<Dim, Real>::tensor_components, 1> stress;
+        for (int c = 0; c < Particles<Dim, Real>::tensor_components; ++c) {
+          stress[c] = volume * (particles.stress(p, c) + particles.viscous_stress(p, c));
+        }
+        const Real pore_pressure = particles.pore_pressure(p);
+        const Real saturation = particles.liquid_saturation(p);
+        const Real porosity = particles.porosity(p);
+        const Real slip = particles.slip(p);
+        const auto stencil = momentum_stencil(grid, tile.key, p, particles, model, shape);
+        stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& gradient) {
+          auto& node = patch.records[place];
+          const Real m = weight * mass;
+          const Vector<Real, Dim> internal = traction<Dim, Real>(stress, gradient);
+          node[Layout::mass] += m;
+          for (std::size_t a = 0; a < Dim; ++a) {
+            const int i = static_cast<int>(a);
+            node[Layout::momentum + a] += m * velocity[i];
+            node[Layout::force + a] += m * model.gravity[i] - internal[i];
+            node[Layout::volume_gradient + a] += volume * gradient[i];
+          }
+          node[Layout::pore_pressure] += m * pore_pressure;
+          node[Layout::saturation] += m * saturation;
+          node[Layout::porosity] += m * porosity;
+          node[Layout::slip] += m * slip;
+        });
+      }
+    });
+  });
+  sum_patches(grid, nodes.momentum);
+}
+
+template <int Dim, class Real>
+MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
+                              const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes) {
+  using Layout = MotionLayout<Dim>;
+  auto& patches = nodes.velocity.patches(grid.tiles().size());
+  std::vector<MoveWork<Real>> works(grid.tiles().size());
+  with_shape<Real>(model.shape, [&](auto shape) {
+    parallel_for(grid.tiles().size(), [&](std::size_t t) {
+      auto& patch = patches[t];
+      patch.clear();
+      Patch<Dim, Real, Layout::size> motion;
+      load_patch(grid, t, nodes.motion, motion);
+      const auto& tile = grid.tiles()[t];
+      for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+        const std::uint32_t p = grid.order()[k];
+        const auto stencil = momentum_stencil(grid, tile.key, p, particles, model, shape);
+        Vector<Real, Dim> acceleration = Vector<Real, Dim>::Zero();
+        Vector<Real, Dim> middle_velocity = Vector<Real, Dim>::Zero();
+        stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
+          acceleration += weight * vector_at<Dim, Real>(motion.records[place], Layout::acceleration);
+          middle_velocity += weight * vector_at<Dim, Real>(motion.records[place], Layout::middle_velocity);
+        });
+        const Real mass = particles.mass(p);
+        const Vector<Real, Dim> velocity = particles.velocity.template get<Vector<Real, Dim>>(p) + dt * acceleration;
+        particles.velocity.set(p, velocity);
+        particles.step_displacement.set(p, Vector<Real, Dim>(dt * middle_velocity));
+        works[t].particle_kinetic += Real(0.5) * mass * dt * dt * acceleration.squaredNorm();
+        stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
+          for (std::size_t a = 0; a < Dim; ++a) {
+            patch.records[place][a] += weight * mass * velocity[static_cast<int>(a)];
+          }
+        });
+      }
+    });
+  });
+  sum_patches(grid, nodes.velocity);
+  MoveWork<Real> sum;
+  for (const MoveWork<Real>& work : works) {
+    sum.particle_kinetic += work.particle_kinetic;
+  }
+  return sum;
+}
+
+namespace {
+
+// One particle's strain, rotation, stress, volume and porosity; returns the energies. Everything the law needs is passed in.
+template <int Dim, class Real, class Law>
+StressWork<Real> deform(Particles<Dim, Real>& particles, std::uint32_t p, const Matrix<Real, Dim>& displacement_gradient,
+                        const Law& law, const MaterialModel<Real>& material, const physics::Phases<Real>& phases,
+                        Real dt) {
+  const auto increment = physics::strain_increment<Real, Dim>(displacement_gradient);
+  const SymmetricTensor<Real> old_stress = full_tensor<Dim, Real>(particles.stress, p);
+  const SymmetricTensor<Real> elastic = physics::stress_increment(material.elastic, increment.strain);
+  const SymmetricTensor<Real> trial = physics::rotate<Real, Dim>(old_stress, increment.rotation) + elastic;
+  const auto result = law.update(trial, particles.plastic_strain(p));
+  SymmetricTensor<Real> viscous = SymmetricTensor<Real>::Zero();
+  if (material.viscosity_time > Real(0)) {
+    viscous = (material.viscosity_time / dt) * elastic;
+  }
+  const Real volume = particles.volume(p);
+  StressWork<Real> work;
+  work.total = volume * Real(0.5) * double_contraction<Real>(old_stress + result.stress, increment.strain);
+  work.plastic = volume * result.plastic_work_density;
+  work.viscous = volume * double_contraction<Real>(viscous, increment.strain);
+  for (int c = 0; c < Particles<Dim, Real>::tensor_components; ++c) {
+    particles.stress(p, c) = result.stress[c];
+    particles.viscous_stress(p, c) = viscous[c];
+  }
+  particles.plastic_strain(p) += result.equivalent_plastic_strain_increment;
+  particles.volume(p) = volume * increment.volume_ratio;
+  particles.porosity(p) = physics::updated_porosity(
+      phases, particles.porosity(p), increment.strain[0] + increment.strain[1] + increment.strain[2], Real(0));
+  return work;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
+                                            const MotionModel<Dim, Real>& model, Real dt, const Nodes<Dim, Real>& nodes,
+                                            BadParticle& bad) {
+  std::vector<StressWork<Real>> works(grid.tiles().size());
+  std::vector<BadParticle> bads(grid.tiles().size());
+  with_shape<Real>(model.shape, [&](auto shape) {
+    parallel_for(grid.tiles().size(), [&](std::size_t t) {
+      Patch<Dim, Real, Dim> velocity;
+      load_patch(grid, t, nodes.velocity, velocity);
+      const auto& tile = grid.tiles()[t];
+      StressWork<Real>& sum = works[t];
+      // Runs of particles of one material share one choice of law.
+      for (std::uint32_t k = tile.first; k < tile.last;) {
+        const std::int32_t material = particles.material(grid.order()[k]);
+        const MaterialModel<Real>& chosen = model.materials[static_cast<std::size_t>(material)];
+        std::visit(
+            [&](const auto& law) {
+              for (; k < tile.last && particles.material(grid.order()[k]) == material; ++k) {
+                const std::uint32_t p = grid.order()[k];
+                const auto stencil = momentum_stencil(grid, tile.key, p, particles, model, shape);
+                Matrix<Real, Dim> gradient = Matrix<Real, Dim>::Zero();
+                stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
+                  gradient += vector_at<Dim, Real>(velocity.records[place], 0) * slope.transpose();
+                });
+                const StressWork<Real> work =
+                    deform<Dim, Real>(particles, p, dt * gradient, law, chosen, model.phases, dt);
+                sum.total += work.total;
+                sum.plastic += work.plastic;
+                sum.viscous += work.viscous;
+                if (!(particles.volume(p) > Real(0))) {
+                  bads[t].note(particles.id(p), "its volume ratio is not positive");
+                }
+              }
+            },
+            chosen.law);
+      }
+    });
+  });
+  StressWork<Real> sum;
+  for (const StressWork<Real>& work : works) {
+    sum.total += work.total;
+    sum.plastic += work.plastic;
+    sum.viscous += work.viscous;
+  }
+  for (const BadParticle& one : bads) {
+    bad.note(one.id, one.what);
+  }
+  return sum;
+}
+
+template <int Dim, class Real>
+void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& extent, BadParticle& bad) {
+  constexpr std::size_t chunk = 1024;
+  const std::size_t tasks = (particles.size() + chunk - 1) / chunk;
+  std::vector<BadParticle> bads(tasks);
+  parallel_for(tasks, [&](std::size_t task) {
+    const std::size_t last = std::min(particles.size(), (task + 1) * chunk);
+    for (std::size_t p = task * chunk; p < last; ++p) {
+      const auto step = particles.step_displacement.template get<Vector<Real, Dim>>(p);
+      const Vector<Real, Dim> position = particles.position.template get<Vector<Real, Dim>>(p) + step;
+      if (!position.allFinite() || !std::isfinite(particles.temperature(p)) || !std::isfinite(particles.stress(p, 0))) {
+        bads[task].note(particles.id(p), "its position, stress or temperature is not a finite number");
+        continue;
+      }
+      if ((position.array() < Real(0)).any() || (position.array() > extent.array()).any()) {
+        bads[task].note(particles.id(p), "it left the domain");
+        continue;
+      }
+      particles.position.set(p, position);
+      particles.path_length(p) += step.norm();
+      for (int a = 0; a < Dim; ++a) {
+        particles.displacement(p, a) += step[a];
+      }
+    }
+  });
+  for (const BadParticle& one : bads) {
+    bad.note(one.id, one.what);
+  }
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
+  template void momentum_to_grid<Dim, Real>(const SparseGrid<Dim, Real>&, const Particles<Dim, Real>&,                 \
+                                            const MotionModel<Dim, Real>&, Nodes<Dim, Real>&);                         \
+  template MoveWork<Real> move_particles<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,               \
+                                                    const MotionModel<Dim, Real>&, Real, Nodes<Dim, Real>&);           \
+  template StressWork<Real> update_stress_and_porosity<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&, \
+                                                                  const MotionModel<Dim, Real>&, Real,                 \
+                                                                  const Nodes<Dim, Real>&, BadParticle&);              \
+  template void take_new_positions<Dim, Real>(Particles<Dim, Real>&, const Vector<Real, Dim>&, BadParticle&);
+THAWSLIDE_INSTANTIATE(2, double)
+THAWSLIDE_INSTANTIATE(3, double)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,91 @@
+// Momentum on the grid and the motion of particles (Eqs. 6, 10-14): the stages that need no terrain and no heat.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "mpm/constraints.hpp"
+#include "mpm/nodes.hpp"
+#include "mpm/particles.hpp"
+#include "physics/elasticity.hpp"
+#include "physics/mixture.hpp"
+#include "physics/mohr_coulomb.hpp"
+
+namespace thawslide::mpm {
+
+enum class ShapeKind { ugimp, linear };
+
+// What a body's particles share.
+template <class Real>
+struct BodyModel {
+  Real half_size = 0;  // of a particle, in cells
+};
+
+// What a material's particles share.
+template <class Real>
+struct MaterialModel {
+  physics::ConstitutiveLaw<Real> law;
+  physics::Elastic<Real> elastic;
+  Real viscosity_time = 0;          // Kelvin-Voigt [s]
+  Real hydraulic_conductivity = 0;  // [m/s]
+};
+
+template <int Dim, class Real>
+struct MotionModel {
+  ShapeKind shape = ShapeKind::ugimp;
+  Vector<Real, Dim> gravity;  // [m/s2]
+  Real mass_damping = 0;      // [1/s]
+  std::vector<BodyModel<Real>> bodies;
+  std::vector<MaterialModel<Real>> materials;
+  physics::Phases<Real> phases;
+};
+
+// Energies of one step [J].
+template <class Real>
+struct StressWork {
+  Real total = 0;    // of the constitutive stress on the strain
+  Real plastic = 0;  // dissipated in plastic strain
+  Real viscous = 0;  // dissipated by viscosity
+};
+
+// What moving the particles cost.
+template <class Real>
+struct MoveWork {
+  Real particle_kinetic = 0;  // sum m |dv|^2 / 2 over particles [J]
+};
+
+// A particle found in a bad state, the one of smallest id; id < 0 if all are well.
+struct BadParticle {
+  std::int64_t id = -1;
+  const char* what = "";
+
+  void note(std::int64_t other, const char* why) {
+    if (other >= 0 && (id < 0 || other < id)) {
+      id = other;
+      what = why;
+    }
+  }
+};
+
+// Particle mass, momentum, force (Eq. 12) and surface area to the nodes.
+template <int Dim, class Real>
+void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
+                      const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes);
+
+// New velocities (Eq. 13) and displacements (Eq. 14, with the sum sign it lost) from node motion; then the moved
+// particles' momentum back to the nodes (MUSL). The displacement takes effect in take_new_positions.
+template <int Dim, class Real>
+MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
+                              const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes);
+
+// Strain, rotation, stress (Eq. 11), volume and porosity (Eq. 6, mechanical part) from the mapped-back velocities.
+template <int Dim, class Real>
+StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
+                                            const MotionModel<Dim, Real>& model, Real dt, const Nodes<Dim, Real>& nodes,
+                                            BadParticle& bad);
+
+// Lets the step's displacement take effect; reports a particle that is not finite or outside [0, extent].
+template <int Dim, class Real>
+void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& extent, BadParticle& bad);
+
+}  // namespace thawslide::mpm

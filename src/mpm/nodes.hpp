@@ -1,0 +1,85 @@
+// What nodes hold during a step: the layouts of their records.
+#pragma once
+
+#include "mpm/transfer.hpp"
+
+namespace thawslide::mpm {
+
+// Sums over particles with the momentum shape functions S_ip and gradients G_ip.
+template <int Dim>
+struct MomentumLayout {
+  static constexpr std::size_t mass = 0;                       // sum S m [kg]
+  static constexpr std::size_t momentum = 1;                   // sum S m v [kg m/s]
+  static constexpr std::size_t force = 1 + Dim;                // sum S m b - V sigma.G [N], Eq. 12
+  static constexpr std::size_t volume_gradient = 1 + 2 * Dim;  // sum V G [m2]: the area vector of the body's surface
+  static constexpr std::size_t pore_pressure = 1 + 3 * Dim;    // sum S m P [kg Pa]; with the three below for nodes
+  static constexpr std::size_t saturation = 2 + 3 * Dim;       // without hat weight
+  static constexpr std::size_t porosity = 3 + 3 * Dim;
+  static constexpr std::size_t slip = 4 + 3 * Dim;             // sum S m slip [kg m]
+  static constexpr int size = 5 + 3 * Dim;
+};
+
+// What particles read to move: the node's acceleration [m/s2] and its velocity at mid-step [m/s].
+template <int Dim>
+struct MotionLayout {
+  static constexpr std::size_t acceleration = 0;
+  static constexpr std::size_t middle_velocity = Dim;
+  static constexpr int size = 2 * Dim;
+};
+
+// Sums over particles with the linear hats, weighted by volume: temperature, pore pressure (Eq. 21, normalised).
+struct HatLayout {
+  static constexpr std::size_t volume = 0;  // sum S V [m3]
+  static constexpr std::size_t temperature = 1;
+  static constexpr std::size_t pore_pressure = 2;
+  static constexpr std::size_t saturation = 3;
+  static constexpr std::size_t porosity = 4;
+  static constexpr int size = 5;
+};
+
+// What contact leaves at a node for the stages after it.
+struct ContactLayout {
+  static constexpr std::size_t touching = 0;       // 1 in contact, 0 not
+  static constexpr std::size_t slip_speed = 1;     // [m/s], tangential, at mid-step
+  static constexpr std::size_t friction_heat = 2;  // [W], after the conversion coefficient
+  static constexpr int size = 3;
+};
+
+template <int Dim, class Real>
+struct Nodes {
+  NodeRecords<Dim, Real, MomentumLayout<Dim>::size> momentum;
+  NodeRecords<Dim, Real, MotionLayout<Dim>::size> motion;
+  NodeRecords<Dim, Real, Dim> velocity;  // mapped back from the moved particles (MUSL) [m/s]
+  NodeRecords<Dim, Real, HatLayout::size> hats;
+  NodeRecords<Dim, Real, ContactLayout::size> contact;
+};
+
+// Position [m, relative to the domain's lower corner] of a node of a block.
+template <int Dim, class Real>
+Vector<Real, Dim> node_position(const SparseGrid<Dim, Real>& grid, std::size_t block, std::size_t node) {
+  using T = Tile<Dim>;
+  const typename T::Index index = T::node(T::index(grid.blocks()[block]), static_cast<int>(node));
+  Vector<Real, Dim> position;
+  for (int a = 0; a < Dim; ++a) {
+    position[a] = static_cast<Real>(index[static_cast<std::size_t>(a)]) * grid.cell();
+  }
+  return position;
+}
+
+template <int Dim, class Real, class Record>
+Vector<Real, Dim> vector_at(const Record& record, std::size_t first) {
+  Vector<Real, Dim> v;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    v[static_cast<int>(a)] = record[first + a];
+  }
+  return v;
+}
+
+template <int Dim, class Record, class Value>
+void set_vector(Record& record, std::size_t first, const Value& v) {
+  for (std::size_t a = 0; a < Dim; ++a) {
+    record[first + a] = v[static_cast<int>(a)];
+  }
+}
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,87 @@
+// The material points: every quantity a particle carries, declared once.
+#pragma once
+
+#include <cstdint>
+
+#include "base/linear.hpp"
+#include "mpm/field.hpp"
+
+namespace thawslide::mpm {
+
+template <int Dim, class Real>
+class Particles {
+ public:
+  static constexpr int tensor_components = Dim == 2 ? 4 : 6;
+  using Scalar = Field<Real, 1>;
+  using VectorField = Field<Real, Dim>;
+  using TensorField = Field<Real, tensor_components>;
+
+  FieldList fields;
+
+  // clang-format off
+  Field<std::int64_t, 1> id{fields, {"id", "1", FieldShape::scalar, true}};
+  Field<std::int32_t, 1> body{fields, {"body", "1", FieldShape::scalar, true}};
+  Field<std::int32_t, 1> material{fields, {"material", "1"}};
+  Scalar mass{fields, {"mass", "kg", FieldShape::scalar, true}};
+  Scalar volume{fields, {"volume", "m3", FieldShape::scalar, true}};
+  Scalar initial_volume{fields, {"initial_volume", "m3"}};
+  VectorField position{fields, {"position", "m", FieldShape::vector}};  // relative to the domain's lower corner
+  VectorField velocity{fields, {"velocity", "m/s", FieldShape::vector, true}};
+  VectorField displacement{fields, {"displacement", "m", FieldShape::vector, true}};
+  Scalar path_length{fields, {"path_length", "m", FieldShape::scalar, true}};
+  TensorField stress{fields, {"stress", "Pa", FieldShape::tensor, true}};
+  TensorField viscous_stress{fields, {"viscous_stress", "Pa", FieldShape::tensor}};
+  Scalar plastic_strain{fields, {"plastic_strain", "1", FieldShape::scalar, true}};
+  Scalar temperature{fields, {"temperature", "C", FieldShape::scalar, true}};
+  Scalar heat_content{fields, {"heat_content", "J/m3"}};        // per initial volume, 0 for frozen matter at Tref
+  Scalar liquid_saturation{fields, {"liquid_saturation", "1", FieldShape::scalar, true}};
+  Scalar porosity{fields, {"porosity", "1", FieldShape::scalar, true}};
+  Scalar initial_porosity{fields, {"initial_porosity", "1"}};
+  Scalar initial_saturation{fields, {"initial_saturation", "1"}};
+  Scalar ice_pressure{fields, {"ice_pressure", "Pa", FieldShape::scalar, true}};
+  Scalar liquid_pressure{fields, {"liquid_pressure", "Pa", FieldShape::scalar, true}};
+  Scalar pore_pressure{fields, {"pore_pressure", "Pa", FieldShape::scalar, true}};
+  Scalar flow_depth{fields, {"flow_depth", "m"}};               // H of P_I = rho_I g H
+  Scalar thermal_scaling{fields, {"thermal_scaling", "1"}};     // xi in force
+  Scalar slip{fields, {"slip", "m", FieldShape::scalar, true}};
+  Field<std::int32_t, 1> in_band{fields, {"in_band", "1", FieldShape::scalar, true}};
+  // Within a step only: the displacement to come, the temperature before it, the capacity along it.
+  VectorField step_displacement{fields, {"step_displacement", "m", FieldShape::vector, false, false}};
+  Scalar previous_temperature{fields, {"previous_temperature", "C", FieldShape::scalar, false, false}};
+  Scalar secant_capacity{fields, {"secant_capacity", "J/m3/K", FieldShape::scalar, false, false}};
+  // clang-format on
+
+  Particles() = default;
+  Particles(const Particles&) = delete;
+  Particles& operator=(const Particles&) = delete;
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  void resize(std::size_t particles) {
+    size_ = particles;
+    for (FieldBase* field : fields.all()) {
+      field->resize(particles);
+    }
+  }
+
+  void reorder(const std::vector<std::uint32_t>& order) {
+    for (FieldBase* field : fields.all()) {
+      field->reorder(order);
+    }
+  }
+
+ private:
+  std::size_t size_ = 0;
+};
+
+// A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.
+template <int Dim, class Real>
+SymmetricTensor<Real> full_tensor(const typename Particles<Dim, Real>::TensorField& field, std::size_t particle) {
+  SymmetricTensor<Real> s = SymmetricTensor<Real>::Zero();
+  for (int c = 0; c < Particles<Dim, Real>::tensor_components; ++c) {
+    s[c] = field(particle, c);
+  }
+  return s;
+}
+
+}  // namespace thawslide::mpm

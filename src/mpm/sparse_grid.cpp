@@ -1,0 +1,148 @@
+#include "mpm/sparse_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/parallel.hpp"
+
+namespace thawslide::mpm {
+
+namespace {
+
+constexpr std::size_t keys_per_task = 1024;
+
+template <int Dim>
+typename Tile<Dim>::Index neighbour(const typename Tile<Dim>::Index& tile, int direction) {
+  typename Tile<Dim>::Index other = tile;
+  for (int a = 0; a < Dim; ++a) {
+    other[static_cast<std::size_t>(a)] += direction % 3 - 1;
+    direction /= 3;
+  }
+  return other;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval) {
+  const std::size_t count = particles.size();
+  const bool first_call = order_.size() != count;
+  if (first_call) {
+    keys_.assign(count, ~std::uint64_t{0});
+    moved_.assign(count, 0);
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), 0u);
+  }
+  const bool any_moved = compute_keys(particles);
+  if (any_moved) {
+    merge_moved(particles);
+  }
+  if (first_call || ++calls_ >= interval) {
+    calls_ = 0;
+    particles.reorder(order_);
+    std::vector<std::uint64_t> keys(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      keys[k] = keys_[order_[k]];
+    }
+    keys_.swap(keys);
+    std::iota(order_.begin(), order_.end(), 0u);
+  }
+  blocks_changed_ = false;
+  if (any_moved || first_call) {
+    find_tiles();
+  }
+}
+
+template <int Dim, class Real>
+bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) {
+  const std::size_t count = particles.size();
+  const std::size_t tasks = (count + keys_per_task - 1) / keys_per_task;
+  std::vector<std::uint8_t> task_moved(tasks, 0);
+  parallel_for(tasks, [&](std::size_t task) {
+    const std::size_t last = std::min(count, (task + 1) * keys_per_task);
+    for (std::size_t p = task * keys_per_task; p < last; ++p) {
+      Index node{}, tile{};
+      Vector<Real, Dim> offset;
+      int local = 0;
+      nearest_node(particles.position.template get<Vector<Real, Dim>>(p), node, offset);
+      T::split(node, tile, local);
+      const std::uint64_t key = (T::key(tile) << (2 * Dim)) | static_cast<std::uint64_t>(local);
+      moved_[p] = key != keys_[p] ? 1 : 0;
+      keys_[p] = key;
+      task_moved[task] |= moved_[p];
+    }
+  });
+  return std::any_of(task_moved.begin(), task_moved.end(), [](std::uint8_t moved) { return moved != 0; });
+}
+
+// Those that stayed are still in order; those that moved are sorted and merged in.
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    return keys_[a] != keys_[b] ? keys_[a] < keys_[b] : particles.id(a) < particles.id(b);
+  };
+  std::vector<std::uint32_t> movers;
+  spare_order_.clear();
+  for (const std::uint32_t p : order_) {
+    (moved_[p] != 0 ? movers : spare_order_).push_back(p);
+  }
+  std::sort(movers.begin(), movers.end(), before);
+  std::merge(spare_order_.begin(), spare_order_.end(), movers.begin(), movers.end(), order_.begin(), before);
+}
+
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::find_tiles() {
+  tiles_.clear();
+  const std::vector<std::uint64_t> old_keys = std::move(tile_keys_);
+  tile_keys_.clear();
+  for (std::uint32_t k = 0; k < order_.size(); ++k) {
+    const std::uint64_t key = keys_[order_[k]] >> (2 * Dim);
+    if (tiles_.empty() || tiles_.back().key != key) {
+      tiles_.push_back({key, k, k});
+      tile_keys_.push_back(key);
+    }
+    tiles_.back().last = k + 1;
+  }
+  if (tile_keys_ != old_keys) {
+    connect_blocks();
+    blocks_changed_ = true;
+  }
+}
+
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::connect_blocks() {
+  blocks_.clear();
+  KeyIndex tile_number;
+  for (const OccupiedTile& tile : tiles_) {
+    tile_number.insert(tile.key);
+    const Index here = T::index(tile.key);
+    for (int d = 0; d < T::stencil; ++d) {
+      blocks_.push_back(T::key(neighbour<Dim>(here, d)));
+    }
+  }
+  std::sort(blocks_.begin(), blocks_.end());
+  blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
+
+  KeyIndex block_number;
+  tiles_about_block_.resize(blocks_.size() * stencil);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    block_number.insert(blocks_[b]);
+    for (int d = 0; d < T::stencil; ++d) {
+      tiles_about_block_[b * stencil + static_cast<std::size_t>(d)] =
+          tile_number.find(T::key(neighbour<Dim>(T::index(blocks_[b]), d)));
+    }
+  }
+  blocks_about_tile_.resize(tiles_.size() * stencil);
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    for (int d = 0; d < T::stencil; ++d) {
+      blocks_about_tile_[t * stencil + static_cast<std::size_t>(d)] =
+          block_number.find(T::key(neighbour<Dim>(T::index(tiles_[t].key), d)));
+    }
+  }
+}
+
+template class SparseGrid<2, double>;
+template class SparseGrid<3, double>;
+
+}  // namespace thawslide::mpm

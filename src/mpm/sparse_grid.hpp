@@ -1,0 +1,77 @@
+// The background grid, where particles are: which tiles hold particles, in which order particles are visited, and which
+// blocks of nodes they touch. Its cost follows occupied cells, never the bounding box.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/key_index.hpp"
+#include "mpm/particles.hpp"
+#include "mpm/tile.hpp"
+
+namespace thawslide::mpm {
+
+template <int Dim, class Real>
+class SparseGrid {
+ public:
+  using T = Tile<Dim>;
+  using Index = typename T::Index;
+
+  struct OccupiedTile {
+    std::uint64_t key;
+    std::uint32_t first, last;  // its particles: order()[first .. last-1]
+  };
+
+  // cell: mesh size [m].
+  explicit SparseGrid(Real cell) : cell_(cell), inverse_cell_(Real(1) / cell) {}
+
+  [[nodiscard]] Real cell() const { return cell_; }
+  [[nodiscard]] Real inverse_cell() const { return inverse_cell_; }
+
+  // Brings order, tiles and blocks up to date with the particles' positions. Particles stand by nearest node, then by id,
+  // whatever their place in memory. Every `interval` calls particles are also moved in memory to stand in this order.
+  void update(Particles<Dim, Real>& particles, int interval);
+
+  // Particle indices in canonical order.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+  [[nodiscard]] const std::vector<OccupiedTile>& tiles() const { return tiles_; }
+  // Keys of the active blocks: occupied tiles and their neighbours, ascending.
+  [[nodiscard]] const std::vector<std::uint64_t>& blocks() const { return blocks_; }
+  // True if the last update changed the set of blocks (block numbers then changed too).
+  [[nodiscard]] bool blocks_changed() const { return blocks_changed_; }
+  // For the 3^Dim neighbours of block b in order: the number of the occupied tile there, or KeyIndex::absent.
+  [[nodiscard]] const std::int32_t* tiles_about_block(std::size_t b) const { return &tiles_about_block_[b * stencil]; }
+  // For the 3^Dim neighbours of tile t in order: the number of the block there.
+  [[nodiscard]] const std::int32_t* blocks_about_tile(std::size_t t) const { return &blocks_about_tile_[t * stencil]; }
+
+  // Nearest node of a position, and the offset from it in cells.
+  void nearest_node(const Vector<Real, Dim>& position, Index& node, Vector<Real, Dim>& offset) const {
+    for (int a = 0; a < Dim; ++a) {
+      const Real s = position[a] * inverse_cell_;
+      const Real nearest = std::floor(s + Real(0.5));
+      node[static_cast<std::size_t>(a)] = static_cast<int>(nearest);
+      offset[a] = s - nearest;
+    }
+  }
+
+ private:
+  static constexpr std::size_t stencil = static_cast<std::size_t>(T::stencil);
+
+  bool compute_keys(const Particles<Dim, Real>& particles);
+  void merge_moved(const Particles<Dim, Real>& particles);
+  void find_tiles();
+  void connect_blocks();
+
+  Real cell_, inverse_cell_;
+  std::vector<std::uint64_t> keys_;  // by particle: tile key, then place in the tile
+  std::vector<std::uint8_t> moved_;
+  std::vector<std::uint32_t> order_, spare_order_;
+  std::vector<OccupiedTile> tiles_;
+  std::vector<std::uint64_t> tile_keys_;
+  std::vector<std::uint64_t> blocks_;
+  std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_;
+  bool blocks_changed_ = true;
+  int calls_ = 0;
+};
+
+}  // namespace thawslide::mpm

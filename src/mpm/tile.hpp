@@ -1,0 +1,72 @@
+// Tiles: squares (2D) or cubes (3D) of 4 nodes a side. Tiles with particles own a patch, one node wider on each side, to
+// which their particles alone add; sums over patches go in fixed order, so results do not depend on the thread count.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace thawslide::mpm {
+
+constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+
+template <int Dim>
+struct Tile {
+  static constexpr int edge = 4;
+  static constexpr int nodes = power(edge, Dim);
+  static constexpr int patch_edge = edge + 2;
+  static constexpr int patch_nodes = power(patch_edge, Dim);
+  static constexpr int stencil = power(3, Dim);  // nodes of a particle; also tiles in the neighbourhood of one
+
+  using Index = std::array<int, Dim>;
+
+  // Tiles hold up to 2^18 per axis, offset so that indices down to -2^17 are valid.
+  static constexpr int axis_bits = 18;
+  static constexpr int axis_offset = 1 << (axis_bits - 1);
+
+  static std::uint64_t key(const Index& tile) {
+    std::uint64_t packed = 0;
+    for (int a = Dim - 1; a >= 0; --a) {
+      packed = (packed << axis_bits) | static_cast<std::uint64_t>(tile[static_cast<std::size_t>(a)] + axis_offset);
+    }
+    return packed;
+  }
+  static Index index(std::uint64_t key) {
+    Index tile{};
+    for (int a = 0; a < Dim; ++a) {
+      tile[static_cast<std::size_t>(a)] =
+          static_cast<int>((key >> (a * axis_bits)) & ((1u << axis_bits) - 1)) - axis_offset;
+    }
+    return tile;
+  }
+
+  // Splits a node index into its tile and its place in the tile.
+  static void split(const Index& node, Index& tile, int& local) {
+    local = 0;
+    for (int a = Dim - 1; a >= 0; --a) {
+      const int i = node[static_cast<std::size_t>(a)];
+      const int t = i >= 0 ? i / edge : -((-i + edge - 1) / edge);
+      tile[static_cast<std::size_t>(a)] = t;
+      local = local * edge + (i - t * edge);
+    }
+  }
+  // Index of the local node of a tile.
+  static Index node(const Index& tile, int local) {
+    Index n{};
+    for (int a = 0; a < Dim; ++a) {
+      n[static_cast<std::size_t>(a)] = tile[static_cast<std::size_t>(a)] * edge + local % edge;
+      local /= edge;
+    }
+    return n;
+  }
+  // Place in the patch of a node given relative to the tile's first node, each component in [-1, edge].
+  static int in_patch(const Index& relative) {
+    int place = 0;
+    for (int a = Dim - 1; a >= 0; --a) {
+      place = place * patch_edge + relative[static_cast<std::size_t>(a)] + 1;
+    }
+    return place;
+  }
+};
+
+}  // namespace thawslide::mpm

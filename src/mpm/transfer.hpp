@@ -1,0 +1,172 @@
+// Moving numbers between particles and nodes: what a tile's particles add to, its patch; what nodes hold; what a tile's
+// particles read. A record is the `Components` numbers a node holds for one purpose, side by side.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "base/aligned.hpp"
+#include "base/parallel.hpp"
+#include "mpm/shape.hpp"
+#include "mpm/sparse_grid.hpp"
+
+namespace thawslide::mpm {
+
+// The records about one tile, with a margin of one node.
+template <int Dim, class Real, int Components>
+struct Patch {
+  using Record = std::array<Real, static_cast<std::size_t>(Components)>;
+  alignas(cache_line) std::array<Record, static_cast<std::size_t>(Tile<Dim>::patch_nodes)> records;
+
+  void clear() { records.fill(Record{}); }
+};
+
+// One record a node of every active block, and the patches that are summed into it.
+template <int Dim, class Real, int Components>
+class NodeRecords {
+ public:
+  using Record = std::array<Real, static_cast<std::size_t>(Components)>;
+  static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
+
+  [[nodiscard]] Record& operator()(std::size_t block, std::size_t node) { return records_[block * nodes + node]; }
+  [[nodiscard]] const Record& operator()(std::size_t block, std::size_t node) const {
+    return records_[block * nodes + node];
+  }
+  void resize(std::size_t blocks) { records_.resize(blocks * nodes); }
+
+  // Patches for the tiles, to be cleared and filled by whoever works on a tile.
+  AlignedVector<Patch<Dim, Real, Components>>& patches(std::size_t tiles) {
+    patches_.resize(tiles);
+    return patches_;
+  }
+
+ private:
+  AlignedVector<Record> records_;
+  AlignedVector<Patch<Dim, Real, Components>> patches_;
+};
+
+// Calls visit(block_place, patch_place) for each node that block and patch share, the block lying in `direction` (0 .. 3^Dim-1)
+// from the patch's tile.
+template <int Dim, class Visit>
+void for_shared_nodes(int direction, const Visit& visit) {
+  using T = Tile<Dim>;
+  std::array<int, Dim> first{}, last{}, shift{};
+  for (std::size_t a = 0; a < Dim; ++a) {
+    const int d = direction % 3 - 1;
+    direction /= 3;
+    first[a] = d < 0 ? T::edge - 1 : 0;
+    last[a] = d > 0 ? 1 : T::edge;
+    shift[a] = d * T::edge + 1;  // patch coordinate of the block's node 0
+  }
+  if constexpr (Dim == 2) {
+    for (int j = first[1]; j < last[1]; ++j) {
+      for (int i = first[0]; i < last[0]; ++i) {
+        visit(static_cast<std::size_t>(j * T::edge + i),
+              static_cast<std::size_t>((j + shift[1]) * T::patch_edge + i + shift[0]));
+      }
+    }
+  } else {
+    for (int k = first[2]; k < last[2]; ++k) {
+      for (int j = first[1]; j < last[1]; ++j) {
+        for (int i = first[0]; i < last[0]; ++i) {
+          visit(static_cast<std::size_t>((k * T::edge + j) * T::edge + i),
+                static_cast<std::size_t>(((k + shift[2]) * T::patch_edge + j + shift[1]) * T::patch_edge + i + shift[0]));
+        }
+      }
+    }
+  }
+}
+
+// Node sums of what the patches of the tiles hold, always in the same order of tiles.
+template <int Dim, class Real, int Components>
+void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes) {
+  nodes.resize(grid.blocks().size());
+  const auto& patches = nodes.patches(grid.tiles().size());
+  parallel_for(grid.blocks().size(), [&](std::size_t block) {
+    for (std::size_t node = 0; node < NodeRecords<Dim, Real, Components>::nodes; ++node) {
+      nodes(block, node).fill(Real(0));
+    }
+    const std::int32_t* tiles = grid.tiles_about_block(block);
+    for (int d = 0; d < Tile<Dim>::stencil; ++d) {
+      if (tiles[d] == KeyIndex::absent) {
+        continue;
+      }
+      const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
+      // The tile lies in direction d from the block, so the block lies opposite from the tile.
+      for_shared_nodes<Dim>(Tile<Dim>::stencil - 1 - d, [&](std::size_t in_block, std::size_t in_patch) {
+        auto& sum = nodes(block, in_block);
+        const auto& part = patch.records[in_patch];
+        for (std::size_t c = 0; c < static_cast<std::size_t>(Components); ++c) {
+          sum[c] += part[c];
+        }
+      });
+    }
+  });
+}
+
+// Copies what the nodes about tile t hold into a patch.
+template <int Dim, class Real, int Components>
+void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const NodeRecords<Dim, Real, Components>& nodes,
+                Patch<Dim, Real, Components>& patch) {
+  const std::int32_t* blocks = grid.blocks_about_tile(t);
+  for (int d = 0; d < Tile<Dim>::stencil; ++d) {
+    const auto block = static_cast<std::size_t>(blocks[d]);
+    for_shared_nodes<Dim>(d, [&](std::size_t in_block, std::size_t in_patch) {
+      patch.records[in_patch] = nodes(block, in_block);
+    });
+  }
+}
+
+// The nodes a particle sees, as places in its tile's patch, and their weights.
+template <int Dim, class Real>
+struct Stencil {
+  std::size_t first;  // place in the patch of the lowest node
+  std::array<AxisWeights<Real>, Dim> axis;
+
+  // Calls visit(place, weight, gradient) for each of the 3^Dim nodes.
+  template <class Visit>
+  void for_each_node(const Visit& visit) const {
+    constexpr auto row = static_cast<std::size_t>(Tile<Dim>::patch_edge);
+    if constexpr (Dim == 2) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          visit(first + j * row + i, axis[0].weight[i] * axis[1].weight[j],
+                Vector<Real, 2>(axis[0].slope[i] * axis[1].weight[j], axis[0].weight[i] * axis[1].slope[j]));
+        }
+      }
+    } else {
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t j = 0; j < 3; ++j) {
+          for (std::size_t i = 0; i < 3; ++i) {
+            const Real wij = axis[0].weight[i] * axis[1].weight[j];
+            visit(first + (k * row + j) * row + i, wij * axis[2].weight[k],
+                  Vector<Real, 3>(axis[0].slope[i] * axis[1].weight[j] * axis[2].weight[k],
+                                  axis[0].weight[i] * axis[1].slope[j] * axis[2].weight[k], wij * axis[2].slope[k]));
+          }
+        }
+      }
+    }
+  }
+};
+
+// Stencil of a particle in its tile, for shape functions Shape (Ugimp, Linear). half: its half size in cells.
+template <class Shape, int Dim, class Real>
+Stencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile_key,
+                                const Vector<Real, Dim>& position, Real half) {
+  using T = Tile<Dim>;
+  typename T::Index node{};
+  Vector<Real, Dim> offset;
+  grid.nearest_node(position, node, offset);
+  const typename T::Index tile = T::index(tile_key);
+  Stencil<Dim, Real> stencil;
+  typename T::Index lowest{};
+  for (std::size_t a = 0; a < Dim; ++a) {
+    lowest[a] = node[a] - tile[a] * T::edge - 1;
+    stencil.axis[a] = Shape::weights(offset[static_cast<int>(a)], half, grid.inverse_cell());
+  }
+  stencil.first = static_cast<std::size_t>(T::in_patch(lowest));
+  return stencil;
+}
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,246 @@
+#include "sim/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "config/profile_csv.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// The space a body fills: where it is, and where its top lies above a place.
+template <int Dim>
+class BodyShape {
+ public:
+  BodyShape(const config::Case& parameters, const config::Body& body) : body_(&body) {
+    for (std::size_t a = 0; a < Dim; ++a) {
+      lower_[a] = body.min[a];
+      upper_[a] = body.max[a];
+    }
+    if (body.shape == config::BodyShape::polygon) {
+      lower_.fill(std::numeric_limits<double>::infinity());
+      upper_.fill(-std::numeric_limits<double>::infinity());
+      for (const auto& vertex : body.vertices) {
+        for (std::size_t a = 0; a < 2; ++a) {
+          lower_[a] = std::min(lower_[a], vertex[a]);
+          upper_[a] = std::max(upper_[a], vertex[a]);
+        }
+      }
+    } else if (body.shape == config::BodyShape::surface) {
+      profile_ = config::read_profile(parameters.terrain.file);
+      limit_to_profile();
+    }
+  }
+
+  [[nodiscard]] double lower(std::size_t axis) const { return lower_[axis]; }
+  [[nodiscard]] double upper(std::size_t axis) const { return upper_[axis]; }
+
+  [[nodiscard]] bool contains(const Vector<double, Dim>& place) const {
+    for (std::size_t a = 0; a < Dim; ++a) {
+      if (place[static_cast<int>(a)] < lower_[a] || place[static_cast<int>(a)] > upper_[a]) {
+        return false;
+      }
+    }
+    switch (body_->shape) {
+      case config::BodyShape::box:
+        return true;
+      case config::BodyShape::polygon:
+        return crossings_above(place[0], place[Dim - 1]) % 2 == 1;
+      case config::BodyShape::surface:
+        break;
+    }
+    return place[Dim - 1] > profile_at(profile_.terrain, place[0]) && place[Dim - 1] < top(place[0], place[Dim - 1]);
+  }
+
+  // Elevation of the body's top above a place within it.
+  [[nodiscard]] double top(double x, double height) const {
+    switch (body_->shape) {
+      case config::BodyShape::box:
+        return upper_[Dim - 1];
+      case config::BodyShape::polygon: {
+        double highest = height;
+        for_crossings(x, [&](double z) { highest = std::max(highest, z); });
+        return highest;
+      }
+      case config::BodyShape::surface:
+        break;
+    }
+    return profile_at(profile_.surface, x);
+  }
+
+ private:
+  void limit_to_profile() {
+    lower_[0] = std::numeric_limits<double>::infinity();
+    upper_[0] = -lower_[0];
+    lower_[Dim - 1] = std::numeric_limits<double>::infinity();
+    upper_[Dim - 1] = -lower_[Dim - 1];
+    for (std::size_t k = 0; k < profile_.distance.size(); ++k) {
+      if (profile_.surface[k] > profile_.terrain[k]) {
+        lower_[0] = std::min(lower_[0], profile_.distance[k == 0 ? 0 : k - 1]);
+        upper_[0] = std::max(upper_[0], profile_.distance[std::min(k + 1, profile_.distance.size() - 1)]);
+        lower_[Dim - 1] = std::min(lower_[Dim - 1], profile_.terrain[std::min(k + 1, profile_.distance.size() - 1)]);
+        lower_[Dim - 1] = std::min(lower_[Dim - 1], profile_.terrain[k == 0 ? 0 : k - 1]);
+        upper_[Dim - 1] = std::max(upper_[Dim - 1], profile_.surface[k]);
+      }
+    }
+  }
+
+  [[nodiscard]] double profile_at(const std::vector<double>& column, double x) const {
+    return Table{profile_.distance, column}.at(x);
+  }
+
+  template <class Visit>
+  void for_crossings(double x, const Visit& visit) const {
+    const auto& v = body_->vertices;
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const auto& a = v[k];
+      const auto& b = v[(k + 1) % v.size()];
+      if ((a[0] <= x) != (b[0] <= x)) {
+        visit(a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1]));
+      }
+    }
+  }
+
+  [[nodiscard]] int crossings_above(double x, double height) const {
+    int count = 0;
+    for_crossings(x, [&](double z) { count += z > height ? 1 : 0; });
+    return count;
+  }
+
+  const config::Body* body_;
+  config::ProfileTable profile_;
+  std::array<double, Dim> lower_{}, upper_{};
+};
+
+template <int Dim>
+struct Seed {
+  int body;
+  Vector<double, Dim> place;  // absolute [m]
+  double depth;               // vertical, below the body's top [m]
+};
+
+// Particles stand at the centres of the cells' equal parts.
+template <int Dim>
+void seed_body(const config::Case& parameters, const config::Body& body, int number, std::vector<Seed<Dim>>& seeds) {
+  const BodyShape<Dim> shape(parameters, body);
+  const double spacing = parameters.grid.cell / body.particles_per_axis;
+  std::array<long, 3> first{}, last{};
+  for (std::size_t a = 0; a < Dim; ++a) {
+    first[a] = static_cast<long>(std::floor((shape.lower(a) - parameters.grid.min[a]) / spacing)) - 1;
+    last[a] = static_cast<long>(std::ceil((shape.upper(a) - parameters.grid.min[a]) / spacing)) + 1;
+  }
+  for (long k = first[2]; k <= last[2]; ++k) {
+    for (long j = first[1]; j <= last[1]; ++j) {
+      for (long i = first[0]; i <= last[0]; ++i) {
+        const std::array<long, 3> index{i, j, k};
+        Vector<double, Dim> place;
+        for (std::size_t a = 0; a < Dim; ++a) {
+          place[static_cast<int>(a)] = parameters.grid.min[a] + (static_cast<double>(index[a]) + 0.5) * spacing;
+        }
+        if (shape.contains(place)) {
+          seeds.push_back({number, place, shape.top(place[0], place[Dim - 1]) - place[Dim - 1]});
+        }
+      }
+    }
+  }
+}
+
+// Geostatic normal stress and K0 in the axes of the ground below (of gravity where there is no ground); with slope shear
+// if asked for, which balances an infinite slope.
+template <int Dim, class Real>
+SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model<Dim, Real>& model,
+                                     const Seed<Dim>& seed, double density, double poisson_ratio) {
+  SymmetricTensor<Real> stress = SymmetricTensor<Real>::Zero();
+  if (parameters.mechanics.initial_stress != config::InitialStress::geostatic) {
+    return stress;
+  }
+  const Vector<double, Dim> gravity = model.motion.gravity.template cast<double>();
+  Vector<double, Dim> up = -gravity;
+  double cosine = 1.0;
+  if (model.ground) {
+    const double x = seed.place[0] - model.origin[0];
+    up = -model.ground->normal_below(x);
+    cosine = model.ground->slope_cosine(x);
+  }
+  if (up.norm() == 0.0) {
+    return stress;
+  }
+  up.normalize();
+  const double depth = seed.depth * cosine;
+  const double normal = density * gravity.dot(up) * depth;  // negative: compression
+  const double k0 = parameters.mechanics.k0 >= 0.0 ? parameters.mechanics.k0 : poisson_ratio / (1.0 - poisson_ratio);
+  Matrix<double, 3> full = Matrix<double, 3>::Identity() * (k0 * normal);
+  Vector<double, 3> m = Vector<double, 3>::Zero();
+  Vector<double, 3> along = Vector<double, 3>::Zero();
+  const Vector<double, Dim> tangential = gravity - gravity.dot(up) * up;
+  for (int a = 0; a < Dim; ++a) {
+    m[a] = up[a];
+    along[a] = tangential[a];
+  }
+  full += (1.0 - k0) * normal * m * m.transpose();
+  if (parameters.mechanics.slope_shear) {
+    full += density * depth * (along * m.transpose() + m * along.transpose());
+  }
+  const double components[6] = {full(0, 0), full(1, 1), full(2, 2), full(0, 1), full(1, 2), full(0, 2)};
+  for (int c = 0; c < 6; ++c) {
+    stress[c] = static_cast<Real>(components[c]);
+  }
+  return stress;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+void fill_bodies(const config::Case& parameters, const Model<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+  std::vector<Seed<Dim>> seeds;
+  std::vector<const config::Body*> bodies;
+  std::vector<std::size_t> material_of;
+  for (const auto& [name, body] : parameters.bodies) {
+    const std::size_t before = seeds.size();
+    seed_body<Dim>(parameters, body, static_cast<int>(bodies.size()), seeds);
+    if (seeds.size() == before) {
+      throw UserError(fmt::format("{}: body '{}' holds no particle: it is thinner than the particle spacing of {} m. Make "
+                                  "the body larger or grid.cell smaller.",
+                                  parameters.file, name, parameters.grid.cell / body.particles_per_axis));
+    }
+    bodies.push_back(&body);
+    const auto material = std::find(model.material_names.begin(), model.material_names.end(), body.material);
+    material_of.push_back(static_cast<std::size_t>(material - model.material_names.begin()));
+  }
+  particles.resize(seeds.size());
+  for (std::size_t p = 0; p < seeds.size(); ++p) {
+    const Seed<Dim>& seed = seeds[p];
+    const config::Body& body = *bodies[static_cast<std::size_t>(seed.body)];
+    const double spacing = parameters.grid.cell / body.particles_per_axis;
+    const double volume = std::pow(spacing, Dim);
+    particles.id(p) = static_cast<std::int64_t>(p);
+    particles.body(p) = seed.body;
+    particles.material(p) = static_cast<std::int32_t>(material_of[static_cast<std::size_t>(seed.body)]);
+    particles.initial_volume(p) = particles.volume(p) = static_cast<Real>(volume);
+    particles.temperature(p) = static_cast<Real>(body.temperature.at(seed.depth, seed.place[0]));
+    particles.porosity(p) = particles.initial_porosity(p) =
+        static_cast<Real>(body.porosity.at(seed.depth, seed.place[0]));
+    particles.thermal_scaling(p) = Real(1);
+    const Real saturation = model.band.with_heat_content(
+        [&](const auto& content) { return content.curve.saturation(particles.temperature(p)); });
+    const Real density = physics::mixture_density(model.motion.phases, particles.porosity(p), saturation);
+    particles.mass(p) = density * particles.volume(p);
+    for (int a = 0; a < Dim; ++a) {
+      particles.position(p, a) = static_cast<Real>(seed.place[a] - model.origin[a]);
+      particles.velocity(p, a) = static_cast<Real>(body.velocity[static_cast<std::size_t>(a)]);
+    }
+    const auto stress = initial_stress(parameters, model, seed, static_cast<double>(density),
+                                       parameters.materials.at(body.material).poisson_ratio);
+    for (int c = 0; c < mpm::Particles<Dim, Real>::tensor_components; ++c) {
+      particles.stress(p, c) = stress[c];
+    }
+  }
+}
+
+template void fill_bodies<2, double>(const config::Case&, const Model<2, double>&, mpm::Particles<2, double>&);
+template void fill_bodies<3, double>(const config::Case&, const Model<3, double>&, mpm::Particles<3, double>&);
+
+}  // namespace thawslide::sim

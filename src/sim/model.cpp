@@ -1,0 +1,217 @@
+#include "sim/model.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "config/profile_csv.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+double radians(double degrees) { return degrees * pi<double> / 180.0; }
+
+template <class Real>
+physics::Phases<Real> make_phases(const config::Phases& p) {
+  physics::Phases<Real> phases;
+  phases.rock_density = static_cast<Real>(p.rock_density);
+  phases.ice_density = static_cast<Real>(p.ice_density);
+  phases.water_density = static_cast<Real>(p.water_density);
+  phases.rock_heat_capacity = static_cast<Real>(p.rock_heat_capacity);
+  phases.ice_heat_capacity = static_cast<Real>(p.ice_heat_capacity);
+  phases.water_heat_capacity = static_cast<Real>(p.water_heat_capacity);
+  phases.rock_conductivity = static_cast<Real>(p.rock_conductivity);
+  phases.ice_conductivity = static_cast<Real>(p.ice_conductivity);
+  phases.water_conductivity = static_cast<Real>(p.water_conductivity);
+  phases.rock_expansion = static_cast<Real>(p.rock_expansion);
+  phases.ice_expansion = static_cast<Real>(p.ice_expansion);
+  phases.water_expansion = static_cast<Real>(p.water_expansion);
+  phases.water_bulk_modulus = static_cast<Real>(p.water_bulk_modulus);
+  phases.latent_heat = static_cast<Real>(p.latent_heat);
+  phases.water_unit_weight = static_cast<Real>(p.water_unit_weight);
+  phases.ice_to_rock_density_ratio = static_cast<Real>(p.ice_to_rock_density_ratio);
+  return phases;
+}
+
+template <class Real>
+mpm::MaterialModel<Real> make_material(const config::Material& material, bool deformation) {
+  mpm::MaterialModel<Real> model;
+  model.elastic = physics::Elastic<Real>::from_young_poisson(static_cast<Real>(material.youngs_modulus),
+                                                             static_cast<Real>(material.poisson_ratio));
+  model.viscosity_time = static_cast<Real>(material.viscosity_time);
+  model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
+  if (material.law == config::LawKind::mohr_coulomb && deformation) {
+    model.law = physics::MohrCoulomb<Real>::make(
+        model.elastic, static_cast<Real>(material.friction_angle), static_cast<Real>(material.dilation_angle),
+        static_cast<Real>(material.cohesion), static_cast<Real>(material.residual_cohesion),
+        static_cast<Real>(material.tension_cutoff));
+  } else {
+    model.law = physics::LinearElastic<Real>{};
+  }
+  return model;
+}
+
+template <int Dim, class Real>
+mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, const Vector<double, Dim>& origin) {
+  mpm::Constraints<Dim, Real> constraints;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    const int i = static_cast<int>(a);
+    constraints.extent[i] = static_cast<Real>(parameters.grid.max[a] - origin[i]);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const config::BoundaryKind kind = parameters.grid.boundary[2 * a + side];
+      constraints.faces[2 * a + side] = kind == config::BoundaryKind::fixed    ? mpm::FaceKind::fixed
+                                        : kind == config::BoundaryKind::roller ? mpm::FaceKind::roller
+                                                                               : mpm::FaceKind::open;
+    }
+  }
+  for (const auto& [name, frame] : parameters.frames) {
+    mpm::RigidFrame<Dim, Real> rigid;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const int i = static_cast<int>(a);
+      rigid.lower[i] = static_cast<Real>(frame.min[a] - origin[i]);
+      rigid.upper[i] = static_cast<Real>(frame.max[a] - origin[i]);
+    }
+    rigid.axis = frame.axis == "x" ? 0 : frame.axis == "y" ? 1 : 2;
+    rigid.velocity = static_cast<Real>(frame.velocity);
+    constraints.frames.push_back(rigid);
+  }
+  return constraints;
+}
+
+template <class Real>
+terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
+  const config::Basal& basal = parameters.basal;
+  terrain::BasalLaw<Real> law;
+  law.friction_coefficient = static_cast<Real>(std::tan(radians(basal.friction_angle)));
+  law.lubricated = basal.friction == config::FrictionLaw::lubricated;
+  law.lubrication_exponent = static_cast<Real>(basal.lubrication_exponent);
+  law.min_solid_fraction = static_cast<Real>(basal.min_solid_fraction);
+  law.max_solid_fraction = static_cast<Real>(basal.max_solid_fraction);
+  law.cohesion = static_cast<Real>(basal.cohesion);
+  law.residual_cohesion = static_cast<Real>(basal.residual_cohesion);
+  law.cohesion_loss = basal.cohesion_law == config::CohesionLaw::constant ? terrain::CohesionLoss::constant
+                      : basal.cohesion_law == config::CohesionLaw::slip   ? terrain::CohesionLoss::slip
+                      : basal.cohesion_law == config::CohesionLaw::ice    ? terrain::CohesionLoss::ice
+                                                                          : terrain::CohesionLoss::time;
+  law.slip_distance = static_cast<Real>(basal.slip_distance);
+  law.cohesion_loss_time = static_cast<Real>(basal.cohesion_loss_time);
+  law.clamp = basal.clamp == config::FrictionClamp::joint ? physics::FrictionClamp::joint
+                                                          : physics::FrictionClamp::keep_cohesion;
+  law.cap_pressure = basal.cap_pressure;
+  law.heat_fraction = static_cast<Real>(basal.heat_fraction);
+  return law;
+}
+
+template <class Real>
+band::AnyHeatContent<Real> make_heat_content(const config::Case& parameters, const physics::Phases<Real>& phases) {
+  const config::Freezing& freezing = parameters.freezing;
+  const Real reference = static_cast<Real>(freezing.reference_temperature);
+  const bool latent = parameters.heat.latent;
+  if (freezing.curve == config::CurveKind::linear) {
+    return physics::HeatContent<Real, physics::LinearCurve<Real>>{
+        phases, {reference, static_cast<Real>(freezing.slope)}, latent};
+  }
+  return physics::HeatContent<Real, physics::PowerLawCurve<Real>>{
+      phases, {reference, static_cast<Real>(freezing.exponent)}, latent};
+}
+
+template <int Dim, class Real>
+band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::MotionModel<Dim, Real>& motion,
+                                     const Vector<Real, Dim>& extent) {
+  band::BandModel<Dim, Real> band;
+  band.phases = motion.phases;
+  band.heat_content = make_heat_content(parameters, band.phases);
+  band.reference_temperature = static_cast<Real>(parameters.freezing.reference_temperature);
+  band.heat = parameters.heat.enabled;
+  band.conduction = parameters.heat.conduction;
+  band.advection = parameters.heat.advection && parameters.pressure.enabled;
+  band.extent = extent;
+  for (std::size_t f = 0; f < 2 * Dim; ++f) {
+    const config::HeatBoundary& face = parameters.heat.boundary[f];
+    band.faces[f].kind = face.kind == config::HeatBoundaryKind::temperature ? band::FaceHeat::temperature
+                         : face.kind == config::HeatBoundaryKind::flux      ? band::FaceHeat::flux
+                                                                            : band::FaceHeat::insulated;
+    band.faces[f].value = static_cast<Real>(face.value);
+  }
+  band.region = parameters.band.region == config::BandRegion::all ? band::ScaledRegion::all
+                                                                  : band::ScaledRegion::first_layer;
+  band.lubrication = parameters.mechanisms.lubrication;
+  band.pressure = parameters.pressure.enabled;
+  band.thermal_pressurization = parameters.pressure.thermal_pressurization;
+  band.seepage = parameters.pressure.seepage;
+  band.clapeyron_sign = parameters.pressure.clapeyron == config::ClapeyronSign::usual ? Real(1) : Real(-1);
+  band.normal_thickness = parameters.pressure.thickness_direction == config::ThicknessDirection::normal;
+  band.thickness_each_step = parameters.pressure.thickness_update == config::ThicknessUpdate::each_step;
+  band.gravity = static_cast<Real>(parameters.general.gravity);
+  for (const auto& material : motion.materials) {
+    band.hydraulic_conductivity.push_back(material.hydraulic_conductivity);
+  }
+  for (const auto& body : motion.bodies) {
+    band.half_size.push_back(body.half_size);
+  }
+  return band;
+}
+
+template <int Dim>
+std::optional<terrain::Ground<Dim>> make_ground(const config::Case& parameters, const Vector<double, Dim>& origin) {
+  const config::Terrain& terrain = parameters.terrain;
+  const double base = origin[Dim - 1];
+  switch (terrain.kind) {
+    case config::TerrainKind::none:
+      return std::nullopt;
+    case config::TerrainKind::flat:
+    case config::TerrainKind::plane: {
+      // Two points a kilometre apart; the line goes on with its gradient.
+      const double fall = terrain.kind == config::TerrainKind::plane ? std::tan(radians(terrain.slope)) : 0.0;
+      const double left = terrain.elevation - fall * origin[0] - base;
+      return terrain::Ground<Dim>(terrain::Polyline({0.0, 1000.0}, {left, left - fall * 1000.0}));
+    }
+    case config::TerrainKind::profile:
+      break;
+  }
+  const config::ProfileTable profile = config::read_profile(terrain.file);
+  std::vector<double> x = profile.distance;
+  std::vector<double> height = profile.terrain;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    x[k] -= origin[0];
+    height[k] -= base;
+  }
+  return terrain::Ground<Dim>(terrain::Polyline(std::move(x), std::move(height)));
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+Model<Dim, Real> make_model(const config::Case& parameters) {
+  Model<Dim, Real> model;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    model.origin[static_cast<int>(a)] = parameters.grid.min[a];
+  }
+  model.motion.shape = parameters.mechanics.shape_function == config::ShapeFunction::ugimp ? mpm::ShapeKind::ugimp
+                                                                                           : mpm::ShapeKind::linear;
+  const double tilt = radians(parameters.general.gravity_tilt);
+  model.motion.gravity.setZero();
+  model.motion.gravity[0] = static_cast<Real>(parameters.general.gravity * std::sin(tilt));
+  model.motion.gravity[Dim - 1] = static_cast<Real>(-parameters.general.gravity * std::cos(tilt));
+  model.motion.phases = make_phases<Real>(parameters.phases);
+  for (const auto& [name, material] : parameters.materials) {
+    model.material_names.push_back(name);
+    model.motion.materials.push_back(make_material<Real>(material, parameters.mechanisms.deformation));
+  }
+  for (const auto& [name, body] : parameters.bodies) {
+    model.body_names.push_back(name);
+    model.motion.bodies.push_back({Real(1) / static_cast<Real>(2 * body.particles_per_axis)});
+  }
+  model.constraints = make_constraints<Dim, Real>(parameters, model.origin);
+  model.contact.law = make_basal_law<Real>(parameters);
+  model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
+  model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
+  model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
+  model.ground = make_ground<Dim>(parameters, model.origin);
+  return model;
+}
+
+template Model<2, double> make_model<2, double>(const config::Case&);
+template Model<3, double> make_model<3, double>(const config::Case&);
+
+}  // namespace thawslide::sim

@@ -1,0 +1,327 @@
+#include "sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "sim/bodies.hpp"
+
+namespace thawslide::sim {
+
+// The discrete step, Section 2.3 of the paper; all stages use the shape functions at the positions the step begins with.
+//   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
+//   P_i, S_i, n_i: averages with the linear hats                                               Eq. 21
+//   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
+//   v_p += sum S a dt,  x_p += sum S (v_i + a_i dt/2) dt                                       Eqs. 13, 14
+//   stress and porosity from the mapped-back velocities                                        Eqs. 11, 6
+//   heat content from conduction, advection and the friction heat of the contact nodes         Eqs. 9, 18-20
+//   pore pressure: Clapeyron, then thermal pressurization and seepage                          Eqs. 4, 8, 22, 23
+template <int Dim, class Real>
+void Simulation<Dim, Real>::step(double dt) {
+  dt_ = static_cast<Real>(dt);
+  stopwatch_.time("find_cells", [&] { find_particles_cells(); });
+  stopwatch_.time("average_band_on_grid", [&] { average_band_on_grid(); });
+  if (parameters_.mechanics.enabled) {
+    stopwatch_.time("momentum_to_grid", [&] { momentum_to_grid(); });
+    stopwatch_.time("resolve_contact", [&] { resolve_contact(); });
+    stopwatch_.time("move_particles", [&] { move_particles(); });
+    stopwatch_.time("update_stress_and_porosity", [&] { update_stress_and_porosity(); });
+  }
+  stopwatch_.time("conduct_heat", [&] { conduct_heat(); });
+  stopwatch_.time("drain_pore_pressure", [&] { drain_pore_pressure(); });
+  stopwatch_.time("take_new_positions", [&] { take_new_positions(); });
+  ++step_number_;
+  time_ += dt;
+  last_step_ = dt;
+  stop_if_bad();
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::find_particles_cells() {
+  grid_.update(particles_, sorting_interval_);
+  if (model_.ground && grid_.blocks_changed()) {
+    ground_.update(*model_.ground, grid_);
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::average_band_on_grid() {
+  if (model_.ground || model_.band.heat) {
+    band::average_on_grid(grid_, particles_, model_.band, nodes_);
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::momentum_to_grid() {
+  mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::resolve_contact() {
+  contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, model_.motion.phases,
+                                      static_cast<Real>(time_), dt_, nodes_);
+  ledger_.friction_work += contact_.friction_work;
+  ledger_.contact_loss += contact_.loss;
+  ledger_.frame_work += contact_.frame_work;
+  ledger_.damping += contact_.damping;
+  if (model_.ground) {
+    terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::move_particles() {
+  const auto work = mpm::move_particles(grid_, particles_, model_.motion, dt_, nodes_);
+  ledger_.numerical += work.particle_kinetic - contact_.node_kinetic;
+  terrain::constrain_mapped_back(grid_, ground(), model_.constraints, static_cast<Real>(time_), nodes_);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::update_stress_and_porosity() {
+  const auto work = mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, bad_);
+  ledger_.stress_work += work.total;
+  ledger_.plastic += work.plastic;
+  ledger_.viscous += work.viscous;
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::conduct_heat() {
+  if (!model_.band.heat) {
+    return;
+  }
+  ledger_.band_rescale +=
+      band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
+  const auto gain =
+      band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, heat_nodes_, particles_);
+  ledger_.friction_heat += gain.friction;
+  ledger_.boundary_heat += gain.boundary;
+  ledger_.advection += gain.advection;
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::drain_pore_pressure() {
+  if (!model_.band.pressure) {
+    return;
+  }
+  if (model_.band.thickness_each_step) {
+    update_flow_depth();
+  }
+  band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, seepage_nodes_, particles_);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::take_new_positions() {
+  if (parameters_.mechanics.enabled) {
+    mpm::take_new_positions(particles_, model_.constraints.extent, bad_);
+  }
+}
+
+template <int Dim, class Real>
+Simulation<Dim, Real>::Simulation(const config::Case& parameters)
+    : parameters_(parameters),
+      model_(make_model<Dim, Real>(parameters)),
+      grid_(static_cast<Real>(parameters.grid.cell)) {
+  fill_bodies(parameters_, model_, particles_);
+  band::set_heat_content(model_.band, particles_);
+  if (parameters_.time.stepping == config::Stepping::fixed) {
+    const StepLimit limit = step_limit();
+    if (parameters_.time.step > limit.step) {
+      throw UserError(fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step, or "
+                                  "time.stepping = \"adaptive\".",
+                                  parameters_.file, parameters_.time.step, limit.step, limit.what));
+    }
+  }
+  find_particles_cells();
+  if (parameters_.mechanics.enabled && parameters_.mechanics.initial_stress == config::InitialStress::settle) {
+    settle();
+  }
+  mark_band();
+  band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
+  update_flow_depth();
+  band::set_pore_pressure(model_.band, particles_);
+  start_ledger();
+}
+
+// Gravity switched on while mass damping takes the motion and the base holds; then everything but the stress is as at the
+// start.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::settle() {
+  const bool heat = model_.band.heat;
+  const bool pressure = model_.band.pressure;
+  model_.band.heat = model_.band.pressure = false;
+  model_.contact.frictionless_hold = true;
+  model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
+  const double dt = parameters_.time.stepping == config::Stepping::fixed
+                        ? parameters_.time.step
+                        : parameters_.time.safety * step_limit().step;
+  const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
+  for (std::int64_t k = 0; k < steps; ++k) {
+    step(dt);
+  }
+  model_.band.heat = heat;
+  model_.band.pressure = pressure;
+  model_.contact.frictionless_hold = false;
+  model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.mass_damping);
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    const auto& body = parameters_.bodies.at(model_.body_names[static_cast<std::size_t>(particles_.body(p))]);
+    for (int a = 0; a < Dim; ++a) {
+      particles_.velocity(p, a) = static_cast<Real>(body.velocity[static_cast<std::size_t>(a)]);
+      particles_.displacement(p, a) = Real(0);
+    }
+    particles_.path_length(p) = particles_.slip(p) = particles_.plastic_strain(p) = Real(0);
+    for (int c = 0; c < mpm::Particles<Dim, Real>::tensor_components; ++c) {
+      particles_.viscous_stress(p, c) = Real(0);
+    }
+  }
+  time_ = last_step_ = 0.0;
+  step_number_ = 0;
+  ledger_ = {};
+  contact_ = {};
+  find_particles_cells();
+}
+
+// Which particles are in the band before anything has moved.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::mark_band() {
+  nodes_.contact.resize(grid_.blocks().size());
+  if (model_.ground) {
+    for (std::size_t b = 0; b < grid_.blocks().size(); ++b) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+        nodes_.contact(b, k).fill(Real(0));
+      }
+    }
+    terrain::mark_band_and_slip(grid_, ground_, Real(0), nodes_, particles_);
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::update_flow_depth() {
+  std::function<Real(Real)> cosine;
+  if (model_.ground) {
+    cosine = [this](Real x) { return static_cast<Real>(model_.ground->slope_cosine(static_cast<double>(x))); };
+  }
+  flow_depth_.update(grid_, model_.band, cosine, particles_);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::start_ledger() {
+  const BodySums<Real> sums = sum_over_body(*this);
+  ledger_ = {};
+  ledger_.initial_mechanical = sums.kinetic + sums.potential;
+  ledger_.initial_thermal = sums.sensible + sums.latent;
+  double rear = HUGE_VAL;
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    const Real half = model_.motion.bodies[static_cast<std::size_t>(particles_.body(p))].half_size * grid_.cell();
+    rear = std::min(rear, static_cast<double>(particles_.position(p, 0) - half) + model_.origin[0]);
+  }
+  rear_at_start_ = rear;
+}
+
+template <int Dim, class Real>
+double Simulation<Dim, Real>::band_thickness() const {
+  return parameters_.band.thickness.value.empty() ? 0.0 : parameters_.band.thickness.at(time_);
+}
+
+template <int Dim, class Real>
+StepLimit Simulation<Dim, Real>::step_limit() const {
+  return largest_stable_step(parameters_, model_, band_thickness(), particles_);
+}
+
+template <int Dim, class Real>
+double Simulation<Dim, Real>::next_step(double until) const {
+  if (parameters_.time.stepping == config::Stepping::fixed) {
+    return parameters_.time.step;
+  }
+  double dt = parameters_.time.safety * step_limit().step;
+  if (parameters_.time.step > 0.0) {
+    dt = std::min(dt, parameters_.time.step);
+  }
+  const double left = until - time_;
+  const double steps = std::ceil(left / dt * (1.0 - 1e-12));
+  return left / std::max(1.0, steps);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_if_bad() {
+  if (bad_.id < 0) {
+    return;
+  }
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    if (particles_.id(p) == bad_.id) {
+      std::string place;
+      for (int a = 0; a < Dim; ++a) {
+        place += fmt::format("{}{:.6g}", a == 0 ? "" : ", ", static_cast<double>(particles_.position(p, a)) + model_.origin[a]);
+      }
+      const bool left = std::string(bad_.what).find("domain") != std::string::npos;
+      throw RunError(fmt::format(
+          "the run went bad at t = {:.6g} s (step {}): particle {} of body '{}' at ({}) m: {}. {}", time_, step_number_,
+          bad_.id, model_.body_names[static_cast<std::size_t>(particles_.body(p))], place, bad_.what,
+          left ? "Likely cause: the slide ran further than [grid] min and max allow; widen them in its direction."
+               : "Likely cause: the step is too long for what the material does, or the material is softer than its "
+                 "load; try half of time.step, or viscosity_time in the material."));
+    }
+  }
+  THAWSLIDE_ASSERT(false, "bad particle {} is not among the particles", bad_.id);
+}
+
+template <int Dim, class Real>
+std::vector<double> Simulation<Dim, Real>::scalars() const {
+  const Ledger<Real>& l = ledger_;
+  return {time_, last_step_, rear_at_start_, static_cast<double>(step_number_), l.stress_work, l.plastic, l.viscous,
+          l.damping, l.friction_work, l.contact_loss, l.frame_work, l.numerical, l.friction_heat, l.boundary_heat,
+          l.band_rescale, l.advection, l.initial_mechanical, l.initial_thermal};
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
+  THAWSLIDE_ASSERT(scalars.size() == this->scalars().size(), "{} numbers for {}", scalars.size(), this->scalars().size());
+  std::size_t k = 0;
+  time_ = scalars[k++];
+  last_step_ = scalars[k++];
+  rear_at_start_ = scalars[k++];
+  step_number_ = static_cast<std::int64_t>(scalars[k++]);
+  Ledger<Real>& l = ledger_;
+  for (Real* account : {&l.stress_work, &l.plastic, &l.viscous, &l.damping, &l.friction_work, &l.contact_loss,
+                        &l.frame_work, &l.numerical, &l.friction_heat, &l.boundary_heat, &l.band_rescale, &l.advection,
+                        &l.initial_mechanical, &l.initial_thermal}) {
+    *account = static_cast<Real>(scalars[k++]);
+  }
+  find_particles_cells();
+}
+
+template <int Dim, class Real>
+BodySums<Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
+  const auto& particles = simulation.particles();
+  const auto& model = simulation.model();
+  const physics::Phases<Real>& phases = model.motion.phases;
+  BodySums<Real> sums;
+  for (const std::uint32_t p : simulation.grid().order()) {
+    const Real mass = particles.mass(p);
+    for (int a = 0; a < Dim; ++a) {
+      sums.kinetic += Real(0.5) * mass * particles.velocity(p, a) * particles.velocity(p, a);
+      sums.potential -= mass * model.motion.gravity[a] * (particles.position(p, a) + static_cast<Real>(model.origin[a]));
+    }
+    const Real thermal_volume = particles.initial_volume(p) / particles.thermal_scaling(p);
+    const bool latent_counts = simulation.parameters().heat.latent;
+    const Real latent = latent_counts ? phases.ice_density * particles.initial_porosity(p) * phases.latent_heat *
+                                            particles.liquid_saturation(p)
+                                      : Real(0);
+    sums.latent += thermal_volume * latent;
+    sums.sensible += thermal_volume * (particles.heat_content(p) - latent);
+    const Real start = particles.initial_saturation(p);
+    const Real pore_water = particles.initial_volume(p) * particles.initial_porosity(p) *
+                            (phases.water_density * start + phases.ice_density * (Real(1) - start));
+    sums.mass += mass;
+    sums.rock += mass - pore_water;
+    sums.ice += (Real(1) - particles.liquid_saturation(p)) * pore_water;
+    sums.water += particles.liquid_saturation(p) * pore_water;
+  }
+  return sums;
+}
+
+template class Simulation<2, double>;
+template class Simulation<3, double>;
+template BodySums<double> sum_over_body<2, double>(const Simulation<2, double>&);
+template BodySums<double> sum_over_body<3, double>(const Simulation<3, double>&);
+
+}  // namespace thawslide::sim

@@ -1,0 +1,105 @@
+// A run in memory: particles, grid and the step of Section 2.3.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "band/heat.hpp"
+#include "band/pore_pressure.hpp"
+#include "base/stopwatch.hpp"
+#include "config/case.hpp"
+#include "mpm/motion.hpp"
+#include "sim/ledger.hpp"
+#include "sim/model.hpp"
+#include "sim/time_step.hpp"
+#include "terrain/ground_on_grid.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim, class Real>
+class Simulation {
+ public:
+  // Particles at t = 0, settled if the case asks for it. Throws UserError for a fixed step above a limit.
+  explicit Simulation(const config::Case& parameters);
+
+  // One time step of dt [s]. Throws RunError when a particle goes bad; the state then is that of the failed step.
+  void step(double dt);
+
+  // The step to take next [s]: the fixed one, or the largest adaptive one, shortened to end at `until`.
+  [[nodiscard]] double next_step(double until) const;
+
+  [[nodiscard]] const config::Case& parameters() const { return parameters_; }
+  [[nodiscard]] const Model<Dim, Real>& model() const { return model_; }
+  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] double last_step() const { return last_step_; }
+  [[nodiscard]] std::int64_t step_number() const { return step_number_; }
+  [[nodiscard]] mpm::Particles<Dim, Real>& particles() { return particles_; }
+  [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const { return particles_; }
+  [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const { return grid_; }
+  [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const { return nodes_; }
+  [[nodiscard]] const Ledger<Real>& ledger() const { return ledger_; }
+  [[nodiscard]] const terrain::ContactWork<Dim, Real>& contact() const { return contact_; }
+  [[nodiscard]] const Stopwatch& stopwatch() const { return stopwatch_; }
+  [[nodiscard]] double rear_at_start() const { return rear_at_start_; }
+  [[nodiscard]] StepLimit step_limit() const;
+
+  // How many steps particles keep their place in memory; results do not depend on it.
+  void set_sorting_interval(int steps) { sorting_interval_ = steps; }
+
+  // Everything a checkpoint must hold beyond the particles' fields, as numbers; and its way back.
+  [[nodiscard]] std::vector<double> scalars() const;
+  void restore(const std::vector<double>& scalars);
+
+ private:
+  // The stages of a step, in order (simulation.cpp).
+  void find_particles_cells();
+  void momentum_to_grid();
+  void average_band_on_grid();
+  void resolve_contact();
+  void move_particles();
+  void update_stress_and_porosity();
+  void conduct_heat();
+  void drain_pore_pressure();
+  void take_new_positions();
+
+  void settle();
+  void mark_band();
+  void update_flow_depth();
+  void start_ledger();
+  void stop_if_bad();
+  [[nodiscard]] double band_thickness() const;
+  [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const {
+    return model_.ground ? &ground_ : nullptr;
+  }
+
+  config::Case parameters_;
+  Model<Dim, Real> model_;
+  mpm::Particles<Dim, Real> particles_;
+  mpm::SparseGrid<Dim, Real> grid_;
+  mpm::Nodes<Dim, Real> nodes_;
+  terrain::GroundOnGrid<Dim, Real> ground_;
+  band::HeatNodes<Dim, Real> heat_nodes_;
+  band::SeepageNodes<Dim, Real> seepage_nodes_;
+  band::FlowDepth<Dim, Real> flow_depth_;
+  terrain::ContactWork<Dim, Real> contact_;
+  Ledger<Real> ledger_;
+  mpm::BadParticle bad_;
+  Stopwatch stopwatch_;
+  double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0;
+  std::int64_t step_number_ = 0;
+  int sorting_interval_ = 64;
+  Real dt_ = 0;
+};
+
+// Sums of energy and mass over particles [J, kg].
+template <class Real>
+struct BodySums {
+  Real kinetic = 0, potential = 0, sensible = 0, latent = 0;
+  Real mass = 0, rock = 0, ice = 0, water = 0;
+};
+
+template <int Dim, class Real>
+BodySums<Real> sum_over_body(const Simulation<Dim, Real>& simulation);
+
+}  // namespace thawslide::sim

@@ -1,0 +1,92 @@
+#include "sim/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/pressurization.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// Measured on resting and sliding blocks with 2 particles a cell and axis (docs/theory.md, "Stability limits"): the step at
+// which noise grows, in units of the textbook limits named beside each.
+constexpr double wave_share = 1.0;        // of cell / P-wave speed
+constexpr double particle_share = 0.5;    // of cell / particle speed: a particle may not pass a node unseen
+constexpr double diffusion_share = 1.0;   // of length^2 / (2 Dim diffusivity)
+
+// The step at which a wave of speed c is resolved on cells h. Kelvin-Voigt viscosity of time tau adds damping that an
+// explicit step must resolve too: dt^2 c^2/h^2 + 2 dt tau c^2/h^2 <= 1 at the highest frequency the particles excite.
+double wave_limit(double cell, double speed, double viscosity_time) {
+  const double frequency = speed / cell;
+  const double damping = viscosity_time * frequency;
+  return (std::sqrt(1.0 + damping * damping / 4.0) - damping / 2.0) / frequency;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+                              const mpm::Particles<Dim, Real>& particles) {
+  const double cell = parameters.grid.cell;
+  StepLimit limit{HUGE_VAL, "no limit"};
+  const auto take = [&](double step, const std::string& what) {
+    if (step < limit.step) {
+      limit = {step, what};
+    }
+  };
+  double smallest_density = HUGE_VAL;
+  double largest_speed = 0.0;
+  double largest_diffusivity = 0.0;
+  double largest_seepage = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    smallest_density = std::min(smallest_density, static_cast<double>(particles.mass(p) / particles.volume(p)));
+    double speed2 = 0.0;
+    for (int a = 0; a < Dim; ++a) {
+      speed2 += static_cast<double>(particles.velocity(p, a) * particles.velocity(p, a));
+    }
+    largest_speed = std::max(largest_speed, std::sqrt(speed2));
+    const Real porosity = particles.initial_porosity(p);
+    const Real saturation = particles.liquid_saturation(p);
+    largest_diffusivity = std::max(
+        largest_diffusivity, static_cast<double>(physics::conductivity(model.motion.phases, porosity, saturation) /
+                                                 physics::heat_capacity(model.motion.phases, porosity, saturation)));
+    const auto material = static_cast<std::size_t>(particles.material(p));
+    largest_seepage = std::max(
+        largest_seepage, static_cast<double>(physics::hydraulic_diffusivity(
+                             model.motion.phases, porosity, Real(1), model.band.hydraulic_conductivity[material])));
+  }
+  if (parameters.mechanics.enabled) {
+    for (std::size_t m = 0; m < model.motion.materials.size(); ++m) {
+      const auto& material = model.motion.materials[m];
+      const double speed = std::sqrt(static_cast<double>(material.elastic.p_wave_modulus()) / smallest_density);
+      take(wave_share * wave_limit(cell, speed, static_cast<double>(material.viscosity_time)),
+           fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", model.material_names[m], speed,
+                       material.viscosity_time > Real(0)
+                           ? fmt::format(", viscosity {} s", static_cast<double>(material.viscosity_time))
+                           : std::string(),
+                       cell));
+    }
+    if (largest_speed > 0.0) {
+      take(particle_share * cell / largest_speed, fmt::format("the particle speed of {:.4g} m/s", largest_speed));
+    }
+  }
+  // Heat and pore pressure see the finer grid of the band.
+  const double length = thickness > 0.0 ? std::min(cell, thickness) : cell;
+  if (parameters.heat.enabled && parameters.heat.conduction && largest_diffusivity > 0.0) {
+    take(diffusion_share * length * length / (2.0 * Dim * largest_diffusivity),
+         fmt::format("heat conduction over {:.4g} m", length));
+  }
+  if (parameters.pressure.enabled && parameters.pressure.seepage && largest_seepage > 0.0) {
+    take(diffusion_share * length * length / (2.0 * Dim * largest_seepage),
+         fmt::format("seepage over {:.4g} m", length));
+  }
+  return limit;
+}
+
+template StepLimit largest_stable_step<2, double>(const config::Case&, const Model<2, double>&, double,
+                                                  const mpm::Particles<2, double>&);
+template StepLimit largest_stable_step<3, double>(const config::Case&, const Model<3, double>&, double,
+                                                  const mpm::Particles<3, double>&);
+
+}  // namespace thawslide::sim

@@ -1,0 +1,23 @@
+// How long a step may be.
+#pragma once
+
+#include <string>
+
+#include "config/case.hpp"
+#include "mpm/particles.hpp"
+#include "sim/model.hpp"
+
+namespace thawslide::sim {
+
+// One limit on the step [s], and what sets it.
+struct StepLimit {
+  double step;
+  std::string what;
+};
+
+// The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage.
+template <int Dim, class Real>
+StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+                              const mpm::Particles<Dim, Real>& particles);
+
+}  // namespace thawslide::sim

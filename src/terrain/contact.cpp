@@ -1,0 +1,289 @@
+#include "terrain/contact.hpp"
+
+#include <cmath>
+
+#include "physics/contact.hpp"
+
+namespace thawslide::terrain {
+
+namespace {
+
+using mpm::ContactLayout;
+using mpm::HatLayout;
+using mpm::MomentumLayout;
+using mpm::MotionLayout;
+
+// The smallest contact area, as a share of a cell's face: keeps N = p.n / (A dt) finite where the body barely ends.
+constexpr double smallest_area = 1e-6;
+
+// One node on its way from trial to final momentum.
+template <int Dim, class Real>
+struct NodeState {
+  Real mass;
+  Vector<Real, Dim> old_momentum, trial, momentum;
+  bool in_frame = false;
+};
+
+template <int Dim, class Real>
+NodeState<Dim, Real> trial_state(const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& position,
+                                 Real time, Real dt, Real damping,
+                                 const typename mpm::NodeRecords<Dim, Real, MomentumLayout<Dim>::size>::Record& record) {
+  NodeState<Dim, Real> state;
+  state.mass = record[MomentumLayout<Dim>::mass];
+  state.old_momentum = mpm::vector_at<Dim, Real>(record, MomentumLayout<Dim>::momentum);
+  state.trial = state.old_momentum + dt * mpm::vector_at<Dim, Real>(record, MomentumLayout<Dim>::force) -
+                damping * dt * state.old_momentum;
+  state.momentum = state.trial;
+  state.in_frame = constraints.apply(position, state.mass, time, state.momentum);
+  return state;
+}
+
+// Average of a band quantity at a node: by hat weights, or by mass with the momentum shape functions where the node has
+// GIMP mass but no hat weight.
+template <int Dim, class Real>
+Real at_base(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, std::size_t in_hats,
+             std::size_t in_momentum) {
+  const auto& hats = nodes.hats(b, k);
+  if (hats[HatLayout::volume] > Real(0)) {
+    return hats[in_hats] / hats[HatLayout::volume];
+  }
+  const auto& momentum = nodes.momentum(b, k);
+  return momentum[in_momentum] / momentum[MomentumLayout<Dim>::mass];
+}
+
+// The contact nodes of one block, with what the basal law needs of them.
+template <int Dim, class Real>
+struct BlockContact {
+  BasalNodes<Real> basal;
+  std::array<std::size_t, BasalNodes<Real>::capacity> node;
+  std::array<Real, BasalNodes<Real>::capacity> area;
+};
+
+template <int Dim, class Real>
+void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real cell, Real dt,
+                      const ContactModel<Dim, Real>& model, const physics::Phases<Real>& phases,
+                      const Vector<Real, Dim>& normal, const NodeState<Dim, Real>& state,
+                      BlockContact<Dim, Real>& contact) {
+  using Layout = MomentumLayout<Dim>;
+  const auto& record = nodes.momentum(b, k);
+  BasalNodes<Real>& basal = contact.basal;
+  const std::size_t c = basal.count++;
+  // Eq. 16's area, from the body's own surface: sum V G is the integral of its outward normal, weighted by S_i.
+  const Real face = Dim == 2 ? cell : cell * cell;
+  const Real exposed = mpm::vector_at<Dim, Real>(record, Layout::volume_gradient).dot(normal);
+  const Real area = std::max(exposed, face * static_cast<Real>(smallest_area));
+  const Real approach = state.momentum.dot(normal);
+  contact.node[c] = k;
+  contact.area[c] = area;
+  basal.normal_pressure[c] = approach / (area * dt);
+  basal.pore_pressure[c] =
+      model.pore_pressure ? at_base<Dim, Real>(nodes, b, k, HatLayout::pore_pressure, Layout::pore_pressure) : Real(0);
+  basal.saturation[c] = at_base<Dim, Real>(nodes, b, k, HatLayout::saturation, Layout::saturation);
+  basal.solid_fraction[c] = physics::effective_solid_fraction(
+      phases, at_base<Dim, Real>(nodes, b, k, HatLayout::porosity, Layout::porosity), basal.saturation[c]);
+  const auto& hats = nodes.hats(b, k);
+  basal.temperature[c] =
+      hats[HatLayout::volume] > Real(0) ? hats[HatLayout::temperature] / hats[HatLayout::volume] : Real(0);
+  basal.slip[c] = record[Layout::slip] / record[Layout::mass];
+  basal.speed[c] = (state.momentum - approach * normal).norm() / state.mass;
+}
+
+// Applies the contact impulse of one node; returns its work. state.momentum goes from trial to final.
+template <int Dim, class Real>
+void apply_contact(const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& position,
+                   const Vector<Real, Dim>& normal, Real area, Real strength, Real friction, Real heat_fraction,
+                   Real time, Real dt, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
+                   typename mpm::NodeRecords<Dim, Real, ContactLayout::size>::Record& left) {
+  const Real approach = state.momentum.dot(normal);
+  const Vector<Real, Dim> tangential = state.momentum - approach * normal;
+  const Real tangential_size = tangential.norm();
+  const auto impulse = physics::contact_impulse(approach, tangential_size, area, dt, strength);
+  Vector<Real, Dim> along = Vector<Real, Dim>::Zero();
+  if (tangential_size > Real(0)) {
+    along = tangential / tangential_size;
+  }
+  const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
+  state.momentum += total;
+  if (state.in_frame) {
+    constraints.apply(position, state.mass, time, state.momentum);
+  }
+  const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
+  const Real slip_speed = std::max(Real(0), middle.dot(along));
+  const Real friction_work = impulse.slides ? impulse.tangential * slip_speed : Real(0);
+  work.friction_work += friction_work;
+  work.friction_heat += heat_fraction * friction_work;
+  work.loss += -total.dot(middle) - friction_work;
+  work.force -= total / dt;
+  work.area += area;
+  work.friction_area += friction * area;
+  left[ContactLayout::touching] = Real(1);
+  left[ContactLayout::slip_speed] = impulse.slides ? slip_speed : Real(0);
+  left[ContactLayout::friction_heat] = heat_fraction * friction_work / dt;
+}
+
+// Records the motion of a node and the energies that constraints, damping and FLIP take.
+template <int Dim, class Real>
+void finish_node(const NodeState<Dim, Real>& state, const Vector<Real, Dim>& contact_impulse, Real damping, Real dt,
+                 ContactWork<Dim, Real>& work,
+                 typename mpm::NodeRecords<Dim, Real, MotionLayout<Dim>::size>::Record& motion) {
+  const Vector<Real, Dim> change = state.momentum - state.old_momentum;
+  const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
+  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change / (state.mass * dt));
+  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::middle_velocity, middle);
+  const Vector<Real, Dim> constraint_impulse = state.momentum - state.trial - contact_impulse;
+  if (state.in_frame) {
+    work.frame_work += constraint_impulse.dot(middle);
+  } else {
+    work.loss -= constraint_impulse.dot(middle);
+  }
+  work.damping += damping * dt * state.old_momentum.dot(middle);
+  work.node_kinetic += Real(0.5) * change.squaredNorm() / state.mass;
+}
+
+template <int Dim, class Real>
+void add(ContactWork<Dim, Real>& sum, const ContactWork<Dim, Real>& part) {
+  sum.friction_work += part.friction_work;
+  sum.friction_heat += part.friction_heat;
+  sum.loss += part.loss;
+  sum.frame_work += part.frame_work;
+  sum.damping += part.damping;
+  sum.node_kinetic += part.node_kinetic;
+  sum.area += part.area;
+  sum.friction_area += part.friction_area;
+  sum.force += part.force;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                                       const mpm::Constraints<Dim, Real>& constraints,
+                                       const ContactModel<Dim, Real>& model, const physics::Phases<Real>& phases,
+                                       Real time, Real dt, mpm::Nodes<Dim, Real>& nodes) {
+  constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+  nodes.motion.resize(grid.blocks().size());
+  nodes.contact.resize(grid.blocks().size());
+  std::vector<ContactWork<Dim, Real>> works(grid.blocks().size());
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    BlockContact<Dim, Real> contact;
+    std::array<NodeState<Dim, Real>, block_nodes> states;
+    const auto* known = ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
+    for (std::size_t k = 0; k < block_nodes; ++k) {
+      nodes.contact(b, k).fill(Real(0));
+      nodes.motion(b, k).fill(Real(0));
+      states[k].mass = nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
+      if (!(states[k].mass > Real(0))) {
+        continue;
+      }
+      states[k] = trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping,
+                              nodes.momentum(b, k));
+      if (known != nullptr && (*known)[k].candidate && states[k].momentum.dot((*known)[k].normal) > Real(0)) {
+        add_contact_node(nodes, b, k, grid.cell(), dt, model, phases, (*known)[k].normal, states[k], contact);
+      }
+    }
+    evaluate_basal_law(model.law, time, contact.basal);
+    std::array<Vector<Real, Dim>, block_nodes> impulse;
+    impulse.fill(Vector<Real, Dim>::Zero());
+    for (std::size_t c = 0; c < contact.basal.count; ++c) {
+      const std::size_t k = contact.node[c];
+      const Real strength = model.frictionless_hold ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
+      const Vector<Real, Dim> force_before = works[b].force;
+      apply_contact(constraints, mpm::node_position(grid, b, k), (*known)[k].normal, contact.area[c], strength,
+                    contact.basal.friction[c], model.law.heat_fraction, time, dt, states[k], works[b],
+                    nodes.contact(b, k));
+      impulse[k] = dt * (force_before - works[b].force);
+    }
+    for (std::size_t k = 0; k < block_nodes; ++k) {
+      if (states[k].mass > Real(0)) {
+        finish_node(states[k], impulse[k], model.mass_damping, dt, works[b], nodes.motion(b, k));
+      }
+    }
+  });
+  ContactWork<Dim, Real> sum;
+  for (const ContactWork<Dim, Real>& work : works) {
+    add(sum, work);
+  }
+  return sum;
+}
+
+template <int Dim, class Real>
+void constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                           const mpm::Constraints<Dim, Real>& constraints, Real time, mpm::Nodes<Dim, Real>& nodes) {
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+      const Real mass = nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
+      if (!(mass > Real(0))) {
+        continue;
+      }
+      Vector<Real, Dim> momentum = mpm::vector_at<Dim, Real>(nodes.velocity(b, k), 0);
+      if (ground != nullptr && nodes.contact(b, k)[ContactLayout::touching] > Real(0)) {
+        const Vector<Real, Dim>& normal = ground->block(b)[k].normal;
+        momentum -= std::max(Real(0), momentum.dot(normal)) * normal;
+      }
+      constraints.apply(mpm::node_position(grid, b, k), mass, time, momentum);
+      mpm::set_vector<Dim>(nodes.velocity(b, k), 0, momentum / mass);
+    }
+  });
+}
+
+template <int Dim, class Real>
+void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
+                        const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
+  parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    const std::int32_t* blocks = grid.blocks_about_tile(t);
+    bool any = false;
+    for (int d = 0; d < mpm::Tile<Dim>::stencil; ++d) {
+      any = any || ground.any_candidate(static_cast<std::size_t>(blocks[d]));
+    }
+    const auto& tile = grid.tiles()[t];
+    if (!any) {
+      for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+        particles.in_band(grid.order()[k]) = 0;
+      }
+      return;
+    }
+    // [candidate, touching, slip speed] of the nodes about the tile.
+    mpm::Patch<Dim, Real, 3> patch;
+    for (int d = 0; d < mpm::Tile<Dim>::stencil; ++d) {
+      const auto b = static_cast<std::size_t>(blocks[d]);
+      mpm::for_shared_nodes<Dim>(d, [&](std::size_t in_block, std::size_t in_patch) {
+        const auto& contact = nodes.contact(b, in_block);
+        patch.records[in_patch] = {ground.block(b)[in_block].candidate ? Real(1) : Real(0),
+                                   contact[ContactLayout::touching], contact[ContactLayout::slip_speed]};
+      });
+    }
+    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      const auto stencil = mpm::make_stencil<mpm::Linear<Real>, Dim, Real>(
+          grid, tile.key, particles.position.template get<Vector<Real, Dim>>(p), Real(0));
+      bool in_band = false;
+      Real weights = 0;
+      Real slip = 0;
+      stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
+        if (weight > Real(0)) {
+          in_band = in_band || patch.records[place][0] > Real(0);
+          weights += weight * patch.records[place][1];
+          slip += weight * patch.records[place][1] * patch.records[place][2];
+        }
+      });
+      particles.in_band(p) = in_band ? 1 : 0;
+      if (weights > Real(0)) {
+        particles.slip(p) += dt * slip / weights;
+      }
+    }
+  });
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                              \
+  template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                         \
+      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&,          \
+      const ContactModel<Dim, Real>&, const physics::Phases<Real>&, Real, Real, mpm::Nodes<Dim, Real>&);              \
+  template void constrain_mapped_back<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,   \
+                                                 const mpm::Constraints<Dim, Real>&, Real, mpm::Nodes<Dim, Real>&);   \
+  template void mark_band_and_slip<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,      \
+                                              Real, const mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&);
+THAWSLIDE_INSTANTIATE(2, double)
+THAWSLIDE_INSTANTIATE(3, double)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::terrain

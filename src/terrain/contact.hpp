@@ -1,0 +1,55 @@
+// Contact of the slide with the ground at the nodes (Eqs. 15-17, 20, 25; Nairn 2013; Nairn et al. 2018), and how the
+// nodes move. The trial momentum is corrected once: correcting the old momentum and the force by the same amount, as
+// Eq. 15 reads, would count contact twice.
+#pragma once
+
+#include "mpm/constraints.hpp"
+#include "mpm/nodes.hpp"
+#include "mpm/particles.hpp"
+#include "terrain/basal_law.hpp"
+#include "terrain/ground_on_grid.hpp"
+
+namespace thawslide::terrain {
+
+// What contact and constraints did in one step. Energies [J], forces [N], areas [m2].
+template <int Dim, class Real>
+struct ContactWork {
+  Real friction_work = 0;       // dissipated by sliding
+  Real friction_heat = 0;       // the part of it that heats the slide
+  Real loss = 0;                // taken by impact on ground and walls, and by sticking
+  Real frame_work = 0;          // done by rigid frames on the slide
+  Real damping = 0;             // taken by mass damping
+  Real node_kinetic = 0;        // sum m |a dt|^2 / 2 over nodes
+  Real area = 0;                // in contact
+  Real friction_area = 0;       // sum mu_e A
+  Vector<Real, Dim> force = Vector<Real, Dim>::Zero();  // on the ground
+};
+
+template <int Dim, class Real>
+struct ContactModel {
+  BasalLaw<Real> law;
+  bool frictionless_hold = false;  // no slip at all: while gravity is being settled in
+  bool pore_pressure = true;       // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
+  Real mass_damping = 0;           // [1/s]
+};
+
+// From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null.
+// nodes.hats must hold the averages of this step.
+template <int Dim, class Real>
+ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                                       const mpm::Constraints<Dim, Real>& constraints,
+                                       const ContactModel<Dim, Real>& model, const physics::Phases<Real>& phases,
+                                       Real time, Real dt, mpm::Nodes<Dim, Real>& nodes);
+
+// The mapped-back momenta (MUSL) become velocities: constraints again, and at contact nodes the inward normal
+// component is removed (no friction, no heat).
+template <int Dim, class Real>
+void constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                           const mpm::Constraints<Dim, Real>& constraints, Real time, mpm::Nodes<Dim, Real>& nodes);
+
+// Marks particles in a cell with a candidate corner as band particles, and adds the slip of the contact nodes to theirs.
+template <int Dim, class Real>
+void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
+                        const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);
+
+}  // namespace thawslide::terrain

@@ -1,0 +1,113 @@
+#include "terrain/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace thawslide::terrain {
+
+Polyline::Polyline(std::vector<double> x, std::vector<double> height) : x_(std::move(x)), height_(std::move(height)) {
+  THAWSLIDE_ASSERT(x_.size() >= 2 && x_.size() == height_.size(), "{} abscissae, {} heights", x_.size(),
+                   height_.size());
+  for (std::size_t k = 1; k < x_.size(); ++k) {
+    THAWSLIDE_ASSERT(x_[k] > x_[k - 1], "abscissae {} and {} do not ascend", x_[k - 1], x_[k]);
+  }
+}
+
+std::size_t Polyline::segment(double x) const {
+  const auto after = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
+  return static_cast<std::size_t>(after - x_.begin()) - 1;
+}
+
+double Polyline::gradient(double x) const {
+  const std::size_t k = segment(x);
+  return (height_[k + 1] - height_[k]) / (x_[k + 1] - x_[k]);
+}
+
+double Polyline::height(double x) const {
+  const std::size_t k = segment(x);
+  return height_[k] + (x - x_[k]) * (height_[k + 1] - height_[k]) / (x_[k + 1] - x_[k]);
+}
+
+double Polyline::highest(double from, double to) const {
+  double top = std::max(height(from), height(to));
+  for (auto k = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), from) - x_.begin());
+       k < x_.size() && x_[k] < to; ++k) {
+    top = std::max(top, height_[k]);
+  }
+  return top;
+}
+
+Polyline::Nearest Polyline::nearest(double x, double z) const {
+  const Vector<double, 2> point(x, z);
+  double best = HUGE_VAL;
+  Vector<double, 2> foot;
+  std::size_t at = 0;
+  const auto look = [&](std::size_t k) {
+    const Vector<double, 2> a(x_[k], height_[k]);
+    const Vector<double, 2> along = Vector<double, 2>(x_[k + 1], height_[k + 1]) - a;
+    double t = (point - a).dot(along) / along.squaredNorm();
+    t = std::max(k == 0 ? t : 0.0, std::min(k + 2 == x_.size() ? t : 1.0, t));  // the end segments go on for ever
+    const Vector<double, 2> candidate = a + t * along;
+    const double distance = (point - candidate).norm();
+    if (distance < best) {
+      best = distance;
+      foot = candidate;
+      at = k;
+    }
+  };
+  // Outwards from the segment below, until the horizontal gap alone is farther than the best.
+  const std::size_t start = segment(x);
+  look(start);
+  for (std::size_t k = start; k > 0 && x - x_[k] < best; --k) {
+    look(k - 1);
+  }
+  for (std::size_t k = start + 1; k + 1 < x_.size() && x_[k] - x < best; ++k) {
+    look(k);
+  }
+  const double sign = z >= height(x) ? 1.0 : -1.0;
+  const double scale = std::max(1.0, std::abs(x) + std::abs(z));
+  if (best > 1e-9 * scale) {
+    return {sign * best, sign * (foot - point) / best};
+  }
+  const double slope = (height_[at + 1] - height_[at]) / (x_[at + 1] - x_[at]);
+  return {sign * best, Vector<double, 2>(slope, -1.0).normalized()};
+}
+
+template <int Dim>
+template <class Real>
+GroundAtNode<Dim, Real> Ground<Dim>::at_node(const Vector<Real, Dim>& position, Real cell) const {
+  constexpr double round_off = 1e-9;
+  const double x = static_cast<double>(position[0]);
+  const double z = static_cast<double>(position[Dim - 1]);
+  const double h = static_cast<double>(cell);
+  const Polyline::Nearest nearest = line_.nearest(x, z);
+  GroundAtNode<Dim, Real> node;
+  node.candidate = line_.highest(x - h, x + h) > z - h + round_off * h;
+  node.distance = static_cast<Real>(nearest.distance);
+  node.normal.setZero();
+  node.normal[0] = static_cast<Real>(nearest.normal[0]);
+  node.normal[Dim - 1] = static_cast<Real>(nearest.normal[1]);
+  return node;
+}
+
+template <int Dim>
+double Ground<Dim>::slope_cosine(double x) const {
+  return 1.0 / std::hypot(1.0, line_.gradient(x));
+}
+
+template <int Dim>
+Vector<double, Dim> Ground<Dim>::normal_below(double x) const {
+  Vector<double, Dim> normal = Vector<double, Dim>::Zero();
+  normal[0] = line_.gradient(x);
+  normal[Dim - 1] = -1.0;
+  return normal.normalized();
+}
+
+template class Ground<2>;
+template class Ground<3>;
+template GroundAtNode<2, double> Ground<2>::at_node(const Vector<double, 2>&, double) const;
+template GroundAtNode<3, double> Ground<3>::at_node(const Vector<double, 3>&, double) const;
+
+}  // namespace thawslide::terrain
