@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/linear.hpp"
 #include "physics/freezing.hpp"
 #include "physics/heat_content.hpp"
 #include "physics/mixture.hpp"

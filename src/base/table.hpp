@@ -1,7 +1,7 @@
 // A number given as a constant or as a table over one variable; linear between entries, constant beyond the ends.
 #pragma once
 
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace thawslide {
@@ -13,6 +13,8 @@ struct Table {
 
   Table() = default;
   explicit Table(double constant) : value{constant} {}
+  Table(std::vector<double> abscissae, std::vector<double> values)
+      : abscissa(std::move(abscissae)), value(std::move(values)) {}
 
   [[nodiscard]] bool is_constant() const { return abscissa.empty(); }
   [[nodiscard]] double at(double x) const;

@@ -78,6 +78,23 @@ mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, con
   return constraints;
 }
 
+terrain::CohesionLoss make_cohesion_loss(const config::Basal& basal) {
+  if (basal.cohesion <= 0.0) {
+    return terrain::CohesionLoss::constant;  // nothing to lose: the other laws' parameters may be absent
+  }
+  switch (basal.cohesion_law) {
+    case config::CohesionLaw::slip:
+      return terrain::CohesionLoss::slip;
+    case config::CohesionLaw::ice:
+      return terrain::CohesionLoss::ice;
+    case config::CohesionLaw::time:
+      return terrain::CohesionLoss::time;
+    case config::CohesionLaw::constant:
+      break;
+  }
+  return terrain::CohesionLoss::constant;
+}
+
 template <class Real>
 terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
   const config::Basal& basal = parameters.basal;
@@ -89,10 +106,7 @@ terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
   law.max_solid_fraction = static_cast<Real>(basal.max_solid_fraction);
   law.cohesion = static_cast<Real>(basal.cohesion);
   law.residual_cohesion = static_cast<Real>(basal.residual_cohesion);
-  law.cohesion_loss = basal.cohesion_law == config::CohesionLaw::constant ? terrain::CohesionLoss::constant
-                      : basal.cohesion_law == config::CohesionLaw::slip   ? terrain::CohesionLoss::slip
-                      : basal.cohesion_law == config::CohesionLaw::ice    ? terrain::CohesionLoss::ice
-                                                                          : terrain::CohesionLoss::time;
+  law.cohesion_loss = make_cohesion_loss(basal);
   law.slip_distance = static_cast<Real>(basal.slip_distance);
   law.cohesion_loss_time = static_cast<Real>(basal.cohesion_loss_time);
   law.clamp = basal.clamp == config::FrictionClamp::joint ? physics::FrictionClamp::joint

@@ -42,7 +42,7 @@ double Polyline::highest(double from, double to) const {
 Polyline::Nearest Polyline::nearest(double x, double z) const {
   const Vector<double, 2> point(x, z);
   double best = HUGE_VAL;
-  Vector<double, 2> foot;
+  Vector<double, 2> foot = point;
   std::size_t at = 0;
   const auto look = [&](std::size_t k) {
     const Vector<double, 2> a(x_[k], height_[k]);

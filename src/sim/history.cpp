@@ -1,0 +1,148 @@
+#include "sim/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace thawslide::sim {
+
+namespace {
+
+constexpr double front_share = 0.995;
+
+struct Means {
+  double mass = 0.0, displacement = 0.0, plastic_strain = 0.0, largest_speed2 = 0.0;
+  double momentum[3] = {0.0, 0.0, 0.0};
+  double band_mass = 0.0, band_temperature = 0.0, band_saturation = 0.0, band_pore_pressure = 0.0;
+};
+
+// Mass-weighted sums over the body and over the band, in canonical order.
+template <int Dim, class Real>
+Means means_over_body(const Simulation<Dim, Real>& simulation) {
+  const auto& particles = simulation.particles();
+  Means means;
+  for (const std::uint32_t p : simulation.grid().order()) {
+    const auto mass = static_cast<double>(particles.mass(p));
+    double speed2 = 0.0;
+    for (int a = 0; a < Dim; ++a) {
+      const auto v = static_cast<double>(particles.velocity(p, a));
+      means.momentum[a] += mass * v;
+      speed2 += v * v;
+    }
+    means.mass += mass;
+    means.largest_speed2 = std::max(means.largest_speed2, speed2);
+    means.displacement += mass * static_cast<double>(particles.path_length(p));
+    means.plastic_strain += mass * static_cast<double>(particles.plastic_strain(p));
+    if (particles.in_band(p) != 0) {
+      means.band_mass += mass;
+      means.band_temperature += mass * static_cast<double>(particles.temperature(p));
+      means.band_saturation += mass * static_cast<double>(particles.liquid_saturation(p));
+      means.band_pore_pressure += mass * static_cast<double>(particles.pore_pressure(p));
+    }
+  }
+  return means;
+}
+
+template <int Dim, class Real>
+void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRow& row) {
+  const BodySums<Real> sums = sum_over_body(simulation);
+  const Ledger<Real>& ledger = simulation.ledger();
+  const auto add = [&](const char* name, Real value) { row.emplace_back(name, width * static_cast<double>(value)); };
+  const Real strain = ledger.stress_work - ledger.plastic;
+  const Real stored = sums.kinetic + sums.potential + strain;
+  const Real dissipated =
+      ledger.plastic + ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss;
+  add("kinetic_J", sums.kinetic);
+  add("potential_J", sums.potential);
+  add("strain_J", strain);
+  add("plastic_J", ledger.plastic);
+  add("viscous_J", ledger.viscous);
+  add("damping_J", ledger.damping);
+  add("friction_work_J", ledger.friction_work);
+  add("contact_loss_J", ledger.contact_loss);
+  add("frame_work_J", ledger.frame_work);
+  add("friction_heat_J", ledger.friction_heat);
+  add("converted_J", ledger.friction_work - ledger.friction_heat);
+  add("sensible_J", sums.sensible);
+  add("latent_J", sums.latent);
+  add("boundary_heat_J", ledger.boundary_heat);
+  add("band_rescale_J", ledger.band_rescale);
+  add("advection_J", ledger.advection);
+  add("numerical_J", ledger.numerical);
+  add("mechanical_residual_J",
+      stored + dissipated - ledger.frame_work - ledger.numerical - ledger.initial_mechanical);
+  add("thermal_residual_J", sums.sensible + sums.latent - ledger.initial_thermal - ledger.friction_heat -
+                                ledger.boundary_heat - ledger.band_rescale - ledger.advection);
+  add("mass_kg", sums.mass);
+  add("rock_kg", sums.rock);
+  add("ice_kg", sums.ice);
+  add("water_kg", sums.water);
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+double front_position(const Simulation<Dim, Real>& simulation) {
+  const auto& particles = simulation.particles();
+  std::vector<std::pair<double, double>> by_x;  // x, mass
+  by_x.reserve(particles.size());
+  double mass = 0.0;
+  for (const std::uint32_t p : simulation.grid().order()) {
+    by_x.emplace_back(static_cast<double>(particles.position(p, 0)), static_cast<double>(particles.mass(p)));
+    mass += by_x.back().second;
+  }
+  std::sort(by_x.begin(), by_x.end());
+  double behind = 0.0;
+  for (const auto& [x, m] : by_x) {
+    behind += m;
+    if (behind >= front_share * mass) {
+      return x + simulation.model().origin[0];
+    }
+  }
+  return by_x.back().first + simulation.model().origin[0];
+}
+
+template <int Dim, class Real>
+HistoryRow history_row(const Simulation<Dim, Real>& simulation) {
+  const config::Case& parameters = simulation.parameters();
+  const Means means = means_over_body(simulation);
+  const auto& contact = simulation.contact();
+  const double width = Dim == 2 && parameters.general.width > 0.0 ? parameters.general.width : 1.0;
+  const double band_mass = means.band_mass > 0.0 ? means.band_mass : std::nan("");
+  HistoryRow row;
+  row.emplace_back("time_s", simulation.time());
+  row.emplace_back("step", static_cast<double>(simulation.step_number()));
+  row.emplace_back("dt_s", simulation.last_step());
+  row.emplace_back("mean_velocity_m_s",
+                   std::sqrt(means.momentum[0] * means.momentum[0] + means.momentum[1] * means.momentum[1] +
+                             means.momentum[2] * means.momentum[2]) /
+                       means.mass);
+  row.emplace_back("max_velocity_m_s", std::sqrt(means.largest_speed2));
+  row.emplace_back("mean_displacement_m", means.displacement / means.mass);
+  const double front = front_position(simulation);
+  row.emplace_back("front_position_m", front);
+  row.emplace_back("runout_m", front - simulation.rear_at_start());
+  row.emplace_back("band_temperature_C", means.band_temperature / band_mass);
+  row.emplace_back("band_saturation", means.band_saturation / band_mass);
+  row.emplace_back("band_pore_pressure_Pa", means.band_pore_pressure / band_mass);
+  row.emplace_back("band_friction_coefficient",
+                   contact.area > Real(0) ? static_cast<double>(contact.friction_area / contact.area) : std::nan(""));
+  row.emplace_back("mean_plastic_strain", means.plastic_strain / means.mass);
+  const char* axes = Dim == 2 ? "xy" : "xyz";
+  for (int a = 0; a < Dim; ++a) {
+    row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), width * static_cast<double>(contact.force[a]));
+  }
+  for (int a = 0; a < Dim; ++a) {
+    const double weight = means.mass * static_cast<double>(simulation.model().motion.gravity[a]);
+    row.emplace_back(fmt::format("seismic_force_{}_N", axes[a]),
+                     width * (static_cast<double>(contact.force[a]) - weight));
+  }
+  add_ledger(simulation, width, row);
+  return row;
+}
+
+template HistoryRow history_row<2, double>(const Simulation<2, double>&);
+template HistoryRow history_row<3, double>(const Simulation<3, double>&);
+template double front_position<2, double>(const Simulation<2, double>&);
+template double front_position<3, double>(const Simulation<3, double>&);
+
+}  // namespace thawslide::sim
