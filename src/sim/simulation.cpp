@@ -73,7 +73,8 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::move_particles() {
   const auto work = mpm::move_particles(grid_, particles_, model_.motion, dt_, nodes_);
   ledger_.numerical += work.particle_kinetic - contact_.node_kinetic;
-  terrain::constrain_mapped_back(grid_, ground(), model_.constraints, static_cast<Real>(time_), nodes_);
+  ledger_.numerical += terrain::constrain_mapped_back(grid_, ground(), model_.constraints, model_.motion.gravity,
+                                                      static_cast<Real>(time_), dt_, nodes_);
 }
 
 template <int Dim, class Real>

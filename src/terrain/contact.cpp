@@ -1,6 +1,7 @@
 #include "terrain/contact.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "physics/contact.hpp"
 
@@ -207,11 +208,15 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
 }
 
 template <int Dim, class Real>
-void constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                           const mpm::Constraints<Dim, Real>& constraints, Real time, mpm::Nodes<Dim, Real>& nodes) {
+Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                           const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& gravity, Real time,
+                           Real dt, mpm::Nodes<Dim, Real>& nodes) {
+  using Layout = MomentumLayout<Dim>;
+  std::vector<Real> works(grid.blocks().size(), Real(0));
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-      const Real mass = nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
+      const auto& record = nodes.momentum(b, k);
+      const Real mass = record[Layout::mass];
       if (!(mass > Real(0))) {
         continue;
       }
@@ -221,9 +226,18 @@ void constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
         momentum -= std::max(Real(0), momentum.dot(normal)) * normal;
       }
       constraints.apply(mpm::node_position(grid, b, k), mass, time, momentum);
-      mpm::set_vector<Dim>(nodes.velocity(b, k), 0, momentum / mass);
+      const Vector<Real, Dim> velocity = momentum / mass;
+      mpm::set_vector<Dim>(nodes.velocity(b, k), 0, velocity);
+      const Vector<Real, Dim> internal_force = mpm::vector_at<Dim, Real>(record, Layout::force) - mass * gravity;
+      const auto middle = mpm::vector_at<Dim, Real>(nodes.motion(b, k), MotionLayout<Dim>::middle_velocity);
+      works[b] += dt * internal_force.dot(middle - velocity);
     }
   });
+  Real sum = 0;
+  for (const Real work : works) {
+    sum += work;
+  }
+  return sum;
 }
 
 template <int Dim, class Real>
@@ -278,8 +292,9 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
   template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                         \
       const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&,          \
       const ContactModel<Dim, Real>&, const physics::Phases<Real>&, Real, Real, mpm::Nodes<Dim, Real>&);              \
-  template void constrain_mapped_back<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,   \
-                                                 const mpm::Constraints<Dim, Real>&, Real, mpm::Nodes<Dim, Real>&);   \
+  template Real constrain_mapped_back<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,   \
+                                                 const mpm::Constraints<Dim, Real>&, const Vector<Real, Dim>&, Real,  \
+                                                 Real, mpm::Nodes<Dim, Real>&);                                       \
   template void mark_band_and_slip<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,      \
                                               Real, const mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&);
 THAWSLIDE_INSTANTIATE(2, double)

@@ -42,10 +42,12 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                        Real time, Real dt, mpm::Nodes<Dim, Real>& nodes);
 
 // The mapped-back momenta (MUSL) become velocities: constraints again, and at contact nodes the inward normal
-// component is removed (no friction, no heat).
+// component is removed (no friction, no heat). Returns sum f_int.(v_mid - v_mapped) dt [J]: the work that internal forces
+// did on the nodes, less the stress work that the mapped-back velocities will book.
 template <int Dim, class Real>
-void constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                           const mpm::Constraints<Dim, Real>& constraints, Real time, mpm::Nodes<Dim, Real>& nodes);
+Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                           const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& gravity, Real time,
+                           Real dt, mpm::Nodes<Dim, Real>& nodes);
 
 // Marks particles in a cell with a candidate corner as band particles, and adds the slip of the contact nodes to theirs.
 template <int Dim, class Real>
