@@ -1,0 +1,38 @@
+// Pressures of ice, water and pore while ice and water coexist (Eqs. 4 and 21).
+//   P_I = rho_I g H                                        ice carries the overburden, H along the terrain's normal
+//   P_L = P_I/r + rho_L L_f ln(T/Tref),  r = rho_I/rho_L   generalised Clapeyron equation, absolute temperatures  (Eq.
+//   4) P_pore = S P_L + (1 - S) P_I                                                                            (Eq. 21)
+// The paper prints a minus sign in Eq. 4. With it the pore pressure rises while the band thaws; with the plus it falls
+// and then recovers, which is what the paper describes. Plus is the default, the printed sign a switch.
+#pragma once
+
+#include <cmath>
+
+#include "physics/mixture.hpp"
+
+namespace thawslide::physics {
+
+// P_I [Pa]; gravity [m/s2], depth H [m].
+template <class Real>
+THAWSLIDE_HD Real ice_pressure(const Phases<Real>& phases, Real gravity, Real depth) {
+  return phases.ice_density * gravity * depth;
+}
+
+// P_L of Eq. 4 [Pa]; temperatures [C]; sign +1, or -1 as the paper prints it. Meaningful only as weighted in Eq. 21:
+// far below 0 C it is some -12 MPa times a saturation of 1e-5.
+template <class Real>
+THAWSLIDE_HD Real liquid_pressure_clapeyron(const Phases<Real>& phases, Real ice_pressure, Real temperature,
+                                            Real reference_temperature, Real sign) {
+  const Real absolute = temperature + celsius_to_kelvin<Real>;
+  const Real reference = reference_temperature + celsius_to_kelvin<Real>;
+  return phases.water_density / phases.ice_density * ice_pressure +
+         sign * phases.water_density * phases.latent_heat * std::log(absolute / reference);
+}
+
+// P_pore of Eq. 21 [Pa].
+template <class Real>
+THAWSLIDE_HD Real pore_pressure(Real saturation, Real liquid_pressure, Real ice_pressure) {
+  return saturation * liquid_pressure + (Real(1) - saturation) * ice_pressure;
+}
+
+}  // namespace thawslide::physics

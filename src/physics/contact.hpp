@@ -1,0 +1,32 @@
+// Contact of a node with the rigid terrain (Eqs. 15 and 16; Nairn 2013).
+//   N = p.n/(A dt),  S_stick = |p.t|/(A dt),  with p the trial momentum, n the unit normal from slide into rock
+// The node sticks if S_stick <= S_slide; else the terrain takes S_slide A dt of tangential momentum. The correction is
+// made once, from the trial momentum: correcting the old momentum and the force by the same amount, as Eq. 15 reads,
+// counts contact twice. The tangent points along the slip (Eq. 16 leaves its sign open).
+#pragma once
+
+#include "base/portability.hpp"
+
+namespace thawslide::physics {
+
+// Momentum that the terrain takes from a node [kg m/s] along n and along the slip.
+template <class Real>
+struct ContactImpulse {
+  Real normal;
+  Real tangential;
+  bool slides;
+};
+
+// normal_momentum p.n > 0 and tangential_momentum |p.t| >= 0 of the trial [kg m/s], contact area [m2], dt [s], sliding
+// strength [Pa].
+template <class Real>
+THAWSLIDE_HD ContactImpulse<Real> contact_impulse(Real normal_momentum, Real tangential_momentum, Real area, Real dt,
+                                                  Real sliding_strength) {
+  const Real available = sliding_strength * area * dt;
+  if (tangential_momentum <= available) {
+    return {normal_momentum, tangential_momentum, false};
+  }
+  return {normal_momentum, available, true};
+}
+
+}  // namespace thawslide::physics

@@ -1,0 +1,36 @@
+// Linear isotropic elasticity. Tension positive; tensors xx yy zz xy yz xz with tensor shear strains.
+//   d sigma = lambda tr(d eps) I + 2 G d eps,  lambda = E nu/((1+nu)(1-2nu)),  G = E/(2(1+nu))
+#pragma once
+
+#include "base/linear.hpp"
+#include "base/portability.hpp"
+
+namespace thawslide::physics {
+
+template <class Real>
+struct Elastic {
+  Real lame_lambda = 0;    // lambda [Pa]
+  Real shear_modulus = 0;  // G [Pa]
+
+  // Young's modulus E [Pa], Poisson's ratio nu.
+  THAWSLIDE_HD static Elastic from_young_poisson(Real youngs_modulus, Real poisson_ratio) {
+    return {youngs_modulus * poisson_ratio / ((Real(1) + poisson_ratio) * (Real(1) - Real(2) * poisson_ratio)),
+            youngs_modulus / (Real(2) * (Real(1) + poisson_ratio))};
+  }
+
+  // lambda + 2 G [Pa]: stiffness against compression with no lateral strain; sets the wave speed.
+  [[nodiscard]] THAWSLIDE_HD Real p_wave_modulus() const { return lame_lambda + Real(2) * shear_modulus; }
+};
+
+// Stress increment [Pa] of a strain increment.
+template <class Real>
+THAWSLIDE_HD SymmetricTensor<Real> stress_increment(const Elastic<Real>& elastic, const SymmetricTensor<Real>& strain) {
+  SymmetricTensor<Real> stress = Real(2) * elastic.shear_modulus * strain;
+  const Real pressure = elastic.lame_lambda * (strain[0] + strain[1] + strain[2]);
+  for (int k = 0; k < 3; ++k) {
+    stress[k] += pressure;
+  }
+  return stress;
+}
+
+}  // namespace thawslide::physics

@@ -1,0 +1,62 @@
+// Strain and rotation of a step, objectively (Hughes and Winget 1980). With G the gradient of the step's displacement
+// on the old configuration, the gradient on the middle one is
+//   H = G (I + G/2)^-1,  strain = (H + H^T)/2,  spin W = (H - H^T)/2,  rotation Q = (I - W/2)^-1 (I + W/2)
+// A rigid rotation gives no strain and an exactly orthogonal Q; the volume grows by det(I + G).
+#pragma once
+
+#include "base/linear.hpp"
+#include "base/portability.hpp"
+
+namespace thawslide::physics {
+
+template <class Real, int Dim>
+struct StrainIncrement {
+  SymmetricTensor<Real> strain;
+  Matrix<Real, Dim> rotation;
+  Real volume_ratio;  // new volume over old
+};
+
+template <class Real, int Dim>
+THAWSLIDE_HD StrainIncrement<Real, Dim> strain_increment(const Matrix<Real, Dim>& displacement_gradient) {
+  using Square = Matrix<Real, Dim>;
+  const Square identity = Square::Identity();
+  const Square to_middle = identity + displacement_gradient / Real(2);
+  const Square middle = displacement_gradient * to_middle.inverse();
+  const Square strain = (middle + middle.transpose()) / Real(2);
+  const Square half_spin = (middle - middle.transpose()) / Real(4);
+  StrainIncrement<Real, Dim> increment;
+  increment.strain.setZero();
+  increment.strain[0] = strain(0, 0);
+  increment.strain[1] = strain(1, 1);
+  increment.strain[3] = strain(0, 1);
+  if constexpr (Dim == 3) {
+    increment.strain[2] = strain(2, 2);
+    increment.strain[4] = strain(1, 2);
+    increment.strain[5] = strain(0, 2);
+  }
+  increment.rotation = (identity - half_spin).inverse() * (identity + half_spin);
+  increment.volume_ratio = (identity + displacement_gradient).determinant();
+  return increment;
+}
+
+// Q s Q^T; in the plane zz stays.
+template <class Real, int Dim>
+THAWSLIDE_HD SymmetricTensor<Real> rotate(const SymmetricTensor<Real>& tensor, const Matrix<Real, Dim>& rotation) {
+  SymmetricTensor<Real> rotated = tensor;
+  if constexpr (Dim == 2) {
+    Matrix<Real, 2> plane;
+    plane << tensor[0], tensor[3], tensor[3], tensor[1];
+    const Matrix<Real, 2> turned = rotation * plane * rotation.transpose();
+    rotated[0] = turned(0, 0);
+    rotated[1] = turned(1, 1);
+    rotated[3] = turned(0, 1);
+  } else {
+    Matrix<Real, 3> full;
+    full << tensor[0], tensor[3], tensor[5], tensor[3], tensor[1], tensor[4], tensor[5], tensor[4], tensor[2];
+    const Matrix<Real, 3> turned = rotation * full * rotation.transpose();
+    rotated << turned(0, 0), turned(1, 1), turned(2, 2), turned(0, 1), turned(1, 2), turned(0, 2);
+  }
+  return rotated;
+}
+
+}  // namespace thawslide::physics

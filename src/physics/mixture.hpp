@@ -1,0 +1,85 @@
+// The mixture of rock grains, water and ice that fills a particle (Sec. 2.1).
+//   n porosity, S liquid saturation (share of the pore), n_S = 1 - n, n_L = n S, n_I = n (1 - S)           (Eq. 1)
+//   n_e = n_S + n_I rho_I/rho_S   effective solid fraction                                                   (Eq. 2)
+//   dn/dt = (1 - n) div v - (1 - n) beta_S dT/dt                                                             (Eq. 6)
+//   C = sum n_a rho_a C_a [J/m3/K],  k = sum n_a k_a [W/m/K]                                                 (Eq. 9)
+//   beta_m = (1-n) [S + (1-S) r] beta_S + n S beta_L + n (1-S) r beta_I,  r = rho_I/rho_L                    (Eq. 8)
+// Intrinsic densities stay at their reference: Eq. 3 acts only through the expansion coefficients and K_L.
+#pragma once
+
+#include <cmath>
+
+#include "base/portability.hpp"
+
+namespace thawslide::physics {
+
+// Properties of the three phases (Table 1). The paper rounds rho_I/rho_S of Eq. 2 to 1/3; the ratio is a parameter of
+// its own because the limits of Eq. 25 were chosen with the rounded one.
+template <class Real>
+struct Phases {
+  Real rock_density, ice_density, water_density;                    // rho [kg/m3]
+  Real rock_heat_capacity, ice_heat_capacity, water_heat_capacity;  // C [J/kg/K]
+  Real rock_conductivity, ice_conductivity, water_conductivity;     // k [W/m/K]
+  Real rock_expansion, ice_expansion, water_expansion;              // beta, volumetric [1/K]
+  Real water_bulk_modulus;                                          // K_L [Pa]
+  Real latent_heat;                                                 // L_f [J/kg]
+  Real water_unit_weight;                                           // gamma_w [N/m3]
+  Real ice_to_rock_density_ratio;                                   // of Eq. 2
+};
+
+// Porosity stays between these: a particle keeps some rock and some pore.
+template <class Real>
+inline constexpr Real smallest_porosity = static_cast<Real>(1e-6);
+template <class Real>
+inline constexpr Real largest_porosity = static_cast<Real>(0.95);
+
+// n_e of Eq. 2.
+template <class Real>
+THAWSLIDE_HD Real effective_solid_fraction(const Phases<Real>& phases, Real porosity, Real saturation) {
+  return Real(1) - porosity + porosity * (Real(1) - saturation) * phases.ice_to_rock_density_ratio;
+}
+
+// Density of the mixture [kg/m3].
+template <class Real>
+THAWSLIDE_HD Real mixture_density(const Phases<Real>& phases, Real porosity, Real saturation) {
+  return (Real(1) - porosity) * phases.rock_density +
+         porosity * (saturation * phases.water_density + (Real(1) - saturation) * phases.ice_density);
+}
+
+// C of Eq. 9 [J/m3/K]: follows the saturation.
+template <class Real>
+THAWSLIDE_HD Real heat_capacity(const Phases<Real>& phases, Real porosity, Real saturation) {
+  return (Real(1) - porosity) * phases.rock_density * phases.rock_heat_capacity +
+         porosity * (saturation * phases.water_density * phases.water_heat_capacity +
+                     (Real(1) - saturation) * phases.ice_density * phases.ice_heat_capacity);
+}
+
+// k of Eq. 9 [W/m/K]: follows the saturation.
+template <class Real>
+THAWSLIDE_HD Real conductivity(const Phases<Real>& phases, Real porosity, Real saturation) {
+  return (Real(1) - porosity) * phases.rock_conductivity +
+         porosity * (saturation * phases.water_conductivity + (Real(1) - saturation) * phases.ice_conductivity);
+}
+
+// beta_m of Eq. 8 [1/K], with r = rho_I/rho_L (the paper prints rho_L/rho_L).
+template <class Real>
+THAWSLIDE_HD Real expansion(const Phases<Real>& phases, Real porosity, Real saturation) {
+  const Real ratio = phases.ice_density / phases.water_density;
+  return (Real(1) - porosity) * (saturation + (Real(1) - saturation) * ratio) * phases.rock_expansion +
+         porosity * saturation * phases.water_expansion +
+         porosity * (Real(1) - saturation) * ratio * phases.ice_expansion;
+}
+
+// Eq. 6 integrated over a step: the grains keep their mass, so 1 - n falls with the volume and grows with their thermal
+// expansion. volume_strain: change of the logarithm of the volume; temperature_change [K].
+template <class Real>
+THAWSLIDE_HD Real updated_porosity(const Phases<Real>& phases, Real porosity, Real volume_strain,
+                                   Real temperature_change) {
+  const Real exponent = phases.rock_expansion * temperature_change - volume_strain;
+  const Real updated = porosity - (Real(1) - porosity) * std::expm1(exponent);
+  return updated > largest_porosity<Real>    ? largest_porosity<Real>
+         : updated < smallest_porosity<Real> ? smallest_porosity<Real>
+                                             : updated;
+}
+
+}  // namespace thawslide::physics
