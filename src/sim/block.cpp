@@ -1,0 +1,232 @@
+#include "sim/block.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.hpp"
+#include "physics/contact.hpp"
+#include "sim/block_column.hpp"
+#include "sim/bodies.hpp"
+#include "sim/time_step.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// Path length along the ground and back; coordinates relative to the domain's lower corner [m].
+class Path {
+ public:
+  explicit Path(const terrain::Polyline& line) : line_(&line) {
+    length_.push_back(0.0);
+    for (std::size_t k = 1; k < line.x().size(); ++k) {
+      length_.push_back(length_.back() +
+                        std::hypot(line.x()[k] - line.x()[k - 1], line.heights()[k] - line.heights()[k - 1]));
+    }
+  }
+  [[nodiscard]] double length_at(double x) const { return map(line_->x(), length_, x); }
+  [[nodiscard]] double x_at(double length) const { return map(length_, line_->x(), length); }
+
+ private:
+  static double map(const std::vector<double>& from, const std::vector<double>& to, double value) {
+    const auto after = std::upper_bound(from.begin() + 1, from.end() - 1, value);
+    const auto k = static_cast<std::size_t>(after - from.begin());
+    return to[k - 1] + (value - from[k - 1]) / (from[k] - from[k - 1]) * (to[k] - to[k - 1]);
+  }
+
+  const terrain::Polyline* line_;
+  std::vector<double> length_;
+};
+
+// A vertical column of the body: what the train is made of.
+struct Carriage {
+  double path;  // along the ground at t = 0 [m]
+  double mass;  // [kg per m of width]
+  double base;  // length of ground under it [m]
+};
+
+struct Train {
+  std::vector<Carriage> carriages;
+  double mass = 0, base = 0;
+  double thickness = 0;  // mean, along the normal [m]
+  double middle_x = 0;   // absolute
+};
+
+Train make_train(const config::Case& parameters, const Model<2, double>& model, const Path& path,
+                 const mpm::Particles<2, double>& particles) {
+  const double cell = parameters.grid.cell;
+  std::map<long, std::pair<double, double>> columns;  // cell number: mass, volume
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    auto& column = columns[static_cast<long>(std::floor(particles.position(p, 0) / cell))];
+    column.first += particles.mass(p);
+    column.second += particles.volume(p);
+  }
+  Train train;
+  double volume = 0.0;
+  for (const auto& [number, column] : columns) {
+    const double x = (static_cast<double>(number) + 0.5) * cell;
+    const double base = cell / model.ground->slope_cosine(x);
+    train.carriages.push_back({path.length_at(x), column.first, base});
+    train.mass += column.first;
+    train.base += base;
+    volume += column.second;
+    train.middle_x += x * column.first;
+  }
+  train.thickness = volume / train.base;
+  train.middle_x = train.middle_x / train.mass + model.origin[0];
+  return train;
+}
+
+struct Forces {
+  double along = 0, normal = 0;  // of gravity, downhill and into the ground [N per m of width]
+};
+
+Forces gravity_on_train(const Model<2, double>& model, const Path& path, const Train& train, double displacement) {
+  Forces forces;
+  for (const Carriage& carriage : train.carriages) {
+    const Vector<double, 2> normal = model.ground->normal_below(path.x_at(carriage.path + displacement));
+    const Vector<double, 2> tangent(-normal[1], normal[0]);  // towards +x
+    forces.along += carriage.mass * model.motion.gravity.dot(tangent);
+    forces.normal += std::max(0.0, carriage.mass * model.motion.gravity.dot(normal));
+  }
+  return forces;
+}
+
+// The train on its column: one step after another.
+class Block {
+ public:
+  Block(const config::Case& parameters, const Model<2, double>& model, const mpm::Particles<2, double>& particles)
+      : parameters_(parameters),
+        model_(model),
+        path_(model.ground->line()),
+        train_(make_train(parameters, model, path_, particles)),
+        column_(model_.band, initial_column()) {
+    velocity_ = parameters.bodies.begin()->second.velocity[0];
+    evaluate_base();
+  }
+
+  void step(double dt) {
+    const Forces gravity = evaluate_base();
+    const double trial = train_.mass * velocity_ + dt * gravity.along;
+    const auto impulse =
+        physics::contact_impulse(dt * gravity.normal, std::abs(trial), train_.base, dt, basal_.strength[0]);
+    const double old_velocity = velocity_;
+    velocity_ = (trial - std::copysign(impulse.tangential, trial)) / train_.mass;
+    const double middle = 0.5 * (old_velocity + velocity_);
+    const double work = impulse.slides ? impulse.tangential / train_.base * std::abs(middle) : 0.0;
+    const double heat = model_.contact.law.heat_fraction * work;
+    friction_work_ += work;
+    friction_heat_ += heat;
+    displacement_ += middle * dt;
+    slip_ += impulse.slides ? std::abs(middle) * dt : 0.0;
+    if (model_.band.heat) {
+      const double before = column_.heat(scaling());
+      column_.conduct_heat(heat / dt, scaling(), dt);
+      heat_gain_ += column_.heat(scaling()) - before;
+    }
+    column_.drain_pore_pressure(scaling(), dt);
+    time_ += dt;
+  }
+
+  [[nodiscard]] double time() const { return time_; }
+
+  HistoryRow row() {
+    const Forces gravity = evaluate_base();
+    double count = 0.0, temperature = 0.0, saturation = 0.0, pressure = 0.0;
+    for (const BlockRow& band : column_.rows()) {
+      if (band.in_band) {
+        count += 1.0;
+        temperature += band.temperature;
+        saturation += band.saturation;
+        pressure += band.pore_pressure;
+      }
+    }
+    const double front = path_.x_at(train_.carriages.back().path + displacement_) + model_.origin[0];
+    return {{"time_s", time_},
+            {"velocity_m_s", velocity_},
+            {"displacement_m", displacement_},
+            {"front_position_m", front + 0.5 * parameters_.grid.cell},
+            {"normal_pressure_Pa", basal_.normal_pressure[0]},
+            {"pore_pressure_Pa", basal_.pore_pressure[0]},
+            {"sliding_strength_Pa", basal_.strength[0]},
+            {"driving_traction_Pa", gravity.along / train_.base},
+            {"band_temperature_C", temperature / count},
+            {"band_saturation", saturation / count},
+            {"band_pore_pressure_Pa", pressure / count},
+            {"band_friction_coefficient", basal_.friction[0]},
+            {"friction_work_J_m2", friction_work_},
+            {"friction_heat_J_m2", friction_heat_},
+            {"heat_gain_J_m2", heat_gain_}};
+  }
+
+ private:
+  BlockColumn::Initial initial_column() const {
+    const config::Body& body = parameters_.bodies.begin()->second;
+    const auto& material = parameters_.materials.at(body.material);
+    return {train_.thickness, parameters_.grid.cell, body.particles_per_axis,        &body.temperature,
+            &body.porosity,   train_.middle_x,       material.hydraulic_conductivity};
+  }
+
+  // xi in force.
+  [[nodiscard]] double scaling() const {
+    return parameters_.band.thickness.value.empty() ? 1.0
+                                                    : parameters_.grid.cell / parameters_.band.thickness.at(time_);
+  }
+
+  // The law's view of the base now; returns gravity's forces.
+  Forces evaluate_base() {
+    const Forces gravity = gravity_on_train(model_, path_, train_, displacement_);
+    const BlockBase base = column_.base();
+    basal_.count = 1;
+    basal_.normal_pressure[0] = gravity.normal / train_.base;
+    basal_.pore_pressure[0] = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
+    basal_.temperature[0] = base.temperature;
+    basal_.saturation[0] = base.saturation;
+    basal_.solid_fraction[0] = physics::effective_solid_fraction(model_.motion.phases, base.porosity, base.saturation);
+    basal_.slip[0] = slip_;
+    basal_.speed[0] = std::abs(velocity_);
+    evaluate_basal_law(model_.contact.law, time_, basal_);
+    return gravity;
+  }
+
+  const config::Case& parameters_;
+  const Model<2, double>& model_;
+  Path path_;
+  Train train_;
+  BlockColumn column_;
+  terrain::BasalNodes<double> basal_;
+  double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;
+  double friction_work_ = 0, friction_heat_ = 0, heat_gain_ = 0;
+};
+
+}  // namespace
+
+std::vector<HistoryRow> run_block(const config::Case& parameters) {
+  if (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none) {
+    throw UserError(
+        fmt::format("{}: the block model slides a 2D section along a terrain. Give case.dimension = 2 and a "
+                    "terrain.type other than \"none\", or use `thawslide run`.",
+                    parameters.file));
+  }
+  const Model<2, double> model = make_model<2, double>(parameters);
+  mpm::Particles<2, double> particles;
+  fill_bodies(parameters, model, particles);
+  Block block(parameters, model, particles);
+  const double thickness = parameters.band.thickness.value.empty() ? 0.0 : parameters.band.thickness.at(0.0);
+  const double dt = parameters.time.stepping == config::Stepping::fixed
+                        ? parameters.time.step
+                        : parameters.time.safety * largest_stable_step(parameters, model, thickness, particles).step;
+  const double interval = std::max(parameters.time.history_interval, dt);
+  const auto steps = static_cast<long>(std::ceil(parameters.time.end / dt * (1.0 - 1e-12)));
+  const long every = std::max(1L, std::lround(interval / dt));
+  std::vector<HistoryRow> rows{block.row()};
+  for (long k = 1; k <= steps; ++k) {
+    block.step(dt);
+    if (k % every == 0 || k == steps) {
+      rows.push_back(block.row());
+    }
+  }
+  return rows;
+}
+
+}  // namespace thawslide::sim
