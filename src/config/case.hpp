@@ -1,5 +1,6 @@
 // The case: everything a run needs to know, typed, fully checked and never changed after it was read. Units are SI,
-// angles in degrees, temperatures in degrees Celsius. parameters.cpp declares each member once (key, unit, range, default).
+// angles in degrees, temperatures in degrees Celsius. parameters.cpp declares each member once (key, unit, range,
+// default).
 #pragma once
 
 #include <array>
@@ -43,8 +44,8 @@ struct General {
 struct Time {
   double end = 0.0;
   Stepping stepping = Stepping::fixed;
-  double step = 0.0;      // s; fixed step, or the largest adaptive one
-  double safety = 0.8;    // of the limits, adaptive
+  double step = 0.0;              // s; fixed step, or the largest adaptive one
+  double safety = 0.8;            // of the limits, adaptive
   double output_interval = 1.0;   // s between snapshots
   double history_interval = 0.0;  // s between history rows; 0: every step
 };
@@ -78,8 +79,8 @@ struct Phases {
 
 struct Freezing {
   CurveKind curve = CurveKind::power_law;
-  double exponent = 5.0;            // power law, Eq. 24
-  double slope = 0.5;               // 1/K, linear curve m of Sec. 3.1
+  double exponent = 5.0;  // power law, Eq. 24
+  double slope = 0.5;     // 1/K, linear curve m of Sec. 3.1
   double reference_temperature = 0.0;
 };
 
@@ -89,16 +90,16 @@ struct Material {
   double friction_angle = 0, dilation_angle = 0;
   double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps); equal: none
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
-  double viscosity_time = 0;                   // s, Kelvin-Voigt
-  double hydraulic_conductivity = 0;           // m/s
+  double viscosity_time = 0;                                        // s, Kelvin-Voigt
+  double hydraulic_conductivity = 0;                                // m/s
 };
 
 struct Body {
   std::string material;
   BodyShape shape = BodyShape::box;
-  Point min{}, max{};                              // box
-  std::vector<std::array<double, 2>> vertices;     // polygon (2D)
-  int particles_per_axis = 2;                      // per cell and axis
+  Point min{}, max{};                           // box
+  std::vector<std::array<double, 2>> vertices;  // polygon (2D)
+  int particles_per_axis = 2;                   // per cell and axis
   InitialField temperature{-10.0};
   InitialField porosity{0.375};
   Point velocity{};
@@ -116,9 +117,9 @@ struct Mechanics {
   InitialStress initial_stress = InitialStress::geostatic;
   double k0 = -1.0;  // negative: nu / (1 - nu)
   bool slope_shear = false;
-  double settle_time = 0.0;      // s, InitialStress::settle
-  double settle_damping = 0.0;   // 1/s, during settling
-  double mass_damping = 0.0;     // 1/s, during the run
+  double settle_time = 0.0;     // s, InitialStress::settle
+  double settle_damping = 0.0;  // 1/s, during settling
+  double mass_damping = 0.0;    // 1/s, during the run
 };
 
 struct Basal {
@@ -129,11 +130,11 @@ struct Basal {
   double cohesion = 0;
   CohesionLaw cohesion_law = CohesionLaw::slip;
   double residual_cohesion = 0;
-  double slip_distance = 0;        // m, d_c of the slip law
-  double cohesion_loss_time = 0;   // s, the time law
+  double slip_distance = 0;       // m, d_c of the slip law
+  double cohesion_loss_time = 0;  // s, the time law
   FrictionClamp clamp = FrictionClamp::keep_cohesion;
-  bool cap_pressure = false;       // P <= N
-  double heat_fraction = 1.0;      // energy conversion coefficient
+  bool cap_pressure = false;   // P <= N
+  double heat_fraction = 1.0;  // energy conversion coefficient
 };
 
 struct Mechanisms {  // Sec. 3.3
@@ -177,8 +178,8 @@ struct Report {
 };
 
 struct Case {
-  std::string name;    // of the run
-  std::string file;    // absolute path of the case file
+  std::string name;  // of the run
+  std::string file;  // absolute path of the case file
   General general;
   Time time;
   Grid grid;

@@ -42,8 +42,8 @@ std::optional<toml::table> parse_value(const Override& override, Reading& readin
       return parsed;
     }
   } catch (const toml::parse_error& error) {
-    const bool is_bare = std::string_view("[{\"'").find(override.value.empty() ? '"' : override.value.front()) ==
-                         std::string_view::npos;
+    const bool is_bare =
+        std::string_view("[{\"'").find(override.value.empty() ? '"' : override.value.front()) == std::string_view::npos;
     if (is_bare) {
       toml::table text;
       text.insert_or_assign("value", override.value);
@@ -75,9 +75,10 @@ bool names_existing_table(const Override& override, const std::vector<std::strin
       }
     }
     if (std::find(names.begin(), names.end(), parts[1]) == names.end()) {
-      reading.problems.add(place_of(override), fmt::format("there is no {} '{}'{} In the case file: {}.", parts[0], parts[1],
-                                                           nearest(parts[1], names).empty() ? "." : did_you_mean(parts[1], names),
-                                                           names.empty() ? "none" : list_words(names)));
+      reading.problems.add(place_of(override),
+                           fmt::format("there is no {} '{}'{} In the case file: {}.", parts[0], parts[1],
+                                       nearest(parts[1], names).empty() ? "." : did_you_mean(parts[1], names),
+                                       names.empty() ? "none" : list_words(names)));
       return false;
     }
   }

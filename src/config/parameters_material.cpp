@@ -46,14 +46,14 @@ std::vector<Parameter<Freezing>> freezing_parameters() {
                 {.key = "curve", .text = "liquid saturation over temperature", .source = "Eq. 24, Sec. 3.1"}),
       parameter(&Freezing::exponent,
                 {.key = "exponent", .range = above(0), .text = "of the power law", .source = "Eq. 24"}),
-      parameter(&Freezing::slope,
-                {.key = "slope", .unit = "1/K", .range = above(0), .text = "of the linear curve, m", .source = "Sec. 3.1"}),
-      parameter(&Freezing::reference_temperature,
-                {.key = "reference_temperature",
-                 .unit = "C",
-                 .range = inside(-273.15, 100),
-                 .text = "temperature above which all is water, Tref",
-                 .source = "Eq. 4"}),
+      parameter(
+          &Freezing::slope,
+          {.key = "slope", .unit = "1/K", .range = above(0), .text = "of the linear curve, m", .source = "Sec. 3.1"}),
+      parameter(&Freezing::reference_temperature, {.key = "reference_temperature",
+                                                   .unit = "C",
+                                                   .range = inside(-273.15, 100),
+                                                   .text = "temperature above which all is water, Tref",
+                                                   .source = "Eq. 4"}),
   };
 }
 
@@ -75,10 +75,8 @@ std::vector<Parameter<Material>> material_parameters() {
                                             .text = "Young's modulus",
                                             .source = "Tables 2, 3"})
           .required_if(when_mechanical, is_mechanical),
-      parameter(&Material::poisson_ratio, {.key = "poisson_ratio",
-                                           .range = inside(-1, 0.5),
-                                           .text = "Poisson's ratio",
-                                           .source = "Tables 2, 3"})
+      parameter(&Material::poisson_ratio,
+                {.key = "poisson_ratio", .range = inside(-1, 0.5), .text = "Poisson's ratio", .source = "Tables 2, 3"})
           .required_if(when_mechanical, is_mechanical),
       parameter(&Material::friction_angle, {.key = "friction_angle",
                                             .unit = "degrees",
@@ -86,10 +84,11 @@ std::vector<Parameter<Material>> material_parameters() {
                                             .text = "internal friction angle",
                                             .source = "Eq. 11"})
           .required_if(when_plastic, is_plastic),
-      parameter(&Material::dilation_angle, {.key = "dilation_angle",
-                                            .unit = "degrees",
-                                            .range = {.low = 0, .high = 90, .high_open = true},
-                                            .text = "dilation angle, at most the friction angle; the paper gives none"}),
+      parameter(&Material::dilation_angle,
+                {.key = "dilation_angle",
+                 .unit = "degrees",
+                 .range = {.low = 0, .high = 90, .high_open = true},
+                 .text = "dilation angle, at most the friction angle; the paper gives none"}),
       parameter(&Material::cohesion, {.key = "cohesion",
                                       .unit = "Pa",
                                       .range = at_least(0),
@@ -126,9 +125,12 @@ std::vector<Parameter<Body>> body_parameters() {
   return {
       parameter(&Body::material, {.key = "material", .text = "name of the material the body is made of"}).required(),
       parameter(&Body::shape, {.key = "shape", .text = "how the space of the body is told"}),
-      parameter(&Body::min, {.key = "min", .unit = "m", .text = "lowest corner of the box"}).required_if(when_box, is_box),
-      parameter(&Body::max, {.key = "max", .unit = "m", .text = "highest corner of the box"}).required_if(when_box, is_box),
-      parameter(&Body::vertices, {.key = "vertices", .unit = "m", .text = "corners of the polygon, in order", .dimension = 2})
+      parameter(&Body::min, {.key = "min", .unit = "m", .text = "lowest corner of the box"})
+          .required_if(when_box, is_box),
+      parameter(&Body::max, {.key = "max", .unit = "m", .text = "highest corner of the box"})
+          .required_if(when_box, is_box),
+      parameter(&Body::vertices,
+                {.key = "vertices", .unit = "m", .text = "corners of the polygon, in order", .dimension = 2})
           .required_if("when the shape is \"polygon\"", is_polygon),
       parameter(&Body::particles_per_axis, {.key = "particles_per_axis",
                                             .range = between(1, 16),
@@ -149,13 +151,14 @@ std::vector<Parameter<Frame>> frame_parameters() {
   return {
       parameter(&Frame::min, {.key = "min", .unit = "m", .text = "lowest corner of the box at t = 0"}).required(),
       parameter(&Frame::max, {.key = "max", .unit = "m", .text = "highest corner of the box at t = 0"}).required(),
-      parameter(&Frame::axis,
-                {.key = "axis",
-                 .text = "the velocity component that is prescribed inside the box",
-                 .words = {{"x", "along x"}, {"y", "along y, up in 2D"}, {"z", "along z, up in 3D"}}})
+      parameter(&Frame::axis, {.key = "axis",
+                               .text = "the velocity component that is prescribed inside the box",
+                               .words = {{"x", "along x"}, {"y", "along y, up in 2D"}, {"z", "along z, up in 3D"}}})
           .required(),
-      parameter(&Frame::velocity,
-                {.key = "velocity", .unit = "m/s", .text = "the prescribed velocity, with which the box moves", .source = "Sec. 3.2"})
+      parameter(&Frame::velocity, {.key = "velocity",
+                                   .unit = "m/s",
+                                   .text = "the prescribed velocity, with which the box moves",
+                                   .source = "Sec. 3.2"})
           .required(),
   };
 }
@@ -163,8 +166,8 @@ std::vector<Parameter<Frame>> frame_parameters() {
 }  // namespace
 
 void declare_material(Tables& tables) {
-  tables.push_back(std::make_unique<SingleTable<Phases>>("phases", "Rock grains, ice and water", &Case::phases,
-                                                         phase_parameters()));
+  tables.push_back(
+      std::make_unique<SingleTable<Phases>>("phases", "Rock grains, ice and water", &Case::phases, phase_parameters()));
   tables.push_back(std::make_unique<SingleTable<Freezing>>("freezing", "Liquid saturation over temperature",
                                                            &Case::freezing, freezing_parameters()));
   tables.push_back(std::make_unique<NamedTable<Material>>("material", "A material, by a name of your choice",

@@ -14,9 +14,8 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
       parameter(&Mechanics::enabled, {.key = "enabled", .text = "false: nothing moves", .source = "Sec. 3.1"}),
       parameter(&Mechanics::shape_function, {.key = "shape_function", .text = "shape functions of momentum"}),
       parameter(&Mechanics::initial_stress, {.key = "initial_stress", .text = "stress at t = 0; the paper is silent"}),
-      parameter(&Mechanics::k0, {.key = "k0",
-                                 .range = at_least(0),
-                                 .text = "ratio of sideways to vertical initial stress, geostatic"})
+      parameter(&Mechanics::k0,
+                {.key = "k0", .range = at_least(0), .text = "ratio of sideways to vertical initial stress, geostatic"})
           .otherwise("nu / (1 - nu) of each material"),
       parameter(&Mechanics::slope_shear,
                 {.key = "slope_shear", .text = "add the shear stress of an infinite slope to the geostatic stress"}),
@@ -28,10 +27,9 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
                                              .range = above(0),
                                              .text = "damping of velocities while the body settles"})
           .required_if(when_settling, settles),
-      parameter(&Mechanics::mass_damping, {.key = "mass_damping",
-                                           .unit = "1/s",
-                                           .range = at_least(0),
-                                           .text = "damping of velocities during the run"}),
+      parameter(
+          &Mechanics::mass_damping,
+          {.key = "mass_damping", .unit = "1/s", .range = at_least(0), .text = "damping of velocities during the run"}),
   };
 }
 
@@ -62,14 +60,16 @@ std::vector<Parameter<Basal>> friction_parameters() {
                                              .range = between(0, 1),
                                              .text = "effective solid fraction at which friction is whole, n_max",
                                              .source = "Eq. 25"}),
-      parameter(&Basal::clamp,
-                {.key = "clamp", .text = "where the frictional strength is kept from being negative", .source = "Eq. 17"}),
+      parameter(
+          &Basal::clamp,
+          {.key = "clamp", .text = "where the frictional strength is kept from being negative", .source = "Eq. 17"}),
       parameter(&Basal::cap_pressure,
                 {.key = "cap_pressure", .text = "pore pressure acts up to the normal stress only", .source = "Eq. 17"}),
-      parameter(&Basal::heat_fraction, {.key = "heat_fraction",
-                                        .range = between(0, 1),
-                                        .text = "share of friction work that becomes heat: energy conversion coefficient",
-                                        .source = "Secs. 3.3, 4"}),
+      parameter(&Basal::heat_fraction,
+                {.key = "heat_fraction",
+                 .range = between(0, 1),
+                 .text = "share of friction work that becomes heat: energy conversion coefficient",
+                 .source = "Secs. 3.3, 4"}),
   };
 }
 
@@ -89,18 +89,16 @@ std::vector<Parameter<Basal>> cohesion_parameters() {
                                         .unit = "m",
                                         .range = above(0),
                                         .text = "slip over which the cohesion falls to 1/e, d_c, of the law \"slip\""})
-          .required_if("when basal.cohesion > 0 and basal.cohesion_law is \"slip\"",
-                       [](const Case& whole, const Basal& basal) {
-                         return loses_cohesion(whole, basal, CohesionLaw::slip);
-                       }),
+          .required_if(
+              "when basal.cohesion > 0 and basal.cohesion_law is \"slip\"",
+              [](const Case& whole, const Basal& basal) { return loses_cohesion(whole, basal, CohesionLaw::slip); }),
       parameter(&Basal::cohesion_loss_time, {.key = "cohesion_loss_time",
                                              .unit = "s",
                                              .range = at_least(0),
                                              .text = "when the cohesion is lost, of the law \"time\""})
-          .required_if("when basal.cohesion > 0 and basal.cohesion_law is \"time\"",
-                       [](const Case& whole, const Basal& basal) {
-                         return loses_cohesion(whole, basal, CohesionLaw::time);
-                       }),
+          .required_if(
+              "when basal.cohesion > 0 and basal.cohesion_law is \"time\"",
+              [](const Case& whole, const Basal& basal) { return loses_cohesion(whole, basal, CohesionLaw::time); }),
   };
 }
 
@@ -116,14 +114,12 @@ std::vector<Parameter<Mechanisms>> mechanism_parameters() {
   return {
       parameter(&Mechanisms::deformation,
                 {.key = "deformation", .text = "D; false: the yield strength is out of reach", .source = "Sec. 3.3"}),
-      parameter(&Mechanisms::lubrication,
-                {.key = "lubrication",
-                 .text = "L; false: Eq. 25 at the initial porosity and saturation",
-                 .source = "Sec. 3.3"}),
-      parameter(&Mechanisms::pressurization,
-                {.key = "pressurization",
-                 .text = "P; false: no pore pressure at the ground, ice pressure included",
-                 .source = "Sec. 3.3"}),
+      parameter(&Mechanisms::lubrication, {.key = "lubrication",
+                                           .text = "L; false: Eq. 25 at the initial porosity and saturation",
+                                           .source = "Sec. 3.3"}),
+      parameter(&Mechanisms::pressurization, {.key = "pressurization",
+                                              .text = "P; false: no pore pressure at the ground, ice pressure included",
+                                              .source = "Sec. 3.3"}),
   };
 }
 
@@ -160,8 +156,7 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
       parameter(&Pressure::seepage, {.key = "seepage", .text = "Darcy flow of melted pore water", .source = "Eq. 22"}),
       parameter(&Pressure::thickness_direction,
                 {.key = "thickness_direction", .text = "direction of the thickness H in P_I = rho_I g H"}),
-      parameter(&Pressure::thickness_update,
-                {.key = "thickness_update", .text = "when the thickness H is computed"}),
+      parameter(&Pressure::thickness_update, {.key = "thickness_update", .text = "when the thickness H is computed"}),
   };
 }
 
@@ -174,12 +169,13 @@ void declare_model(Tables& tables) {
                                                         basal_parameters()));
   tables.push_back(std::make_unique<SingleTable<Mechanisms>>("mechanisms", "The mechanisms of Sec. 3.3, on or off",
                                                              &Case::mechanisms, mechanism_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Band>>("band", "The shear band along the ground", &Case::band,
-                                                       band_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Heat>>("heat", "Heat and phase change", &Case::heat, heat_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Heat>>(
-      "heat.boundary", "Temperature or heat flux at the sides of the grid", &Case::heat,
-      six_sides(&Heat::boundary, "heat condition")));
+  tables.push_back(
+      std::make_unique<SingleTable<Band>>("band", "The shear band along the ground", &Case::band, band_parameters()));
+  tables.push_back(
+      std::make_unique<SingleTable<Heat>>("heat", "Heat and phase change", &Case::heat, heat_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Heat>>("heat.boundary",
+                                                       "Temperature or heat flux at the sides of the grid", &Case::heat,
+                                                       six_sides(&Heat::boundary, "heat condition")));
   tables.push_back(
       std::make_unique<SingleTable<Pressure>>("pressure", "Pore pressure", &Case::pressure, pressure_parameters()));
 }

@@ -10,11 +10,12 @@ std::vector<Parameter<General>> general_parameters() {
       parameter(&General::title, {.key = "title", .text = "title for figures and reports"}),
       parameter(&General::dimension,
                 {.key = "dimension", .range = between(2, 3), .text = "2: plane strain, y is up; 3: z is up"}),
-      parameter(&General::width, {.key = "width",
-                                  .unit = "m",
-                                  .range = at_least(0),
-                                  .text = "width that extensive results are multiplied by; 0: results per metre of width",
-                                  .dimension = 2}),
+      parameter(&General::width,
+                {.key = "width",
+                 .unit = "m",
+                 .range = at_least(0),
+                 .text = "width that extensive results are multiplied by; 0: results per metre of width",
+                 .dimension = 2}),
       parameter(&General::gravity, {.key = "gravity", .unit = "m/s2", .range = at_least(0), .text = "gravity"}),
       parameter(&General::gravity_tilt,
                 {.key = "gravity_tilt",
@@ -29,10 +30,9 @@ std::vector<Parameter<Time>> time_parameters() {
   return {
       parameter(&Time::end, {.key = "end", .unit = "s", .range = above(0), .text = "simulated time"}).required(),
       parameter(&Time::stepping, {.key = "stepping", .text = "how the time step is chosen"}),
-      parameter(&Time::step, {.key = "step",
-                              .unit = "s",
-                              .range = above(0),
-                              .text = "the fixed time step, or the largest adaptive one"})
+      parameter(
+          &Time::step,
+          {.key = "step", .unit = "s", .range = above(0), .text = "the fixed time step, or the largest adaptive one"})
           .required_if("when time.stepping is \"fixed\"",
                        [](const Case&, const Time& time) { return time.stepping == Stepping::fixed; })
           .otherwise("time.end, that is no cap", [](const Case&, Time& time) { time.step = time.end; }),
@@ -41,11 +41,10 @@ std::vector<Parameter<Time>> time_parameters() {
                                 .text = "share of the smallest limit that an adaptive step takes"}),
       parameter(&Time::output_interval,
                 {.key = "output_interval", .unit = "s", .range = above(0), .text = "time between snapshots"}),
-      parameter(&Time::history_interval,
-                {.key = "history_interval",
-                 .unit = "s",
-                 .range = at_least(0),
-                 .text = "time between rows of history.csv; 0: a row every step"}),
+      parameter(&Time::history_interval, {.key = "history_interval",
+                                          .unit = "s",
+                                          .range = at_least(0),
+                                          .text = "time between rows of history.csv; 0: a row every step"}),
   };
 }
 
@@ -105,12 +104,11 @@ void declare_run(Tables& tables) {
       std::make_unique<SingleTable<General>>("case", "The case as a whole", &Case::general, general_parameters()));
   tables.push_back(
       std::make_unique<SingleTable<Time>>("time", "Time, its steps and outputs", &Case::time, time_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Grid>>("grid", "The background grid", &Case::grid, grid_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Grid>>("grid.boundary", "What the sides of the grid do to velocities",
+                                                       &Case::grid, six_sides(&Grid::boundary, "velocity condition")));
   tables.push_back(
-      std::make_unique<SingleTable<Grid>>("grid", "The background grid", &Case::grid, grid_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Grid>>(
-      "grid.boundary", "What the sides of the grid do to velocities", &Case::grid,
-      six_sides(&Grid::boundary, "velocity condition")));
-  tables.push_back(std::make_unique<SingleTable<Terrain>>("terrain", "The ground", &Case::terrain, terrain_parameters()));
+      std::make_unique<SingleTable<Terrain>>("terrain", "The ground", &Case::terrain, terrain_parameters()));
   tables.push_back(std::make_unique<SingleTable<Checkpoint>>("checkpoint", "States to resume from", &Case::checkpoint,
                                                              checkpoint_parameters()));
   tables.push_back(

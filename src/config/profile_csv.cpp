@@ -54,7 +54,8 @@ class ProfileReader {
       columns_ == 0 ? take_header(fields) : take_row(fields);
     }
     if (!stream.eof()) {
-      throw UserError(fmt::format("{}: the profile cannot be read. Check that the file is there and may be read.", file_));
+      throw UserError(
+          fmt::format("{}: the profile cannot be read. Check that the file is there and may be read.", file_));
     }
     if (columns_ == 0) {
       fail("the file holds no header; allowed: distance_m,terrain_elevation_m[,surface_elevation_m]");
@@ -71,12 +72,13 @@ class ProfileReader {
   }
 
   void take_header(const Fields& fields) {
-    const bool is_known = (fields.size() == 2 || fields.size() == 3) &&
-                          std::equal(fields.begin(), fields.end(), all_columns.begin());
+    const bool is_known =
+        (fields.size() == 2 || fields.size() == 3) && std::equal(fields.begin(), fields.end(), all_columns.begin());
     if (!is_known) {
-      fail(fmt::format("the header is '{}'; allowed: distance_m,terrain_elevation_m[,surface_elevation_m], separated by "
-                       "commas",
-                       fmt::join(fields, ",")));
+      fail(
+          fmt::format("the header is '{}'; allowed: distance_m,terrain_elevation_m[,surface_elevation_m], separated by "
+                      "commas",
+                      fmt::join(fields, ",")));
     }
     columns_ = fields.size();
   }
@@ -88,18 +90,20 @@ class ProfileReader {
     const double distance = number(fields[0], 0);
     const double terrain = number(fields[1], 1);
     if (!table_.distance.empty() && !(distance > table_.distance.back())) {
-      fail(fmt::format("the profile folds back: distance_m is {} after {}; allowed: strictly increasing distances. Sort "
-                       "the rows, and leave out overhangs and repeated points",
-                       distance, table_.distance.back()));
+      fail(
+          fmt::format("the profile folds back: distance_m is {} after {}; allowed: strictly increasing distances. Sort "
+                      "the rows, and leave out overhangs and repeated points",
+                      distance, table_.distance.back()));
     }
     table_.distance.push_back(distance);
     table_.terrain.push_back(terrain);
     if (columns_ == 3) {
       const double surface = number(fields[2], 2);
       if (surface < terrain) {
-        fail(fmt::format("surface_elevation_m is {}, below terrain_elevation_m, {}; allowed: the same elevation or a "
-                         "higher one",
-                         surface, terrain));
+        fail(
+            fmt::format("surface_elevation_m is {}, below terrain_elevation_m, {}; allowed: the same elevation or a "
+                        "higher one",
+                        surface, terrain));
       }
       table_.surface.push_back(surface);
     }

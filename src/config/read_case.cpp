@@ -41,12 +41,11 @@ fs::path find_case_file(const fs::path& given) {
   }
   if (!fs::is_directory(given, error)) {
     const fs::path normal = given.has_filename() ? given : given.parent_path();
-    throw UserError(fmt::format("{}: there is no such file or folder{} Give a case file, or a folder with a case.toml.",
-                                given.string(), [&] {
-                                  const std::string hint =
-                                      did_you_mean(normal.filename().string(), names_in(normal.parent_path(), ""));
-                                  return hint.empty() ? "." : hint;
-                                }()));
+    throw UserError(fmt::format(
+        "{}: there is no such file or folder{} Give a case file, or a folder with a case.toml.", given.string(), [&] {
+          const std::string hint = did_you_mean(normal.filename().string(), names_in(normal.parent_path(), ""));
+          return hint.empty() ? "." : hint;
+        }()));
   }
   const fs::path file = given / "case.toml";
   if (!fs::is_regular_file(file, error)) {
@@ -77,8 +76,8 @@ toml::table parse(const std::string& text, const std::string& file) {
     return root;
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
-    throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. Correct the line; https://toml.io tells the rules.", file,
-                                begin.line, begin.column, error.description()));
+    throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. Correct the line; https://toml.io tells the rules.",
+                                file, begin.line, begin.column, error.description()));
   }
 }
 

@@ -10,8 +10,8 @@
 namespace thawslide::config {
 
 // Reads a TOML case file, or the case.toml of a folder. `sets` holds texts such as "band.thickness=0.1", each of which
-// replaces a key: the right side is a TOML value, or a bare word, which stands for a text; paths in it are told from the
-// working directory and may lie anywhere, whereas paths in the file may not leave the file's folder.
+// replaces a key: the right side is a TOML value, or a bare word, which stands for a text; paths in it are told from
+// the working directory and may lie anywhere, whereas paths in the file may not leave the file's folder.
 //
 // Case::name is the folder's name for a case.toml, else FOLDER-FILE (cases/incline/DLP.toml: incline-DLP).
 //

@@ -11,8 +11,8 @@ namespace {
 
 // One dotted name is the other, or a table around it.
 bool within(const std::string& inner, const std::string& outer) {
-  return inner == outer || (inner.size() > outer.size() && inner.compare(0, outer.size(), outer) == 0 &&
-                            inner[outer.size()] == '.');
+  return inner == outer ||
+         (inner.size() > outer.size() && inner.compare(0, outer.size(), outer) == 0 && inner[outer.size()] == '.');
 }
 
 }  // namespace
@@ -145,9 +145,10 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path) const 
   if (!from_command_line) {
     const fs::path inside = fs::weakly_canonical(whole, error).lexically_relative(fs::weakly_canonical(base, error));
     if (fs::path(path).is_absolute() || inside.empty() || *inside.begin() == "..") {
-      return fail(node, fmt::format("is \"{}\", which lies outside the folder of the case file; allowed: a file in that "
-                                    "folder. Copy it there, or give its path with --set {}=PATH",
-                                    path, key));
+      return fail(node,
+                  fmt::format("is \"{}\", which lies outside the folder of the case file; allowed: a file in that "
+                              "folder. Copy it there, or give its path with --set {}=PATH",
+                              path, key));
     }
   }
   if (!fs::is_regular_file(whole, error)) {

@@ -22,10 +22,10 @@ struct Override {
 };
 
 struct Reading {
-  std::string file;                // as the user named it, for messages
-  std::filesystem::path folder;    // of the case file, absolute
+  std::string file;              // as the user named it, for messages
+  std::filesystem::path folder;  // of the case file, absolute
   std::vector<Override> overrides;
-  int dimension = 2;               // of the case; 0 while not known
+  int dimension = 2;  // of the case; 0 while not known
   Problems problems;
   std::map<std::string, Place> places;  // of each given table and key, by dotted name
   std::set<std::string> unsound;        // dotted keys that are missing, or hold what they must not

@@ -21,8 +21,8 @@ std::string Range::text() const {
     text = fmt::format("between {} and {}, ends {}", plain_number(low), plain_number(high),
                        low_open ? "excluded" : "included");
   } else if (has_low && has_high) {
-    text = fmt::format("{} {} and {} {}", low_open ? ">" : ">=", plain_number(low), high_open ? "<" : "<=",
-                       plain_number(high));
+    text = fmt::format("{} {} and {} {}", low_open ? ">" : ">=", plain_number(low),
+                       high_open ? "<" : "<=", plain_number(high));
   } else if (has_low) {
     text = fmt::format("{} {}", low_open ? ">" : ">=", plain_number(low));
   } else if (has_high) {

@@ -37,8 +37,8 @@ struct Rule {
   std::string key = {};
   std::string unit = {};
   Range range = {};
-  std::string text = {};    // what it is, in a line
-  std::string source = {};  // equation, section or table of the paper, or another source
+  std::string text = {};         // what it is, in a line
+  std::string source = {};       // equation, section or table of the paper, or another source
   std::vector<Word> words = {};  // the words allowed, for a text that is one of a few
   int dimension = 0;             // 2 or 3: has a meaning only there
   bool is_path = false;          // a file, told relative to the case file

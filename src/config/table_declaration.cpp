@@ -65,8 +65,9 @@ const toml::node* find_node(const toml::table& root, const std::string& dotted) 
 bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading) {
   reading.places[dotted] = reading.place_of(dotted, node.source());
   if (!node.is_table()) {
-    reading.report(dotted, fmt::format("'{}' is {}; allowed: one table. Write [{}] on a line of its own and its keys below",
-                                       dotted, describe_node(node), dotted));
+    reading.report(dotted,
+                   fmt::format("'{}' is {}; allowed: one table. Write [{}] on a line of its own and its keys below",
+                               dotted, describe_node(node), dotted));
     return false;
   }
   return true;
@@ -107,7 +108,8 @@ std::vector<std::string> table_names(const toml::node& node, const std::string& 
                                          "choice above it",
                                          name, kind, kind));
     } else if (!is_plain_name(name)) {
-      reading.report(dotted, fmt::format("'{}' cannot name a {}; allowed: letters a to z, digits, '_' and '-'", name, kind));
+      reading.report(dotted,
+                     fmt::format("'{}' cannot name a {}; allowed: letters a to z, digits, '_' and '-'", name, kind));
     } else {
       names.push_back(name);
     }
@@ -127,8 +129,8 @@ bool check_dimension(const toml::node& node, const std::string& dotted, const Ru
     return true;
   }
   reading.problems.add(reading.place_of(dotted, node.source()),
-                       fmt::format("{} has a meaning only in {} dimensions, and case.dimension is {}. Remove it.", dotted,
-                                   rule.dimension == 2 ? "two" : "three", reading.dimension));
+                       fmt::format("{} has a meaning only in {} dimensions, and case.dimension is {}. Remove it.",
+                                   dotted, rule.dimension == 2 ? "two" : "three", reading.dimension));
   reading.unsound.insert(dotted);
   return false;
 }

@@ -96,10 +96,9 @@ std::vector<Parameter<Section>> six_sides(std::array<T, 6> Section::*member, con
   const std::array<std::string, 6> sides{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
   std::vector<Parameter<Section>> result;
   for (std::size_t side = 0; side < sides.size(); ++side) {
-    result.push_back(element(member, side,
-                             {.key = sides[side],
-                              .text = text + " at the side " + sides[side],
-                              .dimension = side < 4 ? 0 : 3}));
+    result.push_back(
+        element(member, side,
+                {.key = sides[side], .text = text + " at the side " + sides[side], .dimension = side < 4 ? 0 : 3}));
   }
   return result;
 }
@@ -110,7 +109,9 @@ class SingleTable : public TableDeclaration {
  public:
   SingleTable(std::string table_name, std::string table_text, Section Case::*member,
               std::vector<Parameter<Section>> parameters)
-      : TableDeclaration(std::move(table_name), std::move(table_text)), member_(member), section_(std::move(parameters)) {}
+      : TableDeclaration(std::move(table_name), std::move(table_text)),
+        member_(member),
+        section_(std::move(parameters)) {}
 
   [[nodiscard]] bool is_named() const override { return false; }
   [[nodiscard]] std::vector<Entry> entries() const override { return section_.entries(); }
@@ -140,8 +141,11 @@ class NamedTable : public TableDeclaration {
  public:
   using Map = std::map<std::string, Section>;
 
-  NamedTable(std::string table_name, std::string table_text, Map Case::*member, std::vector<Parameter<Section>> parameters)
-      : TableDeclaration(std::move(table_name), std::move(table_text)), member_(member), section_(std::move(parameters)) {}
+  NamedTable(std::string table_name, std::string table_text, Map Case::*member,
+             std::vector<Parameter<Section>> parameters)
+      : TableDeclaration(std::move(table_name), std::move(table_text)),
+        member_(member),
+        section_(std::move(parameters)) {}
 
   [[nodiscard]] bool is_named() const override { return true; }
   [[nodiscard]] std::vector<Entry> entries() const override { return section_.entries(); }

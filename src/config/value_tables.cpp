@@ -28,11 +28,11 @@ json table_schema(const std::vector<const char*>& abscissae, const Rule& rule) {
   const json numbers = {{"type", "array"}, {"items", number}};
   json any_of = json::array({number});
   for (const char* abscissa : abscissae) {
-    any_of.push_back({{"type", "object"},
-                      {"additionalProperties", false},
-                      {"required", json::array({abscissa, "value"})},
-                      {"properties",
-                       {{abscissa, {{"type", "array"}, {"items", {{"type", "number"}}}}}, {"value", numbers}}}});
+    any_of.push_back(
+        {{"type", "object"},
+         {"additionalProperties", false},
+         {"required", json::array({abscissa, "value"})},
+         {"properties", {{abscissa, {{"type", "array"}, {"items", {{"type", "number"}}}}}, {"value", numbers}}}});
   }
   return {{"anyOf", any_of}};
 }
@@ -73,9 +73,10 @@ bool has_exactly(const toml::table& table, const std::string& abscissa) {
 }
 
 bool fail_keys(const toml::node& node, const ValueReader& at) {
-  return at.fail(node, fmt::format("is a table with {}; allowed: {}",
-                                   node.as_table()->empty() ? "no key" : "the keys " + list_words(keys_of(*node.as_table())),
-                                   at.allowed));
+  return at.fail(node,
+                 fmt::format("is a table with {}; allowed: {}",
+                             node.as_table()->empty() ? "no key" : "the keys " + list_words(keys_of(*node.as_table())),
+                             at.allowed));
 }
 
 std::string range_and_unit(const Rule& rule) {

@@ -33,13 +33,13 @@ struct ValueWithoutWords {
   static std::vector<Word> words() { return {}; }
 };
 
-#define THAWSLIDE_DECLARE_VALUE(Type)                                             \
-  template <>                                                                     \
-  struct Value<Type> : ValueWithoutWords {                                        \
-    static std::string type(const Rule& rule);                                    \
-    static bool read(const toml::node& node, const ValueReader& at, Type& value); \
+#define THAWSLIDE_DECLARE_VALUE(Type)                                              \
+  template <>                                                                      \
+  struct Value<Type> : ValueWithoutWords {                                         \
+    static std::string type(const Rule& rule);                                     \
+    static bool read(const toml::node& node, const ValueReader& at, Type& value);  \
     static std::string write(const Type& value, const Rule&, const WriteContext&); \
-    static nlohmann::json schema(const Rule& rule);                               \
+    static nlohmann::json schema(const Rule& rule);                                \
   };
 
 using Vertices = std::vector<std::array<double, 2>>;
@@ -65,7 +65,7 @@ nlohmann::json word_schema(const std::vector<Word>& words);
 std::string quoted(const std::string& text);
 
 template <class Enum>
-  requires std::is_enum_v<Enum>
+requires std::is_enum_v<Enum>
 struct Value<Enum> {
   static std::vector<Word> words() {
     std::vector<Word> words;

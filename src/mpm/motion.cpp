@@ -135,11 +135,12 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
 
 namespace {
 
-// One particle's strain, rotation, stress, volume and porosity; returns the energies. Everything the law needs is passed in.
+// One particle's strain, rotation, stress, volume and porosity; returns the energies. Everything the law needs is
+// passed in.
 template <int Dim, class Real, class Law>
-StressWork<Real> deform(Particles<Dim, Real>& particles, std::uint32_t p, const Matrix<Real, Dim>& displacement_gradient,
-                        const Law& law, const MaterialModel<Real>& material, const physics::Phases<Real>& phases,
-                        Real dt) {
+StressWork<Real> deform(Particles<Dim, Real>& particles, std::uint32_t p,
+                        const Matrix<Real, Dim>& displacement_gradient, const Law& law,
+                        const MaterialModel<Real>& material, const physics::Phases<Real>& phases, Real dt) {
   const auto increment = physics::strain_increment<Real, Dim>(displacement_gradient);
   const SymmetricTensor<Real> old_stress = full_tensor<Dim, Real>(particles.stress, p);
   const SymmetricTensor<Real> elastic = physics::stress_increment(material.elastic, increment.strain);
@@ -198,7 +199,8 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
                 sum.plastic += work.plastic;
                 sum.viscous += work.viscous;
                 if (!(particles.volume(p) > Real(0))) {
-                  bads[t].note(particles.id(p), "its volume ratio is not positive");
+                  bads[t].note(particles.id(p), std::isnan(particles.volume(p)) ? "its volume is not a finite number"
+                                                                                : "its volume ratio is not positive");
                 }
               }
             },

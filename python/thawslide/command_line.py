@@ -1,0 +1,85 @@
+"""The command thawslide-report: exit code 0 done, 2 the user's mistake with a line that says what to do."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from thawslide.errors import ReportError
+from thawslide.figures import FIGURES
+from thawslide.report import make_report
+from thawslide.run import Run
+from thawslide.setup_picture import draw_setup_file
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; return its exit code."""
+    parser = _parser()
+    given = parser.parse_args(arguments)
+    try:
+        if given.setup is not None or given.picture is not None:
+            if given.run is not None or given.setup is None or given.picture is None:
+                raise ReportError("--setup SETUP.json and --picture OUT.png belong together, without RUN")
+            draw_setup_file(given.setup, given.picture, given.dpi)
+            print(given.picture)
+        elif given.run is None:
+            raise ReportError("give a run folder, e.g. thawslide-report runs/lamplugh")
+        else:
+            _report(given.run, given.output, _names(given.only), given.dpi)
+    except ReportError as error:
+        print(f"thawslide-report: error: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def _report(folder: Path, output: Path | None, names: list[str] | None, dpi: int) -> None:
+    run = Run(folder)
+    print(f"{run.title}: {run.history.rows} rows of history, {len(run.snapshot_files)} snapshots", flush=True)
+    report = make_report(run, output, names, dpi, progress=lambda line: print(line, flush=True))
+    for warning in run.warnings:
+        print(f"thawslide-report: note: {warning}", file=sys.stderr)
+    print(f"report: {report.page}")
+
+
+def _names(texts: list[str] | None) -> list[str] | None:
+    """Return the figure names of --only, in the page's order; ReportError for one that is none."""
+    if not texts:
+        return None
+    asked = [name.strip() for text in texts for name in text.split(",") if name.strip()]
+    for name in asked:
+        if name not in FIGURES:
+            near = difflib.get_close_matches(name, FIGURES, 1)
+            hint = f"; did you mean {near[0]}?" if near else "."
+            raise ReportError(f"--only: no figure '{name}'{hint} There are: {', '.join(FIGURES)}")
+    if not asked:
+        raise ReportError(f"--only: names no figure. There are: {', '.join(FIGURES)}")
+    return [name for name in FIGURES if name in asked]
+
+
+def _dpi(text: str) -> int:
+    if not text.isdigit() or not 30 <= int(text) <= 1200:
+        raise argparse.ArgumentTypeError(f"expected a whole number from 30 to 1200, found '{text}'")
+    return int(text)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="thawslide-report",
+        description="Draw the figures of a run and write report.html beside them, or draw a set-up before it runs.",
+    )
+    parser.add_argument("run", metavar="RUN", nargs="?", type=Path, help="folder a run has written, e.g. runs/lamplugh")
+    parser.add_argument("--output", metavar="DIR", type=Path, help="where to write (default: the run folder)")
+    parser.add_argument(
+        "--only", metavar="NAMES", action="append", help=f"figures to draw, with commas between: {', '.join(FIGURES)}"
+    )
+    parser.add_argument("--dpi", type=_dpi, default=150, help="dots per inch of the figures (default: 150)")
+    parser.add_argument("--setup", metavar="SETUP.json", type=Path, help="set-up to draw, as the simulator writes it")
+    parser.add_argument("--picture", metavar="OUT.png", type=Path, help="where to draw the set-up")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,77 @@
+"""What seismometers would feel, and the mean plastic strain (paper Fig. 17)."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from thawslide.errors import NotInRunError
+from thawslide.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    NOTE,
+    ORANGE,
+    PURPLE,
+    RED,
+    letters,
+    prefixed,
+    styled,
+    time_axis,
+    time_line,
+)
+from thawslide.run import Numbers, Run
+
+
+def seismic_force(run: Run) -> tuple[dict[str, Numbers], Numbers]:
+    """Return the components by axis and the magnitude [N, or N per metre of width], each of shape (rows,)."""
+    parts = {axis: run.history[name] for axis in "xyz" if (name := f"seismic_force_{axis}_N") in run.history}
+    if not parts:
+        raise NotInRunError("history.csv has no column seismic_force_x_N")
+    return parts, np.sqrt(sum(np.square(values) for values in parts.values()))
+
+
+@styled
+def force(run: Run) -> Figure:
+    """Draw the force on the ground less the static weight, (a) its size, (b) its components; (c) plastic strain."""
+    time = run.history["time_s"]
+    parts, magnitude = seismic_force(run)
+    reported = [target for target in run.targets if target.quantity == "max_seismic_force"]
+    comparable = [] if run.per_metre else reported
+    divisor, unit = prefixed([np.nanmax(np.abs(magnitude)), *(t.value for t in comparable)], "N")
+    unit += "/m of width" if run.per_metre else ""
+
+    figure = Figure(figsize=(10.0, 7.6), layout="constrained")
+    figure.suptitle(f"{run.title}: seismic force and internal deformation", x=0.01, ha="left", size=12)
+    size, components, strain = panels = list(figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1.2, 1.0)))
+    time_line(size, time, magnitude / divisor, color=BLACK, linewidth=1.1, label="run")
+    for target in comparable:
+        label = f"reported maximum {target.value / divisor:g} {unit}: {target.source}"
+        size.axhline(target.value / divisor, color=RED, linestyle="--", linewidth=1.2, label=label)
+    if reported and run.per_metre:
+        note = "reported force not drawn: the case states no width"
+        size.text(0.01, 0.96, note, transform=size.transAxes, va="top", size=8, color=NOTE)
+    size.set_ylim(0.0, 1.25 * size.get_ylim()[1])  # room for the legend
+
+    vertical = "xyz"[run.vertical]
+    for (axis, values), colour in zip(parts.items(), (BLUE, ORANGE, PURPLE), strict=False):
+        direction = "up" if axis == vertical else "along" if axis == "x" else "across"
+        time_line(components, time, values / divisor, color=colour, linewidth=0.9, label=f"{axis} ({direction})")
+    for axes in (size, components):
+        axes.set_ylabel(f"force ({unit})")
+        axes.legend(loc="upper right")
+
+    time_line(strain, time, run.history["mean_plastic_strain"], color=GREEN)
+    strain.set_ylabel("mean plastic strain")
+    strain.set_ylim(bottom=0.0)
+    for axes in panels:
+        time_axis(axes, time, label=axes is strain)
+    letters(
+        panels,
+        (
+            "force on the ground less the static weight, magnitude",
+            "its components, positive along the axis",
+            "equivalent plastic strain, mean of mass",
+        ),
+    )
+    return figure

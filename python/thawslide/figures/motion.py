@@ -1,0 +1,85 @@
+"""Mean velocity, mean displacement and runout over time, against reported values (paper Fig. 16)."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from thawslide.figures.style import BLUE, GREEN, NOTE, RED, letters, prefixed, styled, time_axis, time_line
+from thawslide.run import Run
+
+_MARKERS = "osD^vP*X"
+
+
+def draw_targets(
+    axes: Axes, run: Run, quantities: tuple[str, ...], divisor: float, colour: str, words: str = ""
+) -> int:
+    """Mark the reported values within the run's time, one marker a source; return how many there were.
+
+    A note says how many lie after the end of the run.
+    """
+    end = float(run.history["time_s"][-1])
+    asked = [target for target in run.targets if target.quantity in quantities]
+    found = [target for target in asked if target.time <= end]
+    if len(found) < len(asked):
+        # One line of note for each call on the same panel.
+        height = 0.02 + 0.06 * len(axes.texts)
+        note = f"{len(asked) - len(found)} reported{words} after the end of the run"
+        axes.text(0.98, height, note, transform=axes.transAxes, ha="right", size=7.5, color=NOTE)
+    sources = list(dict.fromkeys(target.source for target in found))
+    for number, source in enumerate(sources):
+        of_source = [target for target in found if target.source == source]
+        axes.plot(
+            [target.time for target in of_source],
+            [target.value / divisor for target in of_source],
+            marker=_MARKERS[number % len(_MARKERS)],
+            markerfacecolor="white",
+            markeredgecolor=colour,
+            markeredgewidth=1.4,
+            markersize=6.5,
+            linestyle="",
+            label=f"reported{words}: {source or 'no source given'}",
+            clip_on=False,
+            zorder=5,
+        )
+    return len(found)
+
+
+@styled
+def motion(run: Run) -> Figure:
+    """Draw (a) mean and largest velocity, (b) mean displacement and runout."""
+    history = run.history
+    time = history["time_s"]
+    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
+    figure.suptitle(f"{run.title}: motion of the slide", x=0.01, ha="left", size=12)
+    speed, distance = figure.subplots(1, 2)
+
+    if "max_velocity_m_s" in history:
+        time_line(speed, time, history["max_velocity_m_s"], color="#B5B5B5", linewidth=1.0, label="fastest particle")
+    time_line(speed, time, history["mean_velocity_m_s"], color=BLUE, label="mean (of mass)")
+    draw_targets(speed, run, ("mean_velocity",), 1.0, BLUE)
+    speed.set_ylabel("velocity (m/s)")
+
+    lengths = [history[name] for name in ("mean_displacement_m", "runout_m") if name in history]
+    divisor, unit = prefixed(np.concatenate(lengths) if lengths else 0.0, "m")
+    time_line(distance, time, history["mean_displacement_m"] / divisor, color=GREEN, label="mean path length (of mass)")
+    draw_targets(distance, run, ("mean_displacement",), divisor, GREEN, " mean")
+    if "runout_m" in history:
+        time_line(
+            distance,
+            time,
+            history["runout_m"] / divisor,
+            color=RED,
+            linestyle="--",
+            label="runout (front − rear at t = 0)",
+        )
+        draw_targets(distance, run, ("front_distance",), divisor, RED, " runout")
+    distance.set_ylabel(f"distance ({unit})")
+
+    for axes in (speed, distance):
+        time_axis(axes, time)
+        axes.set_ylim(bottom=0.0)
+        axes.legend(loc="best")
+    letters((speed, distance), ("velocity", "displacement"))
+    return figure

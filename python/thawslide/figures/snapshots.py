@@ -1,0 +1,295 @@
+"""The slide over its terrain at chosen times, coloured by one field (paper Figs. 14, 15, 18 and 19)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+
+from thawslide.errors import NotInRunError
+from thawslide.figures.style import GROUND_LINE, NOTE, prefixed, styled
+from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
+from thawslide.run import Numbers, Run, Snapshot
+
+
+@dataclass(frozen=True)
+class Painting:
+    """What a snapshot figure paints: the field's name in the file, words for it, its unit and colour map."""
+
+    field: str
+    words: str
+    unit: str
+    colours: str
+
+
+VELOCITY = Painting("velocity", "velocity", "m/s", "viridis")
+PLASTIC_STRAIN = Painting("plastic_strain", "equivalent plastic strain", "1", "cividis")
+TEMPERATURE = Painting("temperature", "temperature", "°C", "plasma")
+PORE_PRESSURE = Painting("pore_pressure", "pore pressure", "Pa", "viridis")
+
+# The page, in inches.
+_WIDTH, _LEFT, _RIGHT, _GAP = 10.0, 0.75, 0.2, 0.75
+_PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.9, 0.8, 0.8, 0.15
+_OVERVIEW_MARGINS = (1.0, 1.15)
+_LETTERS = "abcdefghijklmnopqrstuvwxyz"
+
+
+def chosen_snapshots(run: Run) -> list[Snapshot]:
+    """Return the snapshots nearest to the report times of the case, or to six even times, each once."""
+    if not len(run.times):
+        raise NotInRunError(f"{run.folder}: no snapshots; set [time] output_interval and run again")
+    wanted = run.report_times or list(np.linspace(run.times[0], run.times[-1], 6))
+    indices = sorted({int(np.argmin(np.abs(run.times - time))) for time in wanted})
+    return [run.snapshot(index) for index in indices[: len(_LETTERS)]]
+
+
+def painted_values(snapshot: Snapshot, field: str) -> Numbers:
+    """Return the field of each particle as one number, vectors by their magnitude."""
+    values = np.asarray(snapshot[field], dtype=np.float64)
+    return np.linalg.norm(values, axis=1) if values.ndim == 2 else values
+
+
+def colour_range(values: Numbers, from_zero: bool) -> tuple[float, float, str]:
+    """Return (low, high, colourbar extend) without the outermost 0.2 % of values, or from 0 where a magnitude."""
+    finite = values[np.isfinite(values)]
+    if not finite.size:
+        return 0.0, 1.0, "neither"
+    low, high = (float(value) for value in np.quantile(finite, [0.002, 0.998]))
+    if from_zero:
+        low = 0.0
+    if high - low <= 1e-9 * max(abs(low), abs(high), 1e-300):
+        pad = 0.05 * abs(high) or 0.5
+        return (0.0 if from_zero else low - pad), high + pad, "neither"
+    below, above = finite.min() < low - 0.01 * (high - low), finite.max() > high + 0.01 * (high - low)
+    return low, high, {(0, 0): "neither", (0, 1): "max", (1, 0): "min", (1, 1): "both"}[(int(below), int(above))]
+
+
+@styled
+def velocity(run: Run) -> Figure:
+    """Draw the speed of the slide (Fig. 14)."""
+    return draw(run, VELOCITY)
+
+
+@styled
+def plastic_strain(run: Run) -> Figure:
+    """Draw the equivalent plastic strain (Fig. 15)."""
+    return draw(run, PLASTIC_STRAIN)
+
+
+@styled
+def temperature(run: Run) -> Figure:
+    """Draw the temperature (Fig. 18)."""
+    return draw(run, TEMPERATURE)
+
+
+@styled
+def pore_pressure(run: Run) -> Figure:
+    """Draw the pore pressure (Fig. 19)."""
+    return draw(run, PORE_PRESSURE)
+
+
+def draw(run: Run, painting: Painting) -> Figure:
+    """Draw an overview of the whole profile, a panel for each chosen time and one colourbar."""
+    shots = chosen_snapshots(run)
+    values = [painted_values(shot, painting.field) for shot in shots]
+    divisor, unit = prefixed(np.concatenate(values), "Pa") if painting.unit == "Pa" else (1.0, painting.unit)
+    values = [value / divisor for value in values]
+    unit = "" if unit == "1" else unit
+    low, high, extend = colour_range(np.concatenate(values), painting.field in ("velocity", "plastic_strain"))
+    painter = ScalarMappable(Normalize(low, high), painting.colours)
+
+    page = _Page(run, shots)
+    figure = page.figure
+    figure.suptitle(
+        f"{run.title}: {painting.words}", x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=12
+    )
+    windows = [_window(run, shot, page.panel_width / _PANEL_HEIGHT) for shot in shots]
+    _draw_overview(page, run, shots, windows)
+    highest = max(extent(heights)[1] for heights in (above_ground(run, shot) for shot in shots))
+    for number, (shot, value, window) in enumerate(zip(shots, values, windows, strict=True)):
+        panel, strip = page.panel(number)
+        _draw_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
+        panel.set_title(f"({_LETTERS[number]}) t = {shot.time:g} s, {window.note()}", loc="left")
+        largest = f"max {np.nanmax(value):.3g} {unit}" if np.isfinite(value).any() else "no values"
+        panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
+        if strip is not None:
+            _draw_strip(strip, run, shot, value, window, painter, page.panel_width, highest)
+            panel.set_xlabel("")
+            panel.tick_params(labelbottom=False)
+    bar = figure.colorbar(painter, cax=page.colourbar(), orientation="horizontal", extend=extend)
+    bar.set_label(painting.words + (f" ({unit})" if unit else ""), labelpad=1)
+    return figure
+
+
+class _Page:
+    """Where everything stands on the page: sizes in inches from the top left corner."""
+
+    def __init__(self, run: Run, shots: list[Snapshot]) -> None:
+        columns = 1 if len(shots) == 1 else 2
+        self.columns = columns
+        self.full = _WIDTH - _LEFT - _RIGHT
+        self.panel_width = (self.full - (columns - 1) * _GAP) / columns
+        self.strips = run.terrain is not None
+        (left, right), (low, high) = _whole(run, shots)
+        shape = (high - low) * _OVERVIEW_MARGINS[1] / ((right - left) * _OVERVIEW_MARGINS[0])
+        self.overview_height = float(np.clip(self.full * shape, 0.9, 2.2))
+        self.bars_height = _BAR_HEIGHT * len(shots)
+        self.head = 0.6 + self.overview_height + self.bars_height + 0.95
+        self.row = _PANEL_HEIGHT + _ROW_GAP + (_STRIP_HEIGHT + 0.08 if self.strips else 0.0)
+        self.foot = self.head + self.row * -(-len(shots) // columns)
+        self.height = self.foot + 0.55
+        self.figure = Figure(figsize=(_WIDTH, self.height))
+
+    def place(self, left: float, top: float, width: float, height: float) -> Axes:
+        return self.figure.add_axes(
+            (left / _WIDTH, 1 - (top + height) / self.height, width / _WIDTH, height / self.height)
+        )
+
+    def panel(self, number: int) -> tuple[Axes, Axes | None]:
+        row, column = divmod(number, self.columns)
+        left, top = _LEFT + column * (self.panel_width + _GAP), self.head + row * self.row
+        panel = self.place(left, top, self.panel_width, _PANEL_HEIGHT)
+        strip = None
+        if self.strips:
+            strip = self.place(left, top + _PANEL_HEIGHT + 0.08, self.panel_width, _STRIP_HEIGHT)
+        return panel, strip
+
+    def colourbar(self) -> Axes:
+        return self.place(2.5, self.foot - 0.12, _WIDTH - 5.0, 0.14)
+
+
+def _domain(run: Run) -> tuple[float, float] | None:
+    """Return the stretch of x [m] a panel may show: where there is terrain, within the grid."""
+    grid = run.section("grid")
+    ends = []
+    if isinstance(grid.get("min"), list) and isinstance(grid.get("max"), list):
+        ends.append((float(grid["min"][0]), float(grid["max"][0])))
+    if run.terrain is not None:
+        ends.append((float(run.terrain[0].min()), float(run.terrain[0].max())))
+    if not ends:
+        return None
+    low, high = max(end[0] for end in ends), min(end[1] for end in ends)
+    return (low, high) if high > low else None
+
+
+def _window(run: Run, shot: Snapshot, box: float) -> Window:
+    return fit(extent(shot.points[:, 0]), extent(shot.points[:, run.vertical]), box, _domain(run))
+
+
+def particle_size(run: Run, shot: Snapshot) -> Numbers:
+    """Return the side [m] of each particle as a square (2D) or cube (3D), shape (n,)."""
+    volume = np.maximum(np.nan_to_num(np.asarray(shot["volume"], dtype=np.float64)), 0.0)
+    return volume ** (1.0 / run.dimension)
+
+
+def above_ground(run: Run, shot: Snapshot) -> Numbers:
+    """Return how high [m] each particle stands above the terrain right below it; its elevation without terrain."""
+    heights: Numbers = shot.points[:, run.vertical]
+    return heights if run.terrain is None else heights - np.interp(shot.points[:, 0], *run.terrain)
+
+
+def _painted(
+    run: Run,
+    shot: Snapshot,
+    heights: Numbers,
+    values: Numbers,
+    window: Window,
+    painter: ScalarMappable,
+    inches: tuple[float, float],
+) -> PolyCollection:
+    # In 3D the nearest particles (smallest y) are drawn last.
+    order = np.argsort(-shot.points[:, 1], kind="stable") if run.dimension == 3 else np.arange(len(heights))
+    particles = squares(shot.points[order, 0], heights[order], particle_size(run, shot)[order], window, inches)
+    particles.set_array(values[order])
+    particles.set_cmap(painter.get_cmap())
+    particles.set_norm(painter.norm)
+    return particles
+
+
+def _draw_particles(
+    axes: Axes,
+    run: Run,
+    shot: Snapshot,
+    values: Numbers,
+    window: Window,
+    painter: ScalarMappable,
+    width: float,
+    height: float,
+) -> None:
+    x, z = shot.points[:, 0], shot.points[:, run.vertical]
+    fill_terrain(axes, run.terrain, window.bottom)
+    axes.add_collection(_painted(run, shot, z, values, window, painter, (width, height)), autolim=False)
+    window.apply(axes)
+    outside = int(np.sum((x < window.left) | (x > window.right) | (z < window.bottom) | (z > window.top)))
+    if outside:
+        words = f"{outside} of {len(x)} particles outside"
+        axes.text(0.99, 0.97, words, transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE)
+
+
+def _draw_strip(
+    axes: Axes,
+    run: Run,
+    shot: Snapshot,
+    values: Numbers,
+    window: Window,
+    painter: ScalarMappable,
+    width: float,
+    highest: float,
+) -> None:
+    """Draw the slide peeled off its terrain, so that its layers can be told apart however long it is."""
+    heights = above_ground(run, shot)
+    lowest = min(0.0, extent(heights)[0])
+    highest = max(highest, lowest + 1e-6)
+    flat = Window(window.left, window.right, lowest - 0.03 * (highest - lowest), highest * 1.08, 1)
+    axes.add_collection(_painted(run, shot, heights, values, flat, painter, (width, _STRIP_HEIGHT)), autolim=False)
+    axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
+    flat.apply(axes)
+    axes.set_ylabel("above\nground (m)")
+
+
+def _whole(run: Run, shots: list[Snapshot]) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the stretch of x and of height [m] that the overview shows."""
+    ends = [extent(shot.points[:, 0]) for shot in shots]
+    domain = _domain(run) or (min(end[0] for end in ends), max(end[1] for end in ends))
+    heights = [extent(shot.points[:, run.vertical]) for shot in shots]
+    low, high = min(height[0] for height in heights), max(height[1] for height in heights)
+    if run.terrain is not None:
+        inside = (run.terrain[0] >= domain[0]) & (run.terrain[0] <= domain[1])
+        if inside.any():
+            low, high = min(low, float(run.terrain[1][inside].min())), max(high, float(run.terrain[1][inside].max()))
+    return (domain[0], max(domain[1], domain[0] + 1e-9)), (low, high)
+
+
+def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Window]) -> None:
+    """Draw the whole profile with the first and last state, and below it which stretch each panel shows."""
+    axes = page.place(_LEFT, 0.6, page.full, page.overview_height)
+    bars = page.place(_LEFT, 0.6 + page.overview_height, page.full, page.bars_height)
+    inches = (page.full, page.overview_height)
+    domain, heights = _whole(run, shots)
+    window = fit(domain, heights, inches[0] / inches[1], None, _OVERVIEW_MARGINS)
+    fill_terrain(axes, run.terrain, window.bottom)
+    for shot, colour in ((shots[0], "#8C8C8C"), (shots[-1], "#C0392B")):
+        body = squares(shot.points[:, 0], shot.points[:, run.vertical], particle_size(run, shot), window, inches)
+        body.set_facecolor(colour)
+        axes.add_collection(body, autolim=False)
+    window.apply(axes)
+    axes.set_xlabel("")
+    axes.tick_params(labelbottom=False)
+    states = f"grey: t = {shots[0].time:g} s, red: t = {shots[-1].time:g} s" if len(shots) > 1 else ""
+    axes.set_title("; ".join(filter(None, (f"whole profile, {window.note()}", states))), loc="left", color=NOTE)
+
+    for number, (shot, view) in enumerate(zip(shots, views, strict=True)):
+        slide = extent(shot.points[:, 0])
+        bars.plot([view.left, view.right], [number, number], color="#D0D0D0", linewidth=4, solid_capstyle="butt")
+        bars.plot(slide, [number, number], color=GROUND_LINE, linewidth=4, solid_capstyle="butt")
+    window.apply(bars)
+    bars.set_ylim(len(shots) - 0.4, -0.6)
+    bars.set_yticks(range(len(shots)), [f"({_LETTERS[number]})" for number in range(len(shots))], size=6.5)
+    bars.tick_params(axis="y", length=0)
+    bars.set_ylabel("")
+    bars.xaxis.label.set_text(f"{bars.get_xlabel()}; bars: what each panel shows (light), where the slide is (dark)")

@@ -1,0 +1,115 @@
+"""What all figures share: type sizes, colours, units with prefixes, a line that one row can draw."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import Any, ParamSpec, cast
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from thawslide.run import Numbers
+
+Arguments = ParamSpec("Arguments")
+
+# Okabe and Ito's colours, told apart by colour-blind readers.
+BLUE, ORANGE, GREEN, RED, PURPLE, SKY, YELLOW, BLACK = (
+    "#0072B2",
+    "#E69F00",
+    "#009E73",
+    "#D55E00",
+    "#CC79A7",
+    "#56B4E9",
+    "#B8A800",
+    "#222222",
+)
+GROUND = "#D9D4CB"
+GROUND_LINE = "#6B6459"
+NOTE = "#555555"
+
+STYLE: dict[str, Any] = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9,
+    "axes.titlesize": 9.5,
+    "axes.labelsize": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": "#444444",
+    "axes.linewidth": 0.8,
+    "axes.grid": False,
+    "axes.formatter.useoffset": False,
+    "grid.color": "#E4E4E4",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.6,
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "figure.facecolor": "white",
+}
+
+
+def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
+    """Draw a figure in the common style, without touching matplotlib's settings outside."""
+
+    @wraps(draw)
+    def inside(*arguments: Arguments.args, **named: Arguments.kwargs) -> Figure:
+        with mpl.rc_context(cast(Any, STYLE)):
+            return draw(*arguments, **named)
+
+    return inside
+
+
+_PREFIXES = ((1e15, "P"), (1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"))
+
+
+def prefixed(values: ArrayLike, unit: str) -> tuple[float, str]:
+    """Return (divisor, unit with its SI prefix) that bring the largest finite value below 1000."""
+    numbers = np.abs(np.asarray(values, dtype=np.float64)).ravel()
+    numbers = numbers[np.isfinite(numbers)]
+    largest = float(numbers.max()) if numbers.size else 0.0
+    for size, prefix in _PREFIXES:
+        if largest >= size:
+            return size, prefix + unit
+    return 1.0, unit
+
+
+def length_unit(span: float) -> tuple[float, str]:
+    """Return (divisor, unit) for an axis over `span` metres: km from 3 km up."""
+    return (1000.0, "km") if span >= 3000.0 else (1.0, "m")
+
+
+def time_line(axes: Axes, time: Numbers, values: ArrayLike, **style: Any) -> None:
+    """Draw values over time; a history of one row, or a value between gaps, gets a marker and so stays visible."""
+    numbers = np.asarray(values, dtype=np.float64)
+    finite = np.concatenate(([False], np.isfinite(numbers), [False]))
+    alone = finite[1:-1] & ~finite[:-2] & ~finite[2:]
+    style.setdefault("markersize", 4)
+    style.setdefault("clip_on", not alone.any())
+    axes.plot(
+        time, numbers, marker="o" if alone.any() else "", markevery=[int(i) for i in np.flatnonzero(alone)], **style
+    )
+
+
+def time_axis(axes: Axes, time: Numbers, label: bool = True) -> None:
+    """Set the time axis to the run's span and, where `label`, name it."""
+    start, end = float(time[0]), float(time[-1])
+    axes.set_xlim(start, end if end > start else start + 1.0)
+    axes.grid(True)
+    if label:
+        axes.set_xlabel("time (s)")
+
+
+def say(axes: Axes, text: str) -> None:
+    """Write why a panel is empty in its middle."""
+    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=NOTE, wrap=True)
+
+
+def letters(axes: Sequence[Axes], titles: Sequence[str]) -> None:
+    """Title panels (a), (b), ... at their left."""
+    for letter, (panel, title) in zip("abcdefghijkl", zip(axes, titles, strict=True), strict=False):
+        panel.set_title(f"({letter}) {title}", loc="left")

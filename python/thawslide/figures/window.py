@@ -1,0 +1,107 @@
+"""The part of a section a panel shows, and how terrain and particles are drawn in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+
+from thawslide.figures.style import GROUND, GROUND_LINE, length_unit
+from thawslide.run import Numbers
+
+_EXAGGERATIONS = (1, 2, 3, 5, 10, 20, 50, 100)
+_SMALLEST_DRAWN = 0.8 / 72.0  # inches: below this a particle would vanish between pixels
+
+
+@dataclass(frozen=True)
+class Window:
+    """A rectangle of the section [m], drawn with its heights stretched `exaggeration` times."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+    exaggeration: int
+
+    def note(self) -> str:
+        """Say how heights are drawn."""
+        return "true scale" if self.exaggeration == 1 else f"heights ×{self.exaggeration}"
+
+    def apply(self, axes: Axes) -> None:
+        """Set the limits, the tick labels in m or km and their names."""
+        axes.set_xlim(self.left, self.right)
+        axes.set_ylim(self.bottom, self.top)
+        for axis, span, name in (
+            (axes.xaxis, self.right - self.left, "distance"),
+            (axes.yaxis, self.top - self.bottom, "elevation"),
+        ):
+            divisor, unit = length_unit(span)
+            axis.set_major_formatter(_divided_by(divisor))
+            axis.set_label_text(f"{name} ({unit})")
+
+
+def _divided_by(divisor: float) -> Callable[[float, float], str]:
+    return lambda value, place: f"{value / divisor:g}".replace("-", "−")
+
+
+def extent(values: Numbers) -> tuple[float, float]:
+    """Return the range that all but the outermost 0.1 % of values on either side lie in."""
+    finite = values[np.isfinite(values)]
+    if not finite.size:
+        return 0.0, 1.0
+    low, high = np.quantile(finite, [0.001, 0.999], method="nearest")
+    return float(low), float(high)
+
+
+def fit(
+    x: tuple[float, float],
+    z: tuple[float, float],
+    box: float,
+    domain: tuple[float, float] | None,
+    margins: tuple[float, float] = (1.16, 1.3),
+) -> Window:
+    """Return the window of width : height `box` on the page that shows x and z [m], each widened by its margin.
+
+    Heights are stretched only where the section is so long and flat that it would otherwise be a hairline. A window
+    that reaches past an end of the domain is pushed back in.
+    """
+    width = max(x[1] - x[0], 1e-9) * margins[0]
+    height = max(z[1] - z[0], 0.02 * width) * margins[1]
+    stretch = width / (height * box)
+    exaggeration = max([1] + [e for e in _EXAGGERATIONS if e <= stretch * (1 + 1e-9)])
+    if stretch >= 1.0:
+        height = width / (box * exaggeration)
+    else:
+        width = height * box
+    left = 0.5 * (x[0] + x[1] - width)
+    if domain is not None:
+        left = max(domain[0], min(left, domain[1] - width))
+    bottom = 0.5 * (z[0] + z[1] - height)
+    return Window(left, left + width, bottom, bottom + height, exaggeration)
+
+
+def fill_terrain(axes: Axes, terrain: tuple[Numbers, Numbers] | None, floor: float) -> None:
+    """Fill the ground from its surface down to `floor` [m]; nothing without terrain."""
+    if terrain is None:
+        return
+    x, z = terrain
+    axes.fill_between(x, z, np.minimum(z, floor), color=GROUND, linewidth=0, zorder=1)
+    axes.plot(x, z, color=GROUND_LINE, linewidth=0.9, zorder=4)
+
+
+def squares(x: Numbers, z: Numbers, size: Numbers, window: Window, inches: tuple[float, float]) -> PolyCollection:
+    """Return particles as squares of their real size [m], but never too small to be seen on `inches` of page."""
+    half_width = 0.5 * np.maximum(size, _SMALLEST_DRAWN * (window.right - window.left) / inches[0])
+    half_height = 0.5 * np.maximum(size, _SMALLEST_DRAWN * (window.top - window.bottom) / inches[1])
+    corners = np.stack(
+        [
+            np.stack([x + a * half_width, z + b * half_height], axis=-1)
+            for a, b in ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+        ],
+        axis=1,
+    )
+    return PolyCollection(cast(Any, corners), linewidths=0, antialiaseds=False, rasterized=True, zorder=3)

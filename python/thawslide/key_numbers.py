@@ -1,0 +1,127 @@
+"""The few numbers a report opens with, each with its unit and what it means."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from thawslide.figures.energy import relative_residual
+from thawslide.figures.force import seismic_force
+from thawslide.figures.style import prefixed
+from thawslide.run import Run
+
+STOPPED_SHARE = 0.01  # of the peak mean velocity
+BOILING = 100.0  # C, at one atmosphere
+
+
+@dataclass(frozen=True)
+class KeyNumber:
+    """One row of the table: words, the value as text with its unit, and a remark (may be empty)."""
+
+    words: str
+    value: str
+    remark: str = ""
+
+
+def shown(value: float, unit: str = "") -> str:
+    """Write a number with four significant digits, an SI prefix where the unit takes one, and its unit."""
+    if not np.isfinite(value):
+        return "none"
+    if unit in ("Pa", "N", "J", "m", "N/m of width") and abs(value) >= 1e4:
+        divisor, unit = prefixed(value, unit)
+        value /= divisor
+    text = f"{value:.4g}".replace("e+0", "e").replace("e+", "e").replace("-", "−")
+    return f"{text} {unit}".strip()
+
+
+def stop_time(run: Run) -> float | None:
+    """Return when [s] the mean velocity falls below 1 % of its peak for good, None where it does not."""
+    speed = run.history["mean_velocity_m_s"]
+    if not np.isfinite(speed).any() or np.nanmax(speed) <= 0.0:
+        return None
+    moving = np.flatnonzero(~(speed < STOPPED_SHARE * np.nanmax(speed)))
+    last = int(moving[-1])
+    return float(run.history["time_s"][last + 1]) if last + 1 < len(speed) else None
+
+
+def key_numbers(run: Run) -> list[KeyNumber]:
+    """Return the rows that this run has columns for."""
+    history = run.history
+    time = history["time_s"]
+    rows = [KeyNumber("Simulated time", shown(float(time[-1]), "s"))]
+    if "mean_velocity_m_s" in history:
+        speed = history["mean_velocity_m_s"]
+        if np.isfinite(speed).any():
+            at = int(np.nanargmax(speed))
+            rows.append(
+                KeyNumber("Peak mean velocity", shown(float(speed[at]), "m/s"), f"at {shown(float(time[at]), 's')}")
+            )
+            stopped = stop_time(run)
+            if stopped is not None:
+                rows.append(
+                    KeyNumber("Stop time", shown(stopped, "s"), "mean velocity below 1 % of its peak from here on")
+                )
+            else:
+                rows.append(
+                    KeyNumber("Stop time", "not reached", f"mean velocity at the end: {shown(float(speed[-1]), 'm/s')}")
+                )
+    if "runout_m" in history:
+        rows.append(KeyNumber("Runout", _metres(history["runout_m"][-1]), "front at the end less rear at the start"))
+    if "mean_displacement_m" in history:
+        rows.append(
+            KeyNumber("Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mean of mass")
+        )
+    rows += _band_numbers(run)
+    if "seismic_force_x_N" in history:
+        _, magnitude = seismic_force(run)
+        if np.isfinite(magnitude).any():
+            at = int(np.nanargmax(magnitude))
+            unit = "N/m of width" if run.per_metre else "N"
+            rows.append(
+                KeyNumber(
+                    "Largest seismic force", shown(float(magnitude[at]), unit), f"at {shown(float(time[at]), 's')}"
+                )
+            )
+    for words, column in (("Mechanical", "mechanical_residual_J"), ("Thermal", "thermal_residual_J")):
+        if column in history:
+            residual = relative_residual(run, column)
+            value = shown(float(np.nanmax(residual))) if residual is not None else "nothing changed"
+            rows.append(KeyNumber(f"{words} energy residual", value, "largest, over the largest change of any account"))
+    return rows
+
+
+def boiling_note(run: Run) -> str:
+    """Return a plain sentence where the band passes 100 °C, "" otherwise."""
+    if "band_temperature_C" not in run.history:
+        return ""
+    values = run.history["band_temperature_C"]
+    if not np.any(values > BOILING):
+        return ""
+    first = float(run.history["time_s"][int(np.argmax(values > BOILING))])
+    highest = shown(float(np.nanmax(values)), "°C")
+    return (
+        f"The mean band temperature passes 100 °C at {shown(first, 's')} and reaches {highest}. Nothing in the model "
+        "boils: where the pressure is low, read temperatures and pressures of the band beyond this with care."
+    )
+
+
+def _metres(value: float) -> str:
+    return f"{value:,.0f} m".replace("-", "−") if abs(value) >= 1000.0 else shown(float(value), "m")
+
+
+def _band_numbers(run: Run) -> list[KeyNumber]:
+    rows = []
+    for words, column, unit in (
+        ("Highest mean band temperature", "band_temperature_C", "°C"),
+        ("Highest mean band pore pressure", "band_pore_pressure_Pa", "Pa"),
+    ):
+        if column in run.history:
+            values = run.history[column]
+            if np.isfinite(values).any():
+                at = int(np.nanargmax(values))
+                when = f"at {shown(float(run.history['time_s'][at]), 's')}"
+                rows.append(KeyNumber(words, shown(float(values[at]), unit), when))
+            else:
+                rows.append(KeyNumber(words, "none", "no particle was ever in the band"))
+    return rows

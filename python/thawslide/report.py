@@ -1,0 +1,189 @@
+"""Draw the figures of a run and write the page that shows them."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from thawslide.errors import NotInRunError, ReportError
+from thawslide.figures import FIGURES
+from thawslide.key_numbers import boiling_note, key_numbers, shown
+from thawslide.run import Run
+
+
+@dataclass
+class Report:
+    """What was written: the page, the figures by name, and why others were left out."""
+
+    page: Path
+    figures: dict[str, Path] = field(default_factory=dict)
+    left_out: dict[str, str] = field(default_factory=dict)
+
+
+def make_report(
+    run: Run,
+    output: Path | None = None,
+    names: Sequence[str] | None = None,
+    dpi: int = 150,
+    progress: Callable[[str], None] = lambda line: None,
+) -> Report:
+    """Write figures/NAME.png and report.html into `output` (default: the run folder).
+
+    A figure the run has nothing for is left out and named on the page; it is an error if `names` asks for it.
+    """
+    output = output or run.folder
+    run.history  # noqa: B018  read first: without a history there is nothing to report
+    report = Report(output / "report.html")
+    try:
+        (output / "figures").mkdir(parents=True, exist_ok=True)
+        for number, name in enumerate(chosen := list(names or FIGURES), 1):
+            try:
+                figure = FIGURES[name].draw(run)
+            except NotInRunError as error:
+                if names:
+                    raise
+                report.left_out[name] = str(error)
+                progress(f"[{number}/{len(chosen)}] {name}: left out, {error}")
+                continue
+            path = output / "figures" / f"{name}.png"
+            figure.savefig(path, dpi=dpi)
+            report.figures[name] = path
+            progress(f"[{number}/{len(chosen)}] {name}: {path}")
+        report.page.write_text(_page(run, report), encoding="utf-8")
+    except OSError as error:
+        raise ReportError(f"{error.filename or output}: cannot be written: {error.strerror or error}") from error
+    return report
+
+
+def _page(run: Run, report: Report) -> str:
+    title = html.escape(run.title)
+    notes = [note for note in (_status_note(run.facts), boiling_note(run), *run.warnings) if note]
+    parts = [
+        f"<h1>{title}</h1>",
+        f'<p class="where">Run folder: {html.escape(run.folder.resolve().name)}</p>',
+        *(f'<p class="note">{html.escape(note)}</p>' for note in notes),
+        "<h2>Key numbers</h2>",
+        _table(((row.words, row.value, row.remark) for row in key_numbers(run)), "numbers"),
+    ]
+    targets = [(t.quantity.replace("_", " "), f"{t.time:g} s", f"{t.value:g} {t.unit}", t.source) for t in run.targets]
+    if targets:
+        parts.append(_details("Reported values to compare with", _table(targets, "facts")))
+    for name, path in report.figures.items():
+        kind = FIGURES[name]
+        link = f"figures/{path.name}"
+        parts.append(
+            f'<h2 id="{name}">{html.escape(kind.heading)}</h2>\n<figure><a href="{link}"><img src="{link}" '
+            f'alt="{html.escape(kind.heading)}"></a>\n<figcaption>{html.escape(kind.caption)}</figcaption></figure>'
+        )
+    if report.left_out:
+        reasons = ((FIGURES[name].heading, reason) for name, reason in report.left_out.items())
+        parts += ["<h2>Left out</h2>", _table(reasons, "facts")]
+    parts += ["<h2>The run</h2>", *_facts(run.facts)]
+    links = " · ".join(f'<a href="#{name}">{html.escape(FIGURES[name].heading)}</a>' for name in report.figures)
+    parts.insert(2, f"<nav>{links}</nav>")
+    return _FRAME.replace("TITLE", title).replace("BODY", "\n".join(parts))
+
+
+def _status_note(facts: dict[str, Any]) -> str:
+    """Return a sentence where the run did not come to its end, "" otherwise."""
+    status = facts.get("status", "done")
+    if status == "done":
+        return ""
+    message = f": {facts['message']}" if facts.get("message") else ""
+    words = "was still running when this was written" if status == "running" else str(status)
+    return f"This run did not come to its end ({words}){message}. The figures show what it has written."
+
+
+def _table(rows: Any, style: str) -> str:
+    """Return a table; the first cell of each row is its heading."""
+    lines = []
+    for first, *rest in rows:
+        cells = "".join(f"<td>{html.escape(str(cell))}</td>" for cell in rest)
+        lines.append(f'<tr><th scope="row">{html.escape(str(first))}</th>{cells}</tr>')
+    return f'<table class="{style}">\n' + "\n".join(lines) + "\n</table>"
+
+
+def _details(heading: str, inside: str) -> str:
+    return f"<details><summary>{html.escape(heading)}</summary>\n{inside}\n</details>"
+
+
+def _facts(facts: dict[str, Any]) -> list[str]:
+    """Return run.json as a table of its single values and one folded table for each value that has parts."""
+    if not facts:
+        return ["<p>No run.json: the run was interrupted before it was written.</p>"]
+    single = [(_words(key), _value(value)) for key, value in facts.items() if not _has_parts(value)]
+    parts = [_table(single, "facts")]
+    for key, value in facts.items():
+        if isinstance(value, dict) and value:
+            rows: Any = [(_words(name), _value(part)) for name, part in value.items()]
+        elif _has_parts(value):
+            rows = [(number, _value(part)) for number, part in enumerate(value, 1)]
+        else:
+            continue
+        parts.append(_details(_words(key), _table(rows, "facts")))
+    return parts
+
+
+def _has_parts(value: Any) -> bool:
+    """Whether a value deserves a table of its own: a filled object, or a list of objects or long texts."""
+    if isinstance(value, dict):
+        return bool(value)
+    return isinstance(value, list) and any(isinstance(part, dict) or len(str(part)) > 40 for part in value)
+
+
+def _words(key: str) -> str:
+    return key.replace("_", " ")
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool) or value is None:
+        return {True: "yes", False: "no", None: "none"}[value]
+    if isinstance(value, float):
+        return shown(value)
+    if isinstance(value, int):
+        return f"{value:,}" if abs(value) >= 10000 else str(value)
+    if isinstance(value, dict):
+        return ", ".join(f"{_words(key)}: {_value(part)}" for key, part in value.items()) or "none"
+    if isinstance(value, list):
+        return ", ".join(_value(part) for part in value) or "none"
+    return str(value) or "none"
+
+
+_FRAME = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>TITLE</title>
+<style>
+body { font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: #1f2328; background: #fff;
+  max-width: 1080px; margin: 2.5rem auto; padding: 0 1.25rem; }
+h1 { font-size: 1.8rem; line-height: 1.2; margin: 0; }
+h2 { font-size: 1.2rem; margin: 2.4rem 0 .7rem; padding-bottom: .3rem; border-bottom: 1px solid #d8dee4; }
+.where, figcaption, td:last-child:not(:nth-child(2)) { color: #59636e; }
+.where { margin: .3rem 0 0; }
+nav { margin: .8rem 0; font-size: .9rem; }
+a { color: #0a5fb4; text-decoration: none; }
+a:hover { text-decoration: underline; }
+.note { background: #fff6e0; border-left: 4px solid #e69f00; padding: .6rem .9rem; margin: 1rem 0; }
+table { border-collapse: collapse; font-size: .93rem; }
+th, td { text-align: left; padding: .32rem 1.4rem .32rem 0; border-bottom: 1px solid #eaeef2; vertical-align: top; }
+th { font-weight: 500; }
+.facts td { overflow-wrap: anywhere; }
+.numbers td:nth-child(2) { font-weight: 600; font-variant-numeric: tabular-nums; white-space: nowrap; }
+details { margin: .8rem 0; }
+summary { cursor: pointer; color: #0a5fb4; margin-bottom: .4rem; }
+figure { margin: 0; }
+img { max-width: 100%; height: auto; display: block; }
+figcaption { font-size: .88rem; margin-top: .3rem; }
+@media print { nav { display: none; } figure { break-inside: avoid; } }
+</style>
+</head>
+<body>
+BODY
+</body>
+</html>
+"""

@@ -1,0 +1,164 @@
+// thawslide check: what a run of the case will take, and its picture before it starts.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/run_loop.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "config/read_case.hpp"
+#include "io/atomic_file.hpp"
+
+namespace thawslide::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr double trial_seconds = 0.5;  // of wall time, to measure the step
+constexpr int trial_steps = 200;
+
+template <int Dim>
+std::vector<double> place_in_section(const sim::Simulation<Dim, double>& simulation, std::size_t p) {
+  const auto& origin = simulation.model().origin;
+  return {simulation.particles().position(p, 0) + origin[0],
+          simulation.particles().position(p, Dim - 1) + origin[Dim - 1]};
+}
+
+// Terrain, grid, bodies, boundaries and frames as thawslide-report --setup reads them; sections along x in 3D.
+template <int Dim>
+Json setup(const sim::Simulation<Dim, double>& simulation) {
+  const config::Case& parameters = simulation.parameters();
+  const auto& model = simulation.model();
+  constexpr const char* kinds[] = {"open", "roller", "fixed"};
+  Json json;
+  json["title"] = parameters.general.title.empty() ? parameters.name : parameters.general.title;
+  json["cell"] = parameters.grid.cell;
+  json["min"] = {parameters.grid.min[0], parameters.grid.min[Dim - 1]};
+  json["max"] = {parameters.grid.max[0], parameters.grid.max[Dim - 1]};
+  const char* faces[] = {"x_min", "x_max", "y_min", "y_max"};
+  for (std::size_t f = 0; f < 4; ++f) {
+    const std::size_t face = f < 2 ? f : 2 * (Dim - 1) + f - 2;
+    json["boundary"][faces[f]] = kinds[static_cast<std::size_t>(parameters.grid.boundary[face])];
+  }
+  json["terrain"] = nullptr;
+  if (model.ground) {
+    constexpr int samples = 1000;
+    Json x = Json::array();
+    Json z = Json::array();
+    for (int k = 0; k <= samples; ++k) {
+      const double place = model.constraints.extent[0] * k / samples;
+      x.push_back(place + model.origin[0]);
+      z.push_back(model.ground->line().height(place) + model.origin[Dim - 1]);
+    }
+    json["terrain"] = {{"x", x}, {"z", z}};
+  }
+  for (std::size_t b = 0; b < model.body_names.size(); ++b) {
+    const auto& body = parameters.bodies.at(model.body_names[b]);
+    Json points = Json::array();
+    for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+      if (simulation.particles().body(p) == static_cast<int>(b)) {
+        points.push_back(place_in_section(simulation, p));
+      }
+    }
+    json["bodies"].push_back({{"name", model.body_names[b]},
+                              {"material", body.material},
+                              {"points", points},
+                              {"spacing", parameters.grid.cell / body.particles_per_axis}});
+  }
+  json["frames"] = Json::array();
+  for (const auto& [name, frame] : parameters.frames) {
+    json["frames"].push_back({{"name", name},
+                              {"min", {frame.min[0], frame.min[Dim - 1]}},
+                              {"max", {frame.max[0], frame.max[Dim - 1]}},
+                              {"axis", frame.axis},
+                              {"velocity", frame.velocity}});
+  }
+  return json;
+}
+
+void draw(const Json& setup, const std::string& picture) {
+  const fs::path file = fs::temp_directory_path() / fmt::format("thawslide-setup-{}.json", getpid());
+  io::write_file_atomically(file, setup.dump());
+  const pid_t child = fork();
+  if (child == 0) {
+    execlp("thawslide-report", "thawslide-report", "--setup", file.c_str(), "--picture", picture.c_str(), nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  fs::remove(file);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw UserError(
+        fmt::format("the picture was not drawn: thawslide-report {}. It is part of the Python package: "
+                    "`./run --setup` installs it into .venv; put .venv/bin on PATH.",
+                    WIFEXITED(status) && WEXITSTATUS(status) == 127 ? "is not on PATH" : "failed"));
+  }
+}
+
+// Seconds one step takes now, measured on the first steps.
+template <int Dim>
+double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
+  const auto start = std::chrono::steady_clock::now();
+  double elapsed = 0.0;
+  int steps = 0;
+  while (steps < trial_steps && elapsed < trial_seconds && simulation.time() < simulation.parameters().time.end) {
+    simulation.step(simulation.next_step(simulation.parameters().time.end));
+    ++steps;
+    elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  return elapsed / steps;
+}
+
+double peak_memory_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace
+
+int check_case(const CheckOptions& options) {
+  use_threads(options.threads);
+  const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
+  return with_dimension(parameters.general.dimension, [&](auto dimension) {
+    constexpr int Dim = decltype(dimension)::value;
+    sim::Simulation<Dim, double> simulation(parameters);
+    const Json picture = options.picture.empty() ? Json() : setup<Dim>(simulation);
+    const auto limit = simulation.step_limit();
+    const double dt = simulation.next_step(parameters.time.end);
+    const double steps = std::ceil(parameters.time.end / dt * (1.0 - 1e-12));
+    double cells = 1.0;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      cells *= (parameters.grid.max[a] - parameters.grid.min[a]) / parameters.grid.cell;
+    }
+    fmt::print("{}: the case is sound\n", parameters.file);
+    fmt::print("  particles   {}\n", simulation.particles().size());
+    fmt::print("  cells       {:.0f} in the domain; blocks of {} nodes held: {}\n", cells, mpm::Tile<Dim>::nodes,
+               simulation.grid().blocks().size());
+    fmt::print("  step        {:g} s{}; the limit is {:.4g} s, set by {}\n", dt,
+               parameters.time.stepping == config::Stepping::fixed ? "" : " at the start (adaptive)", limit.step,
+               limit.what);
+    fmt::print("  steps       {:.0f}\n", steps);
+    const double seconds = measured_step_seconds<Dim>(simulation);
+    fmt::print("  memory      {:.0f} MB\n", peak_memory_megabytes());
+    fmt::print("  time        about {} on {} thread{} (measured on the first steps)\n", duration_text(seconds * steps),
+               thread_count(), thread_count() == 1 ? "" : "s");
+    if (!options.picture.empty()) {
+      draw(picture, options.picture);
+      fmt::print("  picture     {}\n", options.picture);
+    }
+    return static_cast<int>(ExitCode::done);
+  });
+}
+
+}  // namespace thawslide::app

@@ -1,0 +1,51 @@
+// The commands of the program. Each returns an exit code (ExitCode), or throws UserError.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace thawslide::app {
+
+struct CaseOptions {
+  std::string file;
+  std::vector<std::string> sets;
+};
+
+struct RunOptions {
+  CaseOptions of_case;
+  int threads = 0;  // 0: all available cores
+  std::string output;
+  bool overwrite = false;
+};
+int run_case(const RunOptions& options);
+
+struct ResumeOptions {
+  std::string folder;
+  int threads = 0;
+};
+int resume_run(const ResumeOptions& options);
+
+struct CheckOptions {
+  CaseOptions of_case;
+  int threads = 0;
+  std::string picture;  // empty: none
+};
+int check_case(const CheckOptions& options);
+
+struct BlockOptions {
+  CaseOptions of_case;
+  std::string output;
+};
+int run_block_model(const BlockOptions& options);
+
+struct DescribeOptions {
+  bool json = false, markdown = false, schema = false;
+};
+int describe_parameters(const DescribeOptions& options);
+
+// Becomes `thawslide-report` with the given arguments; returns only if that is not found.
+int hand_over_to_report(const std::vector<std::string>& arguments);
+
+int print_version();
+
+}  // namespace thawslide::app

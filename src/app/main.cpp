@@ -1,0 +1,113 @@
+// The command line: what can be asked, and how it ends (exit codes in ARCHITECTURE.md).
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <exception>
+
+#include "app/commands.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "version.hpp"
+
+namespace {
+
+using thawslide::ExitCode;
+using namespace thawslide::app;
+
+// Threads that wait must not burn the core another one needs; the OpenMP library reads this before main begins, so the
+// program starts itself once more with it set.
+void let_threads_wait_passively(char** arguments) {
+  if (std::getenv("OMP_WAIT_POLICY") == nullptr) {
+    setenv("OMP_WAIT_POLICY", "passive", 1);
+    execv("/proc/self/exe", arguments);
+  }
+}
+
+void add_case_options(CLI::App& command, CaseOptions& options) {
+  command.add_option("case", options.file, "Case file, or the folder of a case.toml")->required();
+  command.add_option("--set", options.sets, "Replace a key: --set band.thickness=0.1 (may be given many times)")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Threads (default: the cores this process may use)")
+      ->check(CLI::Range(1, 1024));
+}
+
+int run_program(int count, char** arguments) {
+  CLI::App program("Thawslide: rock-ice avalanches by a three-phase material point method", "thawslide");
+  program.require_subcommand(1);
+  int exit_code = 0;
+
+  RunOptions run_options;
+  CLI::App* run = program.add_subcommand("run", "Run a case");
+  add_case_options(*run, run_options.of_case);
+  add_threads_option(*run, run_options.threads);
+  run->add_option("--output", run_options.output, "Folder of the results (default: runs/NAME)");
+  run->add_flag("--overwrite", run_options.overwrite, "Replace the run the folder holds");
+  run->callback([&] { exit_code = run_case(run_options); });
+
+  ResumeOptions resume_options;
+  CLI::App* resume = program.add_subcommand("resume", "Go on with a run from its checkpoint");
+  resume->add_option("run", resume_options.folder, "Folder of the run")->required();
+  add_threads_option(*resume, resume_options.threads);
+  resume->callback([&] { exit_code = resume_run(resume_options); });
+
+  CheckOptions check_options;
+  CLI::App* check = program.add_subcommand("check", "Validate a case and say what its run will take");
+  add_case_options(*check, check_options.of_case);
+  add_threads_option(*check, check_options.threads);
+  check->add_option("--picture", check_options.picture, "Draw terrain, grid, bodies and boundaries to a PNG file")
+      ->expected(0, 1)
+      ->default_str("setup.png");
+  check->callback([&] { exit_code = check_case(check_options); });
+
+  BlockOptions block_options;
+  CLI::App* block = program.add_subcommand("block", "Run a case as a rigid block: a look in a moment");
+  add_case_options(*block, block_options.of_case);
+  block->add_option("--output", block_options.output, "CSV file (default: a table of some rows to the terminal)");
+  block->callback([&] { exit_code = run_block_model(block_options); });
+
+  DescribeOptions describe_options;
+  CLI::App* describe = program.add_subcommand("describe", "The reference of the case file");
+  auto* forms = describe->add_option_group("form");
+  forms->add_flag("--json", describe_options.json, "As JSON");
+  forms->add_flag("--md", describe_options.markdown, "As Markdown");
+  forms->add_flag("--schema", describe_options.schema, "As a JSON schema, for editors");
+  forms->require_option(0, 1);
+  describe->callback([&] { exit_code = describe_parameters(describe_options); });
+
+  CLI::App* report = program.add_subcommand("report", "Draw the figures of a run (hands over to thawslide-report)");
+  report->prefix_command();
+  report->callback([&] { exit_code = hand_over_to_report(report->remaining()); });
+
+  CLI::App* show_version = program.add_subcommand("version", "Version, commit and build");
+  show_version->callback([&] { exit_code = print_version(); });
+
+  try {
+    program.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::user_mistake);
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  let_threads_wait_passively(arguments);
+  try {
+    return run_program(count, arguments);
+  } catch (const thawslide::UserError& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return static_cast<int>(ExitCode::user_mistake);
+  } catch (const thawslide::RunError& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return static_cast<int>(ExitCode::run_went_bad);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "internal error, please report it: {}\n", error.what());
+    return 1;
+  }
+}

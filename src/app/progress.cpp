@@ -1,0 +1,75 @@
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace thawslide::app {
+
+namespace {
+
+constexpr double seconds_between_bars = 0.2;
+constexpr double seconds_between_lines = 10.0;
+constexpr double share_between_lines = 0.1;
+constexpr int bar_width = 24;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(std::lround(seconds));
+  if (whole >= 3600) {
+    return fmt::format("{} h {:02d} min", whole / 3600, whole % 3600 / 60);
+  }
+  return whole >= 60 ? fmt::format("{} min {:02d} s", whole / 60, whole % 60) : fmt::format("{} s", whole);
+}
+
+Progress::Progress(double begin)
+    : terminal_(isatty(STDOUT_FILENO) != 0), begin_(begin), start_(Clock::now()), last_(start_) {}
+
+bool Progress::due(double time, double end) const {
+  const double share = (time - begin_) / (end - begin_);
+  if (terminal_) {
+    return seconds_since(last_) >= seconds_between_bars;
+  }
+  return share - last_share_ >= share_between_lines || seconds_since(last_) >= seconds_between_lines;
+}
+
+void Progress::show(const ProgressState& state) {
+  const double elapsed = seconds_since(start_);
+  const double share = (state.time - begin_) / (state.end - begin_);
+  const double left = share > 0.0 ? elapsed * (1.0 - share) / share : 0.0;
+  const std::string text = fmt::format("{:.1f} of {:g} s | {:.0f} steps/s | {} left | front {:.0f} m at {:.1f} m/s",
+                                       state.time, state.end, static_cast<double>(state.steps) / elapsed,
+                                       duration_text(left), state.front_position, state.front_speed);
+  if (terminal_) {
+    const auto filled = static_cast<std::size_t>(share * bar_width);
+    fmt::print("\r\033[K[{:<{}}] {:3.0f} % | {}", std::string(filled, '='), bar_width, 100.0 * share, text);
+    drawn_ = true;
+  } else {
+    fmt::print("{:3.0f} % | {}\n", 100.0 * share, text);
+  }
+  std::fflush(stdout);
+  last_ = Clock::now();
+  last_share_ = share;
+}
+
+void Progress::note(const std::string& text) {
+  fmt::print("{}{}\n", drawn_ ? "\r\033[K" : "", text);
+  drawn_ = false;
+  std::fflush(stdout);
+}
+
+void Progress::finish() {
+  if (drawn_) {
+    fmt::print("\n");
+    drawn_ = false;
+  }
+}
+
+}  // namespace thawslide::app

@@ -1,0 +1,58 @@
+// thawslide run, thawslide resume.
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/run_loop.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "config/read_case.hpp"
+#include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
+
+namespace thawslide::app {
+
+namespace fs = std::filesystem;
+
+int run_case(const RunOptions& options) {
+  use_threads(options.threads);
+  const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
+  const fs::path folder = options.output.empty() ? fs::path("runs") / parameters.name : fs::path(options.output);
+  io::require_usable(folder, options.overwrite);
+  return with_dimension(parameters.general.dimension, [&](auto dimension) {
+    constexpr int Dim = decltype(dimension)::value;
+    sim::Simulation<Dim, double> simulation(parameters);
+    io::make_run_folder(folder, options.overwrite);
+    fmt::print("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
+               parameters.general.title.empty() ? parameters.name : parameters.general.title,
+               simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s");
+    RunOutput<Dim> output(folder, simulation);
+    return run_to_end<Dim>(simulation, output, folder);
+  });
+}
+
+int resume_run(const ResumeOptions& options) {
+  use_threads(options.threads);
+  const fs::path folder = options.folder;
+  if (!fs::exists(folder / "checkpoint.bin")) {
+    throw UserError(
+        fmt::format("{} holds no checkpoint.bin to go on from. A run writes it at its end, when a signal stops "
+                    "it, and every checkpoint.interval seconds if the case sets that.",
+                    folder.string()));
+  }
+  const config::Case parameters = config::read_case(folder);
+  return with_dimension(parameters.general.dimension, [&](auto dimension) {
+    constexpr int Dim = decltype(dimension)::value;
+    sim::Simulation<Dim, double> simulation(parameters);
+    std::vector<double> scalars;
+    io::read_checkpoint<Dim, double>(folder / "checkpoint.bin", simulation.particles(), scalars);
+    simulation.restore(scalars);
+    if (simulation.time() >= parameters.time.end - 0.5 * simulation.last_step()) {
+      fmt::print("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
+      return static_cast<int>(ExitCode::done);
+    }
+    fmt::print("going on from t = {:g} s\n", simulation.time());
+    RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation);
+    return run_to_end<Dim>(simulation, output, folder);
+  });
+}
+
+}  // namespace thawslide::app

@@ -1,0 +1,141 @@
+#include "app/run_loop.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "app/progress.hpp"
+#include "app/signals.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "sim/history.hpp"
+
+namespace thawslide::app {
+
+namespace {
+
+constexpr double boiling = 100.0;  // C
+
+template <int Dim>
+double warmest(const sim::Simulation<Dim, double>& simulation) {
+  double temperature = -HUGE_VAL;
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    temperature = std::max(temperature, simulation.particles().temperature(p));
+  }
+  return temperature;
+}
+
+// What the progress line tells of the front.
+class FrontWatch {
+ public:
+  template <int Dim>
+  ProgressState state(const sim::Simulation<Dim, double>& simulation, std::int64_t steps) {
+    const double front = sim::front_position(simulation);
+    const double elapsed = simulation.time() - time_;
+    const double speed = elapsed > 0.0 && std::isfinite(front_) ? (front - front_) / elapsed : 0.0;
+    front_ = front;
+    time_ = simulation.time();
+    return {simulation.time(), simulation.parameters().time.end, steps, front, speed};
+  }
+
+ private:
+  double front_ = std::nan(""), time_ = 0.0;
+};
+
+template <int Dim>
+void print_summary(const sim::Simulation<Dim, double>& simulation, std::int64_t steps, double wall,
+                   const std::filesystem::path& folder) {
+  const double count = static_cast<double>(simulation.particles().size());
+  fmt::print("{} particles, {} steps in {}: {:.3g} million particle-steps per second on {} thread{}\n",
+             simulation.particles().size(), steps, duration_text(wall), count * static_cast<double>(steps) / wall / 1e6,
+             thread_count(), thread_count() == 1 ? "" : "s");
+  std::vector<std::pair<double, std::string>> stages;
+  for (const auto& [name, seconds] : simulation.stopwatch().seconds()) {
+    stages.emplace_back(seconds, name);
+  }
+  std::sort(stages.rbegin(), stages.rend());
+  for (const auto& [seconds, name] : stages) {
+    fmt::print("  {:<28}{:8.2f} s {:5.1f} %\n", name, seconds, 100.0 * seconds / wall);
+  }
+  const auto row = sim::history_row(simulation);
+  const auto value = [&](const std::string& name) {
+    return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
+  };
+  fmt::print("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, front at {:.0f} m, runout {:.0f} m\n",
+             simulation.time(), value("mean_velocity_m_s"), value("mean_displacement_m"), value("front_position_m"),
+             value("runout_m"));
+  fmt::print("results in {}\n", folder.string());
+}
+
+}  // namespace
+
+void use_threads(int threads) { set_thread_count(threads > 0 ? threads : available_cores()); }
+
+template <int Dim>
+int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
+  const config::Time& times = simulation.parameters().time;
+  const double begin = simulation.time();
+  const std::int64_t first_step = simulation.step_number();
+  Schedule history(times.history_interval, begin, times.end);
+  Schedule snapshots(times.output_interval, begin, times.end);
+  const double checkpoint_interval = simulation.parameters().checkpoint.interval;
+  Schedule checkpoints(checkpoint_interval > 0.0 ? checkpoint_interval : times.end, begin, times.end);
+  Progress progress(begin);
+  FrontWatch front;
+  bool warned = false;
+  const auto start = std::chrono::steady_clock::now();
+  const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto close = [&](const std::string& status, const std::string& message) {
+    output.write_history(simulation);
+    output.write_snapshot(simulation);
+    output.write_provenance(simulation, status, message, wall());
+    progress.finish();
+    print_summary(simulation, simulation.step_number() - first_step, wall(), folder);
+  };
+  catch_signals();
+  try {
+    while (simulation.time() < times.end - 0.5 * simulation.last_step() && caught_signal() == 0) {
+      const double next_event = std::min(
+          {snapshots.next(), checkpoints.next(), times.history_interval > 0.0 ? history.next() : times.end, times.end});
+      simulation.step(simulation.next_step(next_event));
+      const double dt = simulation.last_step();
+      if (times.history_interval <= 0.0 || history.reached(simulation.time(), dt)) {
+        output.write_history(simulation);
+      }
+      if (snapshots.reached(simulation.time(), dt)) {
+        output.write_snapshot(simulation);
+        if (!warned && warmest(simulation) > boiling) {
+          warned = true;
+          progress.note(
+              fmt::format("note: at {:g} s the base passes {:g} C. Nothing in the model boils: beyond this "
+                          "temperatures are a bookkeeping of heat, not a forecast.",
+                          simulation.time(), boiling));
+        }
+      }
+      if (checkpoints.reached(simulation.time(), dt)) {
+        output.write_checkpoint(simulation);
+      }
+      if (progress.due(simulation.time(), times.end)) {
+        progress.show(front.state(simulation, simulation.step_number() - first_step));
+      }
+    }
+  } catch (const RunError& error) {
+    close("failed", error.what());
+    throw;
+  }
+  if (caught_signal() != 0) {
+    output.write_checkpoint(simulation);
+    close("stopped", fmt::format("signal {}", caught_signal()));
+    fmt::print(stderr, "stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),
+               simulation.time(), folder.string());
+    return static_cast<int>(ExitCode::stopped_by_signal);
+  }
+  output.write_checkpoint(simulation);
+  close("done", "");
+  return static_cast<int>(ExitCode::done);
+}
+
+template int run_to_end<2>(sim::Simulation<2, double>&, RunOutput<2>&, const std::filesystem::path&);
+template int run_to_end<3>(sim::Simulation<3, double>&, RunOutput<3>&, const std::filesystem::path&);
+
+}  // namespace thawslide::app

@@ -1,0 +1,21 @@
+// A run from its present time to its end, with output, progress and a closing summary.
+#pragma once
+
+#include "app/run_output.hpp"
+
+namespace thawslide::app {
+
+// Returns the exit code: done, run went bad, or stopped by a signal; in each case what there is has been written.
+template <int Dim>
+int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder);
+
+// Calls work(dimension constant) for the case's dimension.
+template <class Work>
+int with_dimension(int dimension, const Work& work) {
+  return dimension == 2 ? work(std::integral_constant<int, 2>{}) : work(std::integral_constant<int, 3>{});
+}
+
+// Sets the number of threads; 0: all available cores.
+void use_threads(int threads);
+
+}  // namespace thawslide::app

@@ -1,0 +1,56 @@
+// The files of a run, written as it goes (ARCHITECTURE.md lists them).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/history_writer.hpp"
+#include "io/provenance.hpp"
+#include "io/snapshot_series.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::app {
+
+// Moments at which something is written: every multiple of an interval, and the end.
+class Schedule {
+ public:
+  // The first moment is the first multiple after `begin`.
+  Schedule(double interval, double begin, double end);
+  [[nodiscard]] double next() const { return next_; }
+  // True if the time has come, within half a step; moves on to the next moment.
+  bool reached(double time, double step);
+
+ private:
+  double interval_, end_, next_;
+  std::int64_t count_;
+};
+
+template <int Dim>
+class RunOutput {
+ public:
+  using Simulation = sim::Simulation<Dim, double>;
+
+  // A new run in a folder that is there and empty: writes the resolved case, the inputs and the first state.
+  RunOutput(const std::filesystem::path& folder, const Simulation& simulation);
+  // Goes on with a run at the simulation's time.
+  static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation);
+
+  void write_history(const Simulation& simulation);
+  void write_snapshot(const Simulation& simulation);
+  void write_checkpoint(const Simulation& simulation) const;
+  // run.json; status as architecture's words: running, done, stopped, failed.
+  void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
+                        double wall_seconds);
+
+ private:
+  RunOutput(const std::filesystem::path& folder, io::HistoryWriter history, io::SnapshotSeries snapshots);
+
+  std::filesystem::path folder_;
+  io::HistoryWriter history_;
+  io::SnapshotSeries snapshots_;
+  io::Provenance provenance_;
+  std::int64_t history_step_ = -1, snapshot_step_ = -1;
+};
+
+}  // namespace thawslide::app

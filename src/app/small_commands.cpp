@@ -1,0 +1,101 @@
+// thawslide block, describe, report, version.
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+
+#include "app/commands.hpp"
+#include "base/error.hpp"
+#include "config/describe.hpp"
+#include "config/read_case.hpp"
+#include "io/history_writer.hpp"
+#include "sim/block.hpp"
+#include "version.hpp"
+
+namespace thawslide::app {
+
+namespace {
+
+constexpr std::size_t rows_in_table = 21;
+
+void print_table(const std::vector<sim::HistoryRow>& rows) {
+  fmt::print(
+      "{:>8} {:>9} {:>10} {:>10} {:>10} {:>10} {:>9} {:>7}\n{:>8} {:>9} {:>10} {:>10} {:>10} {:>10} {:>9} {:>7}\n",
+      "time", "velocity", "distance", "normal", "pore p.", "strength", "band T", "mu_e", "s", "m/s", "m", "kPa", "kPa",
+      "kPa", "C", "");
+  const std::size_t shown = std::min(rows_in_table, rows.size());
+  for (std::size_t k = 0; k < shown; ++k) {
+    const auto& row = rows[shown == 1 ? 0 : k * (rows.size() - 1) / (shown - 1)];
+    const auto value = [&](const std::string& name) {
+      for (const auto& [key, number] : row) {
+        if (key == name) {
+          return number;
+        }
+      }
+      throw InternalError("the block model has no column " + name);
+    };
+    fmt::print("{:8.2f} {:9.2f} {:10.1f} {:10.1f} {:10.1f} {:10.1f} {:9.2f} {:7.4f}\n", value("time_s"),
+               value("velocity_m_s"), value("displacement_m"), value("normal_pressure_Pa") / 1e3,
+               value("pore_pressure_Pa") / 1e3, value("sliding_strength_Pa") / 1e3, value("band_temperature_C"),
+               value("band_friction_coefficient"));
+  }
+}
+
+}  // namespace
+
+int run_block_model(const BlockOptions& options) {
+  const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<sim::HistoryRow> rows = sim::run_block(parameters);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.output.empty()) {
+    print_table(rows);
+    const auto& first = rows.front();
+    fmt::print("safety factor at the start: {:.3f} (sliding strength over driving traction); took {:.0f} ms\n",
+               first[6].second / first[7].second, 1e3 * seconds);
+    return static_cast<int>(ExitCode::done);
+  }
+  io::HistoryWriter writer(options.output);
+  for (const sim::HistoryRow& row : rows) {
+    writer.add(row);
+  }
+  fmt::print("{} rows in {}; took {:.0f} ms\n", rows.size(), options.output, 1e3 * seconds);
+  return static_cast<int>(ExitCode::done);
+}
+
+int describe_parameters(const DescribeOptions& options) {
+  fmt::print("{}", options.json       ? config::describe_json()
+                   : options.markdown ? config::describe_markdown()
+                   : options.schema   ? config::schema_json()
+                                      : config::describe_text());
+  return static_cast<int>(ExitCode::done);
+}
+
+int hand_over_to_report(const std::vector<std::string>& arguments) {
+  std::string program = "thawslide-report";
+  std::vector<std::string> words = arguments;
+  std::vector<char*> pointers{program.data()};
+  for (std::string& word : words) {
+    pointers.push_back(word.data());
+  }
+  pointers.push_back(nullptr);
+  execvp(program.c_str(), pointers.data());
+  throw UserError(
+      fmt::format("thawslide-report cannot be started ({}). It is part of the Python package: "
+                  "`./run --setup` installs it into .venv; put .venv/bin on PATH.",
+                  std::strerror(errno)));
+}
+
+int print_version() {
+  fmt::print("thawslide {} (commit {}, {} {})\n", version, commit,
+#if defined(__clang__)
+             "clang",
+#else
+             "g++",
+#endif
+             __VERSION__);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace thawslide::app

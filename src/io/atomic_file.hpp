@@ -1,0 +1,17 @@
+// Files that are whole or not there: written beside their place, then renamed onto it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string_view>
+
+namespace thawslide::io {
+
+// Throws UserError with the path and the system's reason; nothing is left behind then.
+void write_file_atomically(const std::filesystem::path& file, const void* data, std::size_t bytes);
+void write_file_atomically(const std::filesystem::path& file, std::string_view text);
+
+// A whole file. Throws UserError if it cannot be read.
+std::string read_file(const std::filesystem::path& file);
+
+}  // namespace thawslide::io

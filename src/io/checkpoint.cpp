@@ -1,0 +1,140 @@
+#include "io/checkpoint.hpp"
+
+#include <cstring>
+#include <numeric>
+
+#include "io/atomic_file.hpp"
+#include "io/sha256.hpp"
+#include "io/snapshot.hpp"
+
+namespace thawslide::io {
+
+namespace {
+
+constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" in bytes
+constexpr std::uint64_t format_version = 1;
+
+class Writer {
+ public:
+  void put(std::uint64_t number) { put_raw(&number, sizeof number); }
+  void put(const std::string& text) {
+    put(text.size());
+    put_raw(text.data(), text.size());
+  }
+  void put_raw(const void* data, std::size_t size) { text_.append(static_cast<const char*>(data), size); }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+class Reader {
+ public:
+  Reader(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    get_raw(&value, sizeof value);
+    return value;
+  }
+  std::string text() {
+    std::string value(number(), '\0');
+    get_raw(value.data(), value.size());
+    return value;
+  }
+  void get_raw(void* data, std::size_t size) {
+    THAWSLIDE_ASSERT(next_ + size <= text_.size(), "{} is whole and yet too short", file_.string());
+    std::memcpy(data, text_.data() + next_, size);
+    next_ += size;
+  }
+  void expect(std::uint64_t expected, const char* what) {
+    const std::uint64_t found = number();
+    if (found != expected) {
+      throw UserError(
+          fmt::format("{} has {} {}; this run needs {}. Continue it with the case and program that wrote it.",
+                      file_.string(), what, found, expected));
+    }
+  }
+
+ private:
+  std::string_view text_;
+  std::filesystem::path file_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+template <int Dim, class Real>
+void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Dim, Real>& particles,
+                      const std::vector<double>& scalars) {
+  Writer writer;
+  for (const std::uint64_t number : {magic, format_version, std::uint64_t{Dim}, std::uint64_t{sizeof(Real)},
+                                     std::uint64_t{particles.size()}, std::uint64_t{scalars.size()}}) {
+    writer.put(number);
+  }
+  writer.put_raw(scalars.data(), scalars.size() * sizeof(double));
+  const std::vector<std::size_t> order = order_by_id(particles);
+  for (const mpm::FieldBase* field : particles.fields.all()) {
+    if (field->info().in_checkpoint) {
+      const std::vector<std::byte> rows = field->bytes();
+      const std::size_t row = rows.size() / std::max<std::size_t>(1, particles.size());
+      writer.put(field->info().name);
+      writer.put(row);
+      for (const std::size_t p : order) {
+        writer.put_raw(rows.data() + p * row, row);
+      }
+    }
+  }
+  const Digest digest = sha256(writer.text().data(), writer.text().size());
+  writer.put_raw(digest.data(), digest.size());
+  write_file_atomically(file, writer.text());
+}
+
+template <int Dim, class Real>
+void read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real>& particles,
+                     std::vector<double>& scalars) {
+  const std::string all = read_file(file);
+  Digest stored{};
+  const std::size_t body = all.size() >= stored.size() ? all.size() - stored.size() : 0;
+  if (body > 0) {
+    std::memcpy(stored.data(), all.data() + body, stored.size());
+  }
+  if (body == 0 || sha256(all.data(), body) != stored) {
+    throw UserError(
+        fmt::format("{} is damaged: its checksum does not fit its {} bytes. Use another copy, or run the case "
+                    "from its start.",
+                    file.string(), all.size()));
+  }
+  Reader reader(std::string_view(all).substr(0, body), file);
+  reader.expect(magic, "the mark");
+  reader.expect(format_version, "format");
+  reader.expect(Dim, "dimension");
+  reader.expect(sizeof(Real), "number size");
+  reader.expect(particles.size(), "particles:");
+  scalars.resize(reader.number());
+  reader.get_raw(scalars.data(), scalars.size() * sizeof(double));
+  for (mpm::FieldBase* field : particles.fields.all()) {
+    if (field->info().in_checkpoint) {
+      const std::string name = reader.text();
+      if (name != field->info().name) {
+        throw UserError(
+            fmt::format("{} has the field '{}' where this program has '{}'. Continue the run with the version "
+                        "that wrote it (run.json names it).",
+                        file.string(), name, field->info().name));
+      }
+      std::vector<std::byte> rows(reader.number() * particles.size());
+      reader.get_raw(rows.data(), rows.size());
+      field->set_bytes(rows);
+    }
+  }
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                    \
+  template void write_checkpoint<Dim, Real>(const std::filesystem::path&, const mpm::Particles<Dim, Real>&, \
+                                            const std::vector<double>&);                                    \
+  template void read_checkpoint<Dim, Real>(const std::filesystem::path&, mpm::Particles<Dim, Real>&,        \
+                                           std::vector<double>&);
+THAWSLIDE_INSTANTIATE(2, double)
+THAWSLIDE_INSTANTIATE(3, double)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::io

@@ -1,0 +1,22 @@
+// checkpoint.bin: everything a run needs to go on, in a container of its own. A SHA-256 over the whole file stands at
+// its end and is verified before anything is parsed.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "mpm/particles.hpp"
+
+namespace thawslide::io {
+
+// Rows by id, so that the bytes do not depend on storage order.
+template <int Dim, class Real>
+void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Dim, Real>& particles,
+                      const std::vector<double>& scalars);
+
+// Throws UserError for a file that is damaged, cut short, or of another kind of run (dimension, number type, fields).
+template <int Dim, class Real>
+void read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real>& particles,
+                     std::vector<double>& scalars);
+
+}  // namespace thawslide::io

@@ -1,0 +1,45 @@
+// run.json: what made a run, with what, how fast, and what to cite.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace thawslide::io {
+
+// An input of a run.
+struct InputFile {
+  std::string path;  // as it was found
+  std::string copy;  // in the run's folder, e.g. inputs/profile.csv; empty for a file too large to copy
+  std::string sha256;
+  std::uintmax_t bytes = 0;
+};
+
+struct Provenance {
+  std::string version, commit, command, host, processor, started;  // started: UTC, ISO 8601
+  int threads = 1;
+  std::size_t particles = 0;
+  std::vector<double> origin, gravity;  // [m], [m/s2] in grid axes
+  std::vector<InputFile> inputs;
+  std::string status, message;  // running, done, stopped, failed
+  double simulated_time = 0.0, wall_seconds = 0.0;
+  std::int64_t steps = 0;
+  std::map<std::string, double> seconds_per_stage;
+};
+
+// Version, commit, command line, host and time of start filled in.
+Provenance provenance_of_this_program();
+
+void write_provenance(const std::filesystem::path& file, const Provenance& provenance);
+
+// Copies inputs into folder/inputs, one of each name; files above 50 MB are only hashed. Throws UserError for two files
+// of one name, or what cannot be read.
+std::vector<InputFile> copy_inputs(const std::filesystem::path& folder,
+                                   const std::vector<std::filesystem::path>& files);
+
+// The inputs that folder/run.json lists.
+std::vector<InputFile> read_inputs(const std::filesystem::path& folder);
+
+}  // namespace thawslide::io

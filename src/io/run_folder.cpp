@@ -1,0 +1,72 @@
+#include "io/run_folder.hpp"
+
+#include <unistd.h>
+
+#include "base/error.hpp"
+
+namespace thawslide::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* files_of_a_run[] = {"run.json",         "history.csv",    "case.toml",   "terrain.csv",
+                                          "particles.vtkhdf", "checkpoint.bin", "report.html", "snapshots",
+                                          "inputs",           "figures"};
+
+bool holds_a_run(const fs::path& folder) {
+  return fs::exists(folder / "run.json") || fs::exists(folder / "history.csv") || fs::exists(folder / "snapshots");
+}
+
+// The deepest part of the path that exists: where folders would be made.
+fs::path existing_part(const fs::path& folder) {
+  fs::path part = fs::absolute(folder);
+  while (!fs::exists(part) && part.has_relative_path()) {
+    part = part.parent_path();
+  }
+  return part;
+}
+
+}  // namespace
+
+void require_usable(const fs::path& folder, bool overwrite) {
+  const fs::path part = existing_part(folder);
+  if (!fs::is_directory(part)) {
+    throw UserError(fmt::format("the output folder {} cannot be made: {} is a file. Give another --output.",
+                                folder.string(), part.string()));
+  }
+  if (access(part.c_str(), W_OK) != 0) {
+    throw UserError(fmt::format("the output folder {} cannot be written: no permission for {}. Give another --output.",
+                                folder.string(), part.string()));
+  }
+  if (fs::exists(folder) && !fs::is_empty(folder)) {
+    if (!holds_a_run(folder)) {
+      throw UserError(
+          fmt::format("the output folder {} holds other files and no run. Give another --output.", folder.string()));
+    }
+    if (!overwrite) {
+      throw UserError(
+          fmt::format("the output folder {} holds another run. Give another --output, or --overwrite to replace "
+                      "that run.",
+                      folder.string()));
+    }
+  }
+}
+
+void make_run_folder(const fs::path& folder, bool overwrite) {
+  require_usable(folder, overwrite);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw UserError(fmt::format("the output folder {} cannot be made: {}. Give another --output.", folder.string(),
+                                error.message()));
+  }
+  for (const char* name : files_of_a_run) {
+    fs::remove_all(folder / name, error);
+    if (error) {
+      throw UserError(fmt::format("cannot remove {}: {}", (folder / name).string(), error.message()));
+    }
+  }
+}
+
+}  // namespace thawslide::io

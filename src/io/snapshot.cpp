@@ -1,0 +1,107 @@
+#include "io/snapshot.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "io/hdf5_file.hpp"
+#include "io/vtkhdf.hpp"
+
+namespace thawslide::io {
+
+namespace {
+
+// Components as written: vectors three, tensors six.
+std::size_t written_components(mpm::FieldShape shape) {
+  return shape == mpm::FieldShape::scalar ? 1 : shape == mpm::FieldShape::vector ? 3 : 6;
+}
+
+SnapshotField take_field(const mpm::FieldBase& field, const std::vector<std::size_t>& order) {
+  SnapshotField taken{
+      field.info().name, field.info().unit, written_components(field.info().shape), field.is_integer(), {}, {}};
+  for (const std::size_t p : order) {
+    for (std::size_t c = 0; c < taken.components; ++c) {
+      const int component = static_cast<int>(c);
+      const double value = component < field.components() ? field.value(p, component) : 0.0;
+      if (taken.integer) {
+        taken.integers.push_back(static_cast<std::int64_t>(value));
+      } else {
+        taken.numbers.push_back(value);
+      }
+    }
+  }
+  return taken;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+std::vector<std::size_t> order_by_id(const mpm::Particles<Dim, Real>& particles) {
+  std::vector<std::size_t> order(particles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return particles.id(a) < particles.id(b); });
+  return order;
+}
+
+template <int Dim, class Real>
+Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<double, Dim>& origin, double time,
+                       std::int64_t step) {
+  const std::vector<std::size_t> order = order_by_id(particles);
+  Snapshot snapshot{time, step, {}, {}};
+  for (const std::size_t p : order) {
+    for (int a = 0; a < 3; ++a) {
+      snapshot.points.push_back(a < Dim ? static_cast<double>(particles.position(p, a)) + origin[std::min(a, Dim - 1)]
+                                        : 0.0);
+    }
+  }
+  for (const mpm::FieldBase* field : particles.fields.all()) {
+    if (field->info().in_snapshot) {
+      snapshot.fields.push_back(take_field(*field, order));
+    }
+  }
+  return snapshot;
+}
+
+std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
+  const std::size_t count = snapshot.particles();
+  const hdf5::MemoryFile file;
+  const hdf5::Handle root = vtkhdf::make_root(file.root());
+  hdf5::write_attribute(root, "time", snapshot.time);
+  hdf5::write_attribute(root, "step", snapshot.step);
+  const auto points = static_cast<std::int64_t>(count);
+  hdf5::write_dataset(root, "NumberOfPoints", {1}, &points);
+  hdf5::write_dataset(root, "Points", {count, 3}, snapshot.points.data());
+  std::vector<std::int64_t> ascending(count + 1);
+  std::iota(ascending.begin(), ascending.end(), std::int64_t{0});
+  for (const char* kind : vtkhdf::cell_kinds) {
+    const std::size_t cells = kind == vtkhdf::cell_kinds[0] ? count : 0;
+    const auto number = static_cast<std::int64_t>(cells);
+    const hdf5::Handle group = hdf5::make_group(root, kind);
+    hdf5::write_dataset(group, "NumberOfCells", {1}, &number);
+    hdf5::write_dataset(group, "NumberOfConnectivityIds", {1}, &number);
+    hdf5::write_dataset(group, "Offsets", {cells + 1}, ascending.data());
+    hdf5::write_dataset(group, "Connectivity", {cells}, ascending.data());
+  }
+  const hdf5::Handle data = hdf5::make_group(root, "PointData");
+  for (const SnapshotField& field : snapshot.fields) {
+    const hdf5::Shape shape = field.components == 1 ? hdf5::Shape{count} : hdf5::Shape{count, field.components};
+    if (field.integer) {
+      hdf5::write_dataset(data, field.name, shape, field.integers.data());
+    } else {
+      hdf5::write_dataset(data, field.name, shape, field.numbers.data());
+    }
+    const hdf5::Handle dataset(H5Dopen2(data, field.name.c_str(), H5P_DEFAULT), H5Dclose, field.name.c_str());
+    hdf5::write_attribute(dataset, "unit", field.unit);
+  }
+  return file.bytes();
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
+  template std::vector<std::size_t> order_by_id<Dim, Real>(const mpm::Particles<Dim, Real>&);                      \
+  template Snapshot take_snapshot<Dim, Real>(const mpm::Particles<Dim, Real>&, const Vector<double, Dim>&, double, \
+                                             std::int64_t);
+THAWSLIDE_INSTANTIATE(2, double)
+THAWSLIDE_INSTANTIATE(3, double)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::io

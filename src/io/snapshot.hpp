@@ -1,0 +1,44 @@
+// One state of the particles as a VTKHDF file: PolyData with one vertex a particle, readable by ParaView, PyVista,
+// h5py.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mpm/particles.hpp"
+
+namespace thawslide::io {
+
+struct SnapshotField {
+  std::string name, unit;
+  std::size_t components;
+  bool integer;
+  std::vector<double> numbers;  // one of these two is filled, particle by particle
+  std::vector<std::int64_t> integers;
+};
+
+struct Snapshot {
+  double time;  // [s]
+  std::int64_t step;
+  std::vector<double> points;  // x y z of each particle [m]
+  std::vector<SnapshotField> fields;
+
+  [[nodiscard]] std::size_t particles() const { return points.size() / 3; }
+};
+
+// Fields marked for snapshots, rows by id, the local origin added back, three components in 2D (z = 0), tensors as
+// xx yy zz xy yz xz.
+template <int Dim, class Real>
+Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<double, Dim>& origin, double time,
+                       std::int64_t step);
+
+// The file's bytes; the same snapshot gives the same bytes.
+std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot);
+
+// Storage places of the particles in order of id.
+template <int Dim, class Real>
+std::vector<std::size_t> order_by_id(const mpm::Particles<Dim, Real>& particles);
+
+}  // namespace thawslide::io

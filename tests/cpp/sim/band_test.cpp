@@ -1,0 +1,162 @@
+// The shear band of Sec. 3.2: a slab driven at constant speed over its melted base, adiabatic and undrained.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "physics/pressurization.hpp"
+#include "sim/block.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+const std::string slab = R"(
+[time]
+end = 1.5
+step = 0.001
+[grid]
+cell = 10.0
+min = [-50.0, -10.0]
+max = [250.0, 80.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+viscosity_time = 0.02
+hydraulic_conductivity = 2e-8
+[body.slab]
+material = "rock"
+shape = "box"
+min = [0.0, 0.0]
+max = [200.0, 50.0]
+temperature = 1e-9
+velocity = [1.0, 0.0]
+[frame.driver]
+min = [-50.0, -10.0]
+max = [250.0, 80.0]
+axis = "x"
+velocity = 1.0
+[basal]
+friction = "constant"
+friction_angle = 11.30993247402  # mu 0.2
+[band]
+thickness = 0.05
+[heat]
+conduction = false
+advection = false
+[pressure]
+seepage = false
+)";
+
+// All nodes but those of the base are driven.
+const std::vector<std::string> base_free = {"frame.driver.min=[-50.0,5.0]"};
+
+// Friction coefficient the base shows: basal shear force over normal force, from two rows of particles a band.
+TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
+  Simulation<2, double> simulation(case_from_text(slab, base_free));
+  const auto& model = simulation.model();
+  const auto& phases = model.motion.phases;
+  const double n = 0.375, gravity = 9.81, height = 50.0, thickness = 0.05, mu = 0.2, speed = 1.0;
+  const double density = physics::mixture_density(phases, n, 1.0);
+  const double normal = density * gravity * height;
+  const double pressure = phases.water_density / phases.ice_density * phases.ice_density * gravity * height;
+  const double lambda = physics::undrained_pressure_coefficient(phases, n, 1.0);
+  const double capacity = physics::heat_capacity(phases, n, 1.0);
+  // Node pressure rises 2 (w1^2 + w2^2)/(w1 + w2) = 1.25 times faster than the mean, with w = 3/4 and 1/4.
+  const double rate = 1.25 * mu * lambda * speed / (capacity * thickness);
+  double shear = 0.0;
+  int samples = 0;
+  while (simulation.time() < 1.5 - 1e-9) {
+    simulation.step(0.001);
+    // Mean over a tenth of a second: the slab's elastic waves ring around the mean.
+    if (simulation.time() > 1.4) {
+      shear += std::abs(simulation.contact().force[0]) / 200.0;
+      ++samples;
+    }
+  }
+  const double expected = mu * (normal - pressure) * std::exp(-rate * 1.45);
+  EXPECT_NEAR(shear / samples / expected, 1.0, 0.01);
+  // Without the factor the answer would be another by far.
+  EXPECT_GT(std::exp(-rate / 1.25 * 1.45) / std::exp(-rate * 1.45), 1.1);
+}
+
+TEST(AdiabaticBand, BlockModelFollowsTheSameExponential) {
+  // A block heavy enough to keep its speed: gravity turned so that it slides at constant speed while friction stays.
+  const config::Case parameters = case_from_text(
+      slab, {"time.end=0.5", "body.slab.velocity=[1.0,0.0]", "case.gravity_tilt=0.0", "time.step=0.0005"});
+  const auto rows = run_block(parameters);
+  const auto& first = rows.front();
+  const auto& last = rows.back();
+  const double lambda = 325000.0, capacity = 3042156.25;
+  // d ln(N - P)/d(slip) = -1.25 mu Lambda/(C e), whatever the speed.
+  const double slip = value_of(last, "displacement_m");
+  const double decay = std::log((value_of(last, "normal_pressure_Pa") - value_of(last, "pore_pressure_Pa")) /
+                                (value_of(first, "normal_pressure_Pa") - value_of(first, "pore_pressure_Pa")));
+  EXPECT_NEAR(decay / slip, -1.25 * 0.2 * lambda / (capacity * 0.05), 0.005);
+  EXPECT_GT(slip, 0.2);
+}
+
+// Frozen, melting and pressurised base under gravity: the deformable slab against the rigid block.
+const std::string sliding = R"(
+[case]
+gravity_tilt = 25.0
+[time]
+end = 6.0
+step = 0.001
+history_interval = 0.5
+[grid]
+cell = 10.0
+min = [-50.0, -10.0]
+max = [500.0, 80.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e9
+poisson_ratio = 0.2
+viscosity_time = 0.02
+hydraulic_conductivity = 2e-8
+[body.slab]
+material = "rock"
+shape = "box"
+min = [0.0, 0.0]
+max = [200.0, 50.0]
+temperature = -1.0
+velocity = [2.0, 0.0]
+[mechanics]
+slope_shear = true
+[basal]
+friction = "lubricated"
+friction_angle = 25.0
+[band]
+thickness = 0.05
+)";
+
+TEST(BlockModel, AgreesWithTheMaterialPoints) {
+  const config::Case parameters = case_from_text(sliding, {"time.step=0.0005"});
+  const auto rows = run_block(parameters);
+  Simulation<2, double> simulation(parameters);
+  run_until(simulation, parameters.time.end);
+  const auto row = history_row(simulation);
+  const auto& block = rows.back();
+  EXPECT_NEAR(value_of(row, "mean_velocity_m_s") / value_of(block, "velocity_m_s"), 1.0, 0.02);
+  EXPECT_NEAR(value_of(row, "mean_displacement_m") / value_of(block, "displacement_m"), 1.0, 0.02);
+  EXPECT_NEAR(value_of(row, "friction_work_J") / 200.0 / value_of(block, "friction_work_J_m2"), 1.0, 0.02);
+  // The slab's two ends, which rise from their cells' middle, are warmer than its long inside.
+  EXPECT_NEAR(value_of(row, "band_temperature_C"), value_of(block, "band_temperature_C"), 0.25);
+  EXPECT_NEAR(value_of(row, "band_saturation") / value_of(block, "band_saturation"), 1.0, 0.05);
+  EXPECT_NEAR(value_of(row, "band_pore_pressure_Pa") / value_of(block, "band_pore_pressure_Pa"), 1.0, 0.05);
+  EXPECT_GT(value_of(block, "band_saturation"), 0.3) << "the base must have begun to melt for this to say much";
+}
+
+}  // namespace
+}  // namespace thawslide::sim

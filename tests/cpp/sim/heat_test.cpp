@@ -1,0 +1,144 @@
+// Heat and pore pressure on the grid, against what is exactly known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "physics/pressurization.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+// A bar that does not move; cells and step come in by --set.
+const std::string bar = R"(
+[case]
+gravity = 0.0
+[time]
+end = 4.0e5
+step = 1000.0
+[grid]
+cell = 0.1
+min = [0.0, 0.0]
+max = [4.0, 0.4]
+[material.bar]
+law = "elastic"
+youngs_modulus = 1e7
+poisson_ratio = 0.3
+[body.bar]
+material = "bar"
+shape = "box"
+min = [0.0, 0.0]
+max = [4.0, 0.4]
+temperature = 2.0
+[mechanics]
+enabled = false
+[pressure]
+enabled = false
+[heat.boundary]
+x_min = { temperature = 8.0 }
+)";
+
+// Root mean square error against 2 + 6 erfc(x/sqrt(4 a t)).
+double conduction_error(double cell) {
+  const config::Case parameters = case_from_text(
+      bar, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 1000.0 * cell * cell / 0.01)});
+  Simulation<2, double> simulation(parameters);
+  run_until(simulation, parameters.time.end);
+  const auto& particles = simulation.particles();
+  const auto& phases = simulation.model().motion.phases;
+  const double diffusivity = physics::conductivity(phases, 0.375, 1.0) / physics::heat_capacity(phases, 0.375, 1.0);
+  double sum = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double exact = 2.0 + 6.0 * std::erfc(particles.position(p, 0) / std::sqrt(4.0 * diffusivity * 4.0e5));
+    sum += std::pow(particles.temperature(p) - exact, 2);
+  }
+  EXPECT_NEAR(value_of(history_row(simulation), "thermal_residual_J"), 0.0, 1e-3);
+  return std::sqrt(sum / static_cast<double>(particles.size()));
+}
+
+TEST(Conduction, HalfSpaceConvergesAtSecondOrder) {
+  const double coarse = conduction_error(0.2);
+  const double middle = conduction_error(0.1);
+  const double fine = conduction_error(0.05);
+  EXPECT_LT(fine, 0.01);
+  EXPECT_GT(std::log2(coarse / middle), 1.6);
+  EXPECT_GT(std::log2(middle / fine), 1.6);
+}
+
+TEST(Conduction, FluxBringsItsHeat) {
+  std::string text = bar;
+  text.replace(text.find("{ temperature = 8.0 }"), 21, "{ flux = 2.0 }");
+  Simulation<2, double> simulation(case_from_text(text));
+  run_until(simulation, 4.0e5);
+  const auto row = history_row(simulation);
+  // 2 W/m2 over 0.4 m for 4e5 s.
+  EXPECT_NEAR(value_of(row, "boundary_heat_J"), 2.0 * 0.4 * 4.0e5, 1e-4);
+  EXPECT_NEAR(value_of(row, "thermal_residual_J"), 0.0, 1e-3);
+}
+
+TEST(Conduction, BandScalingMakesTheGridFiner) {
+  // With xi = 10, cells of 0.1 m conduct as cells of 0.01 m would: the same curve over x/xi, 100 times sooner.
+  const config::Case plain = case_from_text(bar, {"time.step=1000.0"});
+  const config::Case scaled = case_from_text(bar, {"time.step=10.0", "time.end=4000.0", "band.thickness=0.01"});
+  Simulation<2, double> slow(plain), fast(scaled);
+  run_until(slow, plain.time.end);
+  run_until(fast, scaled.time.end);
+  for (std::size_t p = 0; p < slow.particles().size(); ++p) {
+    EXPECT_NEAR(slow.particles().temperature(p), fast.particles().temperature(p), 1e-9);
+  }
+}
+
+TEST(UndrainedHeating, RaisesThePressureByLambda) {
+  const std::string heated = R"(
+[case]
+gravity = 9.81
+[time]
+end = 2.0e4
+step = 100.0
+[grid]
+cell = 0.1
+min = [0.0, 0.0]
+max = [1.0, 0.4]
+[material.bar]
+law = "elastic"
+youngs_modulus = 1e7
+poisson_ratio = 0.3
+hydraulic_conductivity = 2e-8
+[body.bar]
+material = "bar"
+shape = "box"
+min = [0.0, 0.0]
+max = [1.0, 0.4]
+temperature = 1.0
+[mechanics]
+enabled = false
+[pressure]
+seepage = false
+[heat.boundary]
+x_min = { flux = 40.0 }
+)";
+  Simulation<2, double> simulation(case_from_text(heated));
+  const auto& particles = simulation.particles();
+  std::vector<double> start(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    start[static_cast<std::size_t>(particles.id(p))] = particles.liquid_pressure(p);
+  }
+  run_until(simulation, 2.0e4);
+  const double lambda = physics::undrained_pressure_coefficient(simulation.model().motion.phases, 0.375, 1.0);
+  double warmest = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double rise = particles.liquid_pressure(p) - start[static_cast<std::size_t>(particles.id(p))];
+    const double heating = particles.temperature(p) - 1.0;
+    warmest = std::max(warmest, heating);
+    EXPECT_NEAR(rise, lambda * heating, 1e-3 * lambda * heating + 1e-6);
+  }
+  EXPECT_GT(warmest, 0.5);
+}
+
+}  // namespace
+}  // namespace thawslide::sim

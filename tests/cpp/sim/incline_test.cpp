@@ -1,0 +1,212 @@
+// A block on an incline: sticks, slides and heats as it must, in 2D and 3D, on turned gravity and on a tilted plane.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+constexpr double gravity = 9.81;
+double radians(double degrees) { return degrees * pi<double> / 180.0; }
+
+// Gravity turned by 30 degrees over flat ground: the grid's axes are the slope's.
+const std::string turned_2d = R"(
+[case]
+gravity_tilt = 30.0
+[time]
+end = 2.0
+step = 0.001
+[grid]
+cell = 5.0
+min = [-20.0, -10.0]
+max = [200.0, 40.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+viscosity_time = 0.02
+[body.block]
+material = "rock"
+shape = "box"
+min = [0.0, 0.0]
+max = [40.0, 20.0]
+[mechanics]
+slope_shear = true
+[basal]
+friction = "constant"
+friction_angle = 15.0
+[mechanisms]
+pressurization = false
+)";
+
+const std::string turned_3d = R"(
+[case]
+dimension = 3
+gravity_tilt = 30.0
+[time]
+end = 1.0
+step = 0.001
+[grid]
+cell = 5.0
+min = [-20.0, -20.0, -10.0]
+max = [100.0, 40.0, 30.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+viscosity_time = 0.02
+[body.block]
+material = "rock"
+shape = "box"
+min = [0.0, 0.0, 0.0]
+max = [20.0, 20.0, 10.0]
+[mechanics]
+slope_shear = true
+[basal]
+friction = "constant"
+friction_angle = 15.0
+[mechanisms]
+pressurization = false
+)";
+
+// What the block does over the run's second half, free of the first adjustment of its stress.
+struct Slide {
+  double acceleration, velocity, heat, work, mass, distance;
+};
+
+template <int Dim>
+Slide slide(const std::string& text, const std::vector<std::string>& sets = {}) {
+  Simulation<Dim, double> simulation(case_from_text(text, sets));
+  const double end = simulation.parameters().time.end;
+  run_until(simulation, 0.5 * end);
+  const auto middle = history_row(simulation);
+  run_until(simulation, end);
+  const auto row = history_row(simulation);
+  const double v1 = value_of(middle, "mean_velocity_m_s"), v2 = value_of(row, "mean_velocity_m_s");
+  return {(v2 - v1) / (0.5 * end),
+          v2,
+          value_of(row, "friction_heat_J") - value_of(middle, "friction_heat_J"),
+          value_of(row, "friction_work_J") - value_of(middle, "friction_work_J"),
+          value_of(row, "mass_kg"),
+          value_of(row, "mean_displacement_m") - value_of(middle, "mean_displacement_m")};
+}
+
+void expect_slide(const Slide& seen, double friction_angle, double tolerance) {
+  const double mu = std::tan(radians(friction_angle));
+  const double expected = gravity * (std::sin(radians(30.0)) - mu * std::cos(radians(30.0)));
+  EXPECT_NEAR(seen.acceleration / expected, 1.0, tolerance);
+  // Heat = mu m g cos(theta) times the way.
+  const double work = mu * seen.mass * gravity * std::cos(radians(30.0)) * seen.distance;
+  EXPECT_NEAR(seen.work / work, 1.0, tolerance);
+}
+
+TEST(Incline, SlidesAndHeatsOnTurnedGravity) {
+  const Slide seen = slide<2>(turned_2d);
+  expect_slide(seen, 15.0, 2e-3);
+  EXPECT_NEAR(seen.heat / seen.work, 1.0, 1e-12);
+}
+
+TEST(Incline, PartOfTheWorkIsConverted) {
+  const Slide seen = slide<2>(turned_2d, {"basal.heat_fraction=0.35"});
+  expect_slide(seen, 15.0, 2e-3);
+  EXPECT_NEAR(seen.heat / seen.work, 0.35, 1e-12);
+}
+
+TEST(Incline, SticksAboveTheAngle) {
+  const Slide seen = slide<2>(turned_2d, {"basal.friction_angle=40.0", "time.end=4.0"});
+  EXPECT_LT(seen.velocity, 2e-3);
+  EXPECT_LT(seen.distance, 2e-3);
+}
+
+TEST(Incline, CohesionHoldsOrBrakes) {
+  // Driving stress rho g H sin: 2750 x 0.625 + 917 x 0.375 = 2062.6 kg/m3, 20 m: 202 kPa; friction at 15 degrees
+  // takes 94.
+  EXPECT_LT(slide<2>(turned_2d, {"basal.cohesion=2e5", "basal.cohesion_law=constant"}).velocity, 2e-3);
+  const Slide slow = slide<2>(turned_2d, {"basal.cohesion=4e4", "basal.cohesion_law=constant"});
+  const double mu = std::tan(radians(15.0));
+  const double expected = gravity * (0.5 - mu * std::cos(radians(30.0))) - 4e4 * 40.0 / slow.mass;
+  EXPECT_NEAR(slow.acceleration / expected, 1.0, 2e-2);
+}
+
+TEST(Incline, LinearShapeFunctionsSlideAsWell) {
+  expect_slide(slide<2>(turned_2d, {"mechanics.shape_function=linear"}), 15.0, 2e-2);
+}
+
+TEST(Incline, SlidesInThreeDimensions) { expect_slide(slide<3>(turned_3d), 15.0, 5e-3); }
+
+TEST(Incline, SticksInThreeDimensions) { EXPECT_LT(slide<3>(turned_3d, {"basal.friction_angle=40.0"}).velocity, 5e-3); }
+
+// A plane that falls by 30 degrees through the grid, gravity upright: the body is a parallelogram on it.
+TEST(Incline, SlidesOnATiltedPlane) {
+  std::string text = turned_2d;
+  const std::string box = "shape = \"box\"\nmin = [0.0, 0.0]\nmax = [40.0, 20.0]";
+  const std::string polygon =
+      "shape = \"polygon\"\nvertices = [[0.0, 0.0], [60.0, -34.641], [60.0, -11.547], [0.0, 23.094]]";
+  text.replace(text.find(box), box.size(), polygon);
+  const Slide seen =
+      slide<2>(text, {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=30.0", "grid.min=[-20.0,-150.0]"});
+  expect_slide(seen, 15.0, 2e-2);
+  const Slide stuck = slide<2>(text, {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=30.0",
+                                      "grid.min=[-20.0,-150.0]", "basal.friction_angle=40.0", "time.end=4.0"});
+  EXPECT_LT(stuck.velocity, 0.05);
+}
+
+TEST(Incline, SlidesOnATiltedPlaneInThreeDimensions) {
+  const Slide seen = slide<3>(turned_3d, {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=30.0",
+                                          "terrain.elevation=0.0", "grid.min=[-20.0,-20.0,-80.0]"});
+  const double mu = std::tan(radians(15.0));
+  const double expected = gravity * (0.5 - mu * std::cos(radians(30.0)));
+  EXPECT_NEAR(seen.acceleration / expected, 1.0, 0.1);
+}
+
+TEST(FreeFall, KeepsMomentumToRoundOff) {
+  const std::string text = R"(
+[time]
+end = 1.0
+step = 0.001
+[grid]
+cell = 5.0
+min = [0.0, -100.0]
+max = [60.0, 100.0]
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+[body.block]
+material = "rock"
+shape = "box"
+min = [10.0, 20.0]
+max = [40.0, 50.0]
+velocity = [3.0, 0.0]
+[mechanics]
+initial_stress = "none"
+)";
+  Simulation<2, double> simulation(case_from_text(text));
+  run_until(simulation, 1.0);
+  const auto row = history_row(simulation);
+  double vx = 0.0, vy = 0.0;
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    vx += simulation.particles().velocity(p, 0);
+    vy += simulation.particles().velocity(p, 1);
+  }
+  const auto count = static_cast<double>(simulation.particles().size());
+  EXPECT_NEAR(vx / count, 3.0, 1e-10);
+  EXPECT_NEAR(vy / count, -gravity, 1e-10);
+  // Every position is the parabola: the step's midpoint rule is exact for it.
+  EXPECT_NEAR(value_of(row, "mechanical_residual_J") / value_of(row, "kinetic_J"), 0.0, 1e-11);
+}
+
+}  // namespace
+}  // namespace thawslide::sim

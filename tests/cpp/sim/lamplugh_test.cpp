@@ -1,0 +1,172 @@
+// The Lamplugh case, shortened: ledgers, bits for any number of threads, and runs that go bad.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "../support/case_from_text.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+config::Case lamplugh(const std::vector<std::string>& sets = {}) {
+  return config::read_case(std::string(THAWSLIDE_SOURCE_DIR) + "/cases/lamplugh", sets);
+}
+
+// Fast at once, so that a few seconds see sliding, melting, pressurisation and yield.
+const std::vector<std::string> hasty = {"body.slide.velocity=[20.0,-22.0]", "basal.slip_distance=20.0"};
+
+TEST(Ledger, ClosesOnAShortLamplugh) {
+  double residual[2];
+  for (int k = 0; k < 2; ++k) {
+    auto sets = hasty;
+    sets.push_back(k == 0 ? "time.step=0.01" : "time.step=0.005");
+    Simulation<2, double> simulation(lamplugh(sets));
+    const auto start = history_row(simulation);
+    run_until(simulation, 5.0);
+    const auto row = history_row(simulation);
+    EXPECT_EQ(value_of(row, "mass_kg"), value_of(start, "mass_kg"));
+    EXPECT_EQ(value_of(row, "rock_kg"), value_of(start, "rock_kg"));
+    EXPECT_NEAR((value_of(row, "ice_kg") + value_of(row, "water_kg")) /
+                    (value_of(start, "ice_kg") + value_of(start, "water_kg")),
+                1.0, 1e-12);
+    EXPECT_GT(value_of(row, "water_kg"), value_of(start, "water_kg"));
+    const double work = value_of(row, "friction_work_J");
+    EXPECT_GT(work, 1e12);
+    EXPECT_NEAR(value_of(row, "friction_heat_J") / work, 0.35, 1e-12);
+    EXPECT_NEAR(value_of(row, "thermal_residual_J") / value_of(row, "friction_heat_J"), 0.0, 1e-10);
+    residual[k] = std::abs(value_of(row, "mechanical_residual_J")) / work;
+    EXPECT_GT(value_of(row, "plastic_J"), 0.0);
+    EXPECT_GT(value_of(row, "latent_J"), 0.0);
+  }
+  EXPECT_LT(residual[0], 0.03);
+  EXPECT_LT(residual[1], 0.75 * residual[0]) << "what is left is the error of the time step";
+}
+
+TEST(Ledger, HeatOfAThickeningBandIsReported) {
+  auto sets = hasty;
+  sets.push_back("band.thickness={time=[0.0,1.0,1.0,2.0],value=[0.05,0.05,0.5,0.5]}");
+  Simulation<2, double> simulation(lamplugh(sets));
+  run_until(simulation, 2.0);
+  const auto row = history_row(simulation);
+  EXPECT_NE(value_of(row, "band_rescale_J"), 0.0);
+  EXPECT_NEAR(value_of(row, "thermal_residual_J") / std::abs(value_of(row, "band_rescale_J")), 0.0, 1e-10);
+}
+
+TEST(Threads, GiveTheSameBits) {
+  std::vector<std::vector<std::byte>> first;
+  const int before = thread_count();
+  for (const int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    Simulation<2, double> simulation(lamplugh(hasty));
+    simulation.set_sorting_interval(7 * threads);  // nor may the storage order matter
+    run_until(simulation, 2.0);
+    std::vector<std::size_t> by_id(simulation.particles().size());
+    for (std::size_t p = 0; p < by_id.size(); ++p) {
+      by_id[static_cast<std::size_t>(simulation.particles().id(p))] = p;
+    }
+    std::vector<std::vector<std::byte>> fields;
+    for (const auto* field : simulation.particles().fields.all()) {
+      std::vector<std::byte> bytes;
+      for (const std::size_t p : by_id) {
+        for (int c = 0; c < field->components(); ++c) {
+          const double value = field->value(p, c);
+          const auto* raw = reinterpret_cast<const std::byte*>(&value);
+          bytes.insert(bytes.end(), raw, raw + sizeof value);
+        }
+      }
+      fields.push_back(std::move(bytes));
+    }
+    const auto row = history_row(simulation);
+    std::vector<std::byte> numbers;
+    for (const auto& [name, value] : row) {
+      const auto* raw = reinterpret_cast<const std::byte*>(&value);
+      numbers.insert(numbers.end(), raw, raw + sizeof value);
+    }
+    fields.push_back(numbers);
+    if (first.empty()) {
+      first = fields;
+    } else {
+      for (std::size_t f = 0; f < fields.size(); ++f) {
+        EXPECT_EQ(fields[f], first[f]) << threads << " threads, field " << f;
+      }
+    }
+  }
+  set_thread_count(before);
+}
+
+std::string failure_of(Simulation<2, double>& simulation, int steps) {
+  try {
+    for (int k = 0; k < steps; ++k) {
+      simulation.step(0.01);
+    }
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "no failure";
+}
+
+TEST(Fault, NotANumberNamesParticlePlaceAndTime) {
+  Simulation<2, double> simulation(lamplugh());
+  simulation.step(0.01);
+  simulation.particles().velocity(17, 0) = std::numeric_limits<double>::quiet_NaN();
+  const std::string message = failure_of(simulation, 2);
+  EXPECT_NE(message.find("the run went bad at t = 0.02 s (step 2): particle "), std::string::npos) << message;
+  EXPECT_NE(message.find("of body 'slide' at ("), std::string::npos) << message;
+  EXPECT_NE(message.find("is not a finite number"), std::string::npos) << message;
+  EXPECT_NE(message.find("Likely cause: "), std::string::npos) << message;
+}
+
+TEST(Fault, LeavingTheDomainNamesTheParticle) {
+  Simulation<2, double> simulation(lamplugh({"body.slide.velocity=[0.0,300.0]"}));
+  const std::string message = failure_of(simulation, 200);
+  EXPECT_NE(message.find("particle "), std::string::npos) << message;
+  EXPECT_NE(message.find("domain"), std::string::npos) << message;
+  EXPECT_NE(message.find("[grid] min and max"), std::string::npos) << message;
+}
+
+TEST(Fault, InvertedVolumeNamesTheParticle) {
+  Simulation<2, double> simulation(lamplugh());
+  for (std::size_t p = 0; p < simulation.particles().size(); p += 2) {
+    simulation.particles().velocity(p, 0) = 3000.0;
+    simulation.particles().velocity(p + 1, 0) = -3000.0;
+  }
+  const std::string message = failure_of(simulation, 3);
+  EXPECT_NE(message.find("volume"), std::string::npos) << message;
+}
+
+TEST(TimeStep, AboveTheLimitIsAnErrorThatNamesIt) {
+  try {
+    const Simulation<2, double> simulation(lamplugh({"time.step=0.05"}));
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("time.step is 0.05 s, above the limit of 0.0"), std::string::npos) << message;
+    EXPECT_NE(message.find("elastic wave of material 'rock_ice'"), std::string::npos) << message;
+    EXPECT_NE(message.find("adaptive"), std::string::npos) << message;
+  }
+}
+
+TEST(TimeStep, AdaptiveStaysWithinTheLimit) {
+  Simulation<2, double> simulation(lamplugh({"time.stepping=adaptive"}));
+  for (int k = 0; k < 20; ++k) {
+    simulation.step(simulation.next_step(200.0));
+    EXPECT_LE(simulation.last_step(), simulation.step_limit().step);
+  }
+}
+
+TEST(Lamplugh, WithoutPorePressureItDoesNotStart) {
+  Simulation<2, double> simulation(lamplugh({"pressure.enabled=false"}));
+  run_until(simulation, 5.0);
+  EXPECT_LT(value_of(history_row(simulation), "mean_velocity_m_s"), 0.05);
+}
+
+}  // namespace
+}  // namespace thawslide::sim

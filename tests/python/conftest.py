@@ -1,0 +1,157 @@
+"""Run folders made by hand, with the files and shapes that a run writes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+TARGETS = """# reported values, made up
+quantity,time_s,value,unit,source
+mean_velocity,4,9,m/s,seismic
+mean_velocity,6,11,m/s,seismic
+mean_displacement,10,80,m,model
+front_distance,10,160,m,field
+band_SL,4,0.3,-,model
+max_seismic_force,5,2.8e11,N,seismic
+"""
+SLOPE = 0.5
+
+
+def ground(x: np.ndarray) -> np.ndarray:
+    """Return the elevation [m] of the straight slope all runs slide on."""
+    return 100.0 - SLOPE * x
+
+
+def history_columns(rows: int, dimension: int) -> dict[str, np.ndarray]:
+    """Return every column a run writes, over 0..10 s."""
+    t = np.linspace(0.0, 10.0, rows) if rows > 1 else np.zeros(1)
+    band = np.where(t < 2.0, np.nan, 1.0)  # no contact in the first two seconds
+    columns = {
+        "time_s": t,
+        "step": t * 100,
+        "dt_s": np.full(rows, 0.01),
+        "mean_velocity_m_s": 12.0 * np.sin(np.pi * t / 10.0) ** 2,
+        "max_velocity_m_s": 15.0 * np.sin(np.pi * t / 10.0) ** 2,
+        "mean_displacement_m": 8.0 * t,
+        "front_position_m": 40.0 + 12.0 * t,
+        "runout_m": 40.0 + 12.0 * t,
+        "band_temperature_C": band * (-30.0 + 14.0 * t),
+        "band_saturation": band * (0.1 + 0.08 * t),
+        "band_pore_pressure_Pa": band * 1.5e6 * np.sin(np.pi * t / 10.0),
+        "band_friction_coefficient": band * (0.8 - 0.05 * t),
+        "mean_plastic_strain": 0.03 * t,
+    }
+    for number, axis in enumerate("xyz"[:dimension]):
+        columns[f"basal_force_{axis}_N"] = 1e11 * (number + 1) * t
+        columns[f"seismic_force_{axis}_N"] = 1e11 * (number - 0.5) * np.sin(t)
+    fallen = 1e12 * t
+    columns |= {
+        "kinetic_J": 0.4 * fallen,
+        "potential_J": 5e13 - fallen,
+        "strain_J": 0.05 * fallen,
+        "plastic_J": 0.05 * fallen,
+        "viscous_J": np.zeros(rows),
+        "damping_J": np.zeros(rows),
+        "friction_work_J": 0.5 * fallen,
+        "contact_loss_J": np.zeros(rows),
+        "frame_work_J": np.zeros(rows),
+        "friction_heat_J": 0.2 * fallen,
+        "converted_J": 0.3 * fallen,
+        "sensible_J": -7e13 + 0.15 * fallen,
+        "latent_J": 0.05 * fallen,
+        "boundary_heat_J": np.zeros(rows),
+        "band_rescale_J": np.zeros(rows),
+        "advection_J": np.zeros(rows),
+        "numerical_J": np.zeros(rows),
+        "mechanical_residual_J": 1e3 * t,
+        "thermal_residual_J": -2e2 * t,
+    }
+    columns |= {f"{phase}_kg": np.full(rows, 1e6) for phase in ("mass", "rock", "ice", "water")}
+    return columns
+
+
+def write_history(path: Path, columns: dict[str, np.ndarray]) -> None:
+    """Write history.csv: the header, one line a row, shortest round-trip numbers."""
+    lines = [",".join(columns)]
+    lines += [",".join(repr(float(value)) for value in row) for row in zip(*columns.values(), strict=True)]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def write_snapshot(path: Path, time: float, dimension: int) -> None:
+    """Write one snapshot: a block of 20 x 4 particles of 1 m, moved 12 m/s along the slope."""
+    along, up = (grid.ravel() for grid in np.meshgrid(np.arange(0.5, 20.0), np.arange(0.5, 4.0)))
+    n = len(along)
+    x = 20.0 + along + 12.0 * time
+    z = ground(x) + up
+    across = np.arange(n) % 3 + 0.5
+    points = np.stack([x, z, np.zeros(n)] if dimension == 2 else [x, across, z], axis=1)
+    velocity = np.zeros((n, 3))
+    velocity[:, 0], velocity[:, 1 if dimension == 2 else 2] = 3.0 * time, -4.0 * time
+    fields: dict[str, tuple[Any, str]] = {
+        "id": (np.arange(n), "1"),
+        "body": (np.zeros(n, dtype=np.int32), "1"),
+        "mass": (np.full(n, 2000.0), "kg"),
+        "volume": (np.ones(n), "m3"),
+        "velocity": (velocity, "m/s"),
+        "displacement": (np.zeros((n, 3)), "m"),
+        "path_length": (np.full(n, 12.0 * time), "m"),
+        "stress": (np.zeros((n, 6)), "Pa"),
+        "plastic_strain": (0.1 * time * np.exp(-up), "1"),
+        "temperature": (-10.0 + 2.0 * time * np.exp(-up), "C"),
+        "liquid_saturation": (np.full(n, 0.2), "1"),
+        "porosity": (np.full(n, 0.3), "1"),
+        "ice_pressure": (np.zeros(n), "Pa"),
+        "liquid_pressure": (np.zeros(n), "Pa"),
+        "pore_pressure": (2.0e5 * time * np.exp(-up), "Pa"),
+        "slip": (np.full(n, 12.0 * time), "m"),
+        "in_band": ((up < 1.0).astype(np.int32), "1"),
+    }
+    with h5py.File(path, "w") as file:
+        group = file.create_group("VTKHDF")
+        group.attrs["time"], group.attrs["step"] = time, int(100 * time)
+        group["Points"] = points
+        for name, (values, unit) in fields.items():
+            group.create_dataset(f"PointData/{name}", data=values).attrs["unit"] = unit
+
+
+MakeRun = Callable[..., Path]
+
+
+@pytest.fixture
+def make_run(tmp_path: Path) -> MakeRun:
+    """Return a function that writes a whole run folder and returns it."""
+
+    def make(
+        *, name: str = "slope", dimension: int = 2, rows: int = 101, snapshots: int = 11, width: float = 10.0,
+        terrain: bool = True, targets: bool = True, times: str = "[0.0, 4.0, 7.4]",
+    ) -> Path:  # fmt: skip
+        folder = tmp_path / name
+        (folder / "snapshots").mkdir(parents=True)
+        (folder / "inputs").mkdir()
+        corners = ("[0.0, 0.0]", "[200.0, 150.0]") if dimension == 2 else ("[0.0, 0.0, 0.0]", "[200.0, 9.0, 150.0]")
+        (folder / "case.toml").write_text(
+            f'[case]\ntitle = "Block on a slope & <more>"\ndimension = {dimension}\nwidth = {width}\n'
+            f"[grid]\ncell = 2.0\nmin = {corners[0]}\nmax = {corners[1]}\n"
+            f'[report]\ntimes = {times}\ntargets = "{"inputs/targets.csv" if targets else ""}"\n'
+        )
+        (folder / "inputs" / "targets.csv").write_text(TARGETS)
+        write_history(folder / "history.csv", history_columns(rows, dimension))
+        for number in range(snapshots):
+            write_snapshot(folder / "snapshots" / f"{number:06d}.vtkhdf", float(number), dimension)
+        (folder / "snapshots" / "notes.vtkhdf").write_text("not one of the numbered ones")
+        if terrain:
+            x = np.linspace(0.0, 200.0, 21)
+            rows_of_terrain = "".join(f"{a!r},{b!r}\n" for a, b in zip(x.tolist(), ground(x).tolist(), strict=True))
+            (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n" + rows_of_terrain)
+        facts = {"version": "0.1.0", "status": "done", "threads": 2, "particle_steps_per_second": 3.1e6}
+        stages = {"stage_seconds": {"momentum_to_grid": 1.25}}
+        (folder / "run.json").write_text(json.dumps(facts | stages))
+        return folder
+
+    return make

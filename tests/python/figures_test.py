@@ -1,0 +1,313 @@
+"""What is in the figures: the data of the run, its units, its terrain; and that thin runs still draw."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import MakeRun, ground, history_columns, write_history
+from matplotlib.axes import Axes
+from matplotlib.collections import FillBetweenPolyCollection, PolyCollection
+from matplotlib.figure import Figure
+
+from thawslide import NotInRunError, Run
+from thawslide.figures import FIGURES
+from thawslide.figures.energy import relative_residual
+from thawslide.figures.snapshots import chosen_snapshots, colour_range
+from thawslide.figures.style import prefixed
+from thawslide.figures.window import fit
+
+SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure")
+
+
+def titled(figure: Figure, start: str) -> Axes:
+    """Return the one panel whose left title starts so."""
+    (found,) = [axes for axes in figure.axes if axes.get_title(loc="left").startswith(start)]
+    return found
+
+
+def line(axes: Axes, label: str) -> np.ndarray:
+    """Return x and y of the one line with this label, shape (2, n)."""
+    (found,) = [line for line in axes.lines if line.get_label() == label]
+    return np.array(found.get_data(), dtype=float)
+
+
+def texts(axes: Axes) -> list[str]:
+    return [text.get_text() for text in axes.texts]
+
+
+def particles(axes: Axes) -> PolyCollection:
+    """Return the particles of a panel, not the filled ground."""
+    (found,) = [
+        c for c in axes.collections if isinstance(c, PolyCollection) and not isinstance(c, FillBetweenPolyCollection)
+    ]
+    return found
+
+
+@pytest.mark.parametrize(
+    ("name", "label", "low", "high"),
+    [
+        ("velocity", "velocity (m/s)", 0.0, 35.0),
+        ("plastic_strain", "equivalent plastic strain", 0.0, 0.7 * np.exp(-0.5)),
+        ("temperature", "temperature (°C)", -10.0, -10.0 + 14.0 * np.exp(-0.5)),
+        ("pore_pressure", "pore pressure (kPa)", 0.0, 1400.0 * np.exp(-0.5)),
+    ],
+)
+def test_snapshot_figures(make_run: MakeRun, name: str, label: str, low: float, high: float) -> None:
+    figure = FIGURES[name].draw(Run(make_run()))
+    (bar,) = [axes for axes in figure.axes if axes.get_xlabel() == label]
+    assert bar.get_xlim() == pytest.approx((low, high))
+    panels = [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
+    assert [axes.get_title(loc="left") for axes in panels] == [
+        "(a) t = 0 s, true scale",
+        "(b) t = 4 s, true scale",
+        "(c) t = 7 s, true scale",
+    ]
+    values = particles(panels[2]).get_array()
+    assert values is not None
+    assert np.max(values) == pytest.approx(high)
+    assert panels[0].get_ylabel() == "elevation (m)"
+
+
+def test_snapshot_panels_show_particles_at_their_size_over_the_terrain(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    figure = FIGURES["velocity"].draw(run)
+    panel = titled(figure, "(b)")
+    shot = run.snapshot(4)
+    boxes = [path.get_extents() for path in particles(panel).get_paths()]
+    np.testing.assert_allclose([(b.x0 + b.x1) / 2 for b in boxes], shot.points[:, 0])
+    np.testing.assert_allclose([(b.y0 + b.y1) / 2 for b in boxes], shot.points[:, 1])
+    np.testing.assert_allclose([(b.width, b.height) for b in boxes], 1.0)
+    (ground_line,) = [found for found in panel.lines if len(found.get_xdata()) == 21]
+    np.testing.assert_allclose(ground_line.get_ydata(), ground(np.asarray(ground_line.get_xdata(), dtype=float)))
+    assert any(isinstance(c, FillBetweenPolyCollection) for c in panel.collections)
+    (left, right), (bottom, top) = panel.get_xlim(), panel.get_ylim()
+    assert left < shot.points[:, 0].min() and right > shot.points[:, 0].max()
+    assert bottom < shot.points[:, 1].min() and top > shot.points[:, 1].max()
+    box = panel.get_position()
+    size = figure.get_size_inches()
+    assert (right - left) / (box.width * size[0]) == pytest.approx(
+        (top - bottom) / (box.height * size[1])
+    )  # true scale
+
+
+def test_strip_shows_height_above_ground(make_run: MakeRun) -> None:
+    figure = FIGURES["velocity"].draw(Run(make_run()))
+    strips = [axes for axes in figure.axes if axes.get_ylabel() == "above\nground (m)"]
+    assert len(strips) == 3
+    middles = [0.5 * (box.y0 + box.y1) for box in (path.get_extents() for path in particles(strips[1]).get_paths())]
+    np.testing.assert_allclose(np.unique(np.round(middles, 9)), [0.5, 1.5, 2.5, 3.5])
+
+
+def test_overview_says_where_each_panel_looks(make_run: MakeRun) -> None:
+    figure = FIGURES["velocity"].draw(Run(make_run()))
+    overview = titled(figure, "whole profile")
+    assert overview.get_title(loc="left") == "whole profile, true scale; grey: t = 0 s, red: t = 7 s"
+    (bars,) = [axes for axes in figure.axes if "what each panel shows" in axes.get_xlabel()]
+    assert bars.get_xlabel().startswith("distance (m)")
+    shown = np.asarray(bars.lines[2].get_xdata(), dtype=float)
+    assert tuple(shown) == pytest.approx(titled(figure, "(b)").get_xlim())
+    slide = np.asarray(bars.lines[3].get_xdata(), dtype=float)
+    assert tuple(slide) == pytest.approx((68.5, 87.5))
+
+
+def test_without_terrain_there_is_no_ground_and_no_strip(make_run: MakeRun) -> None:
+    figure = FIGURES["temperature"].draw(Run(make_run(terrain=False)))
+    assert not any("above" in axes.get_ylabel() for axes in figure.axes)
+    for axes in figure.axes:
+        assert not any(isinstance(c, FillBetweenPolyCollection) for c in axes.collections)
+
+
+def test_three_dimensions_are_seen_from_the_side(make_run: MakeRun) -> None:
+    run = Run(make_run(dimension=3))
+    panel = titled(FIGURES["velocity"].draw(run), "(b)")
+    boxes = [path.get_extents() for path in particles(panel).get_paths()]
+    across = run.snapshot(4).points[:, 1]
+    order = np.argsort(-across, kind="stable")  # far ones first
+    np.testing.assert_allclose([(b.y0 + b.y1) / 2 for b in boxes], run.snapshot(4).points[order, 2])
+
+
+def test_six_even_times_where_the_case_names_none(make_run: MakeRun) -> None:
+    shots = chosen_snapshots(Run(make_run(times="[]")))
+    assert [shot.time for shot in shots] == [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]
+
+
+def test_times_that_share_a_snapshot_get_one_panel(make_run: MakeRun) -> None:
+    shots = chosen_snapshots(Run(make_run(times="[0.0, 8.9, 9.1, 500.0]")))
+    assert [shot.time for shot in shots] == [0.0, 9.0, 10.0]
+
+
+def test_window_stretches_only_long_flat_sections() -> None:
+    steep = fit((0.0, 1000.0), (0.0, 1000.0), 2.0, None)
+    assert steep.exaggeration == 1
+    assert steep.right - steep.left == pytest.approx(2.0 * (steep.top - steep.bottom))
+    flat = fit((0.0, 8000.0), (0.0, 200.0), 2.0, None)
+    assert flat.exaggeration == 10  # 9280 m over 260 m in a box of 2: 17.8 times would fill it
+    assert flat.note() == "heights ×10"
+    assert flat.right - flat.left == pytest.approx(2.0 * 10 * (flat.top - flat.bottom))
+    pushed = fit((0.0, 100.0), (0.0, 100.0), 4.0, (-10.0, 1000.0))
+    assert pushed.left == -10.0
+    assert pushed.right - pushed.left == pytest.approx(4.0 * 130.0)
+
+
+def test_colour_range() -> None:
+    values = np.concatenate([np.linspace(0.0, 1.0, 1000), [50.0]])
+    low, high, extend = colour_range(values, from_zero=True)
+    assert (low, extend) == (0.0, "max")
+    assert 0.99 < high <= 1.0
+    low, high, extend = colour_range(np.full(5, -10.0), from_zero=False)
+    assert low < -10.0 < high
+    assert extend == "neither"
+    assert colour_range(np.zeros(5), from_zero=True) == (0.0, 0.5, "neither")
+    assert colour_range(np.full(3, np.nan), from_zero=False) == (0.0, 1.0, "neither")
+
+
+def test_motion_against_reported_values(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    figure = FIGURES["motion"].draw(run)
+    speed, distance = titled(figure, "(a) velocity"), titled(figure, "(b) displacement")
+    np.testing.assert_array_equal(
+        line(speed, "mean (of mass)"), [run.history["time_s"], run.history["mean_velocity_m_s"]]
+    )
+    np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0, 6.0], [9.0, 11.0]])
+    np.testing.assert_array_equal(line(distance, "mean path length (of mass)")[1], run.history["mean_displacement_m"])
+    np.testing.assert_array_equal(line(distance, "reported mean: model"), [[10.0], [80.0]])
+    np.testing.assert_array_equal(line(distance, "reported runout: field"), [[10.0], [160.0]])
+    assert (speed.get_ylabel(), distance.get_ylabel()) == ("velocity (m/s)", "distance (m)")
+    assert (speed.get_xlabel(), distance.get_xlabel()) == ("time (s)", "time (s)")
+
+
+def test_reported_values_after_the_end_are_counted_not_drawn(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = history_columns(101, 2)
+    write_history(folder / "history.csv", {name: values[:51] for name, values in columns.items()})  # to 5 s
+    figure = FIGURES["motion"].draw(Run(folder))
+    speed, distance = titled(figure, "(a) velocity"), titled(figure, "(b) displacement")
+    np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0], [9.0]])
+    assert texts(speed) == ["1 reported after the end of the run"]
+    assert texts(distance) == [
+        "1 reported mean after the end of the run",
+        "1 reported runout after the end of the run",
+    ]
+
+
+def test_motion_without_targets(make_run: MakeRun) -> None:
+    figure = FIGURES["motion"].draw(Run(make_run(targets=False)))
+    labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
+    assert len(labels) == 4
+    assert not any("reported" in label for label in labels)
+
+
+def test_seismic_force_and_its_reported_maximum(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    figure = FIGURES["force"].draw(run)
+    size, parts = titled(figure, "(a)"), titled(figure, "(b)")
+    x, y = run.history["seismic_force_x_N"], run.history["seismic_force_y_N"]
+    np.testing.assert_allclose(line(size, "run")[1] * 1e9, np.hypot(x, y))
+    np.testing.assert_array_equal(line(size, "reported maximum 280 GN: seismic")[1], [280.0, 280.0])
+    np.testing.assert_allclose(line(parts, "x (along)")[1] * 1e9, x)
+    np.testing.assert_allclose(line(parts, "y (up)")[1] * 1e9, y)
+    assert size.get_ylabel() == "force (GN)"
+    (strain,) = titled(figure, "(c)").lines
+    np.testing.assert_array_equal(strain.get_ydata(), run.history["mean_plastic_strain"])
+
+
+def test_reported_force_needs_a_width_and_a_target(make_run: MakeRun) -> None:
+    bare = titled(FIGURES["force"].draw(Run(make_run(name="bare", targets=False))), "(a)")
+    assert [found.get_label() for found in bare.lines] == ["run"]
+    thin = titled(FIGURES["force"].draw(Run(make_run(name="thin", width=0.0))), "(a)")
+    assert thin.get_ylabel() == "force (GN/m of width)"
+    assert [found.get_label() for found in thin.lines] == ["run"]
+    assert texts(thin) == ["reported force not drawn: the case states no width"]
+
+
+def test_seismic_force_in_three_dimensions(make_run: MakeRun) -> None:
+    figure = FIGURES["force"].draw(Run(make_run(dimension=3)))
+    labels = [found.get_label() for found in titled(figure, "(b)").lines]
+    assert labels == ["x (along)", "y (across)", "z (up)"]
+
+
+def test_band_follows_history_with_gaps(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    figure = FIGURES["band"].draw(run)
+    expected = {
+        "(a)": ("band_temperature_C", 1.0, "temperature (°C)"),
+        "(b)": ("band_pore_pressure_Pa", 1e6, "pore pressure (MPa)"),
+        "(c)": ("band_saturation", 1.0, "liquid saturation"),
+        "(d)": ("band_friction_coefficient", 1.0, "friction coefficient"),
+    }
+    for start, (column, divisor, label) in expected.items():
+        axes = titled(figure, start)
+        np.testing.assert_allclose(line(axes, "run")[1] * divisor, run.history[column])
+        assert axes.get_ylabel() == label
+    np.testing.assert_array_equal(line(titled(figure, "(c)"), "reported: model"), [[4.0], [0.3]])
+    assert texts(titled(figure, "(a)")) == ["ice melts", "boiling is not modelled"]
+
+
+def test_band_says_why_a_panel_is_empty(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = history_columns(11, 2)
+    del columns["band_saturation"]
+    columns["band_temperature_C"][:] = np.nan
+    columns["band_friction_coefficient"][:] = np.nan
+    write_history(folder / "history.csv", columns)
+    figure = FIGURES["band"].draw(Run(folder))
+    assert texts(titled(figure, "(a)")) == ["no particle was ever in the band"]
+    assert texts(titled(figure, "(c)")) == ["history.csv has no column band_saturation"]
+    assert texts(titled(figure, "(d)")) == ["never in contact"]
+
+
+def test_energy_accounts_are_changes_and_residuals_relative(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    figure = FIGURES["energy"].draw(run)
+    mechanical, thermal, residual = (titled(figure, f"({letter})") for letter in "abc")
+    t = run.history["time_s"]
+    np.testing.assert_allclose(line(mechanical, "potential")[1], -t, atol=1e-12)
+    np.testing.assert_allclose(line(mechanical, "kinetic")[1], 0.4 * t)
+    np.testing.assert_allclose(line(thermal, "sensible heat")[1] * 1e12, 0.15e12 * t, atol=1.0)
+    assert mechanical.get_ylabel() == "energy (TJ)"
+    assert texts(mechanical) == [
+        "zero throughout:\nviscous work\ndamping\nimpact on the ground\nwork of frames\nnumerical"
+    ]
+    assert residual.get_yscale() == "log"
+    np.testing.assert_allclose(line(residual, "mechanical")[1][1:], 1e3 * t[1:] / 1e13)
+    np.testing.assert_allclose(line(residual, "thermal")[1][1:], 2e2 * t[1:] / 2e12)
+
+
+def test_residual_is_none_where_nothing_changes(make_run: MakeRun) -> None:
+    run = Run(make_run(rows=1))
+    assert relative_residual(run, "mechanical_residual_J") is None
+    assert texts(titled(FIGURES["energy"].draw(run), "(a)")) == ["no account changes"]
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_run_of_one_row_and_one_snapshot_draws(make_run: MakeRun, tmp_path: Path, name: str) -> None:
+    run = Run(make_run(rows=1, snapshots=1, targets=False))
+    FIGURES[name].draw(run).savefig(tmp_path / "figure.png")
+    assert (tmp_path / "figure.png").stat().st_size > 5000
+
+
+def test_one_row_is_drawn_as_a_marker(make_run: MakeRun) -> None:
+    speed = titled(FIGURES["motion"].draw(Run(make_run(rows=1, targets=False))), "(a)")
+    assert [found.get_marker() for found in speed.lines] == ["o", "o"]
+
+
+@pytest.mark.parametrize("name", SNAPSHOT_FIGURES)
+def test_snapshot_figures_need_snapshots(make_run: MakeRun, name: str) -> None:
+    with pytest.raises(NotInRunError, match="no snapshots; set"):
+        FIGURES[name].draw(Run(make_run(snapshots=0)))
+
+
+def test_history_without_ledger_or_force(make_run: MakeRun) -> None:
+    folder = make_run()
+    write_history(folder / "history.csv", {"time_s": np.arange(3.0)})
+    for name, text in (("energy", "no columns of the energy ledger"), ("force", "no column seismic_force_x_N")):
+        with pytest.raises(NotInRunError, match=text):
+            FIGURES[name].draw(Run(folder))
+
+
+def test_prefixes() -> None:
+    assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
+    assert prefixed([999.0], "Pa") == (1.0, "Pa")
+    assert prefixed([np.nan], "J") == (1.0, "J")

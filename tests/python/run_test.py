@@ -1,0 +1,169 @@
+"""Reading a run folder: what comes back is what the files hold, and every fault has its text."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from conftest import MakeRun, ground, history_columns
+
+from thawslide import NotInRunError, ReportError, Run
+
+
+def test_history_holds_every_column_and_nan(make_run: MakeRun) -> None:
+    history = Run(make_run()).history
+    written = history_columns(101, 2)
+    assert list(history) == list(written)
+    assert history.rows == 101
+    for name, values in written.items():
+        np.testing.assert_array_equal(history[name], values)
+    assert np.isnan(history["band_temperature_C"][0])
+
+
+def test_terrain_case_and_targets(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    assert run.title == "Block on a slope & <more>"
+    assert run.report_times == [0.0, 4.0, 7.4]
+    assert not run.per_metre
+    assert run.terrain is not None
+    np.testing.assert_allclose(run.terrain[1], ground(run.terrain[0]))
+    assert [(t.quantity, t.time, t.value) for t in run.targets[:2]] == [
+        ("mean_velocity", 4.0, 9.0),
+        ("mean_velocity", 6.0, 11.0),
+    ]
+    assert run.targets[-1].value == 2.8e11
+
+
+def test_what_a_run_may_lack(make_run: MakeRun) -> None:
+    folder = make_run(terrain=False, targets=False, width=0.0, times="[]")
+    (folder / "run.json").unlink()
+    run = Run(folder)
+    assert run.terrain is None
+    assert run.targets == []
+    assert run.facts == {}
+    assert run.report_times == []
+    assert run.per_metre
+
+
+def test_snapshot_by_index_and_by_nearest_time(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    np.testing.assert_array_equal(run.times, np.arange(11.0))
+    assert run.snapshot(3).time == 3.0
+    assert run.snapshot(-1).time == 10.0
+    assert run.snapshot(time=7.4).time == 7.0
+    snapshot = run.snapshot(time=1e9)
+    assert (snapshot.time, snapshot.step) == (10.0, 1000)
+    assert snapshot.points.shape == (80, 3)
+    assert snapshot["stress"].shape == (80, 6)
+    assert snapshot.unit("temperature") == "C"
+    np.testing.assert_allclose(np.linalg.norm(snapshot["velocity"], axis=1), 50.0)
+
+
+def test_vertical_axis_by_dimension(make_run: MakeRun) -> None:
+    assert Run(make_run(name="flat")).vertical == 1
+    assert Run(make_run(name="solid", dimension=3)).vertical == 2
+
+
+def expect(folder: Path, text: str, kind: type[ReportError] = ReportError) -> None:
+    """Read everything in a folder and check the text of the error."""
+    with pytest.raises(kind, match=re.escape(text)):
+        run = Run(folder)
+        _ = run.case, run.history, run.terrain, run.targets, run.facts, run.times, run.snapshot(0)
+
+
+def test_no_such_folder(tmp_path: Path) -> None:
+    expect(tmp_path / "nowhere", "no such folder; give the folder a run has written")
+
+
+def test_not_a_run_folder(tmp_path: Path) -> None:
+    expect(tmp_path, "not a run folder, case.toml and history.csv not found there")
+
+
+def test_only_the_missing_file_is_named(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "history.csv").unlink()
+    expect(folder, "not a run folder, history.csv not found there")
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "text"),
+    [
+        ("case.toml", "[case\n", "case.toml: not valid TOML: "),
+        ("history.csv", "", "history.csv: empty; the run has not written its first row"),
+        ("history.csv", "time_s,step\n", "history.csv: no rows after the header"),
+        ("history.csv", "a,b\n1,2\n", "history.csv:1: no column time_s; this is not the history of a run"),
+        ("history.csv", "time_s,step\n0,0\n1\n", "history.csv:3: 1 values for 2 columns"),
+        ("history.csv", "time_s,step\n0,none\n", "history.csv:2: expected a number, found 'none'"),
+        (
+            "terrain.csv",
+            "distance_m,height\n0,1\n",
+            "terrain.csv:1: no column terrain_elevation_m; found ",
+        ),
+        ("terrain.csv", "", "terrain.csv: empty; expected the columns distance_m, terrain_elevation_m"),
+        ("inputs/targets.csv", "# x\nquantity,time_s,value\na,b,1\n", "targets.csv:3: expected a number, found 'b'"),
+        ("inputs/targets.csv", "quantity,time_s,value\na,1\n", "targets.csv:2: 2 values for 3 columns"),
+        ("run.json", "{", "run.json: not valid JSON: "),
+        ("run.json", "[]", "run.json: expected a JSON object"),
+        ("snapshots/000003.vtkhdf", "cut", "000003.vtkhdf: cannot be read as HDF5"),
+    ],
+)
+def test_damaged_files(make_run: MakeRun, file: str, content: str, text: str) -> None:
+    folder = make_run()
+    (folder / file).write_text(content)
+    expect(folder, text)
+
+
+def test_missing_targets_file_names_the_key(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "inputs" / "targets.csv").unlink()
+    expect(folder, "targets.csv: no such file; [report] targets in ")
+
+
+def test_row_cut_off_at_the_end_is_left_out_with_a_warning(make_run: MakeRun) -> None:
+    folder = make_run(rows=11)
+    text = (folder / "history.csv").read_text()
+    (folder / "history.csv").write_text(text[:-20])
+    run = Run(folder)
+    assert run.history.rows == 10
+    assert run.history["time_s"][-1] == 9.0
+    assert run.warnings == [f"{folder / 'history.csv'}: the last row was cut off and is left out"]
+
+
+def test_header_cut_off_while_written(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "history.csv").write_text("time_s,st")
+    expect(folder, "history.csv: empty; the run has not written its first row")
+
+
+def test_missing_column_and_field_name_what_is_near(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    with pytest.raises(NotInRunError, match=r"no column runout \(nearest: runout_m\)"):
+        run.history["runout"]
+    with pytest.raises(NotInRunError, match="no field speed; it has body, displacement, "):
+        run.snapshot(0)["speed"]
+
+
+def test_no_snapshots_and_no_such_snapshot(make_run: MakeRun) -> None:
+    expect(make_run(name="none", snapshots=0), "no snapshots; set [time] output_interval and run again", NotInRunError)
+    with pytest.raises(ReportError, match="no snapshot 11; there are 11"):
+        Run(make_run(name="some")).snapshot(11)
+
+
+def test_snapshot_without_group_points_or_with_a_short_field(make_run: MakeRun) -> None:
+    folder = make_run(snapshots=3)
+    paths = [folder / "snapshots" / f"{number:06d}.vtkhdf" for number in range(3)]
+    with h5py.File(paths[0], "a") as file:
+        del file["VTKHDF"].attrs["time"]
+    with h5py.File(paths[1], "a") as file:
+        del file["VTKHDF/Points"]
+    with h5py.File(paths[2], "a") as file:
+        del file["VTKHDF/PointData/mass"]
+        file["VTKHDF/PointData/mass"] = np.ones(3)
+    for path, text in zip(
+        paths, ("no group VTKHDF with", "without Points", "mass has 3 rows for 80 particles"), strict=True
+    ):
+        with pytest.raises(ReportError, match=text):
+            Run(folder).snapshot(paths.index(path))
