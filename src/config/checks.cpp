@@ -95,16 +95,6 @@ void check_times(const Case& checked, Reading& reading) {
     reading.report("time.step",
                    fmt::format("time.step is {} s, longer than the run, time.end = {} s.", time.step, time.end));
   }
-  if (reading.sound({"report.times"})) {
-    for (const double moment : checked.report.times) {
-      if (moment > time.end) {
-        reading.report("report.times",
-                       fmt::format("report.times holds {} s, after the run's end, time.end = {} s. Leave "
-                                   "it out, or run longer.",
-                                   moment, time.end));
-      }
-    }
-  }
 }
 
 // Columns of the profile against the domain; empty where there is none, or it has a problem of its own.

@@ -31,7 +31,8 @@ void Simulation<Dim, Real>::step(double dt) {
   stopwatch_.time("drain_pore_pressure", [&] { drain_pore_pressure(); });
   stopwatch_.time("take_new_positions", [&] { take_new_positions(); });
   ++step_number_;
-  time_ += dt;
+  const bool fixed = parameters_.time.stepping == config::Stepping::fixed && dt == parameters_.time.step;
+  time_ = fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
   last_step_ = dt;
   stop_if_bad();
 }
