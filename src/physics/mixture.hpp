@@ -70,13 +70,20 @@ THAWSLIDE_HD Real expansion(const Phases<Real>& phases, Real porosity, Real satu
          porosity * (Real(1) - saturation) * ratio * phases.ice_expansion;
 }
 
+// exp(x) - 1; for the small arguments of a step by its series, which is exact to round-off there and much faster.
+template <class Real>
+THAWSLIDE_HD Real exponential_minus_one(Real x) {
+  constexpr Real small = static_cast<Real>(1e-4);
+  return std::abs(x) < small ? x * (Real(1) + x * (Real(1) / Real(2) + x / Real(6))) : std::expm1(x);
+}
+
 // Eq. 6 integrated over a step: the grains keep their mass, so 1 - n falls with the volume and grows with their thermal
 // expansion. volume_strain: change of the logarithm of the volume; temperature_change [K].
 template <class Real>
 THAWSLIDE_HD Real updated_porosity(const Phases<Real>& phases, Real porosity, Real volume_strain,
                                    Real temperature_change) {
   const Real exponent = phases.rock_expansion * temperature_change - volume_strain;
-  const Real updated = porosity - (Real(1) - porosity) * std::expm1(exponent);
+  const Real updated = porosity - (Real(1) - porosity) * exponential_minus_one(exponent);
   return updated > largest_porosity<Real>    ? largest_porosity<Real>
          : updated < smallest_porosity<Real> ? smallest_porosity<Real>
                                              : updated;

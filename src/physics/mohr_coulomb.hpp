@@ -71,8 +71,8 @@ class MohrCoulomb {
 
   // The admissible stress that follows from an elastic trial [Pa].
   [[nodiscard]] THAWSLIDE_HD ReturnResult<Real> update(const SymmetricTensor<Real>& trial, Real plastic_strain) const {
-    Principal<Real> state = principal(trial);
-    const Vector<Real, 3> trial_values = state.values;
+    const bool plane = trial[4] == Real(0) && trial[5] == Real(0);
+    const Vector<Real, 3> trial_values = plane ? plane_principal_values(trial) : principal(trial).values;
     Vector<Real, planes> limits;
     limits << Vector<Real, 3>::Constant(Real(2) * cohesion(plastic_strain) * std::sqrt(ratio_)),
         Vector<Real, 3>::Constant(tension_cutoff_);
@@ -80,6 +80,7 @@ class MohrCoulomb {
     if (admissible(trial_values, limits, tolerance)) {
       return {trial, Real(0), Real(0), false};
     }
+    Principal<Real> state = principal(trial);
     state.values = returned(trial_values, limits, tolerance);
     const Vector<Real, 3> plastic = elastic_strain(trial_values - state.values);
     return {from_principal(state), std::sqrt(Real(2) / Real(3) * plastic.squaredNorm()), state.values.dot(plastic),

@@ -60,6 +60,20 @@ THAWSLIDE_HD void jacobi_rotation(int p, int q, Matrix<Real, 3>& full, Matrix<Re
 
 }  // namespace detail
 
+// Principal values alone, largest first, where yz = xz = 0 (plane strain).
+template <class Real>
+THAWSLIDE_HD Vector<Real, 3> plane_principal_values(const SymmetricTensor<Real>& tensor) {
+  const Real centre = Real(0.5) * (tensor[0] + tensor[1]);
+  const Real half_difference = Real(0.5) * (tensor[0] - tensor[1]);
+  const Real radius = std::sqrt(half_difference * half_difference + tensor[3] * tensor[3]);
+  const Real high = centre + radius;
+  const Real low = centre - radius;
+  const Real out = tensor[2];
+  return out >= high  ? Vector<Real, 3>(out, high, low)
+         : out <= low ? Vector<Real, 3>(high, low, out)
+                      : Vector<Real, 3>(high, out, low);
+}
+
 // Of a tensor xx yy zz xy yz xz: closed where yz = xz = 0 (plane strain), else by Jacobi's rotations to round-off.
 template <class Real>
 THAWSLIDE_HD Principal<Real> principal(const SymmetricTensor<Real>& tensor) {

@@ -1,0 +1,242 @@
+"""Checks of the tree itself: which room may include which, sizes, words, documents that are true to the code."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCE = ROOT / "src"
+
+# What each room may include (ARCHITECTURE.md, "Rooms and directions"). "generated" is what CMake writes: version.hpp.
+ALLOWED = {
+    "base": {"base"},
+    "physics": {"base", "physics"},
+    "config": {"base", "physics", "config"},
+    "mpm": {"base", "physics", "mpm"},
+    "terrain": {"base", "physics", "mpm", "terrain"},
+    "band": {"base", "physics", "mpm", "band"},
+    "sim": {"base", "physics", "config", "mpm", "terrain", "band", "sim"},
+    "io": {"base", "config", "mpm", "io", "generated"},
+    "app": {"base", "physics", "config", "mpm", "terrain", "band", "sim", "io", "app", "generated"},
+}
+LONGEST_FILE = 400  # lines
+LONGEST_LINE = 120  # characters, in documents; clang-format and ruff see to the code
+
+
+def code_files(*folders: str) -> list[Path]:
+    """C++ files below the folders."""
+    return sorted(path for folder in folders for path in (ROOT / folder).rglob("*.[ch]pp"))
+
+
+def own_files() -> list[Path]:
+    """Text files of the project, without what is generated or built."""
+    folders = ["src", "tests", "benchmarks", "python/thawslide", "cases", "docs", "scripts", ".ci"]
+    inside = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file()]
+    kinds = {".cpp", ".hpp", ".in", ".py", ".toml", ".md", ".txt", ".csv", ".ini", ""}
+    found = [path for path in [*inside, *ROOT.iterdir()] if path.is_file() and path.suffix in kinds]
+    return sorted(path for path in found if "__pycache__" not in path.parts and ".pytest_cache" not in path.parts)
+
+
+def documents() -> list[Path]:
+    """The documents people read, without the generated reference."""
+    found = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "cases").rglob("*.md")]
+    return sorted(path for path in found if path.name != "reference.md")
+
+
+def includes_of(text: str) -> list[str]:
+    """What a file includes with quotes, as written."""
+    return re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, re.MULTILINE)
+
+
+def room_of(include: str) -> str:
+    """The room an include names."""
+    return "generated" if include == "version.hpp" else include.split("/")[0]
+
+
+def heading_anchor(title: str) -> str:
+    """The anchor that a Markdown heading gets."""
+    return re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
+
+
+def place(path: Path) -> str:
+    """A path as messages show it."""
+    return str(path.relative_to(ROOT))
+
+
+def test_rooms_are_those_of_the_table() -> None:
+    rooms = {path.name for path in SOURCE.iterdir() if path.is_dir()}
+    assert rooms == set(ALLOWED)
+
+
+def test_no_room_includes_against_the_arrows() -> None:
+    wrong = []
+    seen = 0
+    for path in code_files("src"):
+        room = path.relative_to(SOURCE).parts[0]
+        for include in includes_of(path.read_text()):
+            seen += 1
+            if room_of(include) not in ALLOWED[room]:
+                wrong.append(f"{place(path)} includes {include}, but {room} may not look into {room_of(include)}")
+    assert seen > 100
+    assert wrong == []
+
+
+def test_allowed_table_has_no_circle() -> None:
+    left = {room: allowed - {room, "generated"} for room, allowed in ALLOWED.items()}
+    while left:
+        free = {room for room, needs in left.items() if not needs & set(left)}
+        assert free, f"these rooms look into one another: {sorted(left)}"
+        left = {room: needs for room, needs in left.items() if room not in free}
+
+
+def test_includes_name_their_room_and_exist() -> None:
+    for path in code_files("src", "tests/cpp"):
+        for include in includes_of(path.read_text()):
+            homes = [SOURCE / include, path.parent / include, ROOT / "tests" / "cpp" / include]
+            assert include == "version.hpp" or any(home.is_file() for home in homes), f"{place(path)}: {include}"
+
+
+def test_only_base_names_the_parallel_backend() -> None:
+    word = re.compile(r"#\s*pragma\s+omp|<omp\.h>|\bomp_\w+\(|std::thread\b|<thread>|<execution>")
+    users = {place(path) for path in code_files("src") if word.search(path.read_text())}
+    assert users
+    assert {user for user in users if not user.startswith("src/base/")} == set()
+
+
+def test_physics_knows_no_arrays_input_or_output() -> None:
+    allowed = {"cmath", "limits", "utility", "variant", "array", "algorithm"}
+    for path in code_files("src/physics"):
+        used = set(re.findall(r"#include <([^>]+)>", path.read_text()))
+        assert used <= allowed, f"{place(path)} includes {sorted(used - allowed)}"
+
+
+def test_core_neither_prints_nor_exits_nor_catches_signals() -> None:
+    word = re.compile(r"\bstd::(cout|cerr|clog)\b|\bfmt::print\b|\bprintf\(|\b(exit|_exit|abort|signal|sigaction)\(")
+    for path in code_files("src"):
+        if path.relative_to(SOURCE).parts[0] == "app":
+            continue
+        found = word.search(path.read_text())
+        assert not found, f"{place(path)}: {found.group() if found else ''} belongs in src/app"
+
+
+def test_headers_guard_themselves_and_say_what_they_are() -> None:
+    for path in (path for path in code_files("src") if path.suffix == ".hpp"):
+        lines = path.read_text().splitlines()
+        assert lines[0].startswith("// "), f"{place(path)} does not open with a comment"
+        assert "#pragma once" in lines, f"{place(path)} lacks #pragma once"
+
+
+def test_sources_without_a_header_say_what_they_are() -> None:
+    for path in (path for path in code_files("src") if path.suffix == ".cpp"):
+        if not path.with_suffix(".hpp").exists():
+            assert path.read_text().startswith("// "), f"{place(path)} has no header and no opening comment"
+
+
+def test_physics_files_name_their_source() -> None:
+    for path in (path for path in code_files("src/physics") if path.suffix == ".hpp"):
+        opening = path.read_text().split("#pragma once")[0]
+        assert re.search(r"Eqs?\. ?\d|\d{4}|chapter", opening), f"{place(path)} cites no equation and no paper"
+
+
+@pytest.mark.parametrize("path", code_files("src", "tests", "benchmarks") + sorted(ROOT.glob("python/**/*.py")), ids=place)
+def test_file_is_not_too_long(path: Path) -> None:
+    assert len(path.read_text().splitlines()) < LONGEST_FILE
+
+
+def test_no_unfinished_business_tabs_or_machine_paths() -> None:
+    unfinished = re.compile(r"\b(" + "|".join(["TO" + "DO", "FIX" + "ME", "X" * 3]) + r")\b")
+    machine = re.compile(r"(?<![\w.}~$-])/(work|root|home|Users)/")
+    wrong = []
+    files = own_files()
+    assert len(files) > 100
+    for path in files:
+        if path == Path(__file__).resolve():
+            continue
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            for name, found in [("unfinished", unfinished.search(line)), ("machine path", machine.search(line)),
+                                ("tab", "\t" in line), ("space at the end", line.rstrip() != line)]:
+                if found and not (path.suffix == ".csv" and name != "machine path"):
+                    wrong.append(f"{place(path)}:{number}: {name}")
+    assert wrong == []
+
+
+@pytest.mark.parametrize("path", documents(), ids=place)
+def test_document_lines_and_links(path: Path) -> None:
+    text = path.read_text()
+    for number, line in enumerate(text.splitlines(), 1):
+        assert len(line) <= LONGEST_LINE or line.lstrip().startswith("|") or "http" in line, f"{place(path)}:{number}"
+    prose = re.sub(r"```.*?```", "", text, flags=re.DOTALL)
+    for target in re.findall(r"\]\(([^)\s]+)\)", prose):
+        if target.startswith(("http://", "https://", "mailto:")):
+            continue
+        file, _, anchor = target.partition("#")
+        there = (path.parent / file).resolve() if file else path
+        assert there.exists(), f"{place(path)} links to {target}"
+        if anchor and there.suffix == ".md":
+            titles = re.findall(r"^#+ (.+)$", there.read_text(), re.MULTILINE)
+            assert anchor in {heading_anchor(title) for title in titles}, f"{place(path)} links to {target}"
+
+
+def test_code_cites_sections_that_the_theory_has() -> None:
+    titles = re.findall(r"^#+ (.+)$", (ROOT / "docs" / "theory.md").read_text(), re.MULTILINE)
+    numbers = {title.split(" ")[0].rstrip(".") for title in titles}
+    names = {title.split(" ", 1)[-1] for title in titles} | set(titles)
+    cited = 0
+    for path in code_files("src", "tests/cpp"):
+        text = re.sub(r"\n\s*//\s*", " ", path.read_text())
+        for name in re.findall(r'docs/theory\.md, "([^"]+)"', text):
+            assert name in names, f"{place(path)} cites the section '{name}' of docs/theory.md"
+            cited += 1
+        for number in re.findall(r"docs/theory\.md,? (?:section )?(\d+(?:\.\d+)*)", text):
+            assert number in numbers, f"{place(path)} cites section {number} of docs/theory.md"
+            cited += 1
+    assert cited > 0
+
+
+def names_in_backticks(path: Path) -> set[str]:
+    """All words a document sets as code."""
+    return set(re.findall(r"`([^`\n]+)`", path.read_text()))
+
+
+def test_every_history_column_is_defined() -> None:
+    text = (SOURCE / "sim" / "history.cpp").read_text()
+    columns = set(re.findall(r'(?:emplace_back|\badd)\("(\w+)"', text))
+    columns |= {f"{name}_{axis}_N" for name in re.findall(r'"(\w+)_\{\}_N"', text) for axis in "xyz"}
+    assert len(columns) > 35
+    assert columns - names_in_backticks(ROOT / "ARCHITECTURE.md") == set()
+
+
+def test_every_exit_code_is_documented() -> None:
+    codes = re.search(r"enum class ExitCode[^{]*\{([^}]*)\}", (SOURCE / "base" / "error.hpp").read_text())
+    assert codes
+    numbers = re.findall(r"= (\d+)", codes.group(1))
+    assert numbers == ["0", "2", "3", "4"]
+    for document in ["ARCHITECTURE.md", "docs/user-guide.md"]:
+        table = re.findall(r"^\| (\d) \|", (ROOT / document).read_text(), re.MULTILINE)
+        assert set(numbers) <= set(table), document
+
+
+def test_run_explains_itself_without_setting_up() -> None:
+    helped = subprocess.run([ROOT / "run", "--help"], capture_output=True, text=True, timeout=20, check=False)
+    assert helped.returncode == 0
+    assert "--setup" in helped.stdout
+    bare = subprocess.run([ROOT / "run"], capture_output=True, text=True, timeout=20, check=False)
+    assert bare.returncode == 2
+    assert "./run CASE" in bare.stderr
+
+
+def test_test_refuses_options_it_does_not_know() -> None:
+    refused = subprocess.run([ROOT / "test", "--fast"], capture_output=True, text=True, timeout=20, check=False)
+    assert refused.returncode == 2
+    assert "--full" in refused.stderr
+
+
+@pytest.mark.parametrize("script", ["run", "test", "scripts/setup", ".ci/run"])
+def test_script_can_be_started_and_parses(script: str) -> None:
+    path = ROOT / script
+    assert path.stat().st_mode & 0o111
+    assert subprocess.run(["bash", "-n", path], capture_output=True, timeout=20, check=False).returncode == 0
