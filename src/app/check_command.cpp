@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -89,6 +90,7 @@ Json setup(const sim::Simulation<Dim, double>& simulation) {
 void draw(const Json& setup, const std::string& picture) {
   const fs::path file = fs::temp_directory_path() / fmt::format("thawslide-setup-{}.json", getpid());
   io::write_file_atomically(file, setup.dump());
+  std::fflush(stdout);  // what was said so far stands before what the child says
   const pid_t child = fork();
   if (child == 0) {
     execlp("thawslide-report", "thawslide-report", "--setup", file.c_str(), "--picture", picture.c_str(), nullptr);

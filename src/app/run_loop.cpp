@@ -76,18 +76,18 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   const config::Time& times = simulation.parameters().time;
   const double begin = simulation.time();
   const std::int64_t first_step = simulation.step_number();
-  Schedule history(times.history_interval, begin, times.end);
-  Schedule snapshots(times.output_interval, begin, times.end);
+  const double last_step = simulation.last_step();
+  Schedule history(times.history_interval, begin, last_step, times.end);
+  Schedule snapshots(times.output_interval, begin, last_step, times.end);
   const double checkpoint_interval = simulation.parameters().checkpoint.interval;
-  Schedule checkpoints(checkpoint_interval > 0.0 ? checkpoint_interval : times.end, begin, times.end);
+  Schedule checkpoints(checkpoint_interval > 0.0 ? checkpoint_interval : times.end, begin, last_step, times.end);
   Progress progress(begin);
   FrontWatch front;
   bool warned = false;
   const auto start = std::chrono::steady_clock::now();
   const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const auto close = [&](const std::string& status, const std::string& message) {
-    output.write_history(simulation);
-    output.write_snapshot(simulation);
+    output.write_index();
     output.write_provenance(simulation, status, message, wall());
     progress.finish();
     print_summary(simulation, simulation.step_number() - first_step, wall(), folder);
@@ -120,10 +120,13 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
       }
     }
   } catch (const RunError& error) {
+    output.write_history(simulation);
+    output.write_snapshot(simulation);
     close("failed", error.what());
     throw;
   }
   if (caught_signal() != 0) {
+    // The checkpoint holds this moment. A row or a snapshot of it would not be there had the run gone on.
     output.write_checkpoint(simulation);
     close("stopped", fmt::format("signal {}", caught_signal()));
     fmt::print(stderr, "stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),

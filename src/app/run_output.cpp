@@ -13,18 +13,22 @@ namespace thawslide::app {
 
 namespace fs = std::filesystem;
 
-Schedule::Schedule(double interval, double begin, double end) : interval_(interval), end_(end) {
-  count_ = interval > 0.0 ? static_cast<std::int64_t>(std::floor(begin / interval + 1e-9)) + 1 : 0;
-  next_ = interval > 0.0 ? std::min(static_cast<double>(count_) * interval, end) : end;
+Schedule::Schedule(double interval, double begin, double last_step, double end)
+    : interval_(interval), end_(end), next_(interval > 0.0 ? std::min(interval, end) : end) {
+  pass(begin, last_step);
+}
+
+void Schedule::pass(double time, double step) {
+  while (next_ < end_ && next_ <= time + 0.5 * step) {
+    next_ = std::min(static_cast<double>(++count_) * interval_, end_);
+  }
 }
 
 bool Schedule::reached(double time, double step) {
   if (time < next_ - 0.5 * step) {
     return false;
   }
-  while (next_ < end_ && next_ <= time + 0.5 * step) {
-    next_ = std::min(static_cast<double>(++count_) * interval_, end_);
-  }
+  pass(time, step);
   return true;
 }
 
@@ -90,7 +94,7 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
                    io::SnapshotSeries::continue_after(folder, simulation.time()));
   output.provenance_ = start_provenance(simulation);
   output.provenance_.inputs = io::read_inputs(folder);
-  output.history_step_ = output.snapshot_step_ = simulation.step_number();
+  output.history_step_ = output.snapshot_step_ = output.provenance_.steps_before = simulation.step_number();
   return output;
 }
 

@@ -15,15 +15,17 @@ namespace thawslide::app {
 // Moments at which something is written: every multiple of an interval, and the end.
 class Schedule {
  public:
-  // The first moment is the first multiple after `begin`.
-  Schedule(double interval, double begin, double end);
+  // Goes on from `begin`, reached by a step of `last_step` (0: nothing has run yet), as if it had run up to there.
+  Schedule(double interval, double begin, double last_step, double end);
   [[nodiscard]] double next() const { return next_; }
   // True if the time has come, within half a step; moves on to the next moment.
   bool reached(double time, double step);
 
  private:
+  void pass(double time, double step);
+
   double interval_, end_, next_;
-  std::int64_t count_;
+  std::int64_t count_ = 1;
 };
 
 template <int Dim>
@@ -38,6 +40,8 @@ class RunOutput {
 
   void write_history(const Simulation& simulation);
   void write_snapshot(const Simulation& simulation);
+  // particles.vtkhdf over all snapshots so far.
+  void write_index() { snapshots_.write_index(); }
   void write_checkpoint(const Simulation& simulation) const;
   // run.json; status as architecture's words: running, done, stopped, failed.
   void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,

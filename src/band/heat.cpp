@@ -59,7 +59,7 @@ void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim,
 // Eq. 19's sums over particles: conduction and advection, and the capacity with the tangent to the heat content.
 template <int Dim, class Real, class Content>
 void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Content& content,
-                   const mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
+                   mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
   auto& patches = work.rates.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
@@ -92,8 +92,9 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
         advection = volume * model.phases.water_density * model.phases.water_heat_capacity * mobility *
                     pressure_gradient.dot(temperature_gradient);
       }
-      const Real capacity = particles.initial_volume(p) / scaling *
-                            content.apparent_capacity(particles.temperature(p), particles.initial_porosity(p));
+      const Real tangent = content.apparent_capacity(particles.temperature(p), particles.initial_porosity(p));
+      particles.secant_capacity(p) = tangent;
+      const Real capacity = particles.initial_volume(p) / scaling * tangent;
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
         auto& node = patch.records[place];
         node[0] += flow.dot(slope);
@@ -105,7 +106,8 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
   sum_patches(grid, work.rates);
 }
 
-// The nodal rate of temperature with the capacity given by `capacity_at`; friction heat and face conditions come in here.
+// The nodal rate of temperature with the capacity given by `capacity_at`; friction heat and face conditions come in
+// here.
 template <int Dim, class Real, class CapacityAt>
 HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                            bool first_step, const mpm::Nodes<Dim, Real>& nodes, const CapacityAt& capacity_at,
@@ -169,8 +171,8 @@ Real interpolated_rate(const mpm::Stencil<Dim, Real>& stencil, const mpm::Patch<
   return rate;
 }
 
-// Secant capacity along the predicted change, to particles and nodes: with it the sum of what particles take equals what
-// nodes give.
+// Secant capacity along the predicted change, to particles and nodes: with it the sum of what particles take equals
+// what nodes give.
 template <int Dim, class Real, class Content>
 void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Content& content, Real dt,
                              HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
@@ -185,9 +187,11 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Conte
       const std::uint32_t p = grid.order()[k];
       const auto stencil = hat_stencil(grid, tile.key, particles, p);
       const Real change = dt * interpolated_rate(stencil, state);
-      const Real secant = content.secant_capacity(particles.temperature(p), change, particles.initial_porosity(p));
-      particles.secant_capacity(p) = secant;
-      const Real capacity = particles.initial_volume(p) / particles.thermal_scaling(p) * secant;
+      if (!content.drowns_in_round_off(change)) {  // else the tangent, which stands there already, is the secant
+        particles.secant_capacity(p) =
+            content.secant_capacity(particles.temperature(p), change, particles.initial_porosity(p));
+      }
+      const Real capacity = particles.initial_volume(p) / particles.thermal_scaling(p) * particles.secant_capacity(p);
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
         patch.records[place][0] += weight * capacity;
       });
@@ -225,8 +229,9 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
       }
       const Real old_temperature = particles.temperature(p);
       particles.previous_temperature(p) = old_temperature;
-      if (gain != Real(0)) {
-        particles.heat_content(p) += gain;
+      const Real heat_content = particles.heat_content(p) + gain;
+      if (heat_content != particles.heat_content(p)) {
+        particles.heat_content(p) = heat_content;
         particles.temperature(p) =
             content.temperature(particles.heat_content(p), particles.initial_porosity(p), old_temperature);
         particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
@@ -285,12 +290,12 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
   return added;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                             \
-  template HeatGain<Real> conduct_heat<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&,    \
-                                                  Real, bool, const mpm::Nodes<Dim, Real>&, HeatNodes<Dim, Real>&,   \
-                                                  mpm::Particles<Dim, Real>&);                                       \
-  template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);                \
-  template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real,        \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
+  template HeatGain<Real> conduct_heat<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&,  \
+                                                  Real, bool, const mpm::Nodes<Dim, Real>&, HeatNodes<Dim, Real>&, \
+                                                  mpm::Particles<Dim, Real>&);                                     \
+  template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);              \
+  template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real,      \
                                         mpm::Particles<Dim, Real>&);
 THAWSLIDE_INSTANTIATE(2, double)
 THAWSLIDE_INSTANTIATE(3, double)

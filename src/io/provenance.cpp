@@ -85,7 +85,9 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["particles"] = p.particles;
   json["wall_s"] = p.wall_seconds;
   json["particle_steps_per_second"] =
-      p.wall_seconds > 0.0 ? static_cast<double>(p.particles) * static_cast<double>(p.steps) / p.wall_seconds : 0.0;
+      p.wall_seconds > 0.0
+          ? static_cast<double>(p.particles) * static_cast<double>(p.steps - p.steps_before) / p.wall_seconds
+          : 0.0;
   json["seconds_per_stage"] = p.seconds_per_stage;
   json["origin_m"] = p.origin;
   json["gravity_m_s2"] = p.gravity;

@@ -26,6 +26,7 @@ struct Provenance {
   std::string status, message;  // running, done, stopped, failed
   double simulated_time = 0.0, wall_seconds = 0.0;
   std::int64_t steps = 0;
+  std::int64_t steps_before = 0;  // of them, those before this process went on with the run: not in wall_seconds
   std::map<std::string, double> seconds_per_stage;
 };
 

@@ -43,9 +43,10 @@ struct PowerLawCurve {
       return {Real(1), Real(0), above};
     }
     const Real base = Real(1) - above;
-    const Real s = Real(1) / power(base, exponent);
+    const Real inverse = Real(1) / base;
+    const Real s = power(inverse, exponent);
     const Real integral = exponent == Real(1) ? -std::log(base) : (base * s - Real(1)) / (exponent - Real(1));
-    return {s, exponent * s / base, integral};
+    return {s, exponent * s * inverse, integral};
   }
   [[nodiscard]] THAWSLIDE_HD Real saturation(Real temperature) const {
     const Real above = temperature - reference_temperature;

@@ -31,10 +31,15 @@ struct HeatContent {
            melting_heat(porosity) * values.derivative;
   }
 
+  // Whether a change of temperature [K] is too small to show in the content's digits.
+  [[nodiscard]] THAWSLIDE_HD bool drowns_in_round_off(Real change) const {
+    constexpr Real smallest_change = static_cast<Real>(1e-7);
+    return std::abs(change) < smallest_change;
+  }
+
   // (H(T + change) - H(T)) / change [J/m3/K]; the apparent capacity where the change drowns in round-off.
   [[nodiscard]] THAWSLIDE_HD Real secant_capacity(Real temperature, Real change, Real porosity) const {
-    constexpr Real smallest_change = static_cast<Real>(1e-7);
-    if (std::abs(change) < smallest_change) {
+    if (drowns_in_round_off(change)) {
       return apparent_capacity(temperature, porosity);
     }
     return (content(temperature + change, porosity) - content(temperature, porosity)) / change;

@@ -28,12 +28,12 @@ LONGEST_LINE = 120  # characters, in documents; clang-format and ruff see to the
 
 
 def code_files(*folders: str) -> list[Path]:
-    """C++ files below the folders."""
+    """Return C++ files below the folders."""
     return sorted(path for folder in folders for path in (ROOT / folder).rglob("*.[ch]pp"))
 
 
 def own_files() -> list[Path]:
-    """Text files of the project, without what is generated or built."""
+    """Return text files of the project, without what is generated or built."""
     folders = ["src", "tests", "benchmarks", "python/thawslide", "cases", "docs", "scripts", ".ci"]
     inside = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file()]
     kinds = {".cpp", ".hpp", ".in", ".py", ".toml", ".md", ".txt", ".csv", ".ini", ""}
@@ -42,28 +42,28 @@ def own_files() -> list[Path]:
 
 
 def documents() -> list[Path]:
-    """The documents people read, without the generated reference."""
+    """Return the documents people read, without the generated reference."""
     found = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "cases").rglob("*.md")]
     return sorted(path for path in found if path.name != "reference.md")
 
 
 def includes_of(text: str) -> list[str]:
-    """What a file includes with quotes, as written."""
+    """Return what a file includes with quotes, as written."""
     return re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, re.MULTILINE)
 
 
 def room_of(include: str) -> str:
-    """The room an include names."""
+    """Return the room an include names."""
     return "generated" if include == "version.hpp" else include.split("/")[0]
 
 
 def heading_anchor(title: str) -> str:
-    """The anchor that a Markdown heading gets."""
+    """Return the anchor that a Markdown heading gets."""
     return re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
 
 
 def place(path: Path) -> str:
-    """A path as messages show it."""
+    """Return a path as messages show it."""
     return str(path.relative_to(ROOT))
 
 
@@ -142,7 +142,9 @@ def test_physics_files_name_their_source() -> None:
         assert re.search(r"Eqs?\. ?\d|\d{4}|chapter", opening), f"{place(path)} cites no equation and no paper"
 
 
-@pytest.mark.parametrize("path", code_files("src", "tests", "benchmarks") + sorted(ROOT.glob("python/**/*.py")), ids=place)
+@pytest.mark.parametrize(
+    "path", code_files("src", "tests", "benchmarks") + sorted(ROOT.glob("python/**/*.py")), ids=place
+)
 def test_file_is_not_too_long(path: Path) -> None:
     assert len(path.read_text().splitlines()) < LONGEST_FILE
 
@@ -157,8 +159,12 @@ def test_no_unfinished_business_tabs_or_machine_paths() -> None:
         if path == Path(__file__).resolve():
             continue
         for number, line in enumerate(path.read_text().splitlines(), 1):
-            for name, found in [("unfinished", unfinished.search(line)), ("machine path", machine.search(line)),
-                                ("tab", "\t" in line), ("space at the end", line.rstrip() != line)]:
+            for name, found in [
+                ("unfinished", unfinished.search(line)),
+                ("machine path", machine.search(line)),
+                ("tab", "\t" in line),
+                ("space at the end", line.rstrip() != line),
+            ]:
                 if found and not (path.suffix == ".csv" and name != "machine path"):
                     wrong.append(f"{place(path)}:{number}: {name}")
     assert wrong == []
@@ -198,7 +204,7 @@ def test_code_cites_sections_that_the_theory_has() -> None:
 
 
 def names_in_backticks(path: Path) -> set[str]:
-    """All words a document sets as code."""
+    """Return all words a document sets as code."""
     return set(re.findall(r"`([^`\n]+)`", path.read_text()))
 
 
