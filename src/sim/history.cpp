@@ -49,8 +49,7 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   const auto add = [&](const char* name, Real value) { row.emplace_back(name, width * static_cast<double>(value)); };
   const Real strain = ledger.stress_work - ledger.plastic;
   const Real stored = sums.kinetic + sums.potential + strain;
-  const Real dissipated =
-      ledger.plastic + ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss;
+  const Real dissipated = ledger.plastic + ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss;
   add("kinetic_J", sums.kinetic);
   add("potential_J", sums.potential);
   add("strain_J", strain);
@@ -68,8 +67,7 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("band_rescale_J", ledger.band_rescale);
   add("advection_J", ledger.advection);
   add("numerical_J", ledger.numerical);
-  add("mechanical_residual_J",
-      stored + dissipated - ledger.frame_work - ledger.numerical - ledger.initial_mechanical);
+  add("mechanical_residual_J", stored + dissipated - ledger.frame_work - ledger.numerical - ledger.initial_mechanical);
   add("thermal_residual_J", sums.sensible + sums.latent - ledger.initial_thermal - ledger.friction_heat -
                                 ledger.boundary_heat - ledger.band_rescale - ledger.advection);
   add("mass_kg", sums.mass);
@@ -128,13 +126,15 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation) {
                    contact.area > Real(0) ? static_cast<double>(contact.friction_area / contact.area) : std::nan(""));
   row.emplace_back("mean_plastic_strain", means.plastic_strain / means.mass);
   const char* axes = Dim == 2 ? "xy" : "xyz";
+  // Before the first step no force is known.
+  const double known = simulation.step_number() > 0 ? width : std::nan("");
   for (int a = 0; a < Dim; ++a) {
-    row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), width * static_cast<double>(contact.force[a]));
+    row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), known * static_cast<double>(contact.force[a]));
   }
   for (int a = 0; a < Dim; ++a) {
     const double weight = means.mass * static_cast<double>(simulation.model().motion.gravity[a]);
     row.emplace_back(fmt::format("seismic_force_{}_N", axes[a]),
-                     width * (static_cast<double>(contact.force[a]) - weight));
+                     known * (static_cast<double>(contact.force[a]) - weight));
   }
   add_ledger(simulation, width, row);
   return row;
