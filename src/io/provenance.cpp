@@ -125,7 +125,8 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
 std::vector<InputFile> read_inputs(const fs::path& folder) {
   std::vector<InputFile> inputs;
   try {
-    for (const Json& input : Json::parse(read_file(folder / "run.json")).at("inputs")) {
+    const Json facts = Json::parse(read_file(folder / "run.json"));
+    for (const Json& input : facts.at("inputs")) {
       inputs.push_back({input.at("path"), input.at("copy"), input.at("sha256"), input.at("bytes")});
     }
   } catch (const Json::exception& error) {

@@ -1,0 +1,65 @@
+"""Runs that go bad: exit code 3, the particle, the place, the time and the likely cause; the last state is kept."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import h5py
+import pytest
+from conftest import LAMPLUGH, Program, history, run_facts, sets, snapshot_files
+
+PATTERN = (
+    r"error: the run went bad at t = (\S+) s \(step (\d+)\): particle (\d+) of body '(\w+)' at \((\S+), (\S+)\) m: "
+    r"(.*)\. Likely cause: (.*)\n"
+)
+
+
+def went_bad(thawslide: Program, case: Path, run: Path, *words: str) -> re.Match[str]:
+    """Run a case that must go bad; check what is left of it; return the parts of the text."""
+    outcome = thawslide("run", case, "--output", run, *words)
+    assert outcome.returncode == 3, outcome.stderr
+    told = re.fullmatch(PATTERN, outcome.stderr)
+    assert told, outcome.stderr
+    time, step, particle = float(told[1]), int(told[2]), int(told[3])
+    facts = run_facts(run)
+    assert facts["status"] == "failed"
+    assert f"error: {facts['message']}\n" == outcome.stderr
+    assert facts["simulated_time_s"] == pytest.approx(time, rel=1e-5) and facts["steps"] == step
+    columns = history(run)
+    assert columns["step"][-1] == step and columns["time_s"][-1] == pytest.approx(time, rel=1e-5)
+    with h5py.File(snapshot_files(run)[-1]) as last:
+        assert last["VTKHDF"].attrs["step"] == step
+        place = last["VTKHDF/Points"][particle]
+        assert last["VTKHDF/PointData/id"][particle] == particle
+    assert place[:2] == pytest.approx([float(told[5]), float(told[6])], rel=1e-4)
+    with h5py.File(run / "particles.vtkhdf") as index:
+        assert index["VTKHDF/Steps"].attrs["NSteps"] == len(snapshot_files(run))
+    assert not (run / "checkpoint.bin").exists()
+    return told
+
+
+def test_body_thrown_out_of_the_domain(thawslide: Program, tmp_path: Path) -> None:
+    told = went_bad(thawslide, LAMPLUGH, tmp_path / "run", *sets(time__end=20, body__slide__velocity="[0,300]"))
+    # The highest surface, 2146 m, rises 254 m at 300 m/s less gravity: about 0.87 s to the top of the domain at 2400 m.
+    assert 0.8 < float(told[1]) < 0.95
+    assert told[4] == "slide" and 2390.0 < float(told[6]) < 2400.0
+    assert told[7] == "it left the domain"
+    assert told[8] == "the slide ran further than [grid] min and max allow; widen them in its direction."
+
+
+def test_domain_too_short_for_the_slide(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    told = went_bad(thawslide, small_case, tmp_path / "run", *sets(time__end=1, body__block__velocity="[30,0]"))
+    assert told[4] == "block" and 19.9 < float(told[5]) < 20.0
+    assert told[7] == "it left the domain"
+
+
+def test_load_beyond_the_step(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    # A fall at 1e5 m/s2 is too fast for a step of 4 ms, which the start does not show.
+    told = went_bad(
+        thawslide, small_case, tmp_path / "run",
+        *sets(time__step=0.004, case__gravity=1e5, mechanics__initial_stress='"none"'),
+        *sets(body__block__min="[10,4]", body__block__max="[14,8]"),
+    )  # fmt: skip
+    assert told[7] == "its volume ratio is not positive"
+    assert told[8].startswith("the step is too long for what the material does")

@@ -1,0 +1,169 @@
+"""version, describe, check, block, report, and words that are no command."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+from conftest import LAMPLUGH, Program, sets
+
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+def test_version_names_version_commit_and_compiler(thawslide: Program) -> None:
+    outcome = thawslide("version")
+    assert outcome.returncode == 0
+    assert re.fullmatch(r"thawslide \d+\.\d+\.\d+ \(commit \S+, (g\+\+|clang) \d.*\)\n", outcome.stdout)
+
+
+@pytest.mark.parametrize(
+    "words", [[], ["slide"], ["run"], ["check", LAMPLUGH, "--colour"], ["run", "x", "--threads", 0]]
+)
+def test_wrong_words_exit_2_and_point_to_help(thawslide: Program, words: list[object]) -> None:
+    outcome = thawslide(*words)
+    assert outcome.returncode == 2
+    assert "Run with --help for more information." in outcome.stderr
+    assert outcome.stdout == ""
+
+
+def test_help_lists_the_commands(thawslide: Program) -> None:
+    outcome = thawslide("--help")
+    assert outcome.returncode == 0
+    for command in ("run", "resume", "check", "block", "describe", "report", "version"):
+        assert re.search(rf"^\s+{command}\s+\S", outcome.stdout, re.MULTILINE), command
+
+
+def test_describe_names_each_key_with_unit_and_default(thawslide: Program) -> None:
+    outcome = thawslide("describe")
+    assert outcome.returncode == 0
+    assert "[time]" in outcome.stdout and "[material.NAME]" in outcome.stdout
+    assert re.search(r"gravity +gravity \[m/s2\]\n.*default: 9\.81", outcome.stdout)
+
+
+def test_describe_json_holds_every_key_of_lamplugh(thawslide: Program) -> None:
+    outcome = thawslide("describe", "--json")
+    assert outcome.returncode == 0
+    known = {table["table"]: {key["key"]: key for key in table["keys"]} for table in json.loads(outcome.stdout)}
+    assert known["[case]"]["gravity"]["unit"] == "m/s2"
+    assert known["[case]"]["gravity"]["default"] == "9.81"
+    case = tomllib.loads((LAMPLUGH / "case.toml").read_text())
+    for table, entries in case.items():
+        title, keys = f"[{table}]", entries
+        if table in ("material", "body"):
+            title, keys = f"[{table}.NAME]", next(iter(entries.values()))
+        assert set(keys) <= set(known[title]), title
+
+
+def test_describe_markdown_is_the_reference_page(thawslide: Program) -> None:
+    outcome = thawslide("describe", "--md")
+    assert outcome.returncode == 0
+    assert outcome.stdout.startswith("# The case file\n")
+    assert "| `gravity` | m/s2 |" in outcome.stdout
+
+
+def test_describe_schema_is_a_schema(thawslide: Program) -> None:
+    outcome = thawslide("describe", "--schema")
+    assert outcome.returncode == 0
+    schema = json.loads(outcome.stdout)
+    assert schema["$schema"].startswith("https://json-schema.org/")
+    assert schema["properties"]["time"]["properties"]["end"]["type"] == "number"
+
+
+def test_describe_takes_one_form(thawslide: Program) -> None:
+    assert thawslide("describe", "--json", "--md").returncode == 2
+
+
+def test_check_says_what_a_run_will_take(thawslide: Program) -> None:
+    outcome = thawslide("check", LAMPLUGH)
+    assert outcome.returncode == 0, outcome.stderr
+    said = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
+    assert int(said["particles"]) > 3000
+    assert said["cells"].startswith(f"{1220 * 220} in the domain")
+    assert re.match(r"0\.01 s; the limit is 0\.0\d+ s, set by the elastic wave of material 'rock_ice'", said["step"])
+    assert said["steps"] == "20000"
+    assert 1 <= int(re.fullmatch(r"(\d+) MB", said["memory"])[1]) < 1000
+    assert re.match(r"about (\d+ h )?(\d+ min ?)?(\d+ s )?on \d+ threads?", said["time"])
+    assert "picture" not in said
+
+
+def test_check_writes_nothing(thawslide: Program, small_case: Path) -> None:
+    assert thawslide("check", small_case, folder=small_case).returncode == 0
+    assert [file.name for file in small_case.iterdir()] == ["case.toml"]
+
+
+@pytest.mark.parametrize(("words", "name"), [(["out.png"], "out.png"), ([], "setup.png")])
+def test_check_draws_a_picture(
+    thawslide: Program, report_environment: dict[str, str], small_case: Path, words: list[str], name: str
+) -> None:
+    outcome = thawslide("check", small_case, "--picture", *words, environment=report_environment, folder=small_case)
+    assert outcome.returncode == 0, outcome.stderr
+    assert (small_case / name).read_bytes().startswith(PNG)
+    assert f"picture     {name}" in outcome.stdout
+
+
+def test_check_says_what_the_picture_needs(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    outcome = thawslide("check", small_case, "--picture", tmp_path / "out.png")
+    assert outcome.returncode == 2
+    assert "the picture was not drawn: thawslide-report is not on PATH." in outcome.stderr
+    assert "`./run --setup` installs it" in outcome.stderr
+    assert not (tmp_path / "out.png").exists()
+
+
+def test_block_prints_a_table(thawslide: Program) -> None:
+    outcome = thawslide("block", LAMPLUGH, *sets(time__end=40))
+    assert outcome.returncode == 0, outcome.stderr
+    names, units, *rows, last = outcome.stdout.splitlines()
+    assert names.split()[:3] == ["time", "velocity", "distance"]
+    assert units.split()[:3] == ["s", "m/s", "m"]
+    times = [float(row.split()[0]) for row in rows]
+    assert len(times) == 21 and times[0] == 0.0 and times[-1] == 40.0 and times == sorted(times)
+    assert re.match(r"safety factor at the start: \d\.\d{3} ", last)
+
+
+def test_block_writes_a_csv_and_obeys_set(thawslide: Program, tmp_path: Path) -> None:
+    file = tmp_path / "x.csv"
+    outcome = thawslide(
+        "block", LAMPLUGH, "--output", file, *sets(time__end=10, basal__cohesion=0, basal__residual_cohesion=0)
+    )
+    assert outcome.returncode == 0, outcome.stderr
+    header, *rows = file.read_text().splitlines()
+    columns = header.split(",")
+    numbers = [[float(field) for field in row.split(",")] for row in rows]
+    assert columns[0] == "time_s" and numbers[0][0] == 0.0 and numbers[-1][0] == pytest.approx(10.0, abs=0.02)
+    assert f"{len(rows)} rows in {file}" in outcome.stdout
+    # Without cohesion the slope is far from stable: the block accelerates all the way.
+    speeds = [row[columns.index("velocity_m_s")] for row in numbers]
+    assert speeds == sorted(speeds) and speeds[-1] > 10.0
+
+
+def test_report_draws_the_figures_of_a_run(
+    thawslide: Program, report_environment: dict[str, str], small_case: Path, tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    outcome = thawslide("report", run, "--only", "velocity,energy", environment=report_environment)
+    assert outcome.returncode == 0, outcome.stderr
+    assert sorted(file.name for file in (run / "figures").iterdir()) == ["energy.png", "velocity.png"]
+    assert all(file.read_bytes().startswith(PNG) for file in (run / "figures").iterdir())
+    assert (run / "report.html").read_text().lstrip().startswith("<!")
+    assert f"report: {run / 'report.html'}" in outcome.stdout
+
+
+def test_report_passes_on_the_exit_code(thawslide: Program, report_environment: dict[str, str], tmp_path: Path) -> None:
+    outcome = thawslide("report", tmp_path / "nothing", environment=report_environment)
+    assert outcome.returncode == 2
+    assert "thawslide-report: error:" in outcome.stderr
+
+
+def test_report_says_what_it_needs(thawslide: Program) -> None:
+    outcome = thawslide("report", "x")
+    assert outcome.returncode == 2
+    assert "thawslide-report cannot be started (No such file or directory)." in outcome.stderr
+    assert "put .venv/bin on PATH" in outcome.stderr
+
+
+def test_case_may_be_a_folder_or_its_file(thawslide: Program) -> None:
+    assert thawslide("block", LAMPLUGH / "case.toml", *sets(time__end=1)).returncode == 0

@@ -1,0 +1,164 @@
+"""The real program on real cases: how it is started, a small case of its own, and what a run wrote."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+LAMPLUGH = ROOT / "cases" / "lamplugh"
+LIMIT = 60.0  # s, of one command
+
+# A block that rests on flat ground: 48 particles, sound as it stands.
+SMALL_CASE = """[case]
+title = "Block on flat ground"
+
+[time]
+end = 0.2
+step = 0.001
+output_interval = 0.05
+history_interval = 0.01
+
+[grid]
+cell = 1.0
+min = [0.0, -2.0]
+max = [20.0, 10.0]
+
+[terrain]
+type = "flat"
+elevation = 0.0
+
+[material.rock]
+law = "mohr_coulomb"
+youngs_modulus = 1.0e8
+poisson_ratio = 0.2
+friction_angle = 35.0
+cohesion = 1.0e5
+
+[body.block]
+material = "rock"
+shape = "box"
+min = [10.0, 0.0]
+max = [14.0, 3.0]
+temperature = -10.0
+porosity = 0.3
+
+[basal]
+friction_angle = 10.0
+cohesion = 0.0
+"""
+
+Outcome = subprocess.CompletedProcess[str]
+Program = Callable[..., Outcome]
+
+
+@pytest.fixture(scope="session")
+def binary() -> Path:
+    path = ROOT / os.environ.get("THAWSLIDE_BINARY", "build/release/thawslide")
+    if not path.is_file():
+        pytest.skip(f"there is no program at {path}: build it, or name one in THAWSLIDE_BINARY")
+    return path
+
+
+@pytest.fixture(scope="session")
+def plain_environment() -> dict[str, str]:
+    """Return an environment on whose PATH there is no thawslide-report."""
+    environment = dict(os.environ)
+    folders = environment.get("PATH", "/usr/bin:/bin").split(os.pathsep)
+    environment["PATH"] = os.pathsep.join(each for each in folders if not shutil.which("thawslide-report", path=each))
+    return environment
+
+
+@pytest.fixture(scope="session")
+def report_environment(plain_environment: dict[str, str]) -> dict[str, str]:
+    """Return an environment that finds thawslide-report."""
+    folder = str(Path(sys.executable).parent)
+    if not shutil.which("thawslide-report", path=folder):
+        pytest.skip(f"thawslide-report is not in {folder}: ./run --setup installs it")
+    return plain_environment | {"PATH": folder + os.pathsep + plain_environment["PATH"], "MPLBACKEND": "Agg"}
+
+
+@pytest.fixture(scope="session")
+def thawslide(binary: Path, plain_environment: dict[str, str]) -> Program:
+    """Return a function that runs the program with these words and returns what came of it."""
+
+    def start(*words: object, environment: dict[str, str] | None = None, folder: Path | None = None) -> Outcome:
+        return subprocess.run(
+            [str(binary), *map(str, words)],
+            env=environment or plain_environment,
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=LIMIT,
+            check=False,
+        )
+
+    return start
+
+
+@pytest.fixture
+def small_case(tmp_path: Path) -> Path:
+    folder = tmp_path / "small"
+    folder.mkdir()
+    (folder / "case.toml").write_text(SMALL_CASE)
+    return folder
+
+
+def sets(**values: object) -> list[str]:
+    """Return the words of --set; two underscores stand for the dot: time__end=1."""
+    return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
+
+
+def run_facts(run: Path) -> dict[str, Any]:
+    facts: dict[str, Any] = json.loads((run / "run.json").read_text())
+    return facts
+
+
+def history(run: Path) -> dict[str, np.ndarray]:
+    """Return the columns of history.csv; fails on a field that is no number."""
+    with (run / "history.csv").open(newline="") as file:
+        header, *rows = csv.reader(file)
+    numbers = np.array([[float(field) for field in row] for row in rows])
+    return dict(zip(header, numbers.T, strict=True))
+
+
+def snapshot_files(run: Path) -> list[Path]:
+    return sorted((run / "snapshots").glob("*.vtkhdf"))
+
+
+def datasets(file: Path) -> dict[str, np.ndarray]:
+    """Return every dataset of an HDF5 file by its path."""
+    found: dict[str, np.ndarray] = {}
+
+    def take(name: str, thing: h5py.Group | h5py.Dataset) -> None:
+        if isinstance(thing, h5py.Dataset):
+            found[name] = thing[()]
+
+    with h5py.File(file) as opened:
+        opened.visititems(take)
+    return found
+
+
+def assert_same_bits(one: Path, other: Path) -> None:
+    """Fail unless two runs have the same history, byte for byte, and the same snapshots, bit for bit."""
+    assert (one / "history.csv").read_bytes() == (other / "history.csv").read_bytes()
+    names = [file.name for file in snapshot_files(one)]
+    assert names == [file.name for file in snapshot_files(other)]
+    for name in names:
+        first, second = datasets(one / "snapshots" / name), datasets(other / "snapshots" / name)
+        assert first.keys() == second.keys()
+        for key, values in first.items():
+            assert values.dtype == second[key].dtype and values.shape == second[key].shape, f"{name}: {key}"
+            assert values.tobytes() == second[key].tobytes(), f"{name}: {key}"

@@ -1,0 +1,95 @@
+"""What a run says while it runs and at its end: plain lines, a bar on a terminal, the summary."""
+
+from __future__ import annotations
+
+import os
+import pty
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from conftest import LAMPLUGH, LIMIT, Program, run_facts, sets
+
+STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| (\d+ min )?\d+ s left \| front \d+ m at -?\d+\.\d m/s"
+
+
+@pytest.fixture(scope="module")
+def said(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> tuple[list[str], Path]:
+    """Return the lines of a run whose output is no terminal, and its folder."""
+    run = tmp_path_factory.mktemp("runs") / "run"
+    outcome = thawslide("run", LAMPLUGH, "--output", run, "--threads", 1, *sets(time__end=2))
+    assert outcome.returncode == 0, outcome.stderr
+    assert "\r" not in outcome.stdout and "\033" not in outcome.stdout
+    return outcome.stdout.splitlines(), run
+
+
+def test_opening_line(said: tuple[list[str], Path]) -> None:
+    lines, run = said
+    particles = run_facts(run)["particles"]
+    assert lines[0] == f"Lamplugh rock-ice avalanche, 2016: {particles} particles, 2 s to simulate, on 1 thread"
+
+
+def test_plain_lines_tell_share_speed_time_left_and_front(said: tuple[list[str], Path]) -> None:
+    shares = []
+    for line in said[0][1:]:
+        if "%" in line and "left" in line:
+            told = re.fullmatch(rf" *(\d+) % \| {STATE}", line)
+            assert told, line
+            shares.append(int(told[1]))
+    assert shares[0] == 10 and 8 <= len(shares) <= 10
+    assert shares == sorted(set(shares)) and shares[-1] <= 100
+
+
+def test_summary_tells_throughput_stages_and_result(said: tuple[list[str], Path]) -> None:
+    lines, run = said
+    facts = run_facts(run)
+    first = next(k for k, line in enumerate(lines) if "particle-steps per second" in line)
+    told = re.fullmatch(
+        r"(\d+) particles, 200 steps in \d+ s: (\S+) million particle-steps per second on 1 thread", lines[first]
+    )
+    assert told and int(told[1]) == facts["particles"]
+    assert float(told[2]) == pytest.approx(facts["particle_steps_per_second"] / 1e6, rel=0.05)
+    stages = [re.fullmatch(r"  (\w+) +(\d+\.\d\d) s +(\d+\.\d) %", line) for line in lines[first + 1 : -2]]
+    assert all(stages)
+    assert {stage[1] for stage in stages if stage} == set(facts["seconds_per_stage"])
+    shares = [float(stage[3]) for stage in stages if stage]
+    assert shares == sorted(shares, reverse=True) and 50.0 < sum(shares) <= 101.0
+    assert re.fullmatch(
+        r"at 2 s: mean velocity \d+\.\d\d m/s, mean displacement \d+ m, front at \d+ m, runout \d+ m", lines[-2]
+    )
+    assert lines[-1] == f"results in {run}"
+
+
+def read_terminal(descriptor: int) -> bytes:
+    """Return all a terminal shows until its program closes it."""
+    shown = b""
+    while True:
+        try:
+            part = os.read(descriptor, 65536)
+        except OSError:  # how Linux says that the other side has closed
+            return shown
+        if not part:
+            return shown
+        shown += part
+
+
+def test_bar_on_a_terminal(binary: Path, plain_environment: dict[str, str], tmp_path: Path) -> None:
+    ours, theirs = pty.openpty()
+    command = [str(binary), "run", str(LAMPLUGH), "--output", str(tmp_path / "run"), *sets(time__end=2)]
+    with subprocess.Popen(command, env=plain_environment, stdout=theirs, stdin=subprocess.DEVNULL) as process:
+        os.close(theirs)
+        shown = read_terminal(ours).decode()
+        os.close(ours)
+        assert process.wait(timeout=LIMIT) == 0
+    bars = re.findall(rf"\r\033\[K\[(=* *)\] +(\d+) % \| {STATE}", shown)
+    assert bars
+    for bar, share, _ in bars:
+        assert len(bar) == 24
+        assert bar.count("=") == pytest.approx(int(share) * 24 / 100, abs=1.2)
+    shares = [int(share) for _, share, _ in bars]
+    assert shares == sorted(shares)
+    # The bar is drawn over itself: no new line between the first and the last, and one before the summary.
+    first, last = shown.index("\r\033[K["), shown.rindex("\r\033[K[")
+    assert "\n" not in shown[first:last]
+    assert re.search(r"m/s\r\n\d+ particles, 200 steps in ", shown[last:])

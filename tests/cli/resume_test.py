@@ -1,0 +1,146 @@
+"""Stopping and going on: the run ends with the bits it would have had."""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from conftest import LAMPLUGH, LIMIT, Program, assert_same_bits, history, run_facts, sets, snapshot_files
+
+# Neither rows nor snapshots nor checkpoints fall together.
+WORDS = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.4)
+Interrupted = Callable[[Path, int, int], int]
+
+
+@pytest.fixture(scope="module")
+def whole(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of the run that nothing stopped."""
+    run = tmp_path_factory.mktemp("runs") / "whole"
+    assert thawslide("run", LAMPLUGH, "--output", run, *WORDS).returncode == 0
+    return run
+
+
+@pytest.fixture(scope="module")
+def interrupted(binary: Path, plain_environment: dict[str, str]) -> Interrupted:
+    """Return a function that runs into a folder, sends a signal after so many percent, and returns the exit code."""
+
+    def start(run: Path, number: int, percent: int) -> int:
+        command = [str(binary), "run", str(LAMPLUGH), "--output", str(run), *WORDS]
+        pipe = subprocess.PIPE
+        with subprocess.Popen(command, env=plain_environment, stdout=pipe, stderr=pipe, text=True) as process:
+            assert process.stdout and process.stderr
+            for line in process.stdout:
+                share = line.split("%")[0].strip()
+                if "%" in line and share.isdigit() and int(share) >= percent:
+                    process.send_signal(number)
+                    break
+            process.communicate(timeout=LIMIT)
+            return process.returncode
+
+    return start
+
+
+@pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 10), (signal.SIGINT, 30)])
+def test_a_stopped_run_goes_on_to_the_same_bits(
+    thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path, number: int, percent: int
+) -> None:
+    run = tmp_path / "run"
+    assert interrupted(run, number, percent) == 4
+    facts = run_facts(run)
+    assert facts["status"] == "stopped" and facts["message"] == f"signal {int(number)}"
+    stop = facts["simulated_time_s"]
+    assert 3 * percent / 100 <= stop < 3.0
+    assert history(run)["time_s"][-1] <= stop
+    outcome = thawslide("resume", run, "--threads", 1)
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith(f"going on from t = {stop:g} s\n")
+    assert_same_bits(whole, run)
+    assert (run / "checkpoint.bin").read_bytes() == (whole / "checkpoint.bin").read_bytes()
+    after, complete = run_facts(run), run_facts(whole)
+    assert after["status"] == "done" and after["steps"] == complete["steps"] == 300
+    assert after["inputs"] == complete["inputs"]
+    # The rate is that of the steps this process took, in the time it took.
+    rate = after["particles"] * (300 - facts["steps"]) / after["wall_s"]
+    assert after["particle_steps_per_second"] == pytest.approx(rate)
+
+
+def test_a_killed_run_goes_on_from_its_last_checkpoint(
+    thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    assert interrupted(run, signal.SIGKILL, 30) == -signal.SIGKILL
+    assert run_facts(run)["status"] == "running"
+    rows = history(run)["time_s"]
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    told = re.match(r"going on from t = (\S+) s\n", outcome.stdout)
+    assert told
+    checkpoint = float(told[1])
+    assert 0.8 <= checkpoint <= rows[-1] + 0.07 and checkpoint / 0.4 == pytest.approx(round(checkpoint / 0.4))
+    assert_same_bits(whole, run)
+
+
+def test_what_a_stop_says(binary: Path, plain_environment: dict[str, str], tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    command = [str(binary), "run", str(LAMPLUGH), "--output", str(run), *WORDS]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, env=plain_environment, stdout=pipe, stderr=pipe, text=True) as process:
+        assert process.stdout
+        while "%" not in process.stdout.readline():
+            assert process.poll() is None
+        process.terminate()
+        _, errors = process.communicate(timeout=LIMIT)
+    stop = run_facts(run)["simulated_time_s"]
+    assert errors == f"stopped by signal 15 at t = {stop:g} s; `thawslide resume {run}` goes on from here\n"
+
+
+def test_a_finished_run_goes_on_when_its_end_is_moved(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    # 11 steps of 0.9 ms end at 9.9 ms, where the row and the snapshot of 10 ms are due: they must not come twice.
+    words = sets(time__step=0.0009, time__history_interval=0.01, time__output_interval=0.01)
+    whole, longer = tmp_path / "whole", tmp_path / "longer"
+    assert thawslide("run", small_case, "--output", whole, *sets(time__end=0.05), *words).returncode == 0
+    assert thawslide("run", small_case, "--output", longer, *sets(time__end=0.0099), *words).returncode == 0
+    file = longer / "case.toml"
+    text = file.read_text()
+    assert text.count("\nend = 0.0099 ") == 1
+    file.write_text(text.replace("\nend = 0.0099 ", "\nend = 0.05 "))
+    assert thawslide("resume", longer).returncode == 0
+    assert_same_bits(whole, longer)
+
+
+def test_a_finished_run_is_left_as_it_is(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0
+    assert outcome.stdout == f"{run} has reached its end at 0.2 s; nothing to do\n"
+    assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
+
+
+def test_resume_without_a_checkpoint(thawslide: Program, tmp_path: Path) -> None:
+    outcome = thawslide("resume", tmp_path)
+    assert outcome.returncode == 2
+    assert f"{tmp_path} holds no checkpoint.bin to go on from." in outcome.stderr
+
+
+@pytest.mark.parametrize("damage", ["a changed byte", "a lost end"])
+def test_a_damaged_checkpoint_is_refused(thawslide: Program, small_case: Path, tmp_path: Path, damage: str) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    file = run / "checkpoint.bin"
+    content = bytearray(file.read_bytes())
+    if damage == "a changed byte":
+        content[len(content) // 2] ^= 1
+    else:
+        content = content[: len(content) // 2]
+    file.write_bytes(content)
+    rows, snapshots = (run / "history.csv").read_bytes(), len(snapshot_files(run))
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 2
+    assert f"{file} is damaged" in outcome.stderr
+    assert (run / "history.csv").read_bytes() == rows and len(snapshot_files(run)) == snapshots

@@ -1,0 +1,224 @@
+"""What a run writes, that threads change no bit of it, and folders it refuses."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import tomllib
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from conftest import LAMPLUGH, Program, assert_same_bits, datasets, history, run_facts, sets, snapshot_files
+
+END = 1.0  # s, of the Lamplugh runs
+FIELDS = {
+    "id": (1, "1"),
+    "body": (1, "1"),
+    "mass": (1, "kg"),
+    "volume": (1, "m3"),
+    "velocity": (3, "m/s"),
+    "displacement": (3, "m"),
+    "stress": (6, "Pa"),
+    "temperature": (1, "C"),
+    "liquid_saturation": (1, "1"),
+    "porosity": (1, "1"),
+    "pore_pressure": (1, "Pa"),
+    "liquid_pressure": (1, "Pa"),
+    "plastic_strain": (1, "1"),
+    "in_band": (1, "1"),
+}  # components, unit
+COLUMNS = {
+    "time_s", "step", "dt_s", "mean_velocity_m_s", "max_velocity_m_s", "mean_displacement_m", "front_position_m",
+    "runout_m", "band_temperature_C", "band_saturation", "band_pore_pressure_Pa", "band_friction_coefficient",
+    "mean_plastic_strain", "basal_force_x_N", "basal_force_y_N", "seismic_force_x_N", "seismic_force_y_N", "kinetic_J",
+    "potential_J", "strain_J", "plastic_J", "viscous_J", "damping_J", "friction_work_J", "contact_loss_J",
+    "frame_work_J", "friction_heat_J", "converted_J", "sensible_J", "latent_J", "boundary_heat_J", "band_rescale_J",
+    "advection_J", "numerical_J", "mechanical_residual_J", "thermal_residual_J", "mass_kg", "rock_kg", "ice_kg",
+    "water_kg",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def lamplugh(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a second of Lamplugh on one thread, with a snapshot each 0.25 s."""
+    run = tmp_path_factory.mktemp("runs") / "lamplugh"
+    outcome = thawslide(
+        "run", LAMPLUGH, "--threads", 1, "--output", run, *sets(time__end=END, time__output_interval=0.25)
+    )
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stderr == ""
+    assert f"results in {run}" in outcome.stdout
+    return run
+
+
+def test_folder_holds_the_files_of_a_run_and_no_others(lamplugh: Path) -> None:
+    assert sorted(path.name for path in lamplugh.iterdir()) == sorted(
+        [
+            "case.toml",
+            "checkpoint.bin",
+            "history.csv",
+            "inputs",
+            "particles.vtkhdf",
+            "run.json",
+            "snapshots",
+            "terrain.csv",
+        ]
+    )
+    assert sorted(file.name for file in (lamplugh / "snapshots").iterdir()) == [
+        f"{number:06d}.vtkhdf" for number in range(5)
+    ]
+    assert (lamplugh / "checkpoint.bin").stat().st_size > 0
+
+
+def test_history_has_header_first_and_a_row_each_interval(lamplugh: Path) -> None:
+    columns = history(lamplugh)
+    assert next(iter(columns)) == "time_s"
+    assert columns.keys() >= COLUMNS
+    np.testing.assert_allclose(columns["time_s"], np.arange(11) * 0.1, rtol=0, atol=1e-12)
+    assert columns["step"].tolist() == list(range(0, 101, 10))
+    assert (columns["mass_kg"] == columns["mass_kg"][0]).all() and columns["mass_kg"][0] > 0
+    text = (lamplugh / "history.csv").read_text()
+    assert text.endswith("\n") and "#" not in text
+
+
+def test_history_numbers_are_the_shortest_that_read_back(lamplugh: Path) -> None:
+    for row in (lamplugh / "history.csv").read_text().splitlines()[1:]:
+        for field in row.split(","):
+            value = float(field)
+            assert len(field) <= len(repr(value)) and (np.isnan(value) or float(repr(value)) == value)
+
+
+def test_snapshots_hold_the_fields_sorted_by_id(lamplugh: Path) -> None:
+    particles = run_facts(lamplugh)["particles"]
+    for number, file in enumerate(snapshot_files(lamplugh)):
+        with h5py.File(file) as opened:
+            root = opened["VTKHDF"]
+            assert root.attrs["Type"] == b"PolyData"
+            assert root.attrs["time"] == pytest.approx(0.25 * number, abs=1e-12)
+            assert root["Points"].shape == (particles, 3) and root["Points"].dtype == np.float64
+            assert (root["Points"][:, 2] == 0.0).all()
+            for name, (components, unit) in FIELDS.items():
+                field = root["PointData"][name]
+                assert field.shape == ((particles,) if components == 1 else (particles, components)), name
+                assert field.attrs["unit"] == unit.encode(), name
+            assert root["PointData/id"][:].tolist() == list(range(particles))
+
+
+def test_particles_file_shows_all_snapshots_as_one(lamplugh: Path) -> None:
+    particles = run_facts(lamplugh)["particles"]
+    files = snapshot_files(lamplugh)
+    with h5py.File(lamplugh / "particles.vtkhdf") as opened:
+        root = opened["VTKHDF"]
+        assert root["Steps"].attrs["NSteps"] == len(files)
+        np.testing.assert_allclose(root["Steps/Values"], np.arange(len(files)) * 0.25, rtol=0, atol=1e-12)
+        assert root["Steps/PointOffsets"][:].tolist() == [particles * number for number in range(len(files))]
+        assert root["NumberOfPoints"][:].tolist() == [particles] * len(files)
+        assert root["Points"].shape == (particles * len(files), 3)
+        for number, file in enumerate(files):
+            rows = slice(particles * number, particles * (number + 1))
+            alone = datasets(file)
+            assert root["Points"][rows].tobytes() == alone["VTKHDF/Points"].tobytes()
+            for name in FIELDS:
+                assert root["PointData"][name][rows].tobytes() == alone[f"VTKHDF/PointData/{name}"].tobytes(), name
+
+
+def test_run_json_tells_inputs_with_their_hashes_and_speed(lamplugh: Path) -> None:
+    facts = run_facts(lamplugh)
+    assert facts["status"] == "done" and facts["message"] == ""
+    assert facts["steps"] == 100 and facts["simulated_time_s"] == pytest.approx(END)
+    assert facts["threads"] == 1 and facts["origin_m"] == [-200.0, 200.0]
+    rate = facts["particles"] * facts["steps"] / facts["wall_s"]
+    assert facts["particle_steps_per_second"] == pytest.approx(rate)
+    assert 0.0 < sum(facts["seconds_per_stage"].values()) <= facts["wall_s"]
+    copies = {Path(each["copy"]).name: each for each in facts["inputs"]}
+    assert sorted(copies) == ["case.toml", "lamplugh_profile.csv", "lamplugh_targets.csv"]
+    for name, each in copies.items():
+        content = (lamplugh / each["copy"]).read_bytes()
+        assert content == (LAMPLUGH / name).read_bytes()
+        assert each["sha256"] == hashlib.sha256(content).hexdigest()
+        assert each["bytes"] == len(content)
+
+
+def test_terrain_is_the_profile_inside_the_domain(lamplugh: Path) -> None:
+    header, *rows = (lamplugh / "terrain.csv").read_text().splitlines()
+    assert header == "distance_m,terrain_elevation_m"
+    points = [tuple(map(float, row.split(","))) for row in rows]
+    assert points[0][0] == -200.0 and points[-1][0] == 12000.0
+    given = {}
+    for line in (LAMPLUGH / "lamplugh_profile.csv").read_text().splitlines():
+        if line[:1].isdigit() or line[:1] == "-":
+            x, elevation, _ = map(float, line.split(","))
+            given[x] = elevation
+    for x, elevation in points[1:-1]:
+        assert elevation == pytest.approx(given[round(x, 6)], abs=1e-6)
+
+
+def test_resolved_case_runs_to_the_same_bits(thawslide: Program, lamplugh: Path, tmp_path: Path) -> None:
+    resolved = tomllib.loads((lamplugh / "case.toml").read_text())
+    assert resolved["time"]["end"] == END and resolved["basal"]["lubrication_exponent"] == 2.0
+    assert resolved["terrain"]["file"] == "inputs/lamplugh_profile.csv"
+    assert thawslide("run", lamplugh, "--output", tmp_path / "again").returncode == 0
+    assert_same_bits(lamplugh, tmp_path / "again")
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_threads_change_no_bit(thawslide: Program, lamplugh: Path, tmp_path: Path, threads: int) -> None:
+    run = tmp_path / "run"
+    words = sets(time__end=END, time__output_interval=0.25)
+    assert thawslide("run", LAMPLUGH, "--threads", threads, "--output", run, *words).returncode == 0
+    assert run_facts(run)["threads"] == threads
+    assert_same_bits(lamplugh, run)
+
+
+def test_folder_is_named_after_the_case(thawslide: Program, small_case: Path) -> None:
+    (small_case / "steep.toml").write_text((small_case / "case.toml").read_text())
+    assert thawslide("run", small_case, folder=small_case.parent).returncode == 0
+    assert thawslide("run", small_case / "steep.toml", folder=small_case.parent).returncode == 0
+    assert sorted(path.name for path in (small_case.parent / "runs").iterdir()) == ["small", "small-steep"]
+
+
+def test_a_run_is_replaced_only_when_asked(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    before = (run / "history.csv").read_bytes()
+    refused = thawslide("run", small_case, "--output", run, *sets(time__end=0.1))
+    assert refused.returncode == 2
+    assert f"the output folder {run} holds another run. Give another --output, or --overwrite" in refused.stderr
+    assert (run / "history.csv").read_bytes() == before
+    (run / "notes.txt").write_text("mine")
+    replaced = thawslide("run", small_case, "--output", run, "--overwrite", *sets(time__end=0.1))
+    assert replaced.returncode == 0, replaced.stderr
+    assert history(run)["time_s"][-1] == pytest.approx(0.1)
+    assert len(snapshot_files(run)) == 3
+    assert (run / "notes.txt").read_text() == "mine"
+
+
+@pytest.mark.parametrize("words", [[], ["--overwrite"]])
+def test_a_folder_of_other_files_is_refused(
+    thawslide: Program, small_case: Path, tmp_path: Path, words: list[str]
+) -> None:
+    folder = tmp_path / "letters"
+    folder.mkdir()
+    (folder / "letter.txt").write_text("mine")
+    outcome = thawslide("run", small_case, "--output", folder, *words)
+    assert outcome.returncode == 2
+    assert f"the output folder {folder} holds other files and no run." in outcome.stderr
+    assert [path.name for path in folder.iterdir()] == ["letter.txt"]
+
+
+def test_a_path_below_a_file_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    outcome = thawslide("run", small_case, "--output", tmp_path / "file" / "run")
+    assert outcome.returncode == 2
+    assert f"cannot be made: {tmp_path / 'file'} is a file. Give another --output." in outcome.stderr
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_a_folder_without_permission_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    closed = tmp_path / "closed"
+    closed.mkdir(mode=0o555)
+    outcome = thawslide("run", small_case, "--output", closed / "run")
+    assert outcome.returncode == 2
+    assert f"no permission for {closed}" in outcome.stderr
