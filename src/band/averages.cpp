@@ -51,8 +51,7 @@ std::uint64_t FlowDepth<Dim, Real>::column_key(const mpm::SparseGrid<Dim, Real>&
 
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                                  const std::function<Real(Real)>& slope_cosine,
-                                  mpm::Particles<Dim, Real>& particles) {
+                                  const std::function<Real(Real)>& slope_cosine, mpm::Particles<Dim, Real>& particles) {
   // Serial, in canonical order, so that sums do not depend on threads.
   index_.clear();
   columns_.clear();
@@ -83,9 +82,9 @@ Real FlowDepth<Dim, Real>::depth_below_top(const mpm::SparseGrid<Dim, Real>& gri
   return columns_[static_cast<std::size_t>(number)].top - particles.position(p, Dim - 1);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \
   template void average_on_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const mpm::Particles<Dim, Real>&, \
-                                           const BandModel<Dim, Real>&, mpm::Nodes<Dim, Real>&);             \
+                                           const BandModel<Dim, Real>&, mpm::Nodes<Dim, Real>&);                \
   template class FlowDepth<Dim, Real>;
 THAWSLIDE_INSTANTIATE(2, double)
 THAWSLIDE_INSTANTIATE(3, double)

@@ -26,8 +26,8 @@ class FlowDepth {
               const std::function<Real(Real)>& slope_cosine, mpm::Particles<Dim, Real>& particles);
 
   // Depth of a particle below the top of its column [m], vertical.
-  [[nodiscard]] Real depth_below_top(const mpm::SparseGrid<Dim, Real>& grid,
-                                     const mpm::Particles<Dim, Real>& particles, std::uint32_t p) const;
+  [[nodiscard]] Real depth_below_top(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
+                                     std::uint32_t p) const;
 
  private:
   struct Column {

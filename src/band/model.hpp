@@ -44,9 +44,9 @@ struct BandModel {
   Real clapeyron_sign = 1;  // +1 as usual, -1 as Eq. 4 prints it
   bool normal_thickness = true;
   bool thickness_each_step = true;
-  Real gravity = 0;                                // magnitude [m/s2]
-  std::vector<Real> hydraulic_conductivity;        // by material [m/s]
-  std::vector<Real> half_size;                     // of a body's particles, in cells
+  Real gravity = 0;                          // magnitude [m/s2]
+  std::vector<Real> hydraulic_conductivity;  // by material [m/s]
+  std::vector<Real> half_size;               // of a body's particles, in cells
 
   // Calls work(content) with the heat content law of the run.
   template <class Work>

@@ -30,8 +30,8 @@ Real melting_pressure(const BandModel<Dim, Real>& model, Real ice_pressure) {
   return ice_pressure * model.phases.water_density / model.phases.ice_density;
 }
 
-// Seepage between melted particles (Eq. 23 with the consistent scaling: xi over an unscaled flow, V / xi of pore space);
-// frozen particles keep their pressure and act as sinks.
+// Seepage between melted particles (Eq. 23 with the consistent scaling: xi over an unscaled flow, V / xi of pore
+// space); frozen particles keep their pressure and act as sinks.
 template <int Dim, class Real>
 void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                      const mpm::Nodes<Dim, Real>& nodes, SeepageNodes<Dim, Real>& work,
@@ -162,10 +162,10 @@ void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Re
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                              \
-  template void drain_pore_pressure<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&,        \
-                                               const FlowDepth<Dim, Real>&, Real, const mpm::Nodes<Dim, Real>&,       \
-                                               SeepageNodes<Dim, Real>&, mpm::Particles<Dim, Real>&);                 \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \
+  template void drain_pore_pressure<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&,  \
+                                               const FlowDepth<Dim, Real>&, Real, const mpm::Nodes<Dim, Real>&, \
+                                               SeepageNodes<Dim, Real>&, mpm::Particles<Dim, Real>&);           \
   template void set_pore_pressure<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);
 THAWSLIDE_INSTANTIATE(2, double)
 THAWSLIDE_INSTANTIATE(3, double)

@@ -15,8 +15,8 @@ struct AlignedAllocator {
   AlignedAllocator() = default;
   template <class U>
   AlignedAllocator(const AlignedAllocator<U>& /*other*/) noexcept {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{cache_line})); }
-  void deallocate(T* pointer, std::size_t /*n*/) noexcept { ::operator delete(pointer, std::align_val_t{cache_line}); }
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{cache_line})); }
+  void deallocate(T* pointer, std::size_t /*n*/) noexcept { ::operator delete (pointer, std::align_val_t{cache_line}); }
   template <class U>
   bool operator==(const AlignedAllocator<U>& /*other*/) const noexcept {
     return true;

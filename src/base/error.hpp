@@ -1,4 +1,5 @@
-// The two families of failure. UserError and RunError are thrown and always on; THAWSLIDE_ASSERT is for our own mistakes.
+// The two families of failure. UserError and RunError are thrown and always on; THAWSLIDE_ASSERT is for our own
+// mistakes.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +18,8 @@ class UserError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A run that went bad (not finite, out of the domain, inverted): names particle, place, time and likely cause. Exit code 3.
+// A run that went bad (not finite, out of the domain, inverted): names particle, place, time and likely cause. Exit
+// code 3.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -34,9 +36,9 @@ class InternalError : public std::logic_error {
 }  // namespace thawslide
 
 // Checks an invariant of the program; the further arguments (a fmt format and values) go into the message.
-#define THAWSLIDE_ASSERT(condition, ...)                                                        \
-  do {                                                                                          \
-    if (!(condition)) {                                                                         \
-      ::thawslide::fail_assertion(#condition, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__));  \
-    }                                                                                           \
+#define THAWSLIDE_ASSERT(condition, ...)                                                       \
+  do {                                                                                         \
+    if (!(condition)) {                                                                        \
+      ::thawslide::fail_assertion(#condition, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__)); \
+    }                                                                                          \
   } while (false)

@@ -1,3 +1,4 @@
+// Checks of bodies and frames against the grid, the terrain and the materials.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -19,7 +19,7 @@ struct RigidFrame {
 
 template <int Dim, class Real>
 struct Constraints {
-  Vector<Real, Dim> extent;  // upper corner of the domain [m]; the lower corner is the origin
+  Vector<Real, Dim> extent;      // upper corner of the domain [m]; the lower corner is the origin
   FaceKind faces[2 * Dim] = {};  // lower and upper face of each axis
   std::vector<RigidFrame<Dim, Real>> frames;
 

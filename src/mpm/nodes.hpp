@@ -15,7 +15,7 @@ struct MomentumLayout {
   static constexpr std::size_t pore_pressure = 1 + 3 * Dim;    // sum S m P [kg Pa]; with the three below for nodes
   static constexpr std::size_t saturation = 2 + 3 * Dim;       // without hat weight
   static constexpr std::size_t porosity = 3 + 3 * Dim;
-  static constexpr std::size_t slip = 4 + 3 * Dim;             // sum S m slip [kg m]
+  static constexpr std::size_t slip = 4 + 3 * Dim;  // sum S m slip [kg m]
   static constexpr int size = 5 + 3 * Dim;
 };
 

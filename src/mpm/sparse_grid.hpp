@@ -28,8 +28,9 @@ class SparseGrid {
   [[nodiscard]] Real cell() const { return cell_; }
   [[nodiscard]] Real inverse_cell() const { return inverse_cell_; }
 
-  // Brings order, tiles and blocks up to date with the particles' positions. Particles stand by nearest node, then by id,
-  // whatever their place in memory. Every `interval` calls particles are also moved in memory to stand in this order.
+  // Brings order, tiles and blocks up to date with the particles' positions. Particles stand by nearest node, then by
+  // id, whatever their place in memory. Every `interval` calls particles are also moved in memory to stand in this
+  // order.
   void update(Particles<Dim, Real>& particles, int interval);
 
   // Particle indices in canonical order.

@@ -1,5 +1,6 @@
-// Tiles: squares (2D) or cubes (3D) of 4 nodes a side. Tiles with particles own a patch, one node wider on each side, to
-// which their particles alone add; sums over patches go in fixed order, so results do not depend on the thread count.
+// Tiles: squares (2D) or cubes (3D) of 4 nodes a side. Tiles with particles own a patch, one node wider on each side,
+// to which their particles alone add; sums over patches go in fixed order, so results do not depend on the thread
+// count.
 #pragma once
 
 #include <array>

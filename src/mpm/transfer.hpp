@@ -46,8 +46,8 @@ class NodeRecords {
   AlignedVector<Patch<Dim, Real, Components>> patches_;
 };
 
-// Calls visit(block_place, patch_place) for each node that block and patch share, the block lying in `direction` (0 .. 3^Dim-1)
-// from the patch's tile.
+// Calls visit(block_place, patch_place) for each node that block and patch share, the block lying in `direction` (0 ..
+// 3^Dim-1) from the patch's tile.
 template <int Dim, class Visit>
 void for_shared_nodes(int direction, const Visit& visit) {
   using T = Tile<Dim>;
@@ -70,8 +70,9 @@ void for_shared_nodes(int direction, const Visit& visit) {
     for (int k = first[2]; k < last[2]; ++k) {
       for (int j = first[1]; j < last[1]; ++j) {
         for (int i = first[0]; i < last[0]; ++i) {
-          visit(static_cast<std::size_t>((k * T::edge + j) * T::edge + i),
-                static_cast<std::size_t>(((k + shift[2]) * T::patch_edge + j + shift[1]) * T::patch_edge + i + shift[0]));
+          visit(
+              static_cast<std::size_t>((k * T::edge + j) * T::edge + i),
+              static_cast<std::size_t>(((k + shift[2]) * T::patch_edge + j + shift[1]) * T::patch_edge + i + shift[0]));
         }
       }
     }
@@ -112,9 +113,8 @@ void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const NodeReco
   const std::int32_t* blocks = grid.blocks_about_tile(t);
   for (int d = 0; d < Tile<Dim>::stencil; ++d) {
     const auto block = static_cast<std::size_t>(blocks[d]);
-    for_shared_nodes<Dim>(d, [&](std::size_t in_block, std::size_t in_patch) {
-      patch.records[in_patch] = nodes(block, in_block);
-    });
+    for_shared_nodes<Dim>(
+        d, [&](std::size_t in_block, std::size_t in_patch) { patch.records[in_patch] = nodes(block, in_block); });
   }
 }
 

@@ -1,4 +1,5 @@
-// Linear isotropic elasticity. Tension positive; tensors xx yy zz xy yz xz with tensor shear strains.
+// Linear isotropic elasticity (the elastic part of Eq. 11). Tension positive; tensors xx yy zz xy yz xz with tensor
+// shear strains.
 //   d sigma = lambda tr(d eps) I + 2 G d eps,  lambda = E nu/((1+nu)(1-2nu)),  G = E/(2(1+nu))
 #pragma once
 

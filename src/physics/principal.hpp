@@ -1,4 +1,4 @@
-// Principal values and axes of a symmetric tensor.
+// Principal values and axes of a symmetric tensor: closed in the plane, else by rotations (Jacobi 1846).
 #pragma once
 
 #include <cmath>

@@ -148,8 +148,8 @@ void seed_body(const config::Case& parameters, const config::Body& body, int num
   }
 }
 
-// Geostatic normal stress and K0 in the axes of the ground below (of gravity where there is no ground); with slope shear
-// if asked for, which balances an infinite slope.
+// Geostatic normal stress and K0 in the axes of the ground below (of gravity where there is no ground); with slope
+// shear if asked for, which balances an infinite slope.
 template <int Dim, class Real>
 SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model<Dim, Real>& model,
                                      const Seed<Dim>& seed, double density, double poisson_ratio) {
@@ -202,9 +202,10 @@ void fill_bodies(const config::Case& parameters, const Model<Dim, Real>& model, 
     const std::size_t before = seeds.size();
     seed_body<Dim>(parameters, body, static_cast<int>(bodies.size()), seeds);
     if (seeds.size() == before) {
-      throw UserError(fmt::format("{}: body '{}' holds no particle: it is thinner than the particle spacing of {} m. Make "
-                                  "the body larger or grid.cell smaller.",
-                                  parameters.file, name, parameters.grid.cell / body.particles_per_axis));
+      throw UserError(
+          fmt::format("{}: body '{}' holds no particle: it is thinner than the particle spacing of {} m. Make "
+                      "the body larger or grid.cell smaller.",
+                      parameters.file, name, parameters.grid.cell / body.particles_per_axis));
     }
     bodies.push_back(&body);
     const auto material = std::find(model.material_names.begin(), model.material_names.end(), body.material);

@@ -9,8 +9,8 @@ struct Ledger {
   Real stress_work = 0, plastic = 0, viscous = 0, damping = 0;
   Real friction_work = 0, contact_loss = 0, frame_work = 0;
   // What the transfers make or lose, computed and not left over: the kinetic energy that FLIP gives particles less what
-  // nodes gained, sum m_p |dv_p|^2/2 - sum m_i |dv_i|^2/2; and the work of internal forces at the nodes' mid-step velocity
-  // less that at the mapped-back (MUSL) velocity, which is what the stress work books.
+  // nodes gained, sum m_p |dv_p|^2/2 - sum m_i |dv_i|^2/2; and the work of internal forces at the nodes' mid-step
+  // velocity less that at the mapped-back (MUSL) velocity, which is what the stress work books.
   Real numerical = 0;
   // Thermal.
   Real friction_heat = 0, boundary_heat = 0, band_rescale = 0, advection = 0;

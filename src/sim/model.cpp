@@ -147,8 +147,8 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
                                                                             : band::FaceHeat::insulated;
     band.faces[f].value = static_cast<Real>(face.value);
   }
-  band.region = parameters.band.region == config::BandRegion::all ? band::ScaledRegion::all
-                                                                  : band::ScaledRegion::first_layer;
+  band.region =
+      parameters.band.region == config::BandRegion::all ? band::ScaledRegion::all : band::ScaledRegion::first_layer;
   band.lubrication = parameters.mechanisms.lubrication;
   band.pressure = parameters.pressure.enabled;
   band.thermal_pressurization = parameters.pressure.thermal_pressurization;

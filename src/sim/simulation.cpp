@@ -8,7 +8,8 @@
 
 namespace thawslide::sim {
 
-// The discrete step, Section 2.3 of the paper; all stages use the shape functions at the positions the step begins with.
+// The discrete step, Section 2.3 of the paper; all stages use the shape functions at the positions the step begins
+// with.
 //   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
 //   P_i, S_i, n_i: averages with the linear hats                                               Eq. 21
 //   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
@@ -32,7 +33,8 @@ void Simulation<Dim, Real>::step(double dt) {
   stopwatch_.time("take_new_positions", [&] { take_new_positions(); });
   ++step_number_;
   const bool fixed = parameters_.time.stepping == config::Stepping::fixed && dt == parameters_.time.step;
-  time_ = fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
+  time_ =
+      fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
   last_step_ = dt;
   stop_if_bad();
 }
@@ -91,10 +93,8 @@ void Simulation<Dim, Real>::conduct_heat() {
   if (!model_.band.heat) {
     return;
   }
-  ledger_.band_rescale +=
-      band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
-  const auto gain =
-      band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, heat_nodes_, particles_);
+  ledger_.band_rescale += band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
+  const auto gain = band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, heat_nodes_, particles_);
   ledger_.friction_heat += gain.friction;
   ledger_.boundary_heat += gain.boundary;
   ledger_.advection += gain.advection;
@@ -128,9 +128,10 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters)
   if (parameters_.time.stepping == config::Stepping::fixed) {
     const StepLimit limit = step_limit();
     if (parameters_.time.step > limit.step) {
-      throw UserError(fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step, or "
-                                  "time.stepping = \"adaptive\".",
-                                  parameters_.file, parameters_.time.step, limit.step, limit.what));
+      throw UserError(
+          fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step, or "
+                      "time.stepping = \"adaptive\".",
+                      parameters_.file, parameters_.time.step, limit.step, limit.what));
     }
   }
   find_particles_cells();
@@ -144,8 +145,8 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters)
   start_ledger();
 }
 
-// Gravity switched on while mass damping takes the motion and the base holds; then everything but the stress is as at the
-// start.
+// Gravity switched on while mass damping takes the motion and the base holds; then everything but the stress is as at
+// the start.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::settle() {
   const bool heat = model_.band.heat;
@@ -153,9 +154,8 @@ void Simulation<Dim, Real>::settle() {
   model_.band.heat = model_.band.pressure = false;
   model_.contact.frictionless_hold = true;
   model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
-  const double dt = parameters_.time.stepping == config::Stepping::fixed
-                        ? parameters_.time.step
-                        : parameters_.time.safety * step_limit().step;
+  const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
+                                                                         : parameters_.time.safety * step_limit().step;
   const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
   for (std::int64_t k = 0; k < steps; ++k) {
     step(dt);
@@ -252,7 +252,8 @@ void Simulation<Dim, Real>::stop_if_bad() {
     if (particles_.id(p) == bad_.id) {
       std::string place;
       for (int a = 0; a < Dim; ++a) {
-        place += fmt::format("{}{:.6g}", a == 0 ? "" : ", ", static_cast<double>(particles_.position(p, a)) + model_.origin[a]);
+        place += fmt::format("{}{:.6g}", a == 0 ? "" : ", ",
+                             static_cast<double>(particles_.position(p, a)) + model_.origin[a]);
       }
       const bool left = std::string(bad_.what).find("domain") != std::string::npos;
       throw RunError(fmt::format(
@@ -269,14 +270,30 @@ void Simulation<Dim, Real>::stop_if_bad() {
 template <int Dim, class Real>
 std::vector<double> Simulation<Dim, Real>::scalars() const {
   const Ledger<Real>& l = ledger_;
-  return {time_, last_step_, rear_at_start_, static_cast<double>(step_number_), l.stress_work, l.plastic, l.viscous,
-          l.damping, l.friction_work, l.contact_loss, l.frame_work, l.numerical, l.friction_heat, l.boundary_heat,
-          l.band_rescale, l.advection, l.initial_mechanical, l.initial_thermal};
+  return {time_,
+          last_step_,
+          rear_at_start_,
+          static_cast<double>(step_number_),
+          l.stress_work,
+          l.plastic,
+          l.viscous,
+          l.damping,
+          l.friction_work,
+          l.contact_loss,
+          l.frame_work,
+          l.numerical,
+          l.friction_heat,
+          l.boundary_heat,
+          l.band_rescale,
+          l.advection,
+          l.initial_mechanical,
+          l.initial_thermal};
 }
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
-  THAWSLIDE_ASSERT(scalars.size() == this->scalars().size(), "{} numbers for {}", scalars.size(), this->scalars().size());
+  THAWSLIDE_ASSERT(scalars.size() == this->scalars().size(), "{} numbers for {}", scalars.size(),
+                   this->scalars().size());
   std::size_t k = 0;
   time_ = scalars[k++];
   last_step_ = scalars[k++];
@@ -301,7 +318,8 @@ BodySums<Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
     const Real mass = particles.mass(p);
     for (int a = 0; a < Dim; ++a) {
       sums.kinetic += Real(0.5) * mass * particles.velocity(p, a) * particles.velocity(p, a);
-      sums.potential -= mass * model.motion.gravity[a] * (particles.position(p, a) + static_cast<Real>(model.origin[a]));
+      sums.potential -=
+          mass * model.motion.gravity[a] * (particles.position(p, a) + static_cast<Real>(model.origin[a]));
     }
     const Real thermal_volume = particles.initial_volume(p) / particles.thermal_scaling(p);
     const bool latent_counts = simulation.parameters().heat.latent;

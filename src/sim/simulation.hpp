@@ -69,9 +69,7 @@ class Simulation {
   void start_ledger();
   void stop_if_bad();
   [[nodiscard]] double band_thickness() const;
-  [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const {
-    return model_.ground ? &ground_ : nullptr;
-  }
+  [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
 
   config::Case parameters_;
   Model<Dim, Real> model_;

@@ -9,14 +9,15 @@ namespace thawslide::sim {
 
 namespace {
 
-// Measured on resting and sliding blocks with 2 particles a cell and axis (docs/theory.md, "Stability limits"): the step at
-// which noise grows, in units of the textbook limits named beside each.
-constexpr double wave_share = 1.0;        // of cell / P-wave speed
-constexpr double particle_share = 0.5;    // of cell / particle speed: a particle may not pass a node unseen
-constexpr double diffusion_share = 1.0;   // of length^2 / (2 Dim diffusivity)
+// Measured on resting and sliding blocks with 2 particles a cell and axis (docs/theory.md, "Stability limits"): the
+// step at which noise grows, in units of the textbook limits named beside each.
+constexpr double wave_share = 1.0;       // of cell / P-wave speed
+constexpr double particle_share = 0.5;   // of cell / particle speed: a particle may not pass a node unseen
+constexpr double diffusion_share = 1.0;  // of length^2 / (2 Dim diffusivity)
 
 // The step at which a wave of speed c is resolved on cells h. Kelvin-Voigt viscosity of time tau adds damping that an
-// explicit step must resolve too: dt^2 c^2/h^2 + 2 dt tau c^2/h^2 <= 1 at the highest frequency the particles excite.
+// explicit step must resolve too: dt^2 c^2/h^2 + dt tau c^2/h^2 <= 1, as measured (the textbook has twice the second
+// term and would refuse steps that run without trouble).
 double wave_limit(double cell, double speed, double viscosity_time) {
   const double frequency = speed / cell;
   const double damping = viscosity_time * frequency;
@@ -61,7 +62,8 @@ StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, R
       const auto& material = model.motion.materials[m];
       const double speed = std::sqrt(static_cast<double>(material.elastic.p_wave_modulus()) / smallest_density);
       take(wave_share * wave_limit(cell, speed, static_cast<double>(material.viscosity_time)),
-           fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", model.material_names[m], speed,
+           fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", model.material_names[m],
+                       speed,
                        material.viscosity_time > Real(0)
                            ? fmt::format(", viscosity {} s", static_cast<double>(material.viscosity_time))
                            : std::string(),

@@ -46,10 +46,9 @@ struct BasalNodes {
 template <class Real>
 void evaluate_basal_law(const BasalLaw<Real>& law, Real time, BasalNodes<Real>& nodes) {
   for (std::size_t k = 0; k < nodes.count; ++k) {
-    const Real factor = law.lubricated
-                            ? physics::lubrication_factor(nodes.solid_fraction[k], law.min_solid_fraction,
-                                                          law.max_solid_fraction, law.lubrication_exponent)
-                            : Real(1);
+    const Real factor = law.lubricated ? physics::lubrication_factor(nodes.solid_fraction[k], law.min_solid_fraction,
+                                                                     law.max_solid_fraction, law.lubrication_exponent)
+                                       : Real(1);
     nodes.friction[k] = factor * law.friction_coefficient;
     Real cohesion = law.cohesion;
     switch (law.cohesion_loss) {

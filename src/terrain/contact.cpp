@@ -26,9 +26,9 @@ struct NodeState {
 };
 
 template <int Dim, class Real>
-NodeState<Dim, Real> trial_state(const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& position,
-                                 Real time, Real dt, Real damping,
-                                 const typename mpm::NodeRecords<Dim, Real, MomentumLayout<Dim>::size>::Record& record) {
+NodeState<Dim, Real> trial_state(
+    const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& position, Real time, Real dt, Real damping,
+    const typename mpm::NodeRecords<Dim, Real, MomentumLayout<Dim>::size>::Record& record) {
   NodeState<Dim, Real> state;
   state.mass = record[MomentumLayout<Dim>::mass];
   state.old_momentum = mpm::vector_at<Dim, Real>(record, MomentumLayout<Dim>::momentum);
@@ -176,8 +176,8 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       if (!(states[k].mass > Real(0))) {
         continue;
       }
-      states[k] = trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping,
-                              nodes.momentum(b, k));
+      states[k] =
+          trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping, nodes.momentum(b, k));
       if (known != nullptr && (*known)[k].candidate && states[k].momentum.dot((*known)[k].normal) > Real(0)) {
         add_contact_node(nodes, b, k, grid.cell(), dt, model, phases, (*known)[k].normal, states[k], contact);
       }
@@ -288,15 +288,15 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                              \
-  template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                         \
-      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&,          \
-      const ContactModel<Dim, Real>&, const physics::Phases<Real>&, Real, Real, mpm::Nodes<Dim, Real>&);              \
-  template Real constrain_mapped_back<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,   \
-                                                 const mpm::Constraints<Dim, Real>&, const Vector<Real, Dim>&, Real,  \
-                                                 Real, mpm::Nodes<Dim, Real>&);                                       \
-  template void mark_band_and_slip<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,      \
-                                              Real, const mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
+  template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                          \
+      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&,           \
+      const ContactModel<Dim, Real>&, const physics::Phases<Real>&, Real, Real, mpm::Nodes<Dim, Real>&);               \
+  template Real constrain_mapped_back<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,    \
+                                                 const mpm::Constraints<Dim, Real>&, const Vector<Real, Dim>&, Real,   \
+                                                 Real, mpm::Nodes<Dim, Real>&);                                        \
+  template void mark_band_and_slip<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, Real, \
+                                              const mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&);
 THAWSLIDE_INSTANTIATE(2, double)
 THAWSLIDE_INSTANTIATE(3, double)
 #undef THAWSLIDE_INSTANTIATE

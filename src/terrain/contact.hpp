@@ -14,14 +14,14 @@ namespace thawslide::terrain {
 // What contact and constraints did in one step. Energies [J], forces [N], areas [m2].
 template <int Dim, class Real>
 struct ContactWork {
-  Real friction_work = 0;       // dissipated by sliding
-  Real friction_heat = 0;       // the part of it that heats the slide
-  Real loss = 0;                // taken by impact on ground and walls, and by sticking
-  Real frame_work = 0;          // done by rigid frames on the slide
-  Real damping = 0;             // taken by mass damping
-  Real node_kinetic = 0;        // sum m |a dt|^2 / 2 over nodes
-  Real area = 0;                // in contact
-  Real friction_area = 0;       // sum mu_e A
+  Real friction_work = 0;                               // dissipated by sliding
+  Real friction_heat = 0;                               // the part of it that heats the slide
+  Real loss = 0;                                        // taken by impact on ground and walls, and by sticking
+  Real frame_work = 0;                                  // done by rigid frames on the slide
+  Real damping = 0;                                     // taken by mass damping
+  Real node_kinetic = 0;                                // sum m |a dt|^2 / 2 over nodes
+  Real area = 0;                                        // in contact
+  Real friction_area = 0;                               // sum mu_e A
   Vector<Real, Dim> force = Vector<Real, Dim>::Zero();  // on the ground
 };
 
@@ -42,14 +42,15 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                        Real time, Real dt, mpm::Nodes<Dim, Real>& nodes);
 
 // The mapped-back momenta (MUSL) become velocities: constraints again, and at contact nodes the inward normal
-// component is removed (no friction, no heat). Returns sum f_int.(v_mid - v_mapped) dt [J]: the work that internal forces
-// did on the nodes, less the stress work that the mapped-back velocities will book.
+// component is removed (no friction, no heat). Returns sum f_int.(v_mid - v_mapped) dt [J]: the work that internal
+// forces did on the nodes, less the stress work that the mapped-back velocities will book.
 template <int Dim, class Real>
 Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                            const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& gravity, Real time,
                            Real dt, mpm::Nodes<Dim, Real>& nodes);
 
-// Marks particles in a cell with a candidate corner as band particles, and adds the slip of the contact nodes to theirs.
+// Marks particles in a cell with a candidate corner as band particles, and adds the slip of the contact nodes to
+// theirs.
 template <int Dim, class Real>
 void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
                         const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);

@@ -21,8 +21,8 @@ class Polyline {
   [[nodiscard]] double highest(double from, double to) const;
 
   struct Nearest {
-    double distance;               // [m], positive above the ground
-    Vector<double, 2> normal;      // unit vector from above into the ground
+    double distance;           // [m], positive above the ground
+    Vector<double, 2> normal;  // unit vector from above into the ground
   };
   [[nodiscard]] Nearest nearest(double x, double height) const;
 
@@ -38,9 +38,9 @@ class Polyline {
 // What a node knows of the ground, computed once.
 template <int Dim, class Real>
 struct GroundAtNode {
-  bool candidate = false;           // the node's linear hat overlaps the ground
-  Vector<Real, Dim> normal;         // unit vector from the slide into the ground
-  Real distance = 0;                // [m], positive above the ground
+  bool candidate = false;    // the node's linear hat overlaps the ground
+  Vector<Real, Dim> normal;  // unit vector from the slide into the ground
+  Real distance = 0;         // [m], positive above the ground
 };
 
 // The ground a run uses; the vertical is the last axis.
