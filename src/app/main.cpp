@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "config/problems.hpp"
 #include "version.hpp"
 
 namespace {
@@ -34,6 +35,24 @@ void add_case_options(CLI::App& command, CaseOptions& options) {
 void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Threads (default: the cores this process may use)")
       ->check(CLI::Range(1, 1024));
+}
+
+// A misspelt command is named, with its nearest neighbour.
+void require_known_command(const CLI::App& program, int count, char** arguments) {
+  if (count < 2 || arguments[1][0] == '-') {
+    return;
+  }
+  std::vector<std::string> commands;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    commands.push_back(command->get_name());
+    if (command->get_name() == arguments[1]) {
+      return;
+    }
+  }
+  const std::string hint = thawslide::config::did_you_mean(arguments[1], commands);
+  throw thawslide::UserError(
+      fmt::format("there is no command '{}'{} Commands: {}. Run with --help for more information.", arguments[1],
+                  hint.empty() ? "." : hint, thawslide::config::list_words(commands)));
 }
 
 int run_program(int count, char** arguments) {
@@ -86,6 +105,7 @@ int run_program(int count, char** arguments) {
   CLI::App* show_version = program.add_subcommand("version", "Version, commit and build");
   show_version->callback([&] { exit_code = print_version(); });
 
+  require_known_command(program, count, arguments);
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {

@@ -26,6 +26,12 @@ def test_wrong_words_exit_2_and_point_to_help(thawslide: Program, words: list[ob
     outcome = thawslide(*words)
     assert outcome.returncode == 2
     assert "Run with --help for more information." in outcome.stderr
+
+
+def test_a_misspelt_command_names_its_neighbour(thawslide: Program) -> None:
+    outcome = thawslide("rum")
+    assert outcome.returncode == 2
+    assert "there is no command 'rum'; did you mean 'run'?" in outcome.stderr
     assert outcome.stdout == ""
 
 
