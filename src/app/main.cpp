@@ -16,11 +16,13 @@ namespace {
 using thawslide::ExitCode;
 using namespace thawslide::app;
 
-// Threads that wait must not burn the core another one needs; the OpenMP library reads this before main begins, so the
+// Threads that wait must not burn the core another one needs: they spin for some microseconds, which spares most waits
+// within a step a trip through the kernel, and then sleep. The OpenMP library reads this before main begins, so the
 // program starts itself once more with it set.
 void let_threads_wait_passively(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") == nullptr) {
     setenv("OMP_WAIT_POLICY", "passive", 1);
+    setenv("GOMP_SPINCOUNT", "5000", 0);
     execv("/proc/self/exe", arguments);
   }
 }

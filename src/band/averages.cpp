@@ -22,8 +22,7 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particle
       const Real pore_pressure = particles.pore_pressure(p);
       const Real saturation = model.lubrication ? particles.liquid_saturation(p) : particles.initial_saturation(p);
       const Real porosity = model.lubrication ? particles.porosity(p) : particles.initial_porosity(p);
-      const auto stencil = mpm::make_stencil<mpm::Linear<Real>, Dim, Real>(
-          grid, tile.key, particles.position.template get<Vector<Real, Dim>>(p), Real(0));
+      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
         auto& node = patch.records[place];
         const Real v = weight * volume;

@@ -10,13 +10,6 @@ using mpm::ContactLayout;
 using mpm::HatLayout;
 using mpm::MomentumLayout;
 
-template <int Dim, class Real>
-mpm::Stencil<Dim, Real> hat_stencil(const mpm::SparseGrid<Dim, Real>& grid, std::uint64_t tile,
-                                    const mpm::Particles<Dim, Real>& particles, std::uint32_t p) {
-  return mpm::make_stencil<mpm::Linear<Real>, Dim, Real>(
-      grid, tile, particles.position.template get<Vector<Real, Dim>>(p), Real(0));
-}
-
 // The face of the domain a node lies on, if that face has a condition for heat; null otherwise.
 template <int Dim, class Real>
 const HeatFace<Real>* face_of(const BandModel<Dim, Real>& model, const Vector<Real, Dim>& position) {
@@ -69,7 +62,7 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
     const auto& tile = grid.tiles()[t];
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
-      const auto stencil = hat_stencil(grid, tile.key, particles, p);
+      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       Vector<Real, Dim> temperature_gradient = Vector<Real, Dim>::Zero();
       Vector<Real, Dim> pressure_gradient = Vector<Real, Dim>::Zero();
       stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
@@ -163,7 +156,7 @@ HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
 }
 
 template <int Dim, class Real>
-Real interpolated_rate(const mpm::Stencil<Dim, Real>& stencil, const mpm::Patch<Dim, Real, 3>& state) {
+Real interpolated_rate(const mpm::Stencil<Dim, Real, 2>& stencil, const mpm::Patch<Dim, Real, 3>& state) {
   Real rate = 0;
   stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
     rate += weight * state.records[place][2];
@@ -185,7 +178,7 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Conte
     const auto& tile = grid.tiles()[t];
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
-      const auto stencil = hat_stencil(grid, tile.key, particles, p);
+      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       const Real change = dt * interpolated_rate(stencil, state);
       if (!content.drowns_in_round_off(change)) {  // else the tangent, which stands there already, is the secant
         particles.secant_capacity(p) =
@@ -215,7 +208,7 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
     const auto& tile = grid.tiles()[t];
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
-      const auto stencil = hat_stencil(grid, tile.key, particles, p);
+      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       Real gain = particles.secant_capacity(p) * dt * interpolated_rate(stencil, state);
       if (work.any_orphan) {
         const auto wide = mpm::make_stencil<mpm::Ugimp<Real>, Dim, Real>(
@@ -232,8 +225,8 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
       const Real heat_content = particles.heat_content(p) + gain;
       if (heat_content != particles.heat_content(p)) {
         particles.heat_content(p) = heat_content;
-        particles.temperature(p) =
-            content.temperature(particles.heat_content(p), particles.initial_porosity(p), old_temperature);
+        const Real guess = old_temperature + gain / particles.secant_capacity(p);
+        particles.temperature(p) = content.temperature(heat_content, particles.initial_porosity(p), guess);
         particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
         particles.porosity(p) = physics::updated_porosity(model.phases, particles.porosity(p), Real(0),
                                                           particles.temperature(p) - old_temperature);

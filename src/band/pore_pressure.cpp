@@ -57,8 +57,7 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
       if (!melted_before(model, particles, p) || !(hydraulic > Real(0))) {
         continue;
       }
-      const auto stencil = mpm::make_stencil<mpm::Linear<Real>, Dim, Real>(
-          grid, tile.key, particles.position.template get<Vector<Real, Dim>>(p), Real(0));
+      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       Vector<Real, Dim> gradient = Vector<Real, Dim>::Zero();
       stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
         gradient += pressure.records[place][0] * slope;
@@ -79,7 +78,7 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
 
 // Rate of pressure by seepage at a particle (Eq. 22).
 template <int Dim, class Real>
-Real seepage_rate(const mpm::Stencil<Dim, Real>& stencil, const mpm::Patch<Dim, Real, 2>& flows) {
+Real seepage_rate(const mpm::Stencil<Dim, Real, 2>& stencil, const mpm::Patch<Dim, Real, 2>& flows) {
   Real rate = 0;
   stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
     const auto& node = flows.records[place];
@@ -132,8 +131,7 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
       const bool was_melted = melted_before(model, particles, p);
       Real seepage_change = 0;
       if (seepage && was_melted) {
-        const auto stencil = mpm::make_stencil<mpm::Linear<Real>, Dim, Real>(
-            grid, tile.key, particles.position.template get<Vector<Real, Dim>>(p), Real(0));
+        const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
         seepage_change = dt * seepage_rate(stencil, flows);
       }
       pressurize(model, was_melted, seepage_change, particles, p);

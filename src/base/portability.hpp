@@ -8,6 +8,10 @@
 #define THAWSLIDE_HD
 #endif
 
+// A small function of the innermost loops that g++ leaves out of line on its own, at the price of passing its result
+// through memory.
+#define THAWSLIDE_ALWAYS_INLINE [[gnu::always_inline]] inline
+
 namespace thawslide {
 
 // Absolute temperature of 0 degrees Celsius [K].

@@ -19,9 +19,9 @@ void with_shape(ShapeKind kind, const Work& work) {
 }
 
 template <int Dim, class Real>
-Stencil<Dim, Real> momentum_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile, std::uint32_t p,
-                                    const Particles<Dim, Real>& particles, const MotionModel<Dim, Real>& model,
-                                    auto shape) {
+THAWSLIDE_ALWAYS_INLINE Stencil<Dim, Real> momentum_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile,
+                                                            std::uint32_t p, const Particles<Dim, Real>& particles,
+                                                            const MotionModel<Dim, Real>& model, auto shape) {
   return make_stencil<decltype(shape), Dim, Real>(grid, tile, particles.position.template get<Vector<Real, Dim>>(p),
                                                   model.bodies[static_cast<std::size_t>(particles.body(p))].half_size);
 }
@@ -138,9 +138,10 @@ namespace {
 // One particle's strain, rotation, stress, volume and porosity; returns the energies. Everything the law needs is
 // passed in.
 template <int Dim, class Real, class Law>
-StressWork<Real> deform(Particles<Dim, Real>& particles, std::uint32_t p,
-                        const Matrix<Real, Dim>& displacement_gradient, const Law& law,
-                        const MaterialModel<Real>& material, const physics::Phases<Real>& phases, Real dt) {
+THAWSLIDE_ALWAYS_INLINE StressWork<Real> deform(Particles<Dim, Real>& particles, std::uint32_t p,
+                                                const Matrix<Real, Dim>& displacement_gradient, const Law& law,
+                                                const MaterialModel<Real>& material,
+                                                const physics::Phases<Real>& phases, Real dt) {
   const auto increment = physics::strain_increment<Real, Dim>(displacement_gradient);
   const SymmetricTensor<Real> old_stress = full_tensor<Dim, Real>(particles.stress, p);
   const SymmetricTensor<Real> elastic = physics::stress_increment(material.elastic, increment.strain);

@@ -1,16 +1,20 @@
-// Shape functions. All act on the 3 nodes of each axis about the node nearest to the particle.
+// Shape functions: those of momentum act on the 3 nodes of each axis about the node nearest to the particle, the hats
+// of heat and pore pressure on the 2 nodes of the particle's cell.
 #pragma once
+
+#include <cstddef>
 
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 
 namespace thawslide::mpm {
 
-// Weights and their derivatives [1/m] of the nodes nearest-1, nearest, nearest+1 along one axis.
-template <class Real>
+// Weights and their derivatives [1/m] of neighbouring nodes along one axis, lowest first: nearest-1, nearest,
+// nearest+1, or with a width of 2 the two ends of the particle's cell.
+template <class Real, std::size_t Width = 3>
 struct AxisWeights {
-  Real weight[3];
-  Real slope[3];
+  Real weight[Width];
+  Real slope[Width];
 };
 
 // Linear hat functions. offset: particle minus nearest node, in cells, within [-1/2, 1/2].

@@ -119,26 +119,26 @@ void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const NodeReco
 }
 
 // The nodes a particle sees, as places in its tile's patch, and their weights.
-template <int Dim, class Real>
+template <int Dim, class Real, std::size_t Width = 3>
 struct Stencil {
   std::size_t first;  // place in the patch of the lowest node
-  std::array<AxisWeights<Real>, Dim> axis;
+  std::array<AxisWeights<Real, Width>, Dim> axis;
 
-  // Calls visit(place, weight, gradient) for each of the 3^Dim nodes.
+  // Calls visit(place, weight, gradient) for each of the Width^Dim nodes.
   template <class Visit>
   void for_each_node(const Visit& visit) const {
     constexpr auto row = static_cast<std::size_t>(Tile<Dim>::patch_edge);
     if constexpr (Dim == 2) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < Width; ++j) {
+        for (std::size_t i = 0; i < Width; ++i) {
           visit(first + j * row + i, axis[0].weight[i] * axis[1].weight[j],
                 Vector<Real, 2>(axis[0].slope[i] * axis[1].weight[j], axis[0].weight[i] * axis[1].slope[j]));
         }
       }
     } else {
-      for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t j = 0; j < 3; ++j) {
-          for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < Width; ++k) {
+        for (std::size_t j = 0; j < Width; ++j) {
+          for (std::size_t i = 0; i < Width; ++i) {
             const Real wij = axis[0].weight[i] * axis[1].weight[j];
             visit(first + (k * row + j) * row + i, wij * axis[2].weight[k],
                   Vector<Real, 3>(axis[0].slope[i] * axis[1].weight[j] * axis[2].weight[k],
@@ -164,6 +164,29 @@ Stencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t
   for (std::size_t a = 0; a < Dim; ++a) {
     lowest[a] = node[a] - tile[a] * T::edge - 1;
     stencil.axis[a] = Shape::weights(offset[static_cast<int>(a)], half, grid.inverse_cell());
+  }
+  stencil.first = static_cast<std::size_t>(T::in_patch(lowest));
+  return stencil;
+}
+
+// The corners of the particle's cell with its linear hats, which heat and pore pressure use whatever momentum uses.
+template <int Dim, class Real>
+THAWSLIDE_ALWAYS_INLINE Stencil<Dim, Real, 2> hat_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile_key,
+                                                          const Particles<Dim, Real>& particles, std::uint32_t p) {
+  using T = Tile<Dim>;
+  typename T::Index node{};
+  Vector<Real, Dim> offset;
+  grid.nearest_node(particles.position.template get<Vector<Real, Dim>>(p), node, offset);
+  const typename T::Index tile = T::index(tile_key);
+  const Real slope = grid.inverse_cell();
+  Stencil<Dim, Real, 2> stencil;
+  typename T::Index lowest{};
+  for (std::size_t a = 0; a < Dim; ++a) {
+    const Real from_node = offset[static_cast<int>(a)];  // in cells, within [-1/2, 1/2]
+    const bool left = from_node < Real(0);
+    const Real along = left ? Real(1) + from_node : from_node;
+    lowest[a] = node[a] - tile[a] * T::edge - (left ? 1 : 0);
+    stencil.axis[a] = {{Real(1) - along, along}, {-slope, slope}};
   }
   stencil.first = static_cast<std::size_t>(T::in_patch(lowest));
   return stencil;

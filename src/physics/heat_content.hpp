@@ -55,7 +55,7 @@ struct HeatContent {
       return curve.reference_temperature + (heat - melting) / (frozen + rise);
     }
     constexpr int most_iterations = 100;
-    constexpr Real close = static_cast<Real>(1e-7);  // converges quadratically: the next change is round-off
+    constexpr Real close = static_cast<Real>(1e-6);  // converges quadratically: the next change is round-off
     Real below = guess < curve.reference_temperature ? guess - curve.reference_temperature : Real(0);
     for (int k = 0; k < most_iterations; ++k) {
       const CurveValues<Real> values = curve.at(curve.reference_temperature + below);

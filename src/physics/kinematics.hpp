@@ -17,7 +17,8 @@ struct StrainIncrement {
 };
 
 template <class Real, int Dim>
-THAWSLIDE_HD StrainIncrement<Real, Dim> strain_increment(const Matrix<Real, Dim>& displacement_gradient) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE StrainIncrement<Real, Dim> strain_increment(
+    const Matrix<Real, Dim>& displacement_gradient) {
   using Square = Matrix<Real, Dim>;
   const Square identity = Square::Identity();
   const Square to_middle = identity + displacement_gradient / Real(2);
@@ -41,7 +42,8 @@ THAWSLIDE_HD StrainIncrement<Real, Dim> strain_increment(const Matrix<Real, Dim>
 
 // Q s Q^T; in the plane zz stays.
 template <class Real, int Dim>
-THAWSLIDE_HD SymmetricTensor<Real> rotate(const SymmetricTensor<Real>& tensor, const Matrix<Real, Dim>& rotation) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Real> rotate(const SymmetricTensor<Real>& tensor,
+                                                                  const Matrix<Real, Dim>& rotation) {
   SymmetricTensor<Real> rotated = tensor;
   if constexpr (Dim == 2) {
     Matrix<Real, 2> plane;

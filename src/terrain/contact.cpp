@@ -268,8 +268,7 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
     }
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
-      const auto stencil = mpm::make_stencil<mpm::Linear<Real>, Dim, Real>(
-          grid, tile.key, particles.position.template get<Vector<Real, Dim>>(p), Real(0));
+      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       bool in_band = false;
       Real weights = 0;
       Real slip = 0;
