@@ -1,0 +1,54 @@
+#include "base/table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+#include "base/parallel.hpp"
+
+namespace thawslide {
+namespace {
+
+TEST(Table, IsLinearBetweenEntriesAndConstantBeyond) {
+  const Table table({0.0, 10.0, 20.0}, {1.0, 3.0, -1.0});
+  EXPECT_DOUBLE_EQ(table.at(-5.0), 1.0);
+  EXPECT_DOUBLE_EQ(table.at(5.0), 2.0);
+  EXPECT_DOUBLE_EQ(table.at(15.0), 1.0);
+  EXPECT_DOUBLE_EQ(table.at(99.0), -1.0);
+  EXPECT_DOUBLE_EQ(Table(4.5).at(1e9), 4.5);
+}
+
+TEST(Table, AtAJumpTheLaterValueHolds) {
+  const Table band({0.0, 75.0, 75.0, 200.0}, {0.05, 0.05, 0.5, 0.5});
+  EXPECT_DOUBLE_EQ(band.at(74.999), 0.05);
+  EXPECT_DOUBLE_EQ(band.at(75.0), 0.5);
+}
+
+TEST(InitialField, LooksUpDepthOrX) {
+  InitialField field;
+  field.table = Table({0.0, 10.0}, {-2.0, -4.0});
+  field.over = InitialField::Over::depth;
+  EXPECT_DOUBLE_EQ(field.at(5.0, 1000.0), -3.0);
+  field.over = InitialField::Over::x;
+  EXPECT_DOUBLE_EQ(field.at(1000.0, 2.5), -2.5);
+}
+
+TEST(ParallelFor, RunsEachOnceAndPassesFailuresOn) {
+  std::vector<std::atomic<int>> runs(1000);
+  parallel_for(runs.size(), [&](std::size_t k) { ++runs[k]; });
+  for (const auto& count : runs) {
+    EXPECT_EQ(count, 1);
+  }
+  EXPECT_THROW(parallel_for(100,
+                            [](std::size_t k) {
+                              if (k == 57) {
+                                throw std::runtime_error("57");
+                              }
+                            }),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace thawslide

@@ -1,0 +1,126 @@
+// Shape functions on the grid: partition of unity, linear fields, and what the transfers keep.
+#include "mpm/shape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mpm/transfer.hpp"
+
+namespace thawslide::mpm {
+namespace {
+
+TEST(Ugimp, SumsToOneReproducesLinearFieldsAndHasItsOwnSlopes) {
+  const double inverse_cell = 1.0 / 5.0, h = 1e-6;
+  for (const double half : {0.25, 0.125, 0.5}) {
+    for (double d = -0.499; d < 0.5; d += 0.0137) {
+      const auto w = ugimp_weights(d, half, inverse_cell);
+      EXPECT_NEAR(w.weight[0] + w.weight[1] + w.weight[2], 1.0, 1e-15);
+      EXPECT_NEAR(w.slope[0] + w.slope[1] + w.slope[2], 0.0, 1e-15);
+      EXPECT_NEAR(-w.weight[0] + w.weight[2], d, 1e-15) << "the weights' centre is the particle";
+      EXPECT_NEAR(-w.slope[0] + w.slope[2], inverse_cell, 1e-15);
+      const auto ahead = ugimp_weights(d + h, half, inverse_cell);
+      const auto behind = ugimp_weights(d - h, half, inverse_cell);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_GE(w.weight[k], 0.0);
+        EXPECT_NEAR(w.slope[k], (ahead.weight[k] - behind.weight[k]) / (2 * h) * inverse_cell, 1e-5);
+      }
+    }
+  }
+}
+
+TEST(Ugimp, IsTheHatAveragedOverTheParticle) {
+  // Simpson's rule over the particle's width, with the hat's kinks as ends of its pieces.
+  const double half = 0.25, d = 0.1;
+  const auto hat = [](double x) { return std::max(0.0, 1.0 - std::abs(x)); };
+  for (int node = -1; node <= 1; ++node) {
+    double sum = 0.0;
+    const int parts = 20000;
+    for (int k = 0; k < parts; ++k) {
+      sum += hat(d - half + 2.0 * half * (k + 0.5) / parts - node) / parts;
+    }
+    EXPECT_NEAR(ugimp_weights(d, half, 1.0).weight[node + 1], sum, 1e-7) << node;
+  }
+}
+
+template <int Dim>
+void fill(Particles<Dim, double>& particles, std::size_t count) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(10.0, 90.0);
+  particles.resize(count);
+  for (std::size_t p = 0; p < count; ++p) {
+    particles.id(p) = static_cast<std::int64_t>(p);
+    for (int a = 0; a < Dim; ++a) {
+      particles.position(p, a) = place(random);
+    }
+  }
+}
+
+template <int Dim>
+void expect_hats_reproduce_a_linear_field() {
+  Particles<Dim, double> particles;
+  fill<Dim>(particles, 500);
+  SparseGrid<Dim, double> grid(5.0);
+  grid.update(particles, 64);
+  using T = Tile<Dim>;
+  std::size_t seen = 0;
+  for (const auto& tile : grid.tiles()) {
+    const auto index = T::index(tile.key);
+    for (std::uint32_t k = tile.first; k < tile.last; ++k, ++seen) {
+      const std::uint32_t p = grid.order()[k];
+      const auto stencil = hat_stencil(grid, tile.key, particles, p);
+      double sum = 0.0, x = 0.0;
+      Vector<double, Dim> gradient = Vector<double, Dim>::Zero();
+      stencil.for_each_node([&](std::size_t node, double weight, const Vector<double, Dim>& slope) {
+        // The patch's first node along x lies one before the tile.
+        const auto i = static_cast<double>(node % static_cast<std::size_t>(T::patch_edge));
+        const double at = 5.0 * (static_cast<double>(index[0] * T::edge) - 1.0 + i);
+        sum += weight;
+        x += weight * at;
+        gradient += at * slope;
+      });
+      EXPECT_NEAR(sum, 1.0, 1e-14);
+      EXPECT_NEAR(x, particles.position(p, 0), 1e-12);
+      EXPECT_NEAR(gradient[0], 1.0, 1e-12);
+      for (int a = 1; a < Dim; ++a) {
+        EXPECT_NEAR(gradient[a], 0.0, 1e-12);
+      }
+    }
+  }
+  EXPECT_EQ(seen, particles.size());
+}
+
+TEST(Hats, ReproduceALinearFieldInThePlane) { expect_hats_reproduce_a_linear_field<2>(); }
+TEST(Hats, ReproduceALinearFieldInSpace) { expect_hats_reproduce_a_linear_field<3>(); }
+
+TEST(SparseGrid, OrderDoesNotDependOnWhereParticlesStand) {
+  Particles<2, double> straight, shuffled;
+  fill<2>(straight, 1000);
+  fill<2>(shuffled, 1000);
+  std::vector<std::uint32_t> places(1000);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    places[k] = static_cast<std::uint32_t>((k * 387) % 1000);
+  }
+  shuffled.reorder(places);
+  SparseGrid<2, double> first(5.0), second(5.0);
+  first.update(straight, 64);
+  second.update(shuffled, 64);
+  ASSERT_EQ(first.order().size(), second.order().size());
+  for (std::size_t k = 0; k < first.order().size(); ++k) {
+    EXPECT_EQ(straight.id(first.order()[k]), shuffled.id(second.order()[k]));
+  }
+}
+
+TEST(SparseGrid, HoldsBlocksWhereParticlesAreAndNowhereElse) {
+  Particles<2, double> particles;
+  particles.resize(2);
+  particles.id(1) = 1;
+  particles.position(0, 0) = particles.position(0, 1) = 100.0;
+  particles.position(1, 0) = particles.position(1, 1) = 900000.0;
+  SparseGrid<2, double> grid(5.0);
+  grid.update(particles, 64);
+  EXPECT_LE(grid.blocks().size(), 18U) << "two particles a million metres apart touch at most 9 blocks each";
+}
+
+}  // namespace
+}  // namespace thawslide::mpm
