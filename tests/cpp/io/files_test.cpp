@@ -1,0 +1,196 @@
+// Files of a run: whole or absent, exact numbers, damage refused.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "base/error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/history_writer.hpp"
+#include "io/run_folder.hpp"
+#include "io/sha256.hpp"
+#include "io/snapshot.hpp"
+
+namespace thawslide::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+
+  template <class Work>
+  static std::string failure_of(const Work& work) {
+    try {
+      work();
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "no failure";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Files, AreWholeOrAbsent) {
+  write_file_atomically(folder_ / "a.txt", "first");
+  write_file_atomically(folder_ / "a.txt", "second, longer");
+  EXPECT_EQ(read_file(folder_ / "a.txt"), "second, longer");
+  const fs::path lost = folder_ / "none" / "a.txt";
+  const std::string message = failure_of([&] { write_file_atomically(lost, "x"); });
+  EXPECT_NE(message.find("cannot write " + lost.string() + ": No such file or directory"), std::string::npos)
+      << message;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing is left behind";
+}
+
+TEST_F(Files, Sha256KnowsItsStandardAnswer) {
+  EXPECT_EQ(sha256_hex("abc", 3), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-4
+}
+
+TEST_F(Files, NumbersReadBackBitForBit) {
+  std::mt19937_64 random(9);
+  for (int k = 0; k < 10000; ++k) {
+    const std::uint64_t bits = random();
+    double value = 0.0;
+    std::memcpy(&value, &bits, sizeof value);
+    if (std::isfinite(value)) {
+      EXPECT_EQ(std::strtod(shortest(value).c_str(), nullptr), value);
+    }
+  }
+  EXPECT_EQ(shortest(20000.0), "20000");
+  EXPECT_EQ(shortest(0.1), "0.1");
+  EXPECT_EQ(shortest(std::nan("")), "nan");
+}
+
+TEST_F(Files, HistoryGoesOnAfterATime) {
+  const fs::path file = folder_ / "history.csv";
+  {
+    HistoryWriter writer(file);
+    for (int k = 0; k < 5; ++k) {
+      writer.add({{"time_s", 0.5 * k}, {"speed", k * k}});
+    }
+  }
+  std::ofstream(file, std::ios::app) << "2.5,3";  // a row cut short
+  {
+    HistoryWriter writer = HistoryWriter::continue_after(file, 1.0);
+    writer.add({{"time_s", 1.5}, {"speed", 7.0}});
+  }
+  EXPECT_EQ(read_file(file), "time_s,speed\n0,0\n0.5,1\n1,4\n1.5,7\n");
+}
+
+void fill(mpm::Particles<2, double>& particles) {
+  particles.resize(37);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.id(p) = static_cast<std::int64_t>(p);
+    particles.body(p) = static_cast<std::int32_t>(p % 3);
+    for (int c = 0; c < 4; ++c) {
+      particles.stress(p, c) = normal(random);
+    }
+    particles.position(p, 0) = normal(random);
+    particles.position(p, 1) = normal(random);
+    particles.temperature(p) = normal(random);
+  }
+}
+
+std::vector<std::uint32_t> another_order(std::size_t count) {
+  std::vector<std::uint32_t> order(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    order[k] = static_cast<std::uint32_t>((k * 10 + 3) % count);
+  }
+  return order;
+}
+
+TEST_F(Files, CheckpointComesBackWhateverTheStorageOrder) {
+  mpm::Particles<2, double> particles, loaded;
+  fill(particles);
+  loaded.resize(particles.size());
+  const std::vector<double> scalars{1.5, -2.0, 1e300};
+  write_checkpoint<2, double>(folder_ / "a.bin", particles, scalars);
+  std::vector<double> back;
+  read_checkpoint<2, double>(folder_ / "a.bin", loaded, back);
+  EXPECT_EQ(back, scalars);
+  for (std::size_t f = 0; f < particles.fields.all().size(); ++f) {
+    EXPECT_EQ(particles.fields.all()[f]->bytes(), loaded.fields.all()[f]->bytes())
+        << particles.fields.all()[f]->info().name;
+  }
+  particles.reorder(another_order(particles.size()));
+  write_checkpoint<2, double>(folder_ / "b.bin", particles, scalars);
+  EXPECT_EQ(read_file(folder_ / "a.bin"), read_file(folder_ / "b.bin"));
+}
+
+TEST_F(Files, DamagedCheckpointsAreRefused) {
+  mpm::Particles<2, double> particles, loaded;
+  fill(particles);
+  loaded.resize(particles.size());
+  write_checkpoint<2, double>(folder_ / "good.bin", particles, {1.0});
+  const std::string good = read_file(folder_ / "good.bin");
+  std::vector<double> scalars;
+  std::mt19937 random(5);
+  for (int k = 0; k < 50; ++k) {
+    std::string bad = good;
+    bad[random() % bad.size()] ^= static_cast<char>(1 + random() % 255);
+    write_file_atomically(folder_ / "bad.bin", bad);
+    const std::string message = failure_of([&] { read_checkpoint<2, double>(folder_ / "bad.bin", loaded, scalars); });
+    EXPECT_NE(message.find("is damaged: its checksum does not fit"), std::string::npos) << message;
+  }
+  write_file_atomically(folder_ / "bad.bin", std::string_view(good).substr(0, good.size() / 2));
+  EXPECT_NE(failure_of([&] { read_checkpoint<2, double>(folder_ / "bad.bin", loaded, scalars); }).find("is damaged"),
+            std::string::npos);
+  loaded.resize(36);
+  const std::string message = failure_of([&] { read_checkpoint<2, double>(folder_ / "good.bin", loaded, scalars); });
+  EXPECT_NE(message.find("has particles: 37; this run needs 36"), std::string::npos) << message;
+}
+
+TEST_F(Files, SnapshotsStandByIdAndGiveTheSameBytes) {
+  mpm::Particles<2, double> particles;
+  fill(particles);
+  const Vector<double, 2> origin(100.0, -50.0);
+  const Snapshot first = take_snapshot<2, double>(particles, origin, 2.5, 250);
+  particles.reorder(another_order(particles.size()));
+  const Snapshot second = take_snapshot<2, double>(particles, origin, 2.5, 250);
+  EXPECT_EQ(snapshot_bytes(first), snapshot_bytes(second));
+  ASSERT_EQ(first.particles(), 37U);
+  EXPECT_EQ(first.points[2], 0.0) << "z in the plane";
+  for (const SnapshotField& field : first.fields) {
+    if (field.name == "id") {
+      EXPECT_EQ(field.integers[5], 5);
+    }
+    if (field.name == "stress") {
+      EXPECT_EQ(field.components, 6U);
+      EXPECT_EQ(field.numbers[4], 0.0) << "yz";
+    }
+  }
+  // The local origin is added back.
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const auto id = static_cast<std::size_t>(particles.id(p));
+    EXPECT_DOUBLE_EQ(first.points[3 * id + 1], particles.position(p, 1) - 50.0);
+  }
+}
+
+TEST_F(Files, RunFoldersAreNeverOverwrittenByAccident) {
+  make_run_folder(folder_ / "deep" / "run", false);
+  write_file_atomically(folder_ / "deep" / "run" / "history.csv", "time_s\n");
+  write_file_atomically(folder_ / "deep" / "run" / "notes.txt", "mine");
+  const std::string message = failure_of([&] { require_usable(folder_ / "deep" / "run", false); });
+  EXPECT_NE(message.find("holds another run. Give another --output, or --overwrite"), std::string::npos) << message;
+  make_run_folder(folder_ / "deep" / "run", true);
+  EXPECT_FALSE(fs::exists(folder_ / "deep" / "run" / "history.csv"));
+  EXPECT_TRUE(fs::exists(folder_ / "deep" / "run" / "notes.txt")) << "what is no file of a run stays";
+  EXPECT_NE(failure_of([&] { require_usable(folder_ / "deep" / "run", true); }).find("holds other files and no run"),
+            std::string::npos);
+  EXPECT_NE(failure_of([&] { require_usable(folder_ / "deep" / "run" / "notes.txt" / "x", false); }).find("is a file"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace thawslide::io
