@@ -22,7 +22,7 @@ using namespace thawslide::app;
 void let_threads_wait_passively(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") == nullptr) {
     setenv("OMP_WAIT_POLICY", "passive", 1);
-    setenv("GOMP_SPINCOUNT", "5000", 0);
+    setenv("GOMP_SPINCOUNT", "1000", 0);
     execv("/proc/self/exe", arguments);
   }
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
+
 namespace thawslide::band {
 
 using mpm::HatLayout;
@@ -50,7 +52,8 @@ std::uint64_t FlowDepth<Dim, Real>::column_key(const mpm::SparseGrid<Dim, Real>&
 
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                                  const std::function<Real(Real)>& slope_cosine, mpm::Particles<Dim, Real>& particles) {
+                                  const std::function<Real(Real)>& slope_cosine,
+                                  const mpm::Particles<Dim, Real>& particles) {
   // Serial, in canonical order, so that sums do not depend on threads.
   index_.clear();
   columns_.clear();
@@ -65,6 +68,11 @@ void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const 
     columns_[number].volume += particles.volume(p);
     columns_[number].top = std::max(columns_[number].top, top);
   }
+}
+
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid,
+                                              mpm::Particles<Dim, Real>& particles) const {
   const Real footprint = Dim == 2 ? grid.cell() : grid.cell() * grid.cell();
   for (const std::uint32_t p : grid.order()) {
     const Column& column = columns_[static_cast<std::size_t>(index_.find(column_key(grid, particles, p)))];
@@ -78,6 +86,7 @@ template <int Dim, class Real>
 Real FlowDepth<Dim, Real>::depth_below_top(const mpm::SparseGrid<Dim, Real>& grid,
                                            const mpm::Particles<Dim, Real>& particles, std::uint32_t p) const {
   const std::int32_t number = index_.find(column_key(grid, particles, p));
+  THAWSLIDE_ASSERT(number >= 0, "particle {} is in no column", particles.id(p));
   return columns_[static_cast<std::size_t>(number)].top - particles.position(p, Dim - 1);
 }
 

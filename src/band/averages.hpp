@@ -21,9 +21,11 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particle
 template <int Dim, class Real>
 class FlowDepth {
  public:
-  // particles.flow_depth from positions, volumes and in_band. slope_cosine may be empty: level ground.
+  // The columns from positions and volumes. slope_cosine may be empty: level ground.
   void update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-              const std::function<Real(Real)>& slope_cosine, mpm::Particles<Dim, Real>& particles);
+              const std::function<Real(Real)>& slope_cosine, const mpm::Particles<Dim, Real>& particles);
+  // particles.flow_depth from the columns and in_band.
+  void depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid, mpm::Particles<Dim, Real>& particles) const;
 
   // Depth of a particle below the top of its column [m], vertical.
   [[nodiscard]] Real depth_below_top(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,

@@ -79,7 +79,7 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
       }
       Real advection = 0;
       const Real hydraulic = model.hydraulic_conductivity[static_cast<std::size_t>(particles.material(p))];
-      if (model.advection && model.seepage && hydraulic > Real(0) &&
+      if (model.advection && model.seepage && model.thermal_pressurization && hydraulic > Real(0) &&
           particles.temperature(p) >= model.reference_temperature) {
         const Real mobility = scaling * hydraulic / model.phases.water_unit_weight;
         advection = volume * model.phases.water_density * model.phases.water_heat_capacity * mobility *

@@ -54,19 +54,24 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
       const Real hydraulic = model.hydraulic_conductivity[static_cast<std::size_t>(particles.material(p))];
-      if (!melted_before(model, particles, p) || !(hydraulic > Real(0))) {
+      if (!(hydraulic > Real(0))) {
         continue;
       }
       const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
-      Vector<Real, Dim> gradient = Vector<Real, Dim>::Zero();
-      stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
-        gradient += pressure.records[place][0] * slope;
-      });
       const Real scaling = particles.thermal_scaling(p);
       const Real volume = particles.volume(p);
-      const Real mobility = hydraulic / model.phases.water_unit_weight;
-      const Vector<Real, Dim> flow = -volume * scaling * mobility * model.phases.water_bulk_modulus * gradient;
-      const Real pore_space = volume / scaling * particles.porosity(p) * particles.liquid_saturation(p);
+      Vector<Real, Dim> flow = Vector<Real, Dim>::Zero();
+      if (melted_before(model, particles, p)) {
+        Vector<Real, Dim> gradient = Vector<Real, Dim>::Zero();
+        stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
+          gradient += pressure.records[place][0] * slope;
+        });
+        const Real mobility = hydraulic / model.phases.water_unit_weight;
+        flow = -volume * scaling * mobility * model.phases.water_bulk_modulus * gradient;
+      }
+      // Frozen particles count with their pores, as they do in the nodal pressure: the share that reaches them is lost
+      // to the sink. Left out, a node with few melted particles would drive these to pressures without bound.
+      const Real pore_space = volume / scaling * particles.porosity(p);
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
         patch.records[place][0] += flow.dot(slope);
         patch.records[place][1] += weight * pore_space;

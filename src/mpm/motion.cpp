@@ -231,8 +231,9 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
     for (std::size_t p = task * chunk; p < last; ++p) {
       const auto step = particles.step_displacement.template get<Vector<Real, Dim>>(p);
       const Vector<Real, Dim> position = particles.position.template get<Vector<Real, Dim>>(p) + step;
-      if (!position.allFinite() || !std::isfinite(particles.temperature(p)) || !std::isfinite(particles.stress(p, 0))) {
-        bads[task].note(particles.id(p), "its position, stress or temperature is not a finite number");
+      if (!position.allFinite() || !std::isfinite(particles.temperature(p)) ||
+          !std::isfinite(particles.pore_pressure(p)) || !std::isfinite(particles.stress(p, 0))) {
+        bads[task].note(particles.id(p), "its position, stress, temperature or pore pressure is not a finite number");
         continue;
       }
       if ((position.array() < Real(0)).any() || (position.array() > extent.array()).any()) {

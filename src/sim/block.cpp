@@ -101,7 +101,9 @@ class Block {
         path_(model.ground->line()),
         train_(make_train(parameters, model, path_, particles)),
         column_(model_.band, initial_column()) {
-    velocity_ = parameters.bodies.begin()->second.velocity[0];
+    const auto& start = parameters.bodies.begin()->second.velocity;
+    const Vector<double, 2> into = model.ground->normal_below(train_.middle_x - model.origin[0]);
+    velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
     evaluate_base();
   }
 
@@ -211,11 +213,21 @@ std::vector<HistoryRow> run_block(const config::Case& parameters) {
   const Model<2, double> model = make_model<2, double>(parameters);
   mpm::Particles<2, double> particles;
   fill_bodies(parameters, model, particles);
+  if (parameters.bodies.size() > 1) {
+    throw UserError(fmt::format("{}: the block model slides one body, and the case has {}. Use `thawslide run`.",
+                                parameters.file, parameters.bodies.size()));
+  }
   Block block(parameters, model, particles);
   const double thickness = parameters.band.thickness.value.empty() ? 0.0 : parameters.band.thickness.at(0.0);
   const double dt = parameters.time.stepping == config::Stepping::fixed
                         ? parameters.time.step
                         : parameters.time.safety * largest_stable_step(parameters, model, thickness, particles).step;
+  const StepLimit limit = largest_stable_step(parameters, model, thickness, particles);
+  if (parameters.time.step > limit.step) {
+    throw UserError(
+        fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step.",
+                    parameters.file, parameters.time.step, limit.step, limit.what));
+  }
   const double interval = std::max(parameters.time.history_interval, dt);
   const auto steps = static_cast<long>(std::ceil(parameters.time.end / dt * (1.0 - 1e-12)));
   const long every = std::max(1L, std::lround(interval / dt));

@@ -104,7 +104,8 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
         flow = -row_height_ * scaling * physics::conductivity(model_->phases, row.porosity, row.saturation) * gradient;
       }
       double advection = 0.0;
-      if (model_->advection && model_->seepage && row.temperature >= model_->reference_temperature) {
+      if (model_->advection && model_->seepage && model_->thermal_pressurization &&
+          row.temperature >= model_->reference_temperature) {
         advection = row_height_ * model_->phases.water_density * model_->phases.water_heat_capacity * scaling *
                     hydraulic_conductivity_ / model_->phases.water_unit_weight * pressure_gradient * gradient;
       }
@@ -143,14 +144,14 @@ std::vector<double> BlockColumn::seepage_rates(double scaling) const {
   std::vector<double> inflow(nodes_, 0.0);
   std::vector<double> pores(nodes_, 0.0);
   for (const BlockRow& row : rows_) {
-    if (row.previous_temperature < model_->reference_temperature) {
-      continue;
-    }
     const Place at = place(row);
-    const double gradient = (pressure[at.node + 1] - pressure[at.node]) / cell_;
-    const double flow = -row_height_ * scaling * hydraulic_conductivity_ / model_->phases.water_unit_weight *
-                        model_->phases.water_bulk_modulus * gradient;
-    const double pore_space = row_height_ / scaling * row.porosity * row.saturation;
+    double flow = 0.0;
+    if (row.previous_temperature >= model_->reference_temperature) {
+      const double gradient = (pressure[at.node + 1] - pressure[at.node]) / cell_;
+      flow = -row_height_ * scaling * hydraulic_conductivity_ / model_->phases.water_unit_weight *
+             model_->phases.water_bulk_modulus * gradient;
+    }
+    const double pore_space = row_height_ / scaling * row.porosity;
     inflow[at.node] += -flow / cell_;
     inflow[at.node + 1] += flow / cell_;
     pores[at.node] += at.weight * pore_space;

@@ -105,8 +105,9 @@ void Simulation<Dim, Real>::drain_pore_pressure() {
   if (!model_.band.pressure) {
     return;
   }
+  update_columns();
   if (model_.band.thickness_each_step) {
-    update_flow_depth();
+    flow_depth_.depth_to_particles(grid_, particles_);
   }
   band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, seepage_nodes_, particles_);
 }
@@ -115,6 +116,12 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::take_new_positions() {
   if (parameters_.mechanics.enabled) {
     mpm::take_new_positions(particles_, model_.constraints.extent, bad_);
+    return;
+  }
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    if (!std::isfinite(particles_.temperature(p)) || !std::isfinite(particles_.pore_pressure(p))) {
+      bad_.note(particles_.id(p), "its temperature or pore pressure is not a finite number");
+    }
   }
 }
 
@@ -126,7 +133,9 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters)
   fill_bodies(parameters_, model_, particles_);
   band::set_heat_content(model_.band, particles_);
   if (parameters_.time.stepping == config::Stepping::fixed) {
-    const StepLimit limit = step_limit();
+    const auto& thickness = parameters_.band.thickness.value;
+    const double smallest = thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
+    const StepLimit limit = largest_stable_step(parameters_, model_, smallest, particles_);
     if (parameters_.time.step > limit.step) {
       throw UserError(
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step, or "
@@ -140,7 +149,8 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters)
   }
   mark_band();
   band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
-  update_flow_depth();
+  update_columns();
+  flow_depth_.depth_to_particles(grid_, particles_);
   band::set_pore_pressure(model_.band, particles_);
   start_ledger();
 }
@@ -197,7 +207,7 @@ void Simulation<Dim, Real>::mark_band() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::update_flow_depth() {
+void Simulation<Dim, Real>::update_columns() {
   std::function<Real(Real)> cosine;
   if (model_.ground) {
     cosine = [this](Real x) { return static_cast<Real>(model_.ground->slope_cosine(static_cast<double>(x))); };
@@ -304,6 +314,11 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
                         &l.frame_work, &l.numerical, &l.friction_heat, &l.boundary_heat, &l.band_rescale, &l.advection,
                         &l.initial_mechanical, &l.initial_thermal}) {
     *account = static_cast<Real>(scalars[k++]);
+  }
+  // Rows came back in order of id: nothing of the former order may be trusted.
+  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    particles_.previous_temperature(p) = particles_.temperature(p);
   }
   find_particles_cells();
 }

@@ -65,7 +65,7 @@ class Simulation {
 
   void settle();
   void mark_band();
-  void update_flow_depth();
+  void update_columns();
   void start_ledger();
   void stop_if_bad();
   [[nodiscard]] double band_thickness() const;

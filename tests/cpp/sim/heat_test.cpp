@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
+#include "base/error.hpp"
 #include "base/portability.hpp"
 #include "physics/pressurization.hpp"
 #include "sim/history.hpp"
@@ -91,6 +92,12 @@ TEST(Conduction, BandScalingMakesTheGridFiner) {
   for (std::size_t p = 0; p < slow.particles().size(); ++p) {
     EXPECT_NEAR(slow.particles().temperature(p), fast.particles().temperature(p), 1e-9);
   }
+}
+
+TEST(Conduction, StepAboveTheLimitOfALaterThinnerBandIsRefused) {
+  EXPECT_THROW((Simulation<2, double>(
+                   case_from_text(bar, {"band.thickness={time=[0.0,1e5],value=[0.1,0.001]}", "time.step=500.0"}))),
+               UserError);
 }
 
 TEST(UndrainedHeating, RaisesThePressureByLambda) {

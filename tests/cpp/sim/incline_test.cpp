@@ -144,7 +144,11 @@ TEST(Incline, LinearShapeFunctionsSlideAsWell) {
   expect_slide(slide<2>(turned_2d, {"mechanics.shape_function=linear"}), 15.0, 2e-2);
 }
 
-TEST(Incline, SlidesInThreeDimensions) { expect_slide(slide<3>(turned_3d), 15.0, 5e-3); }
+TEST(Incline, SlidesAndHeatsInThreeDimensions) {
+  const Slide seen = slide<3>(turned_3d);
+  expect_slide(seen, 15.0, 5e-3);
+  EXPECT_NEAR(seen.heat / seen.work, 1.0, 1e-12);
+}
 
 TEST(Incline, SticksInThreeDimensions) { EXPECT_LT(slide<3>(turned_3d, {"basal.friction_angle=40.0"}).velocity, 5e-3); }
 
@@ -169,6 +173,14 @@ TEST(Incline, SlidesOnATiltedPlaneInThreeDimensions) {
   const double mu = std::tan(radians(15.0));
   const double expected = gravity * (0.5 - mu * std::cos(radians(30.0)));
   EXPECT_NEAR(seen.acceleration / expected, 1.0, 0.1);
+}
+
+TEST(Incline, SticksOnATiltedPlaneInThreeDimensions) {
+  const Slide seen = slide<3>(turned_3d, {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=30.0",
+                                          "grid.min=[-20.0,-20.0,-80.0]", "basal.friction_angle=50.0"});
+  const Slide sliding = slide<3>(
+      turned_3d, {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=30.0", "grid.min=[-20.0,-20.0,-80.0]"});
+  EXPECT_LT(seen.velocity, 0.1 * sliding.velocity);
 }
 
 TEST(FreeFall, KeepsMomentumToRoundOff) {
