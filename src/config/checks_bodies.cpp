@@ -10,10 +10,8 @@ namespace thawslide::config {
 
 namespace {
 
-const char* const axis_names[] = {"x", "y", "z"};
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double hair = 1e-3;  // of a cell: how far a body may reach into the ground by rounding
-constexpr double flat = 1e-9;  // of the squared size of a polygon: an area that is rounding only
 
 // Elevation of the ground; -infinity where there is none.
 double ground_at(const Case& checked, const ProfileTable& profile, double x) {
@@ -52,9 +50,8 @@ bool check_box_order(const Point& low, const Point& high, const std::string& tab
   return true;
 }
 
-// The keys say where the lowest and the highest corner come from.
 void check_in_domain(const Case& checked, const Point& low, const Point& high, const std::string& table,
-                     const std::string& low_key, const std::string& high_key, Reading& reading) {
+                     const std::string& key, Reading& reading) {
   const Grid& grid = checked.grid;
   if (!reading.sound({"grid.min", "grid.max"})) {
     return;
@@ -62,12 +59,11 @@ void check_in_domain(const Case& checked, const Point& low, const Point& high, c
   for (std::size_t a = 0; a < static_cast<std::size_t>(checked.general.dimension); ++a) {
     if (low[a] < grid.min[a] || high[a] > grid.max[a]) {
       reading.report(
-          low[a] < grid.min[a] ? low_key : high_key,
-          fmt::format("{} reaches from {} to {}, outside the domain, which is {} to {}; move the body, or "
-                      "widen grid.min and grid.max.",
-                      table, point_text(low, checked.general.dimension), point_text(high, checked.general.dimension),
-                      point_text(grid.min, checked.general.dimension),
-                      point_text(grid.max, checked.general.dimension)));
+          key, fmt::format("{} reaches from {} to {}, outside the domain, which is {} to {}; move the body, or "
+                           "widen grid.min and grid.max.",
+                           table, point_text(low, checked.general.dimension),
+                           point_text(high, checked.general.dimension), point_text(grid.min, checked.general.dimension),
+                           point_text(grid.max, checked.general.dimension)));
       return;
     }
   }
@@ -87,7 +83,7 @@ void check_box(const Case& checked, const ProfileTable& profile, const Body& bod
   if (!check_box_order(body.min, body.max, table, dimension, reading)) {
     return;
   }
-  check_in_domain(checked, body.min, body.max, table, table + ".min", table + ".max", reading);
+  check_in_domain(checked, body.min, body.max, table, table + ".min", reading);
   const double bottom = body.min[static_cast<std::size_t>(dimension - 1)];
   std::vector<double> places{body.min[0], body.max[0]};
   for (const double x : profile.distance) {
@@ -102,43 +98,6 @@ void check_box(const Case& checked, const ProfileTable& profile, const Body& bod
       return;
     }
   }
-}
-
-using Vertex = std::array<double, 2>;
-
-// Twice the signed area of a triangle.
-double turn(const Vertex& a, const Vertex& b, const Vertex& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-// The lines between a and b and between c and d cross inside both.
-bool cross(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
-  return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
-}
-
-// The numbers, from 1, of the vertices before two sides that cross; 0 and 0 if none do.
-std::array<std::size_t, 2> crossing_sides(const std::vector<Vertex>& vertices) {
-  const std::size_t count = vertices.size();
-  for (std::size_t j = 0; j < count; ++j) {
-    for (std::size_t k = j + 2; k < count; ++k) {
-      if (cross(vertices[j], vertices[j + 1], vertices[k], vertices[(k + 1) % count])) {
-        return {j + 1, k + 1};
-      }
-    }
-  }
-  return {0, 0};
-}
-
-// The points of an edge that may lie deepest in the ground: its first end, and where the profile bends along it.
-std::vector<std::array<double, 2>> low_points(const ProfileTable& profile, const std::array<double, 2>& a,
-                                              const std::array<double, 2>& b) {
-  std::vector<std::array<double, 2>> points{a};
-  for (const double x : profile.distance) {
-    if ((x - a[0]) * (x - b[0]) < 0.0) {
-      points.push_back({x, a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1])});
-    }
-  }
-  return points;
 }
 
 void check_polygon(const Case& checked, const ProfileTable& profile, const Body& body, const std::string& table,
@@ -159,40 +118,28 @@ void check_polygon(const Case& checked, const ProfileTable& profile, const Body&
       high[axis] = std::max(high[axis], a[axis]);
     }
   }
-  const auto [first, second] = crossing_sides(vertices);
-  if (second > 0) {
-    reading.report(key, fmt::format("{} make sides that cross: the one after vertex {} and the one after vertex {}; "
-                                    "allowed: corners in order around the body. Put them in order.",
-                                    key, first, second));
+  if (vertices.size() < 3 || twice_area == 0.0) {
+    reading.report(
+        key, fmt::format("{} are {} points that hold no area; allowed: at least 3, in order around the body.", key,
+                         vertices.size()));
     return;
   }
-  const double size = std::max(high[0] - low[0], high[1] - low[1]);
-  if (std::abs(twice_area) <= flat * size * size) {
-    reading.report(key, fmt::format("{} are {} points that hold no area; allowed: at least 3 that are not on one line. "
-                                    "Give the corners in order around the body.",
-                                    key, vertices.size()));
-    return;
-  }
-  check_in_domain(checked, low, high, table, key, key, reading);
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    for (const auto& point : low_points(profile, vertices[k], vertices[(k + 1) % vertices.size()])) {
-      const double ground = ground_at(checked, profile, point[0]);
-      if (point[1] < ground - hair * checked.grid.cell) {
-        report_below_ground(point[0], point[1], ground, table, key, reading);
-        return;
-      }
+  check_in_domain(checked, low, high, table, key, reading);
+  for (const auto& vertex : vertices) {
+    const double ground = ground_at(checked, profile, vertex[0]);
+    if (vertex[1] < ground - hair * checked.grid.cell) {
+      report_below_ground(vertex[0], vertex[1], ground, table, key, reading);
+      return;
     }
   }
 }
 
 void check_surface(const Case& checked, const ProfileTable& profile, const std::string& table, Reading& reading) {
   if (checked.terrain.kind != TerrainKind::profile) {
-    reading.report(
-        table + ".shape",
-        fmt::format("{}.shape is \"surface\", and terrain.type is not \"profile\"; that shape "
-                    "takes the body from the profile's surface_elevation_m. Set terrain.type and terrain.file, or use "
-                    "the shape \"box\" or \"polygon\".",
-                    table));
+    reading.report(table + ".shape",
+                   fmt::format("{}.shape is \"surface\", and terrain.type is not \"profile\"; that shape "
+                               "takes the body from the profile's surface_elevation_m.",
+                               table));
     return;
   }
   if (profile.empty()) {
@@ -208,25 +155,19 @@ void check_surface(const Case& checked, const ProfileTable& profile, const std::
   }
   Point low{INFINITY, INFINITY, 0.0}, high{-INFINITY, -INFINITY, 0.0};
   const auto up = static_cast<std::size_t>(checked.general.dimension - 1);
-  const std::size_t rows = profile.distance.size();
-  for (std::size_t k = 0; k < rows; ++k) {
+  for (std::size_t k = 0; k < profile.distance.size(); ++k) {
     if (profile.surface[k] > profile.terrain[k]) {
-      for (std::size_t near = k == 0 ? 0 : k - 1; near < std::min(k + 2, rows); ++near) {  // it thins out to there
-        low = {std::min(low[0], profile.distance[near]), std::min(low[1], profile.terrain[near]), 0.0};
-        high = {std::max(high[0], profile.distance[near]), std::max(high[1], profile.surface[near]), 0.0};
-      }
+      low = {std::min(low[0], profile.distance[k]), std::min(low[1], profile.terrain[k]), 0.0};
+      high = {std::max(high[0], profile.distance[k]), std::max(high[1], profile.surface[k]), 0.0};
     }
   }
   if (!(low[0] < high[0])) {
-    reading.report(
-        table + ".shape",
-        fmt::format("{}.shape is \"surface\", and surface_elevation_m is nowhere above the terrain in {}: the "
-                    "body holds nothing. Raise the surface there, or use the shape \"box\" or \"polygon\".",
-                    table, checked.terrain.file));
+    reading.report(table + ".shape",
+                   fmt::format("the profile's surface is nowhere above its terrain: {} holds nothing.", table));
     return;
   }
   if (up == 1) {
-    check_in_domain(checked, low, high, table, table + ".shape", table + ".shape", reading);
+    check_in_domain(checked, low, high, table, table + ".shape", reading);
   }
 }
 
@@ -248,10 +189,7 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
     return;
   }
   if (body.shape != BodyShape::box && checked.general.dimension == 3) {
-    reading.report(
-        table + ".shape",
-        fmt::format("{}.shape is for 2D cases; allowed in 3D: \"box\". Use the shape \"box\" with min and max.",
-                    table));
+    reading.report(table + ".shape", fmt::format("{}.shape is for sections; in 3D a body is a \"box\".", table));
   } else if (body.shape == BodyShape::box) {
     check_box(checked, profile, body, table, reading);
   } else if (body.shape == BodyShape::polygon) {
@@ -261,34 +199,11 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
   }
 }
 
-// A frame may reach out of the domain, but must meet it at some time of the run.
-void check_frame_meets_domain(const Case& checked, const Frame& frame, const std::string& table, Reading& reading) {
-  const int dimension = checked.general.dimension;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
-    const double way = frame.axis == axis_names[a] ? frame.velocity * checked.time.end : 0.0;
-    const double low = frame.min[a] + std::min(0.0, way);
-    const double high = frame.max[a] + std::max(0.0, way);
-    if (high <= checked.grid.min[a] || low >= checked.grid.max[a]) {
-      reading.report(
-          table + ".min",
-          fmt::format("{} reaches from {} to {} and stays outside the domain, which is {} to {}, until time.end; move "
-                      "the frame, or widen grid.min and grid.max.",
-                      table, point_text(frame.min, dimension), point_text(frame.max, dimension),
-                      point_text(checked.grid.min, dimension), point_text(checked.grid.max, dimension)));
-      return;
-    }
-  }
-}
-
 void check_frame(const Case& checked, const std::string& name, const Frame& frame, Reading& reading) {
   const std::string table = "frame." + name;
-  const bool ordered = check_box_order(frame.min, frame.max, table, checked.general.dimension, reading);
-  if (ordered && reading.sound({"grid.min", "grid.max", "time.end", table + ".axis", table + ".velocity"})) {
-    check_frame_meets_domain(checked, frame, table, reading);
-  }
+  check_box_order(frame.min, frame.max, table, checked.general.dimension, reading);
   if (reading.sound({table + ".axis"}) && frame.axis == "z" && checked.general.dimension == 2) {
-    reading.report(table + ".axis",
-                   fmt::format("{}.axis is \"z\" in a 2D case; allowed: \"x\" or \"y\". Up is \"y\" there.", table));
+    reading.report(table + ".axis", fmt::format("{}.axis is \"z\" in a 2D case; allowed: \"x\" or \"y\".", table));
   }
 }
 

@@ -37,7 +37,7 @@ Place place_of(const Override& override) {
 // The value as TOML; a bare word is a text. Nothing (and a problem) for what looks like TOML but is not.
 std::optional<toml::table> parse_value(const Override& override, Reading& reading) {
   try {
-    toml::table parsed = toml::parse("value = " + override.value, override_source);
+    toml::table parsed = toml::parse("value = " + override.value, std::string_view("--set"));
     if (parsed.size() == 1) {
       return parsed;
     }

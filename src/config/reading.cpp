@@ -18,8 +18,7 @@ bool within(const std::string& inner, const std::string& outer) {
 }  // namespace
 
 Place Reading::place_of(const std::string& dotted, const toml::source_region& region) const {
-  const bool is_override = region.path && *region.path == override_source;
-  if (region.begin.line > 0 && !is_override) {
+  if (region.begin.line > 0) {
     return {file, region.begin.line, region.begin.column, false};
   }
   for (auto override = overrides.rbegin(); override != overrides.rend(); ++override) {
@@ -61,7 +60,7 @@ std::string describe_node(const toml::node& node) {
     return fmt::format("the text \"{}\"", text->get());
   }
   if (const auto* number = node.as_floating_point()) {
-    return number_text(number->get());
+    return plain_number(number->get());
   }
   if (const auto* whole = node.as_integer()) {
     return fmt::format("{}", whole->get());

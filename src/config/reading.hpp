@@ -7,7 +7,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "config/problems.hpp"
@@ -15,9 +14,6 @@
 #include "config/toml.hpp"
 
 namespace thawslide::config {
-
-// The source that toml++ is told for the texts of `--set`.
-inline constexpr std::string_view override_source = "--set";
 
 // One `--set key=value`: value is the text of a TOML value, or a bare word, which stands for a text.
 struct Override {
