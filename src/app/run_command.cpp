@@ -12,6 +12,27 @@ namespace thawslide::app {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Settles a case that asks for it; a body that goes bad on the way leaves its files as any other run does.
+template <int Dim>
+void settle(sim::Simulation<Dim, double>& simulation, const fs::path& folder) {
+  if (!simulation.needs_settling()) {
+    return;
+  }
+  fmt::print("settling under gravity for {:g} s\n", simulation.parameters().mechanics.settle_time);
+  try {
+    simulation.settle();
+  } catch (const RunError& error) {
+    RunOutput<Dim> output(folder, simulation);
+    output.write_index();
+    output.write_provenance(simulation, "failed", error.what(), 0.0);
+    throw;
+  }
+}
+
+}  // namespace
+
 int run_case(const RunOptions& options) {
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
@@ -24,6 +45,7 @@ int run_case(const RunOptions& options) {
     fmt::print("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
                parameters.general.title.empty() ? parameters.name : parameters.general.title,
                simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s");
+    settle<Dim>(simulation, folder);
     RunOutput<Dim> output(folder, simulation);
     return run_to_end<Dim>(simulation, output, folder);
   });

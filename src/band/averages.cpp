@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "mpm/motion.hpp"
 
 namespace thawslide::band {
 
@@ -22,8 +23,8 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particle
       const Real volume = particles.volume(p);
       const Real temperature = particles.temperature(p);
       const Real pore_pressure = particles.pore_pressure(p);
-      const Real saturation = model.lubrication ? particles.liquid_saturation(p) : particles.initial_saturation(p);
-      const Real porosity = model.lubrication ? particles.porosity(p) : particles.initial_porosity(p);
+      const Real saturation = particles.liquid_saturation(p);
+      const Real solid_fraction = mpm::basal_solid_fraction(particles, model.phases, model.lubrication, p);
       const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
         auto& node = patch.records[place];
@@ -32,7 +33,7 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particle
         node[HatLayout::temperature] += v * temperature;
         node[HatLayout::pore_pressure] += v * pore_pressure;
         node[HatLayout::saturation] += v * saturation;
-        node[HatLayout::porosity] += v * porosity;
+        node[HatLayout::solid_fraction] += v * solid_fraction;
       });
     }
   });

@@ -65,7 +65,8 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
         }
         const Real pore_pressure = particles.pore_pressure(p);
         const Real saturation = particles.liquid_saturation(p);
-        const Real porosity = particles.porosity(p);
+        const Real temperature = particles.temperature(p);
+        const Real solid_fraction = basal_solid_fraction(particles, model.phases, model.lubrication, p);
         const Real slip = particles.slip(p);
         const auto stencil = momentum_stencil(grid, tile.key, p, particles, model, shape);
         stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& gradient) {
@@ -77,11 +78,12 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
             const int i = static_cast<int>(a);
             node[Layout::momentum + a] += m * velocity[i];
             node[Layout::force + a] += m * model.gravity[i] - internal[i];
-            node[Layout::volume_gradient + a] += volume * gradient[i];
           }
+          node[Layout::volume] += weight * volume;
           node[Layout::pore_pressure] += m * pore_pressure;
           node[Layout::saturation] += m * saturation;
-          node[Layout::porosity] += m * porosity;
+          node[Layout::temperature] += m * temperature;
+          node[Layout::solid_fraction] += m * solid_fraction;
           node[Layout::slip] += m * slip;
         });
       }
@@ -200,8 +202,8 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
                 sum.plastic += work.plastic;
                 sum.viscous += work.viscous;
                 if (!(particles.volume(p) > Real(0))) {
-                  bads[t].note(particles.id(p), std::isnan(particles.volume(p)) ? "its volume is not a finite number"
-                                                                                : "its volume ratio is not positive");
+                  bads[t].note(particles.id(p),
+                               std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
                 }
               }
             },
@@ -216,7 +218,7 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
     sum.viscous += work.viscous;
   }
   for (const BadParticle& one : bads) {
-    bad.note(one.id, one.what);
+    bad.note(one.id, one.fault);
   }
   return sum;
 }
@@ -233,11 +235,11 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
       const Vector<Real, Dim> position = particles.position.template get<Vector<Real, Dim>>(p) + step;
       if (!position.allFinite() || !std::isfinite(particles.temperature(p)) ||
           !std::isfinite(particles.pore_pressure(p)) || !std::isfinite(particles.stress(p, 0))) {
-        bads[task].note(particles.id(p), "its position, stress, temperature or pore pressure is not a finite number");
+        bads[task].note(particles.id(p), Fault::state_not_finite);
         continue;
       }
       if ((position.array() < Real(0)).any() || (position.array() > extent.array()).any()) {
-        bads[task].note(particles.id(p), "it left the domain");
+        bads[task].note(particles.id(p), Fault::left_domain);
         continue;
       }
       particles.position.set(p, position);
@@ -248,7 +250,7 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
     }
   });
   for (const BadParticle& one : bads) {
-    bad.note(one.id, one.what);
+    bad.note(one.id, one.fault);
   }
 }
 

@@ -38,6 +38,7 @@ struct MotionModel {
   std::vector<BodyModel<Real>> bodies;
   std::vector<MaterialModel<Real>> materials;
   physics::Phases<Real> phases;
+  bool lubrication = true;  // off: Eq. 25 sees the initial porosity and saturation (Sec. 3.3)
 };
 
 // Energies of one step [J].
@@ -54,20 +55,32 @@ struct MoveWork {
   Real particle_kinetic = 0;  // sum m |dv|^2 / 2 over particles [J]
 };
 
+// What can be wrong with a particle.
+enum class Fault { none, volume_not_finite, volume_not_positive, state_not_finite, left_domain };
+
 // A particle found in a bad state, the one of smallest id; id < 0 if all are well.
 struct BadParticle {
   std::int64_t id = -1;
-  const char* what = "";
+  Fault fault = Fault::none;
 
-  void note(std::int64_t other, const char* why) {
+  void note(std::int64_t other, Fault found) {
     if (other >= 0 && (id < 0 || other < id)) {
       id = other;
-      what = why;
+      fault = found;
     }
   }
 };
 
-// Particle mass, momentum, force (Eq. 12) and surface area to the nodes.
+// n_e of Eq. 2 as the basal law sees it: of the particle's current or, without lubrication, initial state.
+template <int Dim, class Real>
+Real basal_solid_fraction(const Particles<Dim, Real>& particles, const physics::Phases<Real>& phases, bool lubrication,
+                          std::uint32_t p) {
+  return lubrication ? physics::effective_solid_fraction(phases, particles.porosity(p), particles.liquid_saturation(p))
+                     : physics::effective_solid_fraction(phases, particles.initial_porosity(p),
+                                                         particles.initial_saturation(p));
+}
+
+// Particle mass, momentum, force (Eq. 12), volume and band quantities to the nodes.
 template <int Dim, class Real>
 void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes);

@@ -8,15 +8,16 @@ namespace thawslide::mpm {
 // Sums over particles with the momentum shape functions S_ip and gradients G_ip.
 template <int Dim>
 struct MomentumLayout {
-  static constexpr std::size_t mass = 0;                       // sum S m [kg]
-  static constexpr std::size_t momentum = 1;                   // sum S m v [kg m/s]
-  static constexpr std::size_t force = 1 + Dim;                // sum S m b - V sigma.G [N], Eq. 12
-  static constexpr std::size_t volume_gradient = 1 + 2 * Dim;  // sum V G [m2]: the area vector of the body's surface
-  static constexpr std::size_t pore_pressure = 1 + 3 * Dim;    // sum S m P [kg Pa]; with the three below for nodes
-  static constexpr std::size_t saturation = 2 + 3 * Dim;       // without hat weight
-  static constexpr std::size_t porosity = 3 + 3 * Dim;
-  static constexpr std::size_t slip = 4 + 3 * Dim;  // sum S m slip [kg m]
-  static constexpr int size = 5 + 3 * Dim;
+  static constexpr std::size_t mass = 0;                     // sum S m [kg]
+  static constexpr std::size_t momentum = 1;                 // sum S m v [kg m/s]
+  static constexpr std::size_t force = 1 + Dim;              // sum S m b - V sigma.G [N], Eq. 12
+  static constexpr std::size_t volume = 1 + 2 * Dim;         // sum S V [m3]
+  static constexpr std::size_t temperature = 2 + 2 * Dim;    // sum S m T [kg K]; with the three below for nodes
+  static constexpr std::size_t pore_pressure = 3 + 2 * Dim;  // without hat weight
+  static constexpr std::size_t saturation = 4 + 2 * Dim;
+  static constexpr std::size_t solid_fraction = 5 + 2 * Dim;
+  static constexpr std::size_t slip = 6 + 2 * Dim;  // sum S m slip [kg m]
+  static constexpr int size = 7 + 2 * Dim;
 };
 
 // What particles read to move: the node's acceleration [m/s2] and its velocity at mid-step [m/s].
@@ -27,14 +28,24 @@ struct MotionLayout {
   static constexpr int size = 2 * Dim;
 };
 
-// Sums over particles with the linear hats, weighted by volume: temperature, pore pressure (Eq. 21, normalised).
+// Sums over particles with the linear hats, weighted by volume: temperature, pore pressure (Eq. 21, normalised),
+// saturation, effective solid fraction n_e (Eq. 2).
 struct HatLayout {
   static constexpr std::size_t volume = 0;  // sum S V [m3]
   static constexpr std::size_t temperature = 1;
   static constexpr std::size_t pore_pressure = 2;
   static constexpr std::size_t saturation = 3;
-  static constexpr std::size_t porosity = 4;
+  static constexpr std::size_t solid_fraction = 4;
   static constexpr int size = 5;
+};
+
+// Candidate nodes: how they press on the ground, and what of it they have.
+struct BaseLayout {
+  static constexpr std::size_t load = 0;    // max(0, p.n) of the trial momentum [kg m/s]
+  static constexpr std::size_t area = 1;    // the node's share of the ground's surface [m2]
+  static constexpr std::size_t space = 2;   // the node's share of the space above the ground [m3]
+  static constexpr std::size_t volume = 3;  // sum S V: what of that space slide fills [m3]
+  static constexpr int size = 4;
 };
 
 // What contact leaves at a node for the stages after it.
@@ -51,6 +62,7 @@ struct Nodes {
   NodeRecords<Dim, Real, MotionLayout<Dim>::size> motion;
   NodeRecords<Dim, Real, Dim> velocity;  // mapped back from the moved particles (MUSL) [m/s]
   NodeRecords<Dim, Real, HatLayout::size> hats;
+  NodeRecords<Dim, Real, BaseLayout::size> base;
   NodeRecords<Dim, Real, ContactLayout::size> contact;
 };
 

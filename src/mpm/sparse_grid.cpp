@@ -133,6 +133,13 @@ void SparseGrid<Dim, Real>::connect_blocks() {
           tile_number.find(T::key(neighbour<Dim>(T::index(blocks_[b]), d)));
     }
   }
+  blocks_about_block_.resize(blocks_.size() * stencil);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    for (int d = 0; d < T::stencil; ++d) {
+      blocks_about_block_[b * stencil + static_cast<std::size_t>(d)] =
+          block_number.find(T::key(neighbour<Dim>(T::index(blocks_[b]), d)));
+    }
+  }
   blocks_about_tile_.resize(tiles_.size() * stencil);
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     for (int d = 0; d < T::stencil; ++d) {

@@ -45,6 +45,11 @@ class SparseGrid {
   // For the 3^Dim neighbours of tile t in order: the number of the block there.
   [[nodiscard]] const std::int32_t* blocks_about_tile(std::size_t t) const { return &blocks_about_tile_[t * stencil]; }
 
+  // For the 3^Dim neighbours of block b in order: the number of the active block there, or KeyIndex::absent.
+  [[nodiscard]] const std::int32_t* blocks_about_block(std::size_t b) const {
+    return &blocks_about_block_[b * stencil];
+  }
+
   // Nearest node of a position, and the offset from it in cells.
   void nearest_node(const Vector<Real, Dim>& position, Index& node, Vector<Real, Dim>& offset) const {
     for (int a = 0; a < Dim; ++a) {
@@ -70,7 +75,7 @@ class SparseGrid {
   std::vector<OccupiedTile> tiles_;
   std::vector<std::uint64_t> tile_keys_;
   std::vector<std::uint64_t> blocks_;
-  std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_;
+  std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;
   bool blocks_changed_ = true;
   int calls_ = 0;
 };

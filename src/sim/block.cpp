@@ -184,7 +184,7 @@ class Block {
     basal_.pore_pressure[0] = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
     basal_.temperature[0] = base.temperature;
     basal_.saturation[0] = base.saturation;
-    basal_.solid_fraction[0] = physics::effective_solid_fraction(model_.motion.phases, base.porosity, base.saturation);
+    basal_.solid_fraction[0] = base.solid_fraction;
     basal_.slip[0] = slip_;
     basal_.speed[0] = std::abs(velocity_);
     evaluate_basal_law(model_.contact.law, time_, basal_);

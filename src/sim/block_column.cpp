@@ -51,11 +51,14 @@ BlockBase BlockColumn::base() const {
       weights += at.weight;
       base.pore_pressure += at.weight * row.pore_pressure;
       base.temperature += at.weight * row.temperature;
-      base.saturation += at.weight * (model_->lubrication ? row.saturation : row.initial_saturation);
-      base.porosity += at.weight * (model_->lubrication ? row.porosity : row.initial_porosity);
+      base.saturation += at.weight * row.saturation;
+      base.solid_fraction += at.weight * physics::effective_solid_fraction(
+                                             model_->phases, model_->lubrication ? row.porosity : row.initial_porosity,
+                                             model_->lubrication ? row.saturation : row.initial_saturation);
     }
   }
-  return {base.pore_pressure / weights, base.saturation / weights, base.porosity / weights, base.temperature / weights};
+  return {base.pore_pressure / weights, base.saturation / weights, base.solid_fraction / weights,
+          base.temperature / weights};
 }
 
 double BlockColumn::heat(double scaling) const {

@@ -21,7 +21,7 @@ struct BlockRow {
 
 // What the contact law sees at the base node, interpolated as the MPM does.
 struct BlockBase {
-  double pore_pressure, saturation, porosity, temperature;
+  double pore_pressure, saturation, solid_fraction, temperature;
 };
 
 class BlockColumn {

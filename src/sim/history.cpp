@@ -44,8 +44,8 @@ Means means_over_body(const Simulation<Dim, Real>& simulation) {
 
 template <int Dim, class Real>
 void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRow& row) {
-  const BodySums<Real> sums = sum_over_body(simulation);
-  const Ledger<Real>& ledger = simulation.ledger();
+  const BodySums<Dim, Real> sums = sum_over_body(simulation);
+  const Ledger<Dim, Real>& ledger = simulation.ledger();
   const auto add = [&](const char* name, Real value) { row.emplace_back(name, width * static_cast<double>(value)); };
   const Real strain = ledger.stress_work - ledger.plastic;
   const Real stored = sums.kinetic + sums.potential + strain;
@@ -74,6 +74,20 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("rock_kg", sums.rock);
   add("ice_kg", sums.ice);
   add("water_kg", sums.water);
+  add("mass_residual_kg", sums.mass - ledger.initial_mass);
+  const Vector<Real, Dim> residual = sums.momentum - ledger.initial_momentum - ledger.gravity_impulse -
+                                     ledger.ground_impulse - ledger.constraint_impulse;
+  const auto add_vector = [&](const char* name, const char* unit, const Vector<Real, Dim>& value) {
+    for (int a = 0; a < Dim; ++a) {
+      row.emplace_back(fmt::format("{}_{}_{}", name, Dim == 2 ? "xy"[a] : "xyz"[a], unit),
+                       width * static_cast<double>(value[a]));
+    }
+  };
+  add_vector("momentum", "N_s", sums.momentum);
+  add_vector("gravity_impulse", "N_s", ledger.gravity_impulse);
+  add_vector("ground_impulse", "N_s", ledger.ground_impulse);
+  add_vector("constraint_impulse", "N_s", ledger.constraint_impulse);
+  add_vector("momentum_residual", "N_s", residual);
 }
 
 }  // namespace

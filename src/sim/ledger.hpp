@@ -1,9 +1,11 @@
-// Where the energy went: what each step adds to each account, since t = 0 [J].
+// Where energy and momentum went: what each step adds to each account, since t = 0. Energies in [J].
 #pragma once
+
+#include "base/linear.hpp"
 
 namespace thawslide::sim {
 
-template <class Real>
+template <int Dim, class Real>
 struct Ledger {
   // Mechanical: stress work by kind, work of contact and constraints.
   Real stress_work = 0, plastic = 0, viscous = 0, damping = 0;
@@ -14,8 +16,28 @@ struct Ledger {
   Real numerical = 0;
   // Thermal.
   Real friction_heat = 0, boundary_heat = 0, band_rescale = 0, advection = 0;
-  // At t = 0.
-  Real initial_mechanical = 0, initial_thermal = 0;
+  // Impulses on the slide [N s]: of gravity, of the ground, of walls, frames and mass damping.
+  Vector<Real, Dim> gravity_impulse = Vector<Real, Dim>::Zero();
+  Vector<Real, Dim> ground_impulse = Vector<Real, Dim>::Zero();
+  Vector<Real, Dim> constraint_impulse = Vector<Real, Dim>::Zero();
+  // At t = 0; mass [kg], momentum [kg m/s].
+  Real initial_mechanical = 0, initial_thermal = 0, initial_mass = 0;
+  Vector<Real, Dim> initial_momentum = Vector<Real, Dim>::Zero();
+
+  // Calls visit(number) with each of the numbers above, in order.
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    for (Real* account : {&stress_work, &plastic, &viscous, &damping, &friction_work, &contact_loss, &frame_work,
+                          &numerical, &friction_heat, &boundary_heat, &band_rescale, &advection, &initial_mechanical,
+                          &initial_thermal, &initial_mass}) {
+      visit(*account);
+    }
+    for (Vector<Real, Dim>* impulse : {&gravity_impulse, &ground_impulse, &constraint_impulse, &initial_momentum}) {
+      for (int a = 0; a < Dim; ++a) {
+        visit((*impulse)[a]);
+      }
+    }
+  }
 };
 
 }  // namespace thawslide::sim

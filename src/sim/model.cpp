@@ -149,7 +149,7 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   }
   band.region =
       parameters.band.region == config::BandRegion::all ? band::ScaledRegion::all : band::ScaledRegion::first_layer;
-  band.lubrication = parameters.mechanisms.lubrication;
+  band.lubrication = motion.lubrication;
   band.pressure = parameters.pressure.enabled;
   band.thermal_pressurization = parameters.pressure.thermal_pressurization;
   band.seepage = parameters.pressure.seepage;
@@ -208,6 +208,7 @@ Model<Dim, Real> make_model(const config::Case& parameters) {
   model.motion.gravity[0] = static_cast<Real>(parameters.general.gravity * std::sin(tilt));
   model.motion.gravity[Dim - 1] = static_cast<Real>(-parameters.general.gravity * std::cos(tilt));
   model.motion.phases = make_phases<Real>(parameters.phases);
+  model.motion.lubrication = parameters.mechanisms.lubrication;
   for (const auto& [name, material] : parameters.materials) {
     model.material_names.push_back(name);
     model.motion.materials.push_back(make_material<Real>(material, parameters.mechanisms.deformation));

@@ -61,12 +61,15 @@ void Simulation<Dim, Real>::momentum_to_grid() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::resolve_contact() {
-  contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, model_.motion.phases,
-                                      static_cast<Real>(time_), dt_, nodes_);
+  contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
+                                      dt_, nodes_);
   ledger_.friction_work += contact_.friction_work;
   ledger_.contact_loss += contact_.loss;
   ledger_.frame_work += contact_.frame_work;
   ledger_.damping += contact_.damping;
+  ledger_.gravity_impulse += dt_ * ledger_.initial_mass * model_.motion.gravity;
+  ledger_.ground_impulse -= dt_ * contact_.force;
+  ledger_.constraint_impulse += contact_.constraint_impulse;
   if (model_.ground) {
     terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
   }
@@ -120,7 +123,7 @@ void Simulation<Dim, Real>::take_new_positions() {
   }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     if (!std::isfinite(particles_.temperature(p)) || !std::isfinite(particles_.pore_pressure(p))) {
-      bad_.note(particles_.id(p), "its temperature or pore pressure is not a finite number");
+      bad_.note(particles_.id(p), mpm::Fault::state_not_finite);
     }
   }
 }
@@ -130,8 +133,7 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters)
     : parameters_(parameters),
       model_(make_model<Dim, Real>(parameters)),
       grid_(static_cast<Real>(parameters.grid.cell)) {
-  fill_bodies(parameters_, model_, particles_);
-  band::set_heat_content(model_.band, particles_);
+  seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
     const auto& thickness = parameters_.band.thickness.value;
     const double smallest = thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
@@ -143,10 +145,15 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters)
                       parameters_.file, parameters_.time.step, limit.step, limit.what));
     }
   }
+  begin();
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::begin() {
+  time_ = last_step_ = 0.0;
+  step_number_ = 0;
+  contact_ = {};
   find_particles_cells();
-  if (parameters_.mechanics.enabled && parameters_.mechanics.initial_stress == config::InitialStress::settle) {
-    settle();
-  }
   mark_band();
   band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
   update_columns();
@@ -155,14 +162,20 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters)
   start_ledger();
 }
 
-// Gravity switched on while mass damping takes the motion and the base holds; then everything but the stress is as at
-// the start.
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::needs_settling() const {
+  return parameters_.mechanics.enabled && parameters_.mechanics.initial_stress == config::InitialStress::settle;
+}
+
 template <int Dim, class Real>
 void Simulation<Dim, Real>::settle() {
-  const bool heat = model_.band.heat;
-  const bool pressure = model_.band.pressure;
+  if (!needs_settling()) {
+    return;
+  }
+  const Model<Dim, Real> model = model_;
   model_.band.heat = model_.band.pressure = false;
-  model_.contact.frictionless_hold = true;
+  model_.constraints.frames.clear();
+  model_.contact.base_holds = true;
   model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
   const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
                                                                          : parameters_.time.safety * step_limit().step;
@@ -170,26 +183,26 @@ void Simulation<Dim, Real>::settle() {
   for (std::int64_t k = 0; k < steps; ++k) {
     step(dt);
   }
-  model_.band.heat = heat;
-  model_.band.pressure = pressure;
-  model_.contact.frictionless_hold = false;
-  model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.mass_damping);
+  // The settled stress goes to particles as they were seeded, so that nothing else of the settling stays.
+  std::vector<SymmetricTensor<Real>> settled(particles_.size());
   for (std::size_t p = 0; p < particles_.size(); ++p) {
-    const auto& body = parameters_.bodies.at(model_.body_names[static_cast<std::size_t>(particles_.body(p))]);
-    for (int a = 0; a < Dim; ++a) {
-      particles_.velocity(p, a) = static_cast<Real>(body.velocity[static_cast<std::size_t>(a)]);
-      particles_.displacement(p, a) = Real(0);
-    }
-    particles_.path_length(p) = particles_.slip(p) = particles_.plastic_strain(p) = Real(0);
+    settled[static_cast<std::size_t>(particles_.id(p))] = mpm::full_tensor<Dim, Real>(particles_.stress, p);
+  }
+  model_ = model;
+  seed();
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
     for (int c = 0; c < mpm::Particles<Dim, Real>::tensor_components; ++c) {
-      particles_.viscous_stress(p, c) = Real(0);
+      particles_.stress(p, c) = settled[static_cast<std::size_t>(particles_.id(p))][c];
     }
   }
-  time_ = last_step_ = 0.0;
-  step_number_ = 0;
-  ledger_ = {};
-  contact_ = {};
-  find_particles_cells();
+  begin();
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::seed() {
+  fill_bodies(parameters_, model_, particles_);
+  band::set_heat_content(model_.band, particles_);
+  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
 }
 
 // Which particles are in the band before anything has moved.
@@ -217,10 +230,12 @@ void Simulation<Dim, Real>::update_columns() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::start_ledger() {
-  const BodySums<Real> sums = sum_over_body(*this);
+  const BodySums<Dim, Real> sums = sum_over_body(*this);
   ledger_ = {};
   ledger_.initial_mechanical = sums.kinetic + sums.potential;
   ledger_.initial_thermal = sums.sensible + sums.latent;
+  ledger_.initial_mass = sums.mass;
+  ledger_.initial_momentum = sums.momentum;
   double rear = HUGE_VAL;
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     const Real half = model_.motion.bodies[static_cast<std::size_t>(particles_.body(p))].half_size * grid_.cell();
@@ -253,6 +268,48 @@ double Simulation<Dim, Real>::next_step(double until) const {
   return left / std::max(1.0, steps);
 }
 
+namespace {
+
+const char* fault_text(mpm::Fault fault) {
+  switch (fault) {
+    case mpm::Fault::volume_not_finite:
+      return "its volume is not a finite number";
+    case mpm::Fault::volume_not_positive:
+      return "its volume ratio is not positive";
+    case mpm::Fault::state_not_finite:
+      return "its position, stress, temperature or pore pressure is not a finite number";
+    case mpm::Fault::left_domain:
+      return "it left the domain";
+    case mpm::Fault::none:
+      break;
+  }
+  return "nothing is wrong with it";
+}
+
+// A particle this many times faster than the body's mean has come loose from it.
+constexpr double runaway = 5.0;
+
+}  // namespace
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
+  const std::string too_long =
+      "Likely cause: the step is too long for what the material does, or the material is softer than its load; try "
+      "half of time.step, or viscosity_time in the material.";
+  if (bad_.fault != mpm::Fault::left_domain) {
+    return too_long;
+  }
+  const BodySums<Dim, Real> sums = sum_over_body(*this);
+  const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
+  const double own = static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(p).norm());
+  const std::string speeds = fmt::format("It moves at {:.4g} m/s, the slide at {:.4g} m/s in the mean. ", own, mean);
+  if (own > runaway * mean) {
+    return speeds +
+           "Likely cause: it came loose from the slide; try half of time.step, or viscosity_time in the material.";
+  }
+  return speeds + "Likely cause: the slide ran further than [grid] min and max allow; widen them in its direction.";
+}
+
 template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_if_bad() {
   if (bad_.id < 0) {
@@ -265,13 +322,10 @@ void Simulation<Dim, Real>::stop_if_bad() {
         place += fmt::format("{}{:.6g}", a == 0 ? "" : ", ",
                              static_cast<double>(particles_.position(p, a)) + model_.origin[a]);
       }
-      const bool left = std::string(bad_.what).find("domain") != std::string::npos;
-      throw RunError(fmt::format(
-          "the run went bad at t = {:.6g} s (step {}): particle {} of body '{}' at ({}) m: {}. {}", time_, step_number_,
-          bad_.id, model_.body_names[static_cast<std::size_t>(particles_.body(p))], place, bad_.what,
-          left ? "Likely cause: the slide ran further than [grid] min and max allow; widen them in its direction."
-               : "Likely cause: the step is too long for what the material does, or the material is softer than its "
-                 "load; try half of time.step, or viscosity_time in the material."));
+      throw RunError(
+          fmt::format("the run went bad at t = {:.6g} s (step {}): particle {} of body '{}' at ({}) m: {}. {}", time_,
+                      step_number_, bad_.id, model_.body_names[static_cast<std::size_t>(particles_.body(p))], place,
+                      fault_text(bad_.fault), likely_cause(p)));
     }
   }
   THAWSLIDE_ASSERT(false, "bad particle {} is not among the particles", bad_.id);
@@ -279,25 +333,10 @@ void Simulation<Dim, Real>::stop_if_bad() {
 
 template <int Dim, class Real>
 std::vector<double> Simulation<Dim, Real>::scalars() const {
-  const Ledger<Real>& l = ledger_;
-  return {time_,
-          last_step_,
-          rear_at_start_,
-          static_cast<double>(step_number_),
-          l.stress_work,
-          l.plastic,
-          l.viscous,
-          l.damping,
-          l.friction_work,
-          l.contact_loss,
-          l.frame_work,
-          l.numerical,
-          l.friction_heat,
-          l.boundary_heat,
-          l.band_rescale,
-          l.advection,
-          l.initial_mechanical,
-          l.initial_thermal};
+  std::vector<double> numbers{time_, last_step_, rear_at_start_, static_cast<double>(step_number_)};
+  Ledger<Dim, Real> ledger = ledger_;
+  ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
+  return numbers;
 }
 
 template <int Dim, class Real>
@@ -309,12 +348,7 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   last_step_ = scalars[k++];
   rear_at_start_ = scalars[k++];
   step_number_ = static_cast<std::int64_t>(scalars[k++]);
-  Ledger<Real>& l = ledger_;
-  for (Real* account : {&l.stress_work, &l.plastic, &l.viscous, &l.damping, &l.friction_work, &l.contact_loss,
-                        &l.frame_work, &l.numerical, &l.friction_heat, &l.boundary_heat, &l.band_rescale, &l.advection,
-                        &l.initial_mechanical, &l.initial_thermal}) {
-    *account = static_cast<Real>(scalars[k++]);
-  }
+  ledger_.for_each([&](Real& account) { account = static_cast<Real>(scalars[k++]); });
   // Rows came back in order of id: nothing of the former order may be trusted.
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
   for (std::size_t p = 0; p < particles_.size(); ++p) {
@@ -324,14 +358,15 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
 }
 
 template <int Dim, class Real>
-BodySums<Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
+BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
   const auto& particles = simulation.particles();
   const auto& model = simulation.model();
   const physics::Phases<Real>& phases = model.motion.phases;
-  BodySums<Real> sums;
+  BodySums<Dim, Real> sums;
   for (const std::uint32_t p : simulation.grid().order()) {
     const Real mass = particles.mass(p);
     for (int a = 0; a < Dim; ++a) {
+      sums.momentum[a] += mass * particles.velocity(p, a);
       sums.kinetic += Real(0.5) * mass * particles.velocity(p, a) * particles.velocity(p, a);
       sums.potential -=
           mass * model.motion.gravity[a] * (particles.position(p, a) + static_cast<Real>(model.origin[a]));
@@ -356,7 +391,7 @@ BodySums<Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
 
 template class Simulation<2, double>;
 template class Simulation<3, double>;
-template BodySums<double> sum_over_body<2, double>(const Simulation<2, double>&);
-template BodySums<double> sum_over_body<3, double>(const Simulation<3, double>&);
+template BodySums<2, double> sum_over_body<2, double>(const Simulation<2, double>&);
+template BodySums<3, double> sum_over_body<3, double>(const Simulation<3, double>&);
 
 }  // namespace thawslide::sim

@@ -20,8 +20,14 @@ namespace thawslide::sim {
 template <int Dim, class Real>
 class Simulation {
  public:
-  // Particles at t = 0, settled if the case asks for it. Throws UserError for a fixed step above a limit.
+  // Particles at t = 0, not yet settled. Throws UserError for a fixed step above a limit.
   explicit Simulation(const config::Case& parameters);
+
+  // Whether the case asks for gravity to be switched on before t = 0, with damping and on a base that holds.
+  [[nodiscard]] bool needs_settling() const;
+  // Does that; then everything but the stress is as at the start. Nothing happens in a case that does not ask for it.
+  // Throws RunError when a particle goes bad on the way.
+  void settle();
 
   // One time step of dt [s]. Throws RunError when a particle goes bad; the state then is that of the failed step.
   void step(double dt);
@@ -38,7 +44,7 @@ class Simulation {
   [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const { return particles_; }
   [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const { return grid_; }
   [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const { return nodes_; }
-  [[nodiscard]] const Ledger<Real>& ledger() const { return ledger_; }
+  [[nodiscard]] const Ledger<Dim, Real>& ledger() const { return ledger_; }
   [[nodiscard]] const terrain::ContactWork<Dim, Real>& contact() const { return contact_; }
   [[nodiscard]] const Stopwatch& stopwatch() const { return stopwatch_; }
   [[nodiscard]] double rear_at_start() const { return rear_at_start_; }
@@ -63,7 +69,10 @@ class Simulation {
   void drain_pore_pressure();
   void take_new_positions();
 
-  void settle();
+  void seed();
+  // Everything that follows from positions and stress at t = 0.
+  void begin();
+  [[nodiscard]] std::string likely_cause(std::size_t particle) const;
   void mark_band();
   void update_columns();
   void start_ledger();
@@ -81,7 +90,7 @@ class Simulation {
   band::SeepageNodes<Dim, Real> seepage_nodes_;
   band::FlowDepth<Dim, Real> flow_depth_;
   terrain::ContactWork<Dim, Real> contact_;
-  Ledger<Real> ledger_;
+  Ledger<Dim, Real> ledger_;
   mpm::BadParticle bad_;
   Stopwatch stopwatch_;
   double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0;
@@ -90,14 +99,15 @@ class Simulation {
   Real dt_ = 0;
 };
 
-// Sums of energy and mass over particles [J, kg].
-template <class Real>
+// Sums of energy, mass and momentum over particles [J, kg, kg m/s].
+template <int Dim, class Real>
 struct BodySums {
   Real kinetic = 0, potential = 0, sensible = 0, latent = 0;
   Real mass = 0, rock = 0, ice = 0, water = 0;
+  Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();
 };
 
 template <int Dim, class Real>
-BodySums<Real> sum_over_body(const Simulation<Dim, Real>& simulation);
+BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation);
 
 }  // namespace thawslide::sim

@@ -4,17 +4,19 @@
 #include <limits>
 
 #include "physics/contact.hpp"
+#include "terrain/base_pressure.hpp"
 
 namespace thawslide::terrain {
 
 namespace {
 
+using mpm::BaseLayout;
 using mpm::ContactLayout;
 using mpm::HatLayout;
 using mpm::MomentumLayout;
 using mpm::MotionLayout;
 
-// The smallest contact area, as a share of a cell's face: keeps N = p.n / (A dt) finite where the body barely ends.
+// The smallest contact area, as a share of a cell's face: keeps N = p.n / (A dt) finite where no ground is near.
 constexpr double smallest_area = 1e-6;
 
 // One node on its way from trial to final momentum.
@@ -61,32 +63,49 @@ struct BlockContact {
 };
 
 template <int Dim, class Real>
-void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real cell, Real dt,
-                      const ContactModel<Dim, Real>& model, const physics::Phases<Real>& phases,
-                      const Vector<Real, Dim>& normal, const NodeState<Dim, Real>& state,
-                      BlockContact<Dim, Real>& contact) {
+void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
+                      const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
+                      const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
   using Layout = MomentumLayout<Dim>;
   const auto& record = nodes.momentum(b, k);
   BasalNodes<Real>& basal = contact.basal;
   const std::size_t c = basal.count++;
-  // Eq. 16's area, from the body's own surface: sum V G is the integral of its outward normal, weighted by S_i.
-  const Real face = Dim == 2 ? cell : cell * cell;
-  const Real exposed = mpm::vector_at<Dim, Real>(record, Layout::volume_gradient).dot(normal);
-  const Real area = std::max(exposed, face * static_cast<Real>(smallest_area));
   const Real approach = state.momentum.dot(normal);
+  const Real area = approach / (pressure * dt);  // the base is shared among nodes by the load they carry
   contact.node[c] = k;
   contact.area[c] = area;
-  basal.normal_pressure[c] = approach / (area * dt);
+  basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
       model.pore_pressure ? at_base<Dim, Real>(nodes, b, k, HatLayout::pore_pressure, Layout::pore_pressure) : Real(0);
   basal.saturation[c] = at_base<Dim, Real>(nodes, b, k, HatLayout::saturation, Layout::saturation);
-  basal.solid_fraction[c] = physics::effective_solid_fraction(
-      phases, at_base<Dim, Real>(nodes, b, k, HatLayout::porosity, Layout::porosity), basal.saturation[c]);
-  const auto& hats = nodes.hats(b, k);
-  basal.temperature[c] =
-      hats[HatLayout::volume] > Real(0) ? hats[HatLayout::temperature] / hats[HatLayout::volume] : Real(0);
+  basal.solid_fraction[c] = at_base<Dim, Real>(nodes, b, k, HatLayout::solid_fraction, Layout::solid_fraction);
+  basal.temperature[c] = at_base<Dim, Real>(nodes, b, k, HatLayout::temperature, Layout::temperature);
   basal.slip[c] = record[Layout::slip] / record[Layout::mass];
   basal.speed[c] = (state.momentum - approach * normal).norm() / state.mass;
+}
+
+// Fills nodes.base: how every candidate node presses on the ground, and the area it covers.
+template <int Dim, class Real>
+void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                     const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
+                     Real dt, mpm::Nodes<Dim, Real>& nodes) {
+  nodes.base.resize(grid.blocks().size());
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+      auto& base = nodes.base(b, k);
+      base.fill(Real(0));
+      const auto& record = nodes.momentum(b, k);
+      if (!ground.any_candidate(b) || !ground.block(b)[k].candidate || !(record[MomentumLayout<Dim>::mass] > Real(0))) {
+        continue;
+      }
+      const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
+      const auto state = trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping, record);
+      base[BaseLayout::load] = std::max(Real(0), state.momentum.dot(known.normal));
+      base[BaseLayout::area] = known.area;
+      base[BaseLayout::space] = known.space;
+      base[BaseLayout::volume] = record[MomentumLayout<Dim>::volume];
+    }
+  });
 }
 
 // Applies the contact impulse of one node; returns its work. state.momentum goes from trial to final.
@@ -105,9 +124,7 @@ void apply_contact(const mpm::Constraints<Dim, Real>& constraints, const Vector<
   }
   const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
   state.momentum += total;
-  if (state.in_frame) {
-    constraints.apply(position, state.mass, time, state.momentum);
-  }
+  constraints.apply(position, state.mass, time, state.momentum);  // walls and frames outrank the ground
   const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
   const Real slip_speed = std::max(Real(0), middle.dot(along));
   const Real friction_work = impulse.slides ? impulse.tangential * slip_speed : Real(0);
@@ -132,6 +149,7 @@ void finish_node(const NodeState<Dim, Real>& state, const Vector<Real, Dim>& con
   mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change / (state.mass * dt));
   mpm::set_vector<Dim>(motion, MotionLayout<Dim>::middle_velocity, middle);
   const Vector<Real, Dim> constraint_impulse = state.momentum - state.trial - contact_impulse;
+  work.constraint_impulse += constraint_impulse - damping * dt * state.old_momentum;
   if (state.in_frame) {
     work.frame_work += constraint_impulse.dot(middle);
   } else {
@@ -152,6 +170,7 @@ void add(ContactWork<Dim, Real>& sum, const ContactWork<Dim, Real>& part) {
   sum.area += part.area;
   sum.friction_area += part.friction_area;
   sum.force += part.force;
+  sum.constraint_impulse += part.constraint_impulse;
 }
 
 }  // namespace
@@ -159,16 +178,24 @@ void add(ContactWork<Dim, Real>& sum, const ContactWork<Dim, Real>& part) {
 template <int Dim, class Real>
 ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                                        const mpm::Constraints<Dim, Real>& constraints,
-                                       const ContactModel<Dim, Real>& model, const physics::Phases<Real>& phases,
-                                       Real time, Real dt, mpm::Nodes<Dim, Real>& nodes) {
+                                       const ContactModel<Dim, Real>& model, Real time, Real dt,
+                                       mpm::Nodes<Dim, Real>& nodes) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   nodes.motion.resize(grid.blocks().size());
   nodes.contact.resize(grid.blocks().size());
   std::vector<ContactWork<Dim, Real>> works(grid.blocks().size());
+  const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
+  if (ground != nullptr) {
+    press_on_ground(grid, *ground, constraints, model, time, dt, nodes);
+  }
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     BlockContact<Dim, Real> contact;
     std::array<NodeState<Dim, Real>, block_nodes> states;
     const auto* known = ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
+    std::array<Real, block_nodes> pressure{};
+    if (known != nullptr) {
+      pressure = base_pressure(grid, nodes, b, dt, smallest);
+    }
     for (std::size_t k = 0; k < block_nodes; ++k) {
       nodes.contact(b, k).fill(Real(0));
       nodes.motion(b, k).fill(Real(0));
@@ -178,8 +205,8 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       }
       states[k] =
           trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping, nodes.momentum(b, k));
-      if (known != nullptr && (*known)[k].candidate && states[k].momentum.dot((*known)[k].normal) > Real(0)) {
-        add_contact_node(nodes, b, k, grid.cell(), dt, model, phases, (*known)[k].normal, states[k], contact);
+      if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
+        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k].normal, states[k], contact);
       }
     }
     evaluate_basal_law(model.law, time, contact.basal);
@@ -187,7 +214,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
     impulse.fill(Vector<Real, Dim>::Zero());
     for (std::size_t c = 0; c < contact.basal.count; ++c) {
       const std::size_t k = contact.node[c];
-      const Real strength = model.frictionless_hold ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
+      const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
       const Vector<Real, Dim> force_before = works[b].force;
       apply_contact(constraints, mpm::node_position(grid, b, k), (*known)[k].normal, contact.area[c], strength,
                     contact.basal.friction[c], model.law.heat_fraction, time, dt, states[k], works[b],
@@ -290,7 +317,7 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
   template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                          \
       const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&,           \
-      const ContactModel<Dim, Real>&, const physics::Phases<Real>&, Real, Real, mpm::Nodes<Dim, Real>&);               \
+      const ContactModel<Dim, Real>&, Real, Real, mpm::Nodes<Dim, Real>&);                                             \
   template Real constrain_mapped_back<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,    \
                                                  const mpm::Constraints<Dim, Real>&, const Vector<Real, Dim>&, Real,   \
                                                  Real, mpm::Nodes<Dim, Real>&);                                        \

@@ -23,14 +23,16 @@ struct ContactWork {
   Real area = 0;                                        // in contact
   Real friction_area = 0;                               // sum mu_e A
   Vector<Real, Dim> force = Vector<Real, Dim>::Zero();  // on the ground
+  // On the slide, of walls, frames and mass damping [N s].
+  Vector<Real, Dim> constraint_impulse = Vector<Real, Dim>::Zero();
 };
 
 template <int Dim, class Real>
 struct ContactModel {
   BasalLaw<Real> law;
-  bool frictionless_hold = false;  // no slip at all: while gravity is being settled in
-  bool pore_pressure = true;       // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
-  Real mass_damping = 0;           // [1/s]
+  bool base_holds = false;    // no slip at all: while gravity is being settled in
+  bool pore_pressure = true;  // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
+  Real mass_damping = 0;      // [1/s]
 };
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null.
@@ -38,8 +40,8 @@ struct ContactModel {
 template <int Dim, class Real>
 ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                                        const mpm::Constraints<Dim, Real>& constraints,
-                                       const ContactModel<Dim, Real>& model, const physics::Phases<Real>& phases,
-                                       Real time, Real dt, mpm::Nodes<Dim, Real>& nodes);
+                                       const ContactModel<Dim, Real>& model, Real time, Real dt,
+                                       mpm::Nodes<Dim, Real>& nodes);
 
 // The mapped-back momenta (MUSL) become velocities: constraints again, and at contact nodes the inward normal
 // component is removed (no friction, no heat). Returns sum f_int.(v_mid - v_mapped) dt [J]: the work that internal

@@ -75,6 +75,51 @@ Polyline::Nearest Polyline::nearest(double x, double z) const {
   return {sign * best, Vector<double, 2>(slope, -1.0).normalized()};
 }
 
+namespace {
+
+// A hat of half-width 1 about 0, and its integral from q upwards.
+double hat(double q) { return std::max(0.0, 1.0 - std::abs(q)); }
+
+double hat_above(double q) {
+  if (q >= 0.0) {
+    return q < 1.0 ? 0.5 * (1.0 - q) * (1.0 - q) : 0.0;
+  }
+  return q > -1.0 ? 1.0 - 0.5 * (1.0 + q) * (1.0 + q) : 1.0;
+}
+
+}  // namespace
+
+Polyline::HatShare Polyline::hat_share(double x, double z, double cell) const {
+  // Between these abscissae the integrands are polynomials of at most third degree: Simpson's rule is exact.
+  std::vector<double> breaks{x - cell, x, x + cell};
+  for (std::size_t k = segment(x - cell); k + 1 < x_.size() && (k == 0 || x_[k] < x + cell); ++k) {
+    breaks.push_back(x_[k]);
+    const double slope = (height_[k + 1] - height_[k]) / (x_[k + 1] - x_[k]);
+    for (const double level : {z - cell, z, z + cell}) {
+      if (slope != 0.0) {
+        breaks.push_back(x_[k] + (level - height_[k]) / slope);
+      }
+    }
+  }
+  std::sort(breaks.begin(), breaks.end());
+  HatShare share{0.0, 0.0};
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    const double from = std::max(breaks[k], x - cell);
+    const double to = std::min(breaks[k + 1], x + cell);
+    if (to <= from) {
+      continue;
+    }
+    const double stretch = std::hypot(1.0, gradient(0.5 * (from + to)));
+    for (const auto& [u, weight] : {std::pair(from, 1.0), std::pair(0.5 * (from + to), 4.0), std::pair(to, 1.0)}) {
+      const double across = weight / 6.0 * (to - from) * hat((u - x) / cell);
+      const double rise = (height(u) - z) / cell;
+      share.length += across * stretch * hat(rise);
+      share.above += across * cell * hat_above(rise);
+    }
+  }
+  return share;
+}
+
 template <int Dim>
 template <class Real>
 GroundAtNode<Dim, Real> Ground<Dim>::at_node(const Vector<Real, Dim>& position, Real cell) const {
@@ -85,7 +130,10 @@ GroundAtNode<Dim, Real> Ground<Dim>::at_node(const Vector<Real, Dim>& position, 
   const Polyline::Nearest nearest = line_.nearest(x, z);
   GroundAtNode<Dim, Real> node;
   node.candidate = line_.highest(x - h, x + h) > z - h + round_off * h;
-  node.distance = static_cast<Real>(nearest.distance);
+  const Polyline::HatShare share = line_.hat_share(x, z, h);
+  const double across = Dim == 2 ? 1.0 : h;  // the hat's integral along y
+  node.area = static_cast<Real>(across * share.length);
+  node.space = static_cast<Real>(across * share.above);
   node.normal.setZero();
   node.normal[0] = static_cast<Real>(nearest.normal[0]);
   node.normal[Dim - 1] = static_cast<Real>(nearest.normal[1]);

@@ -26,6 +26,13 @@ class Polyline {
   };
   [[nodiscard]] Nearest nearest(double x, double height) const;
 
+  // What the ground takes of a node's linear hat S of half-width `cell`, centred at (x, height): exact for a polyline.
+  struct HatShare {
+    double length;  // integral of S along the ground [m]
+    double above;   // integral of S over the space above the ground [m2]
+  };
+  [[nodiscard]] HatShare hat_share(double x, double height, double cell) const;
+
   [[nodiscard]] const std::vector<double>& x() const { return x_; }
   [[nodiscard]] const std::vector<double>& heights() const { return height_; }
 
@@ -40,7 +47,8 @@ template <int Dim, class Real>
 struct GroundAtNode {
   bool candidate = false;    // the node's linear hat overlaps the ground
   Vector<Real, Dim> normal;  // unit vector from the slide into the ground
-  Real distance = 0;         // [m], positive above the ground
+  Real area = 0;             // integral of the hat over the ground's surface [m2]; sums to that surface
+  Real space = 0;            // integral of the hat over the space above the ground [m3]
 };
 
 // The ground a run uses; the vertical is the last axis.

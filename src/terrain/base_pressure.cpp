@@ -1,0 +1,57 @@
+#include "terrain/base_pressure.hpp"
+
+#include <algorithm>
+
+namespace thawslide::terrain {
+
+template <int Dim, class Real>
+std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                                const mpm::Nodes<Dim, Real>& nodes,
+                                                                                std::size_t b, Real dt,
+                                                                                Real smallest_area) {
+  using T = mpm::Tile<Dim>;
+  using mpm::BaseLayout;
+  mpm::Patch<Dim, Real, BaseLayout::size> patch;
+  patch.clear();
+  const std::int32_t* blocks = grid.blocks_about_block(b);
+  for (int d = 0; d < T::stencil; ++d) {
+    if (blocks[d] != KeyIndex::absent) {
+      mpm::for_shared_nodes<Dim>(d, [&](std::size_t in_block, std::size_t in_patch) {
+        patch.records[in_patch] = nodes.base(static_cast<std::size_t>(blocks[d]), in_block);
+      });
+    }
+  }
+  std::array<Real, static_cast<std::size_t>(T::nodes)> pressure;
+  for (int k = 0; k < T::nodes; ++k) {
+    const typename T::Index here = T::node({}, k);
+    Real load = 0, area = 0, space = 0, volume = 0;
+    for (int d = 0; d < T::stencil; ++d) {
+      typename T::Index there = here;
+      Real weight = 1;
+      int direction = d;
+      for (std::size_t a = 0; a < Dim; ++a) {
+        const int shift = direction % 3 - 1;
+        direction /= 3;
+        there[a] += shift;
+        weight *= shift == 0 ? Real(0.5) : Real(0.25);
+      }
+      const auto& record = patch.records[static_cast<std::size_t>(T::in_patch(there))];
+      load += weight * record[BaseLayout::load];
+      area += weight * record[BaseLayout::area];
+      space += weight * record[BaseLayout::space];
+      volume += weight * record[BaseLayout::volume];
+    }
+    const Real covered = volume < space ? area * volume / space : area;
+    pressure[static_cast<std::size_t>(k)] = load / (dt * std::max(covered, smallest_area));
+  }
+  return pressure;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                    \
+  template std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure( \
+      const mpm::SparseGrid<Dim, Real>&, const mpm::Nodes<Dim, Real>&, std::size_t, Real, Real);
+THAWSLIDE_INSTANTIATE(2, double)
+THAWSLIDE_INSTANTIATE(3, double)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::terrain

@@ -1,0 +1,220 @@
+// Contact with the ground: the area a body stands on, its pressure, what walls and impulses do to it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+// A slab 25 m thick and 240 m long (along the slope), cut off upright at its ends, on a plane that falls by 48 degrees.
+constexpr double slope = 48.0;
+constexpr double length = 240.0;
+
+std::string slab_on_plane() {
+  const double angle = slope * pi<double> / 180.0;
+  const double run = length * std::cos(angle), fall = length * std::sin(angle);
+  const double rise = 25.0 / std::cos(angle);
+  return fmt::format(R"(
+[time]
+end = 3.0
+step = 0.001
+history_interval = 0.01
+[grid]
+cell = 5.0
+min = [-20.0, -400.0]
+max = [400.0, 100.0]
+[terrain]
+type = "plane"
+slope = {}
+elevation = 1.3
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+viscosity_time = 0.02
+[body.slab]
+material = "rock"
+shape = "polygon"
+vertices = [[0.0, 1.3], [{:.6f}, {:.6f}], [{:.6f}, {:.6f}], [0.0, {:.6f}]]
+[mechanics]
+slope_shear = true
+[basal]
+friction = "constant"
+friction_angle = 30.0
+[mechanisms]
+pressurization = false
+)",
+                     slope, run, 1.3 - fall, run, 1.3 - fall + rise, 1.3 + rise);
+}
+
+// Means over the second half of a run: area in contact [m2] and its change, force on the ground [N].
+struct Standing {
+  double area = 0.0, normal = 0.0, tangential = 0.0, mass = 0.0, velocity = 0.0;
+};
+
+Standing stand(const std::vector<std::string>& sets) {
+  Simulation<2, double> simulation(case_from_text(slab_on_plane(), sets));
+  run_until(simulation, 1.5);
+  Standing mean;
+  int count = 0;
+  const double angle = slope * pi<double> / 180.0;
+  const Vector<double, 2> down(-std::sin(angle), -std::cos(angle)), along(std::cos(angle), -std::sin(angle));
+  while (simulation.time() < 3.0 - 1e-9) {
+    simulation.step(0.001);
+    mean.area += simulation.contact().area;
+    mean.normal += simulation.contact().force.dot(down);
+    mean.tangential += simulation.contact().force.dot(along);
+    ++count;
+  }
+  const auto row = history_row(simulation);
+  return {mean.area / count, mean.normal / count, mean.tangential / count, value_of(row, "mass_kg"),
+          value_of(row, "mean_velocity_m_s")};
+}
+
+TEST(ContactArea, OfASlabAtRestOnASlopeThroughTheGridIsItsBase) {
+  const Standing seen = stand({"basal.friction_angle=60.0"});
+  EXPECT_LT(seen.velocity, 0.05);
+  EXPECT_NEAR(seen.area / length, 1.0, 0.05);
+  EXPECT_NEAR(seen.normal / (seen.mass * 9.81 * std::cos(slope * pi<double> / 180.0)), 1.0, 0.01);
+}
+
+TEST(ContactArea, OfASlidingSlabIsItsBase) {
+  const Standing seen = stand({});
+  EXPECT_GT(seen.velocity, 5.0);
+  EXPECT_NEAR(seen.area / length, 1.0, 0.05);
+  EXPECT_NEAR(seen.tangential / seen.normal, std::tan(pi<double> / 6.0), 1e-3);
+}
+
+// Friction from cohesion alone is cohesion times the base, at any angle to the grid.
+TEST(ContactArea, CohesionActsOnTheBase) {
+  const Standing seen = stand({"basal.friction_angle=0.0", "basal.cohesion=1e5", "basal.cohesion_law=constant"});
+  EXPECT_GT(seen.velocity, 5.0);
+  EXPECT_NEAR(seen.tangential / (1e5 * length), 1.0, 0.05);
+}
+
+// The momentum of the slab is that at t = 0 and the impulses of gravity, ground and walls, to round-off.
+TEST(Ledger, OfMomentumCloses) {
+  Simulation<2, double> simulation(
+      case_from_text(slab_on_plane(), {"grid.boundary.x_min=roller", "mechanics.mass_damping=0.1"}));
+  run_until(simulation, 2.0);
+  const auto row = history_row(simulation);
+  for (const std::string axis : {"x", "y"}) {
+    const double given = std::abs(value_of(row, "gravity_impulse_y_N_s"));
+    EXPECT_LT(std::abs(value_of(row, "momentum_residual_" + axis + "_N_s")), 1e-11 * given);
+    EXPECT_GT(std::abs(value_of(row, "momentum_" + axis + "_N_s")), 1e-2 * given);
+    EXPECT_GT(std::abs(value_of(row, "ground_impulse_" + axis + "_N_s")), 1e-2 * given);
+    EXPECT_GT(std::abs(value_of(row, "constraint_impulse_" + axis + "_N_s")), 1e-3 * given);
+  }
+  EXPECT_EQ(value_of(row, "mass_residual_kg"), 0.0);
+}
+
+// A block on flat ground against a roller: the wall's node of the ground keeps the wall's condition.
+const std::string cornered = R"(
+[case]
+gravity_tilt = -20.0
+[time]
+end = 2.0
+step = 0.001
+[grid]
+cell = 5.0
+min = [0.0, -10.0]
+max = [100.0, 60.0]
+[grid.boundary]
+x_min = "roller"
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+viscosity_time = 0.02
+[body.block]
+material = "rock"
+shape = "box"
+min = [0.0, 0.0]
+max = [40.0, 20.0]
+[basal]
+friction = "constant"
+friction_angle = 5.0
+[mechanisms]
+pressurization = false
+)";
+
+TEST(Walls, HoldWhereTheyMeetTheGround) {
+  Simulation<2, double> simulation(case_from_text(cornered));
+  run_until(simulation, 2.0);
+  const auto row = history_row(simulation);
+  EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.02);
+  EXPECT_GT(value_of(row, "constraint_impulse_x_N_s"), 0.0);
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    EXPECT_GT(simulation.particles().position(p, 0), 0.0);
+  }
+}
+
+// Gravity switched on at once makes the base ring between none and twice its weight; a settled body stands still.
+struct Ringing {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+};
+
+Ringing ring(const std::vector<std::string>& sets) {
+  Simulation<2, double> simulation(case_from_text(cornered, sets));
+  simulation.settle();
+  const double weight = sum_over_body(simulation).mass * 9.81;
+  Ringing seen;
+  for (int k = 0; k < 1000; ++k) {
+    simulation.step(0.001);
+    seen.least = std::min(seen.least, -simulation.contact().force[1] / weight);
+    seen.most = std::max(seen.most, -simulation.contact().force[1] / weight);
+  }
+  return seen;
+}
+
+TEST(Settling, LeavesTheBaseCarryingItsWeight) {
+  const std::vector<std::string> level{"case.gravity_tilt=0.0", "material.rock.viscosity_time=0.0"};
+  std::vector<std::string> sudden = level, settled = level;
+  sudden.push_back("mechanics.initial_stress=none");
+  for (const char* set :
+       {"mechanics.initial_stress=settle", "mechanics.settle_time=5.0", "mechanics.settle_damping=5.0"}) {
+    settled.push_back(set);
+  }
+  const Ringing loud = ring(sudden), quiet = ring(settled);
+  EXPECT_LT(loud.least, 0.3);
+  EXPECT_GT(loud.most, 1.7);
+  EXPECT_GT(quiet.least, 0.9);
+  EXPECT_LT(quiet.most, 1.1);
+}
+
+TEST(Settling, ChangesNothingButStress) {
+  const std::vector<std::string> sets{"case.gravity_tilt=0.0", "mechanics.initial_stress=settle",
+                                      "mechanics.settle_time=2.0", "mechanics.settle_damping=5.0"};
+  const config::Case parameters = case_from_text(cornered, sets);
+  Simulation<2, double> seeded(parameters), settled(parameters);
+  ASSERT_TRUE(settled.needs_settling());
+  settled.settle();
+  EXPECT_EQ(settled.time(), 0.0);
+  EXPECT_EQ(settled.step_number(), 0);
+  double stress = 0.0;
+  for (std::size_t p = 0; p < seeded.particles().size(); ++p) {
+    for (const mpm::FieldBase* field : seeded.particles().fields.all()) {
+      const std::string name = field->info().name;
+      const auto& all = settled.particles().fields.all();
+      const auto same = std::find_if(all.begin(), all.end(), [&](const auto* f) { return f->info().name == name; });
+      for (int c = 0; c < field->components() && name != "stress"; ++c) {
+        EXPECT_EQ((*same)->value(p, c), field->value(p, c)) << name << " of " << p;
+      }
+    }
+    stress = std::min(stress, settled.particles().stress(p, 1));
+  }
+  EXPECT_LT(stress, -1e5);
+}
+
+}  // namespace
+}  // namespace thawslide::sim

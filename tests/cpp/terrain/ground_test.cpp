@@ -1,0 +1,88 @@
+// The ground as nodes see it: heights, distances, normals, and the shares of its surface and of the space above it.
+#include "terrain/ground.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace thawslide::terrain {
+namespace {
+
+const Polyline bent({0.0, 7.3, 11.1, 30.0}, {20.0, 14.6, 9.0, 8.5});
+
+TEST(Polyline, GoesOnWithTheGradientOfItsEnds) {
+  EXPECT_DOUBLE_EQ(bent.height(-7.3), 25.4);
+  EXPECT_NEAR(bent.height(48.9), 8.0, 1e-12);
+  EXPECT_DOUBLE_EQ(bent.highest(5.0, 12.0), bent.height(5.0));
+}
+
+TEST(Polyline, NearestPointIsTheFootOfTheNormal) {
+  const double slope = (14.6 - 20.0) / 7.3;
+  const Vector<double, 2> up = Vector<double, 2>(-slope, 1.0).normalized();
+  const Vector<double, 2> foot(3.0, bent.height(3.0));
+  for (const double distance : {2.0, 1e-3, -1.5}) {
+    const Vector<double, 2> place = foot + distance * up;
+    const auto nearest = bent.nearest(place[0], place[1]);
+    EXPECT_NEAR(nearest.distance, distance, 1e-12);
+    EXPECT_NEAR((nearest.normal + up).norm(), 0.0, 1e-9);
+  }
+}
+
+// The hats of a grid sum to one, so nodal shares sum to the whole surface and the whole space: within the grid's last
+// columns and rows, where the sum of hats falls from 1 to 0.
+TEST(HatShare, SumsToTheSurfaceAndToTheSpaceAboveIt) {
+  constexpr double h = 2.0;
+  constexpr int first = -3, last_column = 18, last_row = 20;
+  double length = 0.0, above = 0.0;
+  for (int i = first; i <= last_column; ++i) {
+    for (int j = first; j <= last_row; ++j) {
+      const auto share = bent.hat_share(i * h, j * h, h);
+      EXPECT_GE(share.length, 0.0);
+      EXPECT_LE(share.above, h * h * (1.0 + 1e-12));
+      length += share.length;
+      above += share.above;
+    }
+  }
+  double expected_length = 0.0, expected_above = 0.0;
+  constexpr int parts = 1000000;
+  constexpr double from = (first - 1) * h, to = (last_column + 1) * h, step = (to - from) / parts;
+  for (int k = 0; k < parts; ++k) {
+    const double x = from + (k + 0.5) * step;
+    const double columns = std::min({1.0, (x - from) / h, (to - x) / h});
+    expected_length += columns * step * std::hypot(1.0, bent.gradient(x));
+    expected_above += columns * step * ((last_row + 0.5) * h - bent.height(x));
+  }
+  EXPECT_NEAR(length / expected_length, 1.0, 1e-6);
+  EXPECT_NEAR(above / expected_above, 1.0, 1e-6);
+}
+
+TEST(HatShare, OfANodeIsTheIntegralOfItsHat) {
+  constexpr double h = 2.0, x = 7.0, z = 15.0;
+  constexpr int parts = 2000;
+  double length = 0.0, above = 0.0;
+  const auto hat = [&](double q) { return std::max(0.0, 1.0 - std::abs(q) / h); };
+  for (int i = 0; i < parts; ++i) {
+    const double u = x - h + (i + 0.5) * 2.0 * h / parts;
+    length += 2.0 * h / parts * std::hypot(1.0, bent.gradient(u)) * hat(u - x) * hat(bent.height(u) - z);
+    for (int j = 0; j < parts; ++j) {
+      const double w = z - h + (j + 0.5) * 2.0 * h / parts;
+      above += w > bent.height(u) ? std::pow(2.0 * h / parts, 2) * hat(u - x) * hat(w - z) : 0.0;
+    }
+  }
+  const auto share = bent.hat_share(x, z, h);
+  EXPECT_NEAR(share.length, length, 1e-5);
+  EXPECT_NEAR(share.above, above, 1e-4);
+}
+
+TEST(HatShare, OnAGridLineIsTheCellsFace) {
+  const Polyline flat({0.0, 100.0}, {4.0, 4.0});
+  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 4.0, 2.0).length, 2.0);
+  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 4.0, 2.0).above, 2.0);
+  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 6.0, 2.0).length, 0.0);
+  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 6.0, 2.0).above, 4.0);
+  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 2.0, 2.0).above, 0.0);
+}
+
+}  // namespace
+}  // namespace thawslide::terrain
