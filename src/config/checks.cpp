@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -22,26 +21,26 @@ void check_grid(const Case& checked, Reading& reading) {
   for (std::size_t a = 0; a < static_cast<std::size_t>(checked.general.dimension); ++a) {
     const double length = grid.max[a] - grid.min[a];
     if (!(length > 0.0)) {
-      reading.report("grid.max",
-                     fmt::format("grid.max is {} along {}, not above grid.min, which is {}; give the domain a "
-                                 "highest corner above its lowest one.",
-                                 grid.max[a], axis_names[a], grid.min[a]));
+      reading.report_misfit({"grid.max", "grid.min"},
+                            fmt::format("grid.max is {} along {}, not above grid.min, which is {}; give the domain a "
+                                        "highest corner above its lowest one.",
+                                        grid.max[a], axis_names[a], grid.min[a]));
       return;
     }
     const double cells = length / grid.cell;
     if (cells < fewest_cells) {
-      reading.report("grid.cell",
-                     fmt::format("grid.cell is {} m, and the domain is {} m long along {}; allowed: at least "
-                                 "{} cells along each axis. Make the cell smaller or the domain larger.",
-                                 grid.cell, length, axis_names[a], fewest_cells));
+      reading.report_misfit({"grid.cell", "grid.max", "grid.min"},
+                            fmt::format("grid.cell is {} m, and the domain is {} m long along {}; allowed: at least "
+                                        "{} cells along each axis. Make the cell smaller or the domain larger.",
+                                        grid.cell, length, axis_names[a], fewest_cells));
       return;
     }
     if (std::abs(cells - std::round(cells)) > 1e-6 * cells) {
-      reading.report("grid.max",
-                     fmt::format("the domain is {} m long along {}, which is {:.6g} cells of {} m; allowed: a "
-                                 "whole number. Move grid.max along {} to {}.",
-                                 length, axis_names[a], cells, grid.cell, axis_names[a],
-                                 grid.min[a] + std::round(cells) * grid.cell));
+      reading.report_misfit({"grid.max", "grid.cell", "grid.min"},
+                            fmt::format("the domain is {} m long along {}, which is {:.6g} cells of {} m; allowed: a "
+                                        "whole number. Make grid.cell {:.9g}, or move grid.max along {} to {:.9g}.",
+                                        length, axis_names[a], cells, grid.cell, length / std::round(cells),
+                                        axis_names[a], grid.min[a] + std::round(cells) * grid.cell));
     }
   }
 }
@@ -51,15 +50,16 @@ void check_materials(const Case& checked, Reading& reading) {
     const std::string table = "material." + name;
     if (reading.sound({table + ".cohesion", table + ".residual_cohesion"}) &&
         material.residual_cohesion > material.cohesion) {
-      reading.report(table + ".residual_cohesion",
-                     fmt::format("{}.residual_cohesion is {} Pa, above {}.cohesion, which is {} Pa; softening takes "
-                                 "cohesion away. Give a residual at most the cohesion.",
-                                 table, material.residual_cohesion, table, material.cohesion));
+      reading.report_misfit(
+          {table + ".residual_cohesion", table + ".cohesion"},
+          fmt::format("{}.residual_cohesion is {} Pa, above {}.cohesion, which is {} Pa; softening takes "
+                      "cohesion away. Give a residual at most the cohesion.",
+                      table, material.residual_cohesion, table, material.cohesion));
     }
     if (reading.sound({table + ".dilation_angle", table + ".friction_angle"}) &&
         material.dilation_angle > material.friction_angle) {
-      reading.report(
-          table + ".dilation_angle",
+      reading.report_misfit(
+          {table + ".dilation_angle", table + ".friction_angle"},
           fmt::format("{}.dilation_angle is {} degrees, above {}.friction_angle, which is {} degrees; allowed: at "
                       "most the friction angle, else plastic flow makes energy.",
                       table, material.dilation_angle, table, material.friction_angle));
@@ -71,18 +71,51 @@ void check_basal(const Case& checked, Reading& reading) {
   const Basal& basal = checked.basal;
   if (reading.sound({"basal.min_solid_fraction", "basal.max_solid_fraction"}) &&
       basal.min_solid_fraction >= basal.max_solid_fraction) {
-    reading.report(
-        "basal.max_solid_fraction",
+    reading.report_misfit(
+        {"basal.max_solid_fraction", "basal.min_solid_fraction"},
         fmt::format("basal.max_solid_fraction is {}, not above basal.min_solid_fraction, which is {}; Eq. 25 "
-                    "divides by their difference.",
+                    "divides by their difference. Make the one larger or the other smaller.",
                     basal.max_solid_fraction, basal.min_solid_fraction));
   }
   if (reading.sound({"basal.cohesion", "basal.residual_cohesion"}) && basal.residual_cohesion > basal.cohesion) {
-    reading.report(
-        "basal.residual_cohesion",
+    reading.report_misfit(
+        {"basal.residual_cohesion", "basal.cohesion"},
         fmt::format("basal.residual_cohesion is {} Pa, above basal.cohesion, which is {} Pa; cohesion along the "
                     "ground is only lost. Give a residual at most the cohesion.",
                     basal.residual_cohesion, basal.cohesion));
+  }
+}
+
+// Keys that take each other's meaning away.
+void check_switches(const Case& checked, Reading& reading) {
+  const bool has_ground = checked.terrain.kind != TerrainKind::none;
+  if (reading.sound({"mechanics.enabled", "heat.enabled", "pressure.enabled"}) && !checked.mechanics.enabled &&
+      !checked.heat.enabled && !checked.pressure.enabled) {
+    reading.report_misfit(
+        {"mechanics.enabled", "heat.enabled", "pressure.enabled"},
+        "mechanics.enabled, heat.enabled and pressure.enabled are all false: nothing is left to compute. Set "
+        "at least one of them to true.");
+  }
+  if (reading.sound({"mechanics.slope_shear", "mechanics.initial_stress"}) && checked.mechanics.slope_shear &&
+      checked.mechanics.initial_stress != InitialStress::geostatic) {
+    reading.report_misfit(
+        {"mechanics.slope_shear", "mechanics.initial_stress"},
+        "mechanics.slope_shear is true, and mechanics.initial_stress is not \"geostatic\"; only that stress "
+        "takes the shear. Set mechanics.initial_stress = \"geostatic\", or mechanics.slope_shear = false.");
+  }
+  if (reading.sound({"band.region", "terrain.type"}) && checked.band.region == BandRegion::first_layer && !has_ground) {
+    reading.report_misfit(
+        {"band.region", "terrain.type"},
+        "band.region is \"first_layer\", and the case has no terrain; there is no layer above it. Set "
+        "band.region = \"all\", or give terrain.type.");
+  }
+  if (reading.sound({"terrain.slope", "terrain.type"}) && checked.terrain.slope != 0.0 &&
+      checked.terrain.kind != TerrainKind::plane) {
+    reading.report_misfit(
+        {"terrain.slope", "terrain.type"},
+        fmt::format("terrain.slope is {} degrees, and terrain.type is not \"plane\"; no other ground has "
+                    "it. Set terrain.type = \"plane\", or remove terrain.slope.",
+                    checked.terrain.slope));
   }
 }
 
@@ -92,8 +125,11 @@ void check_times(const Case& checked, Reading& reading) {
     return;
   }
   if (time.stepping == Stepping::fixed && reading.sound({"time.step"}) && time.step > time.end) {
-    reading.report("time.step",
-                   fmt::format("time.step is {} s, longer than the run, time.end = {} s.", time.step, time.end));
+    reading.report_misfit(
+        {"time.step", "time.end"},
+        fmt::format("time.step is {} s, longer than the run, which ends at time.end = {} s; allowed: at "
+                    "most that. Make the step smaller, or the run longer.",
+                    time.step, time.end));
   }
 }
 
@@ -112,8 +148,8 @@ ProfileTable checked_profile(const Case& checked, Reading& reading) {
   }
   if (!checked.terrain.extend && reading.sound({"grid.min", "grid.max"}) &&
       (profile.distance.front() > checked.grid.min[0] || profile.distance.back() < checked.grid.max[0])) {
-    reading.report(
-        "terrain.file",
+    reading.report_misfit(
+        {"terrain.file", "grid.max", "grid.min", "terrain.extend"},
         fmt::format("the profile reaches from {} to {} m and the domain from {} to {} m; allowed: a profile that "
                     "covers the domain. Set terrain.extend = true to continue its last gradients, or make the "
                     "domain shorter.",
@@ -132,6 +168,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_times(checked, reading);
   check_materials(checked, reading);
   check_basal(checked, reading);
+  check_switches(checked, reading);
   check_bodies(checked, checked_profile(checked, reading), reading);
 }
 

@@ -10,8 +10,10 @@ namespace thawslide::config {
 
 namespace {
 
+const char* const axis_names[] = {"x", "y", "z"};
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double hair = 1e-3;  // of a cell: how far a body may reach into the ground by rounding
+constexpr double flat = 1e-9;  // of the squared size of a polygon: an area that is rounding only
 
 // Elevation of the ground; -infinity where there is none.
 double ground_at(const Case& checked, const ProfileTable& profile, double x) {
@@ -39,8 +41,8 @@ bool check_box_order(const Point& low, const Point& high, const std::string& tab
   }
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
     if (!(low[a] < high[a])) {
-      reading.report(
-          table + ".max",
+      reading.report_misfit(
+          {table + ".max", table + ".min"},
           fmt::format("{}.max is {}, not above {}.min, which is {}, in every direction; give the highest corner "
                       "of the box.",
                       table, point_text(high, dimension), table, point_text(low, dimension)));
@@ -50,31 +52,36 @@ bool check_box_order(const Point& low, const Point& high, const std::string& tab
   return true;
 }
 
+// The keys say where the lowest and the highest corner come from.
 void check_in_domain(const Case& checked, const Point& low, const Point& high, const std::string& table,
-                     const std::string& key, Reading& reading) {
+                     const std::string& low_key, const std::string& high_key, Reading& reading) {
   const Grid& grid = checked.grid;
   if (!reading.sound({"grid.min", "grid.max"})) {
     return;
   }
   for (std::size_t a = 0; a < static_cast<std::size_t>(checked.general.dimension); ++a) {
     if (low[a] < grid.min[a] || high[a] > grid.max[a]) {
-      reading.report(
-          key, fmt::format("{} reaches from {} to {}, outside the domain, which is {} to {}; move the body, or "
-                           "widen grid.min and grid.max.",
-                           table, point_text(low, checked.general.dimension),
-                           point_text(high, checked.general.dimension), point_text(grid.min, checked.general.dimension),
-                           point_text(grid.max, checked.general.dimension)));
+      const bool is_low = low[a] < grid.min[a];
+      reading.report_misfit(
+          {is_low ? low_key : high_key, is_low ? "grid.min" : "grid.max"},
+          fmt::format("{} reaches from {} to {}, outside the domain, which is {} to {}; move the body, or "
+                      "widen grid.min and grid.max.",
+                      table, point_text(low, checked.general.dimension), point_text(high, checked.general.dimension),
+                      point_text(grid.min, checked.general.dimension),
+                      point_text(grid.max, checked.general.dimension)));
       return;
     }
   }
 }
 
-void report_below_ground(double x, double height, double ground, const std::string& table, const std::string& key,
-                         Reading& reading) {
-  reading.report(
-      key, fmt::format("{} is below the terrain: at x = {:.6g} m its elevation is {:.6g} m and the ground's {:.6g} "
-                       "m; allowed: on the ground or above it. Lift the body, or lower the terrain.",
-                       table, x, height, ground));
+void report_below_ground(const Case& checked, double x, double height, double ground, const std::string& table,
+                         const std::string& key, Reading& reading) {
+  const char* const height_key = checked.terrain.kind == TerrainKind::profile ? "terrain.file" : "terrain.elevation";
+  reading.report_misfit(
+      {key, height_key, "terrain.slope", "terrain.type"},
+      fmt::format("{} is below the terrain: at x = {:.6g} m its elevation is {:.6g} m and the ground's {:.6g} "
+                  "m; allowed: on the ground or above it. Lift the body, or lower the terrain.",
+                  table, x, height, ground));
 }
 
 void check_box(const Case& checked, const ProfileTable& profile, const Body& body, const std::string& table,
@@ -83,7 +90,7 @@ void check_box(const Case& checked, const ProfileTable& profile, const Body& bod
   if (!check_box_order(body.min, body.max, table, dimension, reading)) {
     return;
   }
-  check_in_domain(checked, body.min, body.max, table, table + ".min", reading);
+  check_in_domain(checked, body.min, body.max, table, table + ".min", table + ".max", reading);
   const double bottom = body.min[static_cast<std::size_t>(dimension - 1)];
   std::vector<double> places{body.min[0], body.max[0]};
   for (const double x : profile.distance) {
@@ -94,10 +101,69 @@ void check_box(const Case& checked, const ProfileTable& profile, const Body& bod
   for (const double x : places) {
     const double ground = ground_at(checked, profile, x);
     if (bottom < ground - hair * checked.grid.cell) {
-      report_below_ground(x, bottom, ground, table, table + ".min", reading);
+      report_below_ground(checked, x, bottom, ground, table, table + ".min", reading);
       return;
     }
   }
+}
+
+using Vertex = std::array<double, 2>;
+using Vertices = std::vector<Vertex>;
+
+// Twice the signed area of a triangle.
+double turn(const Vertex& a, const Vertex& b, const Vertex& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// The lines between a and b and between c and d cross inside both.
+bool cross(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
+  return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
+}
+
+// The numbers, from 1, of the vertices before two sides that cross; 0 and 0 if none do.
+std::array<std::size_t, 2> crossing_sides(const Vertices& vertices) {
+  const std::size_t count = vertices.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    for (std::size_t k = j + 2; k < count; ++k) {
+      if (cross(vertices[j], vertices[j + 1], vertices[k], vertices[(k + 1) % count])) {
+        return {j + 1, k + 1};
+      }
+    }
+  }
+  return {0, 0};
+}
+
+// The polygon goes once around an area; `size` is its largest extent.
+bool check_outline(const Vertices& vertices, double size, const std::string& key, Reading& reading) {
+  const auto [first, second] = crossing_sides(vertices);
+  if (second > 0) {
+    reading.report(key, fmt::format("{} make sides that cross: the one after vertex {} and the one after vertex {}; "
+                                    "allowed: corners in order around the body. Put them in order.",
+                                    key, first, second));
+    return false;
+  }
+  double twice_area = 0.0;
+  for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
+    twice_area += turn(vertices[0], vertices[k], vertices[k + 1]);
+  }
+  if (std::abs(twice_area) <= flat * size * size) {
+    reading.report(key, fmt::format("{} are {} points that hold no area; allowed: at least 3 that are not on one line. "
+                                    "Give the corners in order around the body.",
+                                    key, vertices.size()));
+    return false;
+  }
+  return true;
+}
+
+// The points of a side that may lie deepest in the ground: its first end, and where the profile bends along it.
+Vertices low_points(const ProfileTable& profile, const Vertex& a, const Vertex& b) {
+  Vertices points{a};
+  for (const double x : profile.distance) {
+    if ((x - a[0]) * (x - b[0]) < 0.0) {
+      points.push_back({x, a[1] + (x - a[0]) / (b[0] - a[0]) * (b[1] - a[1])});
+    }
+  }
+  return points;
 }
 
 void check_polygon(const Case& checked, const ProfileTable& profile, const Body& body, const std::string& table,
@@ -106,69 +172,77 @@ void check_polygon(const Case& checked, const ProfileTable& profile, const Body&
   if (!reading.sound({key})) {
     return;
   }
-  const auto& vertices = body.vertices;
-  double twice_area = 0.0;
+  const Vertices& vertices = body.vertices;
   Point low{INFINITY, INFINITY, 0.0}, high{-INFINITY, -INFINITY, 0.0};
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    const auto& a = vertices[k];
-    const auto& b = vertices[(k + 1) % vertices.size()];
-    twice_area += a[0] * b[1] - b[0] * a[1];
+  for (const Vertex& vertex : vertices) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      low[axis] = std::min(low[axis], a[axis]);
-      high[axis] = std::max(high[axis], a[axis]);
+      low[axis] = std::min(low[axis], vertex[axis]);
+      high[axis] = std::max(high[axis], vertex[axis]);
     }
   }
-  if (vertices.size() < 3 || twice_area == 0.0) {
-    reading.report(
-        key, fmt::format("{} are {} points that hold no area; allowed: at least 3, in order around the body.", key,
-                         vertices.size()));
+  if (!check_outline(vertices, std::max(high[0] - low[0], high[1] - low[1]), key, reading)) {
     return;
   }
-  check_in_domain(checked, low, high, table, key, reading);
-  for (const auto& vertex : vertices) {
-    const double ground = ground_at(checked, profile, vertex[0]);
-    if (vertex[1] < ground - hair * checked.grid.cell) {
-      report_below_ground(vertex[0], vertex[1], ground, table, key, reading);
-      return;
+  check_in_domain(checked, low, high, table, key, key, reading);
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    for (const Vertex& point : low_points(profile, vertices[k], vertices[(k + 1) % vertices.size()])) {
+      const double ground = ground_at(checked, profile, point[0]);
+      if (point[1] < ground - hair * checked.grid.cell) {
+        report_below_ground(checked, point[0], point[1], ground, table, key, reading);
+        return;
+      }
     }
   }
 }
 
+// The box around what the profile holds between its terrain and its surface. From a row where the surface is higher the
+// body thins out to the rows beside it. Of no extent where the surface is nowhere higher.
+std::array<Point, 2> surface_extent(const ProfileTable& profile) {
+  Point low{INFINITY, INFINITY, 0.0}, high{-INFINITY, -INFINITY, 0.0};
+  const std::size_t rows = profile.distance.size();
+  for (std::size_t k = 0; k < rows; ++k) {
+    if (!(profile.surface[k] > profile.terrain[k])) {
+      continue;
+    }
+    for (std::size_t near = k == 0 ? 0 : k - 1; near < std::min(k + 2, rows); ++near) {
+      low = {std::min(low[0], profile.distance[near]), std::min(low[1], profile.terrain[near]), 0.0};
+      high = {std::max(high[0], profile.distance[near]), std::max(high[1], profile.surface[near]), 0.0};
+    }
+  }
+  return {low, high};
+}
+
 void check_surface(const Case& checked, const ProfileTable& profile, const std::string& table, Reading& reading) {
   if (checked.terrain.kind != TerrainKind::profile) {
-    reading.report(table + ".shape",
-                   fmt::format("{}.shape is \"surface\", and terrain.type is not \"profile\"; that shape "
-                               "takes the body from the profile's surface_elevation_m.",
-                               table));
+    reading.report_misfit(
+        {table + ".shape", "terrain.type"},
+        fmt::format("{}.shape is \"surface\", and terrain.type is not \"profile\"; that shape "
+                    "takes the body from the profile's surface_elevation_m. Set terrain.type and terrain.file, or use "
+                    "the shape \"box\" or \"polygon\".",
+                    table));
     return;
   }
   if (profile.empty()) {
     return;
   }
   if (profile.surface.empty()) {
-    reading.report(
-        table + ".shape",
+    reading.report_misfit(
+        {table + ".shape", "terrain.file"},
         fmt::format("{}.shape is \"surface\", and the profile has no column surface_elevation_m; add it to {}, or "
                     "use the shape \"box\" or \"polygon\".",
                     table, checked.terrain.file));
     return;
   }
-  Point low{INFINITY, INFINITY, 0.0}, high{-INFINITY, -INFINITY, 0.0};
-  const auto up = static_cast<std::size_t>(checked.general.dimension - 1);
-  for (std::size_t k = 0; k < profile.distance.size(); ++k) {
-    if (profile.surface[k] > profile.terrain[k]) {
-      low = {std::min(low[0], profile.distance[k]), std::min(low[1], profile.terrain[k]), 0.0};
-      high = {std::max(high[0], profile.distance[k]), std::max(high[1], profile.surface[k]), 0.0};
-    }
-  }
+  const auto [low, high] = surface_extent(profile);
   if (!(low[0] < high[0])) {
-    reading.report(table + ".shape",
-                   fmt::format("the profile's surface is nowhere above its terrain: {} holds nothing.", table));
+    reading.report_misfit(
+        {table + ".shape", "terrain.file"},
+        fmt::format("{}.shape is \"surface\", and surface_elevation_m is nowhere above the terrain in {}: the "
+                    "body holds nothing. Raise the surface there, or use the shape \"box\" or \"polygon\".",
+                    table, checked.terrain.file));
     return;
   }
-  if (up == 1) {
-    check_in_domain(checked, low, high, table, table + ".shape", reading);
-  }
+  check_in_domain(checked, low, high, table, table + ".shape", table + ".shape", reading);
 }
 
 void check_body(const Case& checked, const ProfileTable& profile, const std::string& name, const Body& body,
@@ -189,7 +263,10 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
     return;
   }
   if (body.shape != BodyShape::box && checked.general.dimension == 3) {
-    reading.report(table + ".shape", fmt::format("{}.shape is for sections; in 3D a body is a \"box\".", table));
+    reading.report_misfit(
+        {table + ".shape", "case.dimension"},
+        fmt::format("{}.shape is for 2D cases; allowed in 3D: \"box\". Use the shape \"box\" with min and max.",
+                    table));
   } else if (body.shape == BodyShape::box) {
     check_box(checked, profile, body, table, reading);
   } else if (body.shape == BodyShape::polygon) {
@@ -199,11 +276,34 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
   }
 }
 
+// A frame may reach out of the domain, but must meet it at some time of the run.
+void check_frame_meets_domain(const Case& checked, const Frame& frame, const std::string& table, Reading& reading) {
+  const int dimension = checked.general.dimension;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
+    const double way = frame.axis == axis_names[a] ? frame.velocity * checked.time.end : 0.0;
+    const double low = frame.min[a] + std::min(0.0, way);
+    const double high = frame.max[a] + std::max(0.0, way);
+    if (high <= checked.grid.min[a] || low >= checked.grid.max[a]) {
+      reading.report_misfit(
+          {table + ".min", table + ".velocity", "grid.min", "grid.max", "time.end"},
+          fmt::format("{} reaches from {} to {} and stays outside the domain, which is {} to {}, until time.end; move "
+                      "the frame, or widen grid.min and grid.max.",
+                      table, point_text(frame.min, dimension), point_text(frame.max, dimension),
+                      point_text(checked.grid.min, dimension), point_text(checked.grid.max, dimension)));
+      return;
+    }
+  }
+}
+
 void check_frame(const Case& checked, const std::string& name, const Frame& frame, Reading& reading) {
   const std::string table = "frame." + name;
-  check_box_order(frame.min, frame.max, table, checked.general.dimension, reading);
+  const bool ordered = check_box_order(frame.min, frame.max, table, checked.general.dimension, reading);
+  if (ordered && reading.sound({"grid.min", "grid.max", "time.end", table + ".axis", table + ".velocity"})) {
+    check_frame_meets_domain(checked, frame, table, reading);
+  }
   if (reading.sound({table + ".axis"}) && frame.axis == "z" && checked.general.dimension == 2) {
-    reading.report(table + ".axis", fmt::format("{}.axis is \"z\" in a 2D case; allowed: \"x\" or \"y\".", table));
+    reading.report(table + ".axis",
+                   fmt::format("{}.axis is \"z\" in a 2D case; allowed: \"x\" or \"y\". Up is \"y\" there.", table));
   }
 }
 

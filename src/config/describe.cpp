@@ -14,10 +14,11 @@ using Json = nlohmann::ordered_json;
 
 // What holds where the key is absent.
 std::string absence(const Entry& entry) {
-  if (!entry.required.empty()) {
-    return entry.required == "always" ? "required" : "required " + entry.required;
+  if (entry.required.empty()) {
+    return entry.otherwise.empty() ? entry.default_text : entry.otherwise;
   }
-  return entry.otherwise.empty() ? entry.default_text : entry.otherwise;
+  const std::string required = entry.required == "always" ? "required" : "required " + entry.required;
+  return entry.otherwise.empty() ? required : required + "; otherwise " + entry.otherwise;
 }
 
 std::string range_text(const Entry& entry) {
@@ -65,6 +66,11 @@ Json table_schema(const TableDeclaration& table) {
   }
   Json schema{{"type", "object"}, {"description", table.text}, {"properties", properties}};
   schema["additionalProperties"] = false;
+  for (const Entry& entry : table.entries()) {
+    if (entry.required == "always") {
+      schema["required"].push_back(entry.rule->key);
+    }
+  }
   return schema;
 }
 

@@ -28,11 +28,15 @@ std::vector<Parameter<Phases>> phase_parameters() {
             "heat conductivity of the rock grains"),
       phase(&Phases::ice_conductivity, "ice_conductivity", "W/m/K", not_negative, "heat conductivity of ice"),
       phase(&Phases::water_conductivity, "water_conductivity", "W/m/K", not_negative, "heat conductivity of water"),
-      phase(&Phases::rock_expansion, "rock_expansion", "1/K", not_negative, "thermal expansion of the rock grains"),
-      phase(&Phases::ice_expansion, "ice_expansion", "1/K", not_negative, "thermal expansion of ice"),
-      phase(&Phases::water_expansion, "water_expansion", "1/K", not_negative, "thermal expansion of water"),
+      phase(&Phases::rock_expansion, "rock_expansion", "1/K", not_negative,
+            "volumetric thermal expansion of the rock grains, beta_S"),
+      phase(&Phases::ice_expansion, "ice_expansion", "1/K", not_negative,
+            "volumetric thermal expansion of ice, beta_I"),
+      phase(&Phases::water_expansion, "water_expansion", "1/K", not_negative,
+            "volumetric thermal expansion of water, beta_L"),
       phase(&Phases::water_bulk_modulus, "water_bulk_modulus", "Pa", positive, "bulk modulus of water, K_L"),
-      phase(&Phases::latent_heat, "latent_heat", "J/kg", not_negative, "latent heat of melting, L_f"),
+      phase(&Phases::latent_heat, "latent_heat", "J/kg", not_negative,
+            "latent heat of melting, L_f; Table 1 prints its unit as J/m3"),
       phase(&Phases::water_unit_weight, "water_unit_weight", "N/m3", positive,
             "unit weight of water in Darcy's law, gamma_w", "Eq. 22"),
       phase(&Phases::ice_to_rock_density_ratio, "ice_to_rock_density_ratio", "", not_negative,
@@ -45,15 +49,20 @@ std::vector<Parameter<Freezing>> freezing_parameters() {
       parameter(&Freezing::curve,
                 {.key = "curve", .text = "liquid saturation over temperature", .source = "Eq. 24, Sec. 3.1"}),
       parameter(&Freezing::exponent,
-                {.key = "exponent", .range = above(0), .text = "of the power law", .source = "Eq. 24"}),
-      parameter(
-          &Freezing::slope,
-          {.key = "slope", .unit = "1/K", .range = above(0), .text = "of the linear curve, m", .source = "Sec. 3.1"}),
+                {.key = "exponent",
+                 .range = above(0),
+                 .text = "exponent of the power law: the larger, the less water is left below freezing",
+                 .source = "Eq. 24"}),
+      parameter(&Freezing::slope, {.key = "slope",
+                                   .unit = "1/K",
+                                   .range = above(0),
+                                   .text = "slope m of the linear curve: all is ice at 1/m below reference_temperature",
+                                   .source = "Sec. 3.1"}),
       parameter(&Freezing::reference_temperature, {.key = "reference_temperature",
                                                    .unit = "C",
                                                    .range = inside(-273.15, 100),
-                                                   .text = "temperature above which all is water, Tref",
-                                                   .source = "Eq. 4"}),
+                                                   .text = "temperature from which on all pore water is liquid, Tref",
+                                                   .source = "Eqs. 4, 24"}),
   };
 }
 
@@ -68,7 +77,7 @@ std::vector<Parameter<Material>> material_parameters() {
       "when the law is \"mohr_coulomb\" and mechanics.enabled and mechanisms.deformation are true";
   const std::string when_mechanical = "when mechanics.enabled is true";
   return {
-      parameter(&Material::law, {.key = "law", .text = "stress law", .source = "Eqs. 10, 11"}),
+      parameter(&Material::law, {.key = "law", .text = "law between strain and stress", .source = "Eqs. 10, 11"}),
       parameter(&Material::youngs_modulus, {.key = "youngs_modulus",
                                             .unit = "Pa",
                                             .range = above(0),
@@ -81,7 +90,7 @@ std::vector<Parameter<Material>> material_parameters() {
       parameter(&Material::friction_angle, {.key = "friction_angle",
                                             .unit = "degrees",
                                             .range = {.low = 0, .high = 90, .high_open = true},
-                                            .text = "internal friction angle",
+                                            .text = "friction angle inside the body, phi",
                                             .source = "Eq. 11"})
           .required_if(when_plastic, is_plastic),
       parameter(&Material::dilation_angle,
@@ -95,25 +104,28 @@ std::vector<Parameter<Material>> material_parameters() {
                                       .text = "internal cohesion before any plastic strain, c_0",
                                       .source = "Eq. 11"})
           .required_if(when_plastic, is_plastic),
-      parameter(&Material::residual_cohesion, {.key = "residual_cohesion",
-                                               .unit = "Pa",
-                                               .range = at_least(0),
-                                               .text = "cohesion after large plastic strain, c_f",
-                                               .source = "Sec. 4"})
+      parameter(&Material::residual_cohesion,
+                {.key = "residual_cohesion",
+                 .unit = "Pa",
+                 .range = at_least(0),
+                 .text = "cohesion after large plastic strain eps, c_f: c = c_f + (c_0 - c_f) exp(-eps)",
+                 .source = "Sec. 4"})
           .otherwise("cohesion, that is no softening",
                      [](const Case&, Material& material) { material.residual_cohesion = material.cohesion; }),
-      parameter(&Material::tension_cutoff, {.key = "tension_cutoff",
-                                            .unit = "Pa",
-                                            .range = {.low = 0, .infinity_allowed = true},
-                                            .text = "largest principal tension; inf: the cone's apex alone"}),
-      parameter(&Material::viscosity_time, {.key = "viscosity_time",
-                                            .unit = "s",
-                                            .range = at_least(0),
-                                            .text = "Kelvin-Voigt time: viscous stress over elastic stress rate"}),
+      parameter(&Material::tension_cutoff,
+                {.key = "tension_cutoff",
+                 .unit = "Pa",
+                 .range = {.low = 0, .infinity_allowed = true},
+                 .text = "largest tension in any direction; inf: limited by cohesion and friction angle alone"}),
+      parameter(&Material::viscosity_time,
+                {.key = "viscosity_time",
+                 .unit = "s",
+                 .range = at_least(0),
+                 .text = "Kelvin-Voigt viscosity: viscous stress over elastic stress rate; 0: none"}),
       parameter(&Material::hydraulic_conductivity, {.key = "hydraulic_conductivity",
                                                     .unit = "m/s",
                                                     .range = at_least(0),
-                                                    .text = "hydraulic conductivity k_L",
+                                                    .text = "hydraulic conductivity k_L; 0: pore water does not seep",
                                                     .source = "Eq. 22"}),
   };
 }
@@ -124,7 +136,7 @@ std::vector<Parameter<Body>> body_parameters() {
   const std::string when_box = "when the shape is \"box\"";
   return {
       parameter(&Body::material, {.key = "material", .text = "name of the material the body is made of"}).required(),
-      parameter(&Body::shape, {.key = "shape", .text = "how the space of the body is told"}),
+      parameter(&Body::shape, {.key = "shape", .text = "how the place and form of the body are given"}),
       parameter(&Body::min, {.key = "min", .unit = "m", .text = "lowest corner of the box"})
           .required_if(when_box, is_box),
       parameter(&Body::max, {.key = "max", .unit = "m", .text = "highest corner of the box"})
@@ -138,12 +150,12 @@ std::vector<Parameter<Body>> body_parameters() {
       parameter(&Body::temperature, {.key = "temperature",
                                      .unit = "C",
                                      .range = {.low = -273.15, .high = 100, .low_open = true},
-                                     .text = "initial temperature; depth [m] is below the body's surface"}),
+                                     .text = "temperature at t = 0; depth is vertical, below the body's surface [m]"}),
       parameter(&Body::porosity, {.key = "porosity",
                                   .range = inside(0, 0.95),
-                                  .text = "initial porosity: share of ice and water in the volume",
+                                  .text = "porosity n at t = 0: share of ice and water in the volume",
                                   .source = "Eq. 1, Table 2"}),
-      parameter(&Body::velocity, {.key = "velocity", .unit = "m/s", .text = "initial velocity"}),
+      parameter(&Body::velocity, {.key = "velocity", .unit = "m/s", .text = "velocity at t = 0"}),
   };
 }
 

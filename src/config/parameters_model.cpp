@@ -11,25 +11,33 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
   };
   const std::string when_settling = "when mechanics.initial_stress is \"settle\"";
   return {
-      parameter(&Mechanics::enabled, {.key = "enabled", .text = "false: nothing moves", .source = "Sec. 3.1"}),
-      parameter(&Mechanics::shape_function, {.key = "shape_function", .text = "shape functions of momentum"}),
-      parameter(&Mechanics::initial_stress, {.key = "initial_stress", .text = "stress at t = 0; the paper is silent"}),
-      parameter(&Mechanics::k0,
-                {.key = "k0", .range = at_least(0), .text = "ratio of sideways to vertical initial stress, geostatic"})
+      parameter(&Mechanics::enabled,
+                {.key = "enabled",
+                 .text = "motion and stress (Eqs. 10-16); false: nothing moves, as in the freezing bar",
+                 .source = "Sec. 3.1"}),
+      parameter(&Mechanics::shape_function,
+                {.key = "shape_function", .text = "shape functions that carry momentum between particles and grid"}),
+      parameter(&Mechanics::initial_stress,
+                {.key = "initial_stress", .text = "stress at t = 0, of which the paper says nothing"}),
+      parameter(&Mechanics::k0, {.key = "k0",
+                                 .range = at_least(0),
+                                 .text = "K0 of the geostatic stress: stress along the ground over stress across it"})
           .otherwise("nu / (1 - nu) of each material"),
-      parameter(&Mechanics::slope_shear,
-                {.key = "slope_shear", .text = "add the shear stress of an infinite slope to the geostatic stress"}),
+      parameter(
+          &Mechanics::slope_shear,
+          {.key = "slope_shear", .text = "the geostatic stress holds the shear stress of an infinite slope as well"}),
       parameter(&Mechanics::settle_time,
                 {.key = "settle_time", .unit = "s", .range = above(0), .text = "time the body settles before t = 0"})
           .required_if(when_settling, settles),
       parameter(&Mechanics::settle_damping, {.key = "settle_damping",
                                              .unit = "1/s",
                                              .range = above(0),
-                                             .text = "damping of velocities while the body settles"})
+                                             .text = "rate at which velocities are damped while the body settles"})
           .required_if(when_settling, settles),
-      parameter(
-          &Mechanics::mass_damping,
-          {.key = "mass_damping", .unit = "1/s", .range = at_least(0), .text = "damping of velocities during the run"}),
+      parameter(&Mechanics::mass_damping, {.key = "mass_damping",
+                                           .unit = "1/s",
+                                           .range = at_least(0),
+                                           .text = "rate at which velocities are damped during the run; 0: none"}),
   };
 }
 
@@ -51,7 +59,10 @@ std::vector<Parameter<Basal>> friction_parameters() {
                          return whole.terrain.kind != TerrainKind::none && whole.mechanics.enabled;
                        }),
       parameter(&Basal::lubrication_exponent,
-                {.key = "lubrication_exponent", .range = above(0), .text = "omega", .source = "Eq. 25"}),
+                {.key = "lubrication_exponent",
+                 .range = above(0),
+                 .text = "exponent omega: the larger, the later friction falls as solid is lost",
+                 .source = "Eq. 25"}),
       parameter(&Basal::min_solid_fraction, {.key = "min_solid_fraction",
                                              .range = between(0, 1),
                                              .text = "effective solid fraction at which friction vanishes, n_min",
@@ -60,16 +71,18 @@ std::vector<Parameter<Basal>> friction_parameters() {
                                              .range = between(0, 1),
                                              .text = "effective solid fraction at which friction is whole, n_max",
                                              .source = "Eq. 25"}),
-      parameter(
-          &Basal::clamp,
-          {.key = "clamp", .text = "where the frictional strength is kept from being negative", .source = "Eq. 17"}),
-      parameter(&Basal::cap_pressure,
-                {.key = "cap_pressure", .text = "pore pressure acts up to the normal stress only", .source = "Eq. 17"}),
+      parameter(&Basal::clamp,
+                {.key = "clamp",
+                 .text = "strength S_slide of the ground where the pore pressure P passes the normal stress N",
+                 .source = "Eq. 17"}),
+      parameter(&Basal::cap_pressure, {.key = "cap_pressure",
+                                       .text = "the pore pressure P counts as N, the normal stress, at most",
+                                       .source = "Eq. 17"}),
       parameter(&Basal::heat_fraction,
                 {.key = "heat_fraction",
                  .range = between(0, 1),
-                 .text = "share of friction work that becomes heat: energy conversion coefficient",
-                 .source = "Secs. 3.3, 4"}),
+                 .text = "energy conversion coefficient: share of the friction work that heats the slide",
+                 .source = "Eq. 20, Secs. 3.3, 4"}),
   };
 }
 
@@ -78,9 +91,9 @@ std::vector<Parameter<Basal>> cohesion_parameters() {
       parameter(&Basal::cohesion, {.key = "cohesion",
                                    .unit = "Pa",
                                    .range = at_least(0),
-                                   .text = "cohesion c_S along the ground at t = 0",
+                                   .text = "cohesion along the ground at t = 0, c_0",
                                    .source = "Eq. 17"}),
-      parameter(&Basal::cohesion_law, {.key = "cohesion_law", .text = "how the cohesion along the ground is lost"}),
+      parameter(&Basal::cohesion_law, {.key = "cohesion_law", .text = "how the cohesion c_S along the ground is lost"}),
       parameter(&Basal::residual_cohesion, {.key = "residual_cohesion",
                                             .unit = "Pa",
                                             .range = at_least(0),
@@ -95,7 +108,7 @@ std::vector<Parameter<Basal>> cohesion_parameters() {
       parameter(&Basal::cohesion_loss_time, {.key = "cohesion_loss_time",
                                              .unit = "s",
                                              .range = at_least(0),
-                                             .text = "when the cohesion is lost, of the law \"time\""})
+                                             .text = "time at which the cohesion is lost, of the law \"time\""})
           .required_if(
               "when basal.cohesion > 0 and basal.cohesion_law is \"time\"",
               [](const Case& whole, const Basal& basal) { return loses_cohesion(whole, basal, CohesionLaw::time); }),
@@ -112,51 +125,84 @@ std::vector<Parameter<Basal>> basal_parameters() {
 
 std::vector<Parameter<Mechanisms>> mechanism_parameters() {
   return {
-      parameter(&Mechanisms::deformation,
-                {.key = "deformation", .text = "D; false: the yield strength is out of reach", .source = "Sec. 3.3"}),
-      parameter(&Mechanisms::lubrication, {.key = "lubrication",
-                                           .text = "L; false: Eq. 25 at the initial porosity and saturation",
-                                           .source = "Sec. 3.3"}),
-      parameter(&Mechanisms::pressurization, {.key = "pressurization",
-                                              .text = "P; false: no pore pressure at the ground, ice pressure included",
-                                              .source = "Sec. 3.3"}),
+      parameter(
+          &Mechanisms::deformation,
+          {.key = "deformation",
+           .text = "mechanism D: the body yields inside (Eq. 11); false: it is elastic, its strength out of reach",
+           .source = "Sec. 3.3, Eq. 11"}),
+      parameter(
+          &Mechanisms::lubrication,
+          {.key = "lubrication",
+           .text = "mechanism L: friction follows melting and porosity (Eq. 25); false: Eq. 25 keeps those of t = 0",
+           .source = "Sec. 3.3, Eqs. 17, 25"}),
+      parameter(
+          &Mechanisms::pressurization,
+          {.key = "pressurization",
+           .text = "mechanism P: pore pressure lowers friction (Eq. 17); false: P = 0 there, ice pressure included",
+           .source = "Sec. 3.3, Eqs. 17, 21"}),
   };
 }
 
 std::vector<Parameter<Band>> band_parameters() {
   return {
-      parameter(&Band::thickness, {.key = "thickness",
-                                   .unit = "m",
-                                   .range = above(0),
-                                   .text = "thickness e of the shear band over time; xi = grid.cell / e",
-                                   .source = "Sec. 2.3, Eq. 19"})
+      parameter(
+          &Band::thickness,
+          {.key = "thickness",
+           .unit = "m",
+           .range = above(0),
+           .text =
+               "thickness e of the shear band, constant or over time; scales heat and seepage by xi = grid.cell / e",
+           .source = "Sec. 2.3, Eq. 19"})
           .otherwise("no band: xi = 1"),
-      parameter(&Band::region, {.key = "region", .text = "particles that xi acts on", .source = "Sec. 2.3"}),
+      parameter(&Band::region,
+                {.key = "region", .text = "particles that the scaling xi acts on", .source = "Sec. 2.3"}),
   };
 }
 
 std::vector<Parameter<Heat>> heat_parameters() {
   return {
-      parameter(&Heat::enabled, {.key = "enabled", .text = "false: temperatures stay", .source = "Eq. 9"}),
-      parameter(&Heat::latent, {.key = "latent", .text = "latent heat of melting and freezing", .source = "Eq. 9"}),
-      parameter(&Heat::conduction, {.key = "conduction", .text = "heat conduction", .source = "Eq. 18"}),
-      parameter(&Heat::advection, {.key = "advection", .text = "heat carried by seeping water", .source = "Eq. 9"}),
+      parameter(&Heat::enabled, {.key = "enabled",
+                                 .text = "temperature and phase change (Eq. 9); false: temperatures stay as at t = 0",
+                                 .source = "Eqs. 9, 18-20"}),
+      parameter(
+          &Heat::latent,
+          {.key = "latent",
+           .text = "melting takes and freezing gives latent heat; false: ice melts all the same, at no cost of heat",
+           .source = "Eq. 9"}),
+      parameter(&Heat::conduction, {.key = "conduction",
+                                    .text = "heat is conducted, q_T = -k grad T; false: it stays where it is made",
+                                    .source = "Eq. 18"}),
+      parameter(&Heat::advection,
+                {.key = "advection",
+                 .text = "seeping water carries heat; needs pressure.enabled and a hydraulic conductivity",
+                 .source = "Eq. 9"}),
   };
 }
 
 std::vector<Parameter<Pressure>> pressure_parameters() {
   return {
-      parameter(&Pressure::enabled, {.key = "enabled", .text = "false: pore pressure is not computed"}),
-      parameter(&Pressure::thermal_pressurization,
-                {.key = "thermal_pressurization",
-                 .text = "false: once melted the water keeps the pressure of the ice over r",
-                 .source = "Eq. 23"}),
+      parameter(
+          &Pressure::enabled,
+          {.key = "enabled",
+           .text = "pore pressure P (Eq. 21): Clapeyron with ice (Eq. 4), heating and seepage once melted (Eq. 23); "
+                   "false: P = 0 everywhere, ice pressure included",
+           .source = "Eqs. 4, 8, 21-23"}),
+      parameter(
+          &Pressure::thermal_pressurization,
+          {.key = "thermal_pressurization",
+           .text = "heating melted pore water raises its pressure; false: it keeps P_I/r, r = rho_I/rho_L, and does "
+                   "not seep",
+           .source = "Eq. 23"}),
       parameter(&Pressure::clapeyron,
-                {.key = "clapeyron", .text = "sign of the Clapeyron equation", .source = "Eq. 4"}),
-      parameter(&Pressure::seepage, {.key = "seepage", .text = "Darcy flow of melted pore water", .source = "Eq. 22"}),
+                {.key = "clapeyron", .text = "sign before the logarithm of the Clapeyron equation", .source = "Eq. 4"}),
+      parameter(
+          &Pressure::seepage,
+          {.key = "seepage", .text = "Darcy flow of melted pore water (Eq. 22); false: undrained", .source = "Eq. 22"}),
       parameter(&Pressure::thickness_direction,
-                {.key = "thickness_direction", .text = "direction of the thickness H in P_I = rho_I g H"}),
-      parameter(&Pressure::thickness_update, {.key = "thickness_update", .text = "when the thickness H is computed"}),
+                {.key = "thickness_direction",
+                 .text = "how the slide's thickness H in the ice pressure P_I = rho_I g H is measured"}),
+      parameter(&Pressure::thickness_update,
+                {.key = "thickness_update", .text = "whether the thickness H of the ice pressure follows the slide"}),
   };
 }
 

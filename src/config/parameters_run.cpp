@@ -28,7 +28,9 @@ std::vector<Parameter<General>> general_parameters() {
 
 std::vector<Parameter<Time>> time_parameters() {
   return {
-      parameter(&Time::end, {.key = "end", .unit = "s", .range = above(0), .text = "simulated time"}).required(),
+      parameter(&Time::end,
+                {.key = "end", .unit = "s", .range = above(0), .text = "simulated time at which the run ends"})
+          .required(),
       parameter(&Time::stepping, {.key = "stepping", .text = "how the time step is chosen"}),
       parameter(
           &Time::step,
@@ -40,11 +42,11 @@ std::vector<Parameter<Time>> time_parameters() {
                                 .range = {.low = 0, .high = 1, .low_open = true},
                                 .text = "share of the smallest limit that an adaptive step takes"}),
       parameter(&Time::output_interval,
-                {.key = "output_interval", .unit = "s", .range = above(0), .text = "time between snapshots"}),
+                {.key = "output_interval", .unit = "s", .range = above(0), .text = "simulated time between snapshots"}),
       parameter(&Time::history_interval, {.key = "history_interval",
                                           .unit = "s",
                                           .range = at_least(0),
-                                          .text = "time between rows of history.csv; 0: a row every step"}),
+                                          .text = "simulated time between rows of history.csv; 0: a row every step"}),
   };
 }
 
@@ -62,7 +64,7 @@ std::vector<Parameter<Terrain>> terrain_parameters() {
   return {
       parameter(&Terrain::kind, {.key = "type", .text = "the rigid ground that bodies slide on"}),
       parameter(&Terrain::elevation,
-                {.key = "elevation", .unit = "m", .text = "of the flat ground, or of the plane at x = 0"}),
+                {.key = "elevation", .unit = "m", .text = "elevation of the flat ground, or of the plane at x = 0"}),
       parameter(&Terrain::slope, {.key = "slope",
                                   .unit = "degrees",
                                   .range = inside(-90, 90),
@@ -90,7 +92,7 @@ std::vector<Parameter<Report>> report_parameters() {
       parameter(&Report::times, {.key = "times",
                                  .unit = "s",
                                  .range = at_least(0),
-                                 .text = "times of the snapshot figures; none: six even times"}),
+                                 .text = "times of the snapshot figures; []: six even times"}),
       parameter(&Report::targets, {.key = "targets",
                                    .text = "CSV file of observed values, columns quantity,time_s,value,unit,source",
                                    .is_path = true}),

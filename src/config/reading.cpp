@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -55,12 +56,21 @@ void Reading::report(const std::string& dotted, std::string message) {
   unsound.insert(dotted);
 }
 
+void Reading::report_misfit(std::initializer_list<std::string> dotted, std::string message) {
+  const auto set = std::find_if(dotted.begin(), dotted.end(), [this](const std::string& key) {
+    const auto found = places.find(key);
+    return found != places.end() && found->second.command_line;
+  });
+  problems.add(place_of(set == dotted.end() ? *dotted.begin() : *set), std::move(message));
+  unsound.insert(*dotted.begin());
+}
+
 std::string describe_node(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     return fmt::format("the text \"{}\"", text->get());
   }
   if (const auto* number = node.as_floating_point()) {
-    return plain_number(number->get());
+    return number_text(number->get());
   }
   if (const auto* whole = node.as_integer()) {
     return fmt::format("{}", whole->get());

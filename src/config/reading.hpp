@@ -40,6 +40,9 @@ struct Reading {
   [[nodiscard]] bool sound(std::initializer_list<std::string> dotted) const;
   // A problem at the place of a key; marks the key as unsound.
   void report(const std::string& dotted, std::string message);
+  // A problem that keys make together, told at the first of them that `--set` gave: most likely the case file fits
+  // together without it. Else at the first key, which is marked as unsound in either case.
+  void report_misfit(std::initializer_list<std::string> dotted, std::string message);
 };
 
 // Reads one value of one key, and says what is wrong with it. All functions return whether the value is right.

@@ -66,7 +66,7 @@ bool enter_table(const toml::node& node, const std::string& dotted, Reading& rea
   reading.places[dotted] = reading.place_of(dotted, node.source());
   if (!node.is_table()) {
     reading.report(dotted,
-                   fmt::format("'{}' is {}; allowed: one table. Write [{}] on a line of its own and its keys below",
+                   fmt::format("'{}' is {}; allowed: one table. Write [{}] on a line of its own and its keys below.",
                                dotted, describe_node(node), dotted));
     return false;
   }
@@ -102,14 +102,16 @@ std::vector<std::string> table_names(const toml::node& node, const std::string& 
   for (const auto& [key, child] : *node.as_table()) {
     const std::string name(key.str());
     const std::string dotted = join(kind, name);
-    reading.places[dotted] = reading.place_of(dotted, child.is_table() ? child.source() : key.source());
+    const bool in_file = child.source().begin.line > 0;
+    reading.places[dotted] = reading.place_of(dotted, child.is_table() || !in_file ? child.source() : key.source());
     if (!child.is_table()) {
       reading.report(dotted, fmt::format("'{}' stands in [{}], which needs a name; write [{}.NAME] with a name of your "
-                                         "choice above it",
+                                         "choice above it.",
                                          name, kind, kind));
     } else if (!is_plain_name(name)) {
-      reading.report(dotted,
-                     fmt::format("'{}' cannot name a {}; allowed: letters a to z, digits, '_' and '-'", name, kind));
+      reading.report(
+          dotted,
+          fmt::format("'{}' cannot name a {}; allowed: letters a to z, digits, '_' and '-'. Rename it.", name, kind));
     } else {
       names.push_back(name);
     }

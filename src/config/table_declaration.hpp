@@ -1,6 +1,7 @@
 // The two kinds of tables, over any section of the Case: [band], and [body.NAME].
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -60,11 +61,17 @@ class SectionParameters {
   }
 
   void complete(const std::string& dotted, const Case& whole, Section& section, Reading& reading) const {
+    // A word that is not known decides nothing: what its default would ask for may not be needed.
+    const bool is_decided = std::all_of(parameters_.begin(), parameters_.end(), [&](const auto& p) {
+      return p.words.empty() || reading.sound({join(dotted, p.rule.key)});
+    });
     for (const auto& p : parameters_) {
       if (reading.given(join(dotted, p.rule.key))) {
         continue;
       }
-      if (p.is_required && p.is_required(whole, section)) {
+      if (!is_decided && p.is_required && p.required_words != "always") {
+        reading.unsound.insert(join(dotted, p.rule.key));
+      } else if (p.is_required && p.is_required(whole, section)) {
         report_missing(dotted, p.rule, p.type, p.required_words, reading);
       } else if (p.fill) {
         p.fill(whole, section);

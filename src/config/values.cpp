@@ -83,8 +83,8 @@ bool read_word(const toml::node& node, const ValueReader& at, const std::vector<
     for (const Word& word : words) {
       names.push_back(word.word);
     }
-    return at.fail(node, fmt::format("is \"{}\"{} Allowed: {}", text->get(),
-                                     nearest(text->get(), names).empty() ? ";" : did_you_mean(text->get(), names),
+    const std::string hint = did_you_mean(text->get(), names);
+    return at.fail(node, fmt::format("is \"{}\"{}: {}", text->get(), hint.empty() ? "; allowed" : hint + " Allowed",
                                      list_of_words(words)));
   }
   found = text->get();
@@ -155,12 +155,8 @@ std::string Value<std::string>::write(const std::string& value, const Rule& rule
     return quoted(value);
   }
   const std::filesystem::path path(value);
-  if (!context.input_folder.empty()) {
-    return quoted((context.input_folder / path.filename()).generic_string());
-  }
-  const std::filesystem::path relative = path.lexically_relative(context.case_folder);
-  const bool is_inside = !relative.empty() && *relative.begin() != "..";
-  return quoted(is_inside ? relative.generic_string() : path.generic_string());
+  const bool is_copied = !context.input_folder.empty();
+  return quoted((is_copied ? context.input_folder / path.filename() : path).generic_string());
 }
 json Value<std::string>::schema(const Rule& rule) {
   return rule.words.empty() ? json{{"type", "string"}} : word_schema(rule.words);
@@ -178,8 +174,10 @@ bool Value<Point>::read(const toml::node& node, const ValueReader& at, Point& va
   }
   const auto dimension = static_cast<std::size_t>(at.reading.dimension);
   if (dimension == 0 ? (found.size() != 2 && found.size() != 3) : found.size() != dimension) {
-    return at.fail(node, fmt::format("is an array of {} numbers; allowed: {} numbers, as case.dimension is {}",
-                                     found.size(), dimension, dimension));
+    return at.fail(node, dimension == 0
+                             ? fmt::format("is an array of {} numbers; allowed: 2 or 3 numbers", found.size())
+                             : fmt::format("is an array of {} numbers; allowed: {} numbers, as case.dimension is {}",
+                                           found.size(), dimension, dimension));
   }
   value = {found[0], found[1], found.size() > 2 ? found[2] : 0.0};
   return true;

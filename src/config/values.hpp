@@ -19,7 +19,6 @@ namespace thawslide::config {
 // What writing a case needs to know beside the value.
 struct WriteContext {
   int dimension = 2;
-  std::filesystem::path case_folder;   // paths are told from here
   std::filesystem::path input_folder;  // if not empty: paths are this folder and the file's name
 };
 

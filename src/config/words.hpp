@@ -29,10 +29,10 @@ inline std::vector<Choice<TerrainKind>> choices(TerrainKind) {
   return {{TerrainKind::none, "none", "no ground, no contact"},
           {TerrainKind::flat, "flat", "level ground at terrain.elevation"},
           {TerrainKind::plane, "plane", "a plane that falls towards +x by terrain.slope"},
-          {TerrainKind::profile, "profile", "a polyline read from terrain.file (2D)"}};
+          {TerrainKind::profile, "profile", "a polyline read from terrain.file; in 3D the same at every y"}};
 }
 inline std::vector<Choice<LawKind>> choices(LawKind) {
-  return {{LawKind::elastic, "elastic", "linear isotropic, objective rate"},
+  return {{LawKind::elastic, "elastic", "linear isotropic elasticity, objective stress rate"},
           {LawKind::mohr_coulomb, "mohr_coulomb", "elastic, with Mohr-Coulomb plasticity (Eq. 11)"}};
 }
 inline std::vector<Choice<CurveKind>> choices(CurveKind) {
@@ -49,31 +49,34 @@ inline std::vector<Choice<ShapeFunction>> choices(ShapeFunction) {
           {ShapeFunction::linear, "linear", "linear hat functions"}};
 }
 inline std::vector<Choice<InitialStress>> choices(InitialStress) {
-  return {{InitialStress::geostatic, "geostatic", "the weight above, and k0 times it sideways"},
-          {InitialStress::none, "none", "stress-free: gravity acts suddenly"},
-          {InitialStress::settle, "settle", "gravity acts on the damped body before t = 0"}};
+  return {
+      {InitialStress::geostatic, "geostatic", "the weight above across the ground, and k0 times it along the ground"},
+      {InitialStress::none, "none", "stress-free: gravity acts suddenly"},
+      {InitialStress::settle, "settle", "gravity acts on the damped body, held by its base, before t = 0"}};
 }
 inline std::vector<Choice<FrictionLaw>> choices(FrictionLaw) {
-  return {{FrictionLaw::constant, "constant", "tan(friction_angle)"},
-          {FrictionLaw::lubricated, "lubricated", "falls as ice melts (Eq. 25)"}};
+  return {
+      {FrictionLaw::constant, "constant", "tan(friction_angle)"},
+      {FrictionLaw::lubricated, "lubricated", "tan(friction_angle) times a factor that falls as ice melts (Eq. 25)"}};
 }
 inline std::vector<Choice<CohesionLaw>> choices(CohesionLaw) {
-  return {{CohesionLaw::constant, "constant", "kept for ever"},
+  return {{CohesionLaw::constant, "constant", "cohesion, for ever"},
           {CohesionLaw::slip, "slip", "c_r + (c_0 - c_r) exp(-slip/slip_distance)"},
           {CohesionLaw::ice, "ice", "cohesion (1 - S_L): in proportion to the ice"},
-          {CohesionLaw::time, "time", "c_0 before cohesion_loss_time, c_r from then on"}};
+          {CohesionLaw::time, "time", "cohesion before cohesion_loss_time, residual_cohesion from then on"}};
 }
 inline std::vector<Choice<FrictionClamp>> choices(FrictionClamp) {
-  return {{FrictionClamp::keep_cohesion, "keep_cohesion", "mu max(0, N - P) + c"},
-          {FrictionClamp::joint, "joint", "max(0, mu (N - P) + c)"}};
+  return {{FrictionClamp::keep_cohesion, "keep_cohesion", "mu_e max(0, N - P) + c_S: cohesion is kept"},
+          {FrictionClamp::joint, "joint", "max(0, mu_e (N - P) + c_S): excess pressure cancels cohesion"}};
 }
 inline std::vector<Choice<BandRegion>> choices(BandRegion) {
   return {{BandRegion::all, "all", "all particles, as printed"},
           {BandRegion::first_layer, "first_layer", "the first cell layer above the terrain"}};
 }
 inline std::vector<Choice<ClapeyronSign>> choices(ClapeyronSign) {
-  return {{ClapeyronSign::usual, "usual", "pressure falls below the freezing point"},
-          {ClapeyronSign::printed, "printed", "the minus sign of Eq. 4 as printed"}};
+  return {{ClapeyronSign::usual, "usual",
+           "plus: P_L = P_I/r + rho_L L_f ln(T/Tref), pressure falls with temperature below Tref"},
+          {ClapeyronSign::printed, "printed", "minus, as Eq. 4 is printed"}};
 }
 inline std::vector<Choice<ThicknessDirection>> choices(ThicknessDirection) {
   return {{ThicknessDirection::normal, "normal", "along the terrain normal"},

@@ -59,7 +59,8 @@ void write_file_atomically(const fs::path& file, std::string_view text) {
 std::string read_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) {
+  const bool is_empty = stream.peek() == std::ifstream::traits_type::eof() && stream.eof() && !stream.bad();
+  if (!is_empty && !(stream && text << stream.rdbuf())) {
     throw UserError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
   }
   return text.str();

@@ -98,7 +98,7 @@ void write_provenance(const fs::path& file, const Provenance& p) {
         {{"path", input.path}, {"copy", input.copy}, {"sha256", input.sha256}, {"bytes", input.bytes}});
   }
   json["cite"] = "Thawslide (CITATION.cff), and the paper whose model it implements (docs/theory.md)";
-  write_file_atomically(file, json.dump(2) + "\n");
+  write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs::path>& files) {

@@ -1,142 +1,94 @@
-// The case file: places of mistakes, what --set can do, and the resolved case.
-#include <gtest/gtest.h>
+// A case as read: what the file says, and the defaults of what it does not.
+#include <algorithm>
+#include <cmath>
 
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "../support/case_from_text.hpp"
-#include "base/error.hpp"
+#include "case_messages.hpp"
 #include "config/declaration.hpp"
 #include "config/describe.hpp"
 
 namespace thawslide::config {
 namespace {
 
-namespace fs = std::filesystem;
+using namespace case_messages;
 using testing_support::case_from_text;
 
-const std::string sound = R"([time]
-end = 2.0
-step = 0.001
-[grid]
-cell = 5.0
-min = [0.0, -10.0]
-max = [100.0, 50.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-[body.block]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [40.0, 20.0]
-[basal]
-friction_angle = 20.0
-)";
-
-// The message for the case with one text replaced by another.
-std::string message_of(const std::string& from, const std::string& to, const std::vector<std::string>& sets = {}) {
-  std::string text = sound;
-  text.replace(text.find(from), from.size(), to);
-  try {
-    case_from_text(text, sets);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "no error";
+// What `sound` says, over a case of member initialisers.
+Case sound_over_initialisers() {
+  Case expected;
+  expected.time.end = 2.0;
+  expected.time.step = 0.001;
+  expected.grid.cell = 5.0;
+  expected.grid.min = {0.0, -10.0, 0.0};
+  expected.grid.max = {100.0, 50.0, 0.0};
+  expected.terrain.kind = TerrainKind::flat;
+  Material& rock = expected.materials["rock"];
+  rock.law = LawKind::elastic;
+  rock.youngs_modulus = 5e8;
+  rock.poisson_ratio = 0.2;
+  Body& block = expected.bodies["block"];
+  block.material = "rock";
+  block.max = {40.0, 20.0, 0.0};
+  expected.basal.friction_angle = 20.0;
+  return expected;
 }
 
-void expect_message(const std::string& message, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) {
-    EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
-  }
+TEST(CaseFile, TakesMemberInitialisersWhereItSaysNothing) {
+  const Case found = case_from_text(sound);
+  EXPECT_EQ(resolved_toml(found, "inputs"), resolved_toml(sound_over_initialisers(), "inputs"));
+  // Keys that the resolved case leaves out where they are absent.
+  EXPECT_EQ(found.mechanics.k0, Mechanics{}.k0);
+  EXPECT_TRUE(found.band.thickness.value.empty());
+  EXPECT_TRUE(found.terrain.file.empty());
+  EXPECT_TRUE(std::isinf(found.materials.at("rock").tension_cutoff));
 }
 
-TEST(CaseFile, MistakesHavePlaceFindingAndRemedy) {
-  expect_message(message_of("cell = 5.0", "cel = 5.0"), {"case.toml:5:", "'grid.cel'", "did you mean 'cell'?"});
-  expect_message(message_of("cell = 5.0", "cell = \"five\""), {"case.toml:5:8", "the text \"five\"", "> 0"});
-  expect_message(message_of("cell = 5.0", "cell = -5.0"), {"case.toml:5:8", "-5", "> 0"});
-  expect_message(message_of("\"elastic\"", "\"elastik\""), {"case.toml:12:7", "elastik", "did you mean 'elastic'?"});
-  expect_message(message_of("material = \"rock\"", "material = \"rok\""),
-                 {"case.toml:16:", "no [material.rok]", "did you mean 'rock'?"});
-  expect_message(message_of("[basal]", "[phases]\nrock_density = -1.0\n[basal]"), {"rock_density", "-1", "> 0"});
-  expect_message(message_of("shape = \"box\"", "shape = \"box\"\nporosity = 1.0"), {"porosity", "1", "0.95"});
-  expect_message(message_of("min = [0.0, 0.0]", "min = [0.0, -5.0]"), {"below the terrain", "-5", "Lift the body"});
-  expect_message(message_of("max = [40.0, 20.0]", "max = [140.0, 20.0]"), {"outside the domain", "(100, 50)"});
-  expect_message(message_of("max = [100.0, 50.0]", "max = [101.0, 50.0]"), {"whole number", "20.2 cells"});
-  expect_message(message_of("cell = 5.0", "cell = = 5"), {"case.toml:5:", "this is not TOML"});
-  expect_message(message_of("step = 0.001\n", ""), {"time.step", "time.stepping is \"fixed\""});
+// The values of Tables 1 to 3 of the paper, and the readings of it that are ours.
+TEST(CaseFile, DefaultsAreThoseOfThePaper) {
+  const Case found = case_from_text(sound);
+  EXPECT_EQ(found.phases.rock_density, 2750.0);
+  EXPECT_EQ(found.phases.ice_density, 917.0);
+  EXPECT_EQ(found.phases.latent_heat, 333.5e3);
+  EXPECT_EQ(found.phases.ice_to_rock_density_ratio, 1.0 / 3.0);
+  EXPECT_EQ(found.freezing.curve, CurveKind::power_law);
+  EXPECT_EQ(found.freezing.exponent, 5.0);
+  EXPECT_EQ(found.basal.friction, FrictionLaw::lubricated);
+  EXPECT_EQ(found.basal.clamp, FrictionClamp::keep_cohesion);
+  EXPECT_EQ(found.pressure.clapeyron, ClapeyronSign::usual);
+  EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::ugimp);
+  EXPECT_EQ(found.bodies.at("block").porosity.at(0.0, 0.0), 0.375);
 }
 
-TEST(CaseFile, SeveralMistakesComeTogetherInOrder) {
-  const std::string message =
-      message_of("cell = 5.0", "cell = -5.0\ncolour = 1", {"basal.friction_angle=95", "band.thicknes=0.1"});
-  const auto first = message.find("case.toml:5:");
-  const auto second = message.find("case.toml:6:");
-  const auto third = message.find("--set basal.friction_angle=95");
-  const auto fourth = message.find("--set band.thicknes=0.1");
-  EXPECT_NE(fourth, std::string::npos) << message;
-  EXPECT_TRUE(first < second && second < third && second < fourth) << message;
-  EXPECT_NE(message.find("did you mean 'thickness'?"), std::string::npos) << message;
-}
-
-TEST(CaseFile, SetReplacesNumbersWordsArraysAndTables) {
-  const Case changed = case_from_text(
-      sound, {"time.end=3", "mechanics.shape_function=linear", "grid.max=[200.0, 60.0]", "heat.enabled=false",
-              "band.thickness={time=[0.0, 1.0], value=[0.05, 0.5]}", "body.block.temperature=-3.5"});
-  EXPECT_EQ(changed.time.end, 3.0);
-  EXPECT_EQ(changed.mechanics.shape_function, ShapeFunction::linear);
-  EXPECT_EQ(changed.grid.max[0], 200.0);
-  EXPECT_FALSE(changed.heat.enabled);
-  EXPECT_DOUBLE_EQ(changed.band.thickness.at(0.5), 0.275);
-  EXPECT_EQ(changed.bodies.at("block").temperature.at(0.0, 0.0), -3.5);
-}
-
-TEST(CaseFile, DefaultsAreThoseOfTheCase) {
-  const Case read = case_from_text(sound);
-  const Case fresh;
-  EXPECT_EQ(read.phases.latent_heat, fresh.phases.latent_heat);
-  EXPECT_EQ(read.basal.clamp, FrictionClamp::keep_cohesion);
-  EXPECT_EQ(read.pressure.clapeyron, ClapeyronSign::usual);
-  EXPECT_EQ(read.freezing.exponent, 5.0);
-  EXPECT_TRUE(read.band.thickness.value.empty());
-}
-
-TEST(CaseFile, ResolvedReadsBackToItself) {
-  const Case lamplugh = read_case(std::string(THAWSLIDE_SOURCE_DIR) + "/cases/lamplugh");
-  const std::string resolved = resolved_toml(lamplugh, "inputs");
-  const fs::path folder = fs::path(testing::TempDir()) / "resolved";
-  fs::create_directories(folder / "inputs");
-  for (const std::string& file : {lamplugh.terrain.file, lamplugh.report.targets}) {
-    fs::copy_file(file, folder / "inputs" / fs::path(file).filename(), fs::copy_options::overwrite_existing);
-  }
-  std::ofstream(folder / "case.toml") << resolved;
-  EXPECT_EQ(resolved_toml(read_case(folder), "inputs"), resolved);
-}
-
-TEST(Reference, HoldsEveryKeyInEveryForm) {
-  const std::string text = describe_text(), json = describe_json(), markdown = describe_markdown(),
-                    schema = schema_json();
-  EXPECT_TRUE(nlohmann::json::accept(json));
-  EXPECT_TRUE(nlohmann::json::accept(schema));
-  std::size_t keys = 0;
+TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
+  const std::string text = sound + "[frame.wall]\nmin = [90.0, 0.0]\nmax = [95.0, 5.0]\naxis = \"x\"\nvelocity = 0.0\n";
+  const std::string before = resolved_toml(case_from_text(text), "inputs");
+  const std::vector<std::string> given{"terrain.type", "material.rock.law"};
+  std::size_t defaults = 0;
   for (const auto& table : tables()) {
-    for (const std::string& form : {text, json, markdown}) {
-      EXPECT_NE(form.find(table->title()), std::string::npos) << table->title();
-    }
+    const std::string name = table->is_named() ? "." + table->names(case_from_text(text)).at(0) : "";
     for (const Entry& entry : table->entries()) {
-      ++keys;
-      EXPECT_NE(markdown.find("| `" + entry.rule->key + "` |"), std::string::npos) << entry.rule->key;
-      EXPECT_NE(schema.find("\"" + entry.rule->key + "\""), std::string::npos) << entry.rule->key;
-      EXPECT_FALSE(entry.rule->text.empty()) << entry.rule->key;
+      const std::string key = table->name + name + "." + entry.rule->key;
+      const bool elsewhere = entry.rule->dimension == 3;
+      if (entry.default_text.empty() || elsewhere || std::find(given.begin(), given.end(), key) != given.end()) {
+        continue;
+      }
+      ++defaults;
+      EXPECT_EQ(resolved_toml(case_from_text(text, {key + "=" + entry.default_text}), "inputs"), before) << key;
     }
   }
-  EXPECT_GT(keys, 90U);
+  EXPECT_GT(defaults, 70U);
+}
+
+TEST(CaseFile, FillsInWhatFollowsFromOtherKeys) {
+  const Case found = case_from_text(changed(
+      {{"step = 0.001", "stepping = \"adaptive\""}, {"law = \"elastic\"", "friction_angle = 30.0\ncohesion = 2e5"}}));
+  EXPECT_EQ(found.time.step, 2.0) << "no cap but the end";
+  EXPECT_EQ(found.materials.at("rock").residual_cohesion, 2e5) << "no softening";
+}
+
+TEST(CaseFile, IsNamedByItsFolder) {
+  const Case found = case_from_text(sound);
+  EXPECT_EQ(found.name, "CaseFile.IsNamedByItsFolder");
+  EXPECT_EQ(found.file, (folder_of_this_test() / "case.toml").string());
 }
 
 }  // namespace

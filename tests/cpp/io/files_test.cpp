@@ -10,6 +10,7 @@
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/history_writer.hpp"
+#include "io/provenance.hpp"
 #include "io/run_folder.hpp"
 #include "io/sha256.hpp"
 #include "io/snapshot.hpp"
@@ -49,6 +50,21 @@ TEST_F(Files, AreWholeOrAbsent) {
   EXPECT_NE(message.find("cannot write " + lost.string() + ": No such file or directory"), std::string::npos)
       << message;
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing is left behind";
+}
+
+TEST_F(Files, EmptyOnesAreReadAndMissingOnesAreNot) {
+  write_file_atomically(folder_ / "empty.txt", "");
+  EXPECT_EQ(read_file(folder_ / "empty.txt"), "");
+  const fs::path missing = folder_ / "missing.txt";
+  EXPECT_EQ(failure_of([&] { read_file(missing); }), "cannot read " + missing.string() + ": No such file or directory");
+  EXPECT_EQ(failure_of([&] { read_file(folder_); }), "cannot read " + folder_.string() + ": Is a directory");
+}
+
+TEST_F(Files, ProvenanceIsWrittenOfTextsThatAreNotUnicode) {
+  Provenance provenance;
+  provenance.command = "thawslide run caf\xE9";
+  write_provenance(folder_ / "run.json", provenance);
+  EXPECT_NE(read_file(folder_ / "run.json").find("\"thawslide run caf\xEF\xBF\xBD\""), std::string::npos);
 }
 
 TEST_F(Files, Sha256KnowsItsStandardAnswer) {

@@ -1,0 +1,93 @@
+// A sound case, and what reading a changed one says. Shared by the tests of the case file.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../support/case_from_text.hpp"
+#include "base/error.hpp"
+
+namespace thawslide::config::case_messages {
+
+// Lines are counted in the tests: [time] is line 1.
+inline const std::string sound = R"([time]
+end = 2.0
+step = 0.001
+[grid]
+cell = 5.0
+min = [0.0, -10.0]
+max = [100.0, 50.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+[body.block]
+material = "rock"
+shape = "box"
+min = [0.0, 0.0]
+max = [40.0, 20.0]
+[basal]
+friction_angle = 20.0
+)";
+
+using Change = std::pair<std::string, std::string>;  // a text of the case, and what stands there instead
+
+inline std::string changed(const std::vector<Change>& changes) {
+  std::string text = sound;
+  for (const auto& [from, to] : changes) {
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos) {
+      throw std::logic_error("the case has no text " + from);
+    }
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+// The folder that case_from_text writes to, which must name it alike.
+inline std::filesystem::path folder_of_this_test() {
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  return std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "." + test->name());
+}
+
+inline void write_beside_the_case(const std::string& name, const std::string& text) {
+  const std::filesystem::path file = folder_of_this_test() / name;
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+// The whole error that `read` throws, the folder of this test written as FOLDER.
+template <class Read>
+std::string error_of(const Read& read) {
+  std::string message = "no error";
+  try {
+    read();
+  } catch (const UserError& error) {
+    message = error.what();
+  }
+  const std::string folder = folder_of_this_test().string();
+  for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder)) {
+    message.replace(at, folder.size(), "FOLDER");
+  }
+  return message;
+}
+
+// The whole error of a case text.
+inline std::string error_of_text(const std::string& text, const std::vector<std::string>& sets = {}) {
+  return error_of([&] { testing_support::case_from_text(text, sets); });
+}
+
+inline std::string error_of_changed(const std::vector<Change>& changes, const std::vector<std::string>& sets = {}) {
+  return error_of_text(changed(changes), sets);
+}
+
+}  // namespace thawslide::config::case_messages

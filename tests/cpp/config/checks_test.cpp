@@ -1,0 +1,291 @@
+// What does not fit together in a case: domain, bodies, terrain, profiles, materials. The whole text, with its place.
+#include "case_messages.hpp"
+
+namespace thawslide::config {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace case_messages;
+
+const Change plane{"type = \"flat\"\nelevation = 0.0", "type = \"plane\"\nelevation = 10.0\nslope = 45.0"};
+const Change profile{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"profile.csv\""};
+const Change surface{"shape = \"box\"\nmin = [0.0, 0.0]\nmax = [40.0, 20.0]", "shape = \"surface\""};
+const std::string header = "distance_m,terrain_elevation_m\n";
+const std::string header_with_surface = "distance_m,terrain_elevation_m,surface_elevation_m\n";
+
+Change box(const std::string& min, const std::string& max) {
+  return {"min = [0.0, 0.0]\nmax = [40.0, 20.0]", "min = " + min + "\nmax = " + max};
+}
+Change polygon(const std::string& vertices) {
+  return {"shape = \"box\"\nmin = [0.0, 0.0]\nmax = [40.0, 20.0]", "shape = \"polygon\"\nvertices = " + vertices};
+}
+
+// What is said of a body at a place in the ground.
+std::string below(const std::string& place, const std::string& x, const std::string& height,
+                  const std::string& ground) {
+  return "FOLDER/case.toml:" + place + ": body.block is below the terrain: at x = " + x + " m its elevation is " +
+         height + " m and the ground's " + ground +
+         " m; allowed: on the ground or above it. Lift the body, or lower the terrain.";
+}
+
+TEST(Domain, IsAWholeNumberOfCells) {
+  const std::string found = ": the domain is 101 m long along x, which is 20.2 cells of 5 m; allowed: a whole number. ";
+  EXPECT_EQ(error_of_changed({{"max = [100.0, 50.0]", "max = [101.0, 50.0]"}}),
+            "FOLDER/case.toml:7:7" + found + "Make grid.cell 5.05, or move grid.max along x to 100.");
+  EXPECT_EQ(error_of_changed({{"cell = 5.0", "cell = 0.1"}}), "no error") << "1000 cells but for rounding";
+}
+
+TEST(Domain, IsAWholeNumberOfCellsAndWhatSetChangedIsNamed) {
+  const std::string along_x =
+      ": the domain is 100 m long along x, which is 12.5 cells of 8 m; allowed: a whole number. "
+      "Make grid.cell 7.69230769, or move grid.max along x to 104.";
+  const std::string along_y =
+      ": the domain is 60 m long along y, which is 7.5 cells of 8 m; allowed: a whole number. "
+      "Make grid.cell 7.5, or move grid.max along y to 54.";
+  EXPECT_EQ(error_of_text(sound, {"grid.cell=8"}), "--set grid.cell=8" + along_x + "\n--set grid.cell=8" + along_y);
+  EXPECT_EQ(error_of_text(sound, {"grid.cell=8", "grid.min=[0, -14]"}), "--set grid.cell=8" + along_x);
+  EXPECT_EQ(error_of_text(sound, {"grid.min=[-1, -10]"}),
+            "--set grid.min=[-1, -10]: the domain is 101 m long along x, which is 20.2 cells of 5 m; allowed: a whole "
+            "number. Make grid.cell 5.05, or move grid.max along x to 99.");
+  EXPECT_EQ(error_of_text(sound, {"grid.max=[101, 50]", "grid.cell=10"}),
+            "--set grid.max=[101, 50]: the domain is 101 m long along x, which is 10.1 cells of 10 m; allowed: a whole "
+            "number. Make grid.cell 10.1, or move grid.max along x to 100.");
+  EXPECT_EQ(error_of_text(sound, {"grid.cell=7.69230769"}).find("along x"), std::string::npos)
+      << "the cell that is proposed fits";
+}
+
+TEST(Domain, HasAnExtent) {
+  EXPECT_EQ(
+      error_of_changed({{"max = [100.0, 50.0]", "max = [100.0, -10.0]"}}),
+      "FOLDER/case.toml:7:7: grid.max is -10 along y, not above grid.min, which is -10; give the domain a highest "
+      "corner above its lowest one.");
+  EXPECT_EQ(error_of_changed({{"cell = 5.0", "cell = 50.0"}}),
+            "FOLDER/case.toml:5:8: grid.cell is 50 m, and the domain is 60 m long along y; allowed: at least 2 cells "
+            "along each axis. Make the cell smaller or the domain larger.");
+}
+
+TEST(Domain, HoldsTheBody) {
+  const std::string remedy =
+      ", outside the domain, which is (0, -10) to (100, 50); move the body, or widen grid.min and grid.max.";
+  EXPECT_EQ(error_of_changed({box("[0.0, 0.0]", "[140.0, 20.0]")}),
+            "FOLDER/case.toml:19:7: body.block reaches from (0, 0) to (140, 20)" + remedy);
+  EXPECT_EQ(error_of_changed({box("[0.0, 0.0]", "[40.0, 50.5]")}),
+            "FOLDER/case.toml:19:7: body.block reaches from (0, 0) to (40, 50.5)" + remedy);
+  EXPECT_EQ(error_of_changed({box("[-0.5, 0.0]", "[40.0, 20.0]")}),
+            "FOLDER/case.toml:18:7: body.block reaches from (-0.5, 0) to (40, 20)" + remedy);
+  EXPECT_EQ(
+      error_of_text(sound, {"grid.max=[30, 50]"}),
+      "--set grid.max=[30, 50]: body.block reaches from (0, 0) to (40, 20), outside the domain, which is (0, -10) "
+      "to (30, 50); move the body, or widen grid.min and grid.max.");
+  EXPECT_EQ(error_of_changed({polygon("[[-1, 0], [40, 0], [20, 30]]")}),
+            "FOLDER/case.toml:18:12: body.block reaches from (-1, 0) to (40, 30)" + remedy);
+  EXPECT_EQ(error_of_changed({box("[0.0, 0.0]", "[100.0, 50.0]")}), "no error") << "up to the sides";
+  write_beside_the_case("profile.csv", header_with_surface + "0,0,0\n50,0,60\n100,2,2\n");
+  EXPECT_EQ(error_of_changed({profile, surface}),
+            "FOLDER/case.toml:17:9: body.block reaches from (0, 0) to (100, 60)" + remedy)
+      << "one row above the ground holds a body that thins out to its neighbours";
+}
+
+TEST(Bodies, HaveAnExtent) {
+  EXPECT_EQ(error_of_changed({box("[0.0, 0.0]", "[0.0, 20.0]")}),
+            "FOLDER/case.toml:19:7: body.block.max is (0, 20), not above body.block.min, which is (0, 0), in every "
+            "direction; give the highest corner of the box.");
+  EXPECT_EQ(error_of_changed({polygon("[[0, 0], [40, 0], [20, 0]]")}),
+            "FOLDER/case.toml:18:12: body.block.vertices are 3 points that hold no area; allowed: at least 3 that are "
+            "not on one line. Give the corners in order around the body.");
+  EXPECT_EQ(error_of_changed({polygon("[[0.1, 0.1], [33.3, 33.3], [20.2, 20.2]]")}),
+            "FOLDER/case.toml:18:12: body.block.vertices are 3 points that hold no area; allowed: at least 3 that are "
+            "not on one line. Give the corners in order around the body.")
+      << "an area of rounding is none";
+  EXPECT_EQ(error_of_changed({polygon("[[0, 0], [40, 20], [40, 0], [0, 20]]")}),
+            "FOLDER/case.toml:18:12: body.block.vertices make sides that cross: the one after vertex 1 and the one "
+            "after vertex 3; allowed: corners in order around the body. Put them in order.");
+  EXPECT_EQ(
+      error_of_changed({polygon("[[0, 0], [40, 0]]")}),
+      "FOLDER/case.toml:18:12: body.block.vertices is an array of 2; allowed: an array of at least 3 pairs [x, y] "
+      "[m].");
+  EXPECT_EQ(error_of_changed({polygon("[[0, 0], [40, 0, 3], [3, 4]]")}),
+            "FOLDER/case.toml:18:21: body.block.vertices holds a vertex of 3 numbers; allowed: pairs [x, y].");
+}
+
+TEST(Bodies, AreNeeded) {
+  const std::string without = sound.substr(0, sound.find("[body.block]")) + "[basal]\nfriction_angle = 20.0\n";
+  const std::string message = "the case has no body; add a table [body.NAME] with its material and shape.";
+  EXPECT_EQ(error_of_text(without), "FOLDER/case.toml: " + message);
+  EXPECT_EQ(error_of_text(without + "[body]\n"), "FOLDER/case.toml:17:1: " + message);
+}
+
+TEST(Bodies, AreOfAKnownMaterial) {
+  const std::string start = "FOLDER/case.toml:16:12: body.block.material is ";
+  EXPECT_EQ(error_of_changed({{"material = \"rock\"", "material = \"rok\""}}),
+            start + "'rok', and there is no [material.rok]; did you mean 'rock'? Allowed: rock.");
+  EXPECT_EQ(error_of_changed({{"material = \"rock\"", "material = \"granite\""}}),
+            start + "'granite', and there is no [material.granite]. Allowed: rock.");
+  EXPECT_EQ(error_of_changed({{"[material.rock]\nlaw = \"elastic\"\nyoungs_modulus = 5e8\npoisson_ratio = 0.2\n", ""}}),
+            "FOLDER/case.toml:12:12: body.block.material is 'rock', and there is no [material.rock]. Allowed: none, as "
+            "the case has no [material.NAME].");
+}
+
+TEST(BelowTerrain, BoxOnFlatGround) {
+  EXPECT_EQ(error_of_changed({box("[0.0, -5.0]", "[40.0, 20.0]")}), below("18:7", "0", "-5", "0"));
+  EXPECT_EQ(error_of_changed({box("[0.0, -0.006]", "[40.0, 20.0]")}), below("18:7", "0", "-0.006", "0"));
+  EXPECT_EQ(error_of_changed({box("[0.0, -0.004]", "[40.0, 20.0]")}), "no error") << "a thousandth of a cell is 5 mm";
+}
+
+TEST(BelowTerrain, BoxOnAPlane) {
+  EXPECT_EQ(error_of_changed({plane, box("[5.0, 3.0]", "[40.0, 20.0]")}), below("19:7", "5", "3", "5"));
+  EXPECT_EQ(error_of_changed({plane, box("[5.0, 5.0]", "[40.0, 20.0]")}), "no error");
+}
+
+TEST(BelowTerrain, BoxOnAProfile) {
+  write_beside_the_case("profile.csv", header + "0,0\n20,5\n40,0\n100,0\n");
+  EXPECT_EQ(error_of_changed({profile}), below("18:7", "20", "0", "5")) << "a hill between the box's ends";
+  EXPECT_EQ(error_of_changed({profile, box("[10.0, 1.0]", "[15.0, 20.0]")}), below("18:7", "10", "1", "2.5"));
+  EXPECT_EQ(error_of_changed({profile, box("[10.0, 5.0]", "[50.0, 20.0]")}), "no error");
+}
+
+TEST(BelowTerrain, PolygonOnFlatGround) {
+  EXPECT_EQ(error_of_changed({polygon("[[0, 0], [40, -1], [40, 20]]")}), below("18:12", "40", "-1", "0"));
+  EXPECT_EQ(error_of_changed({polygon("[[0, 0], [40, 0], [40, 20]]")}), "no error");
+}
+
+TEST(BelowTerrain, PolygonOnAPlane) {
+  EXPECT_EQ(error_of_changed({plane, polygon("[[0, 11], [5, 4], [40, 20]]")}), below("19:12", "5", "4", "5"));
+  EXPECT_EQ(error_of_changed({plane, polygon("[[0, 10], [5, 5], [40, 20]]")}), "no error");
+}
+
+TEST(BelowTerrain, PolygonOnAProfile) {
+  write_beside_the_case("profile.csv", header + "0,0\n20,5\n40,0\n100,0\n");
+  EXPECT_EQ(error_of_changed({profile, polygon("[[10, 1], [40, 20], [0, 20]]")}), below("18:12", "10", "1", "2.5"));
+  EXPECT_EQ(error_of_changed({profile, polygon("[[0, 0], [40, 4], [40, 20]]")}), below("18:12", "20", "2", "5"))
+      << "a hill between two vertices that stand on the ground";
+  EXPECT_EQ(error_of_changed({profile, polygon("[[0, 0], [20, 5], [40, 0], [40, 20]]")}), "no error");
+}
+
+TEST(Profile, CoversTheDomain) {
+  write_beside_the_case("profile.csv", header + "0,0\n90,0\n");
+  EXPECT_EQ(error_of_changed({profile}),
+            "FOLDER/case.toml:10:8: the profile reaches from 0 to 90 m and the domain from 0 to 100 m; allowed: a "
+            "profile that covers the domain. Set terrain.extend = true to continue its last gradients, or make the "
+            "domain shorter.");
+  EXPECT_EQ(error_of_changed({profile}, {"terrain.extend=true"}), "no error");
+}
+
+TEST(Profile, GivesTheSurfaceOfABody) {
+  EXPECT_EQ(
+      error_of_changed({surface}),
+      "FOLDER/case.toml:17:9: body.block.shape is \"surface\", and terrain.type is not \"profile\"; that shape "
+      "takes the body from the profile's surface_elevation_m. Set terrain.type and terrain.file, or use the shape "
+      "\"box\" or \"polygon\".");
+  write_beside_the_case("profile.csv", header + "0,0\n100,2\n");
+  EXPECT_EQ(
+      error_of_changed({profile, surface}),
+      "FOLDER/case.toml:17:9: body.block.shape is \"surface\", and the profile has no column surface_elevation_m; "
+      "add it to FOLDER/profile.csv, or use the shape \"box\" or \"polygon\".");
+  write_beside_the_case("profile.csv", header_with_surface + "0,0,0\n100,2,2\n");
+  EXPECT_EQ(error_of_changed({profile, surface}),
+            "FOLDER/case.toml:17:9: body.block.shape is \"surface\", and surface_elevation_m is nowhere above the "
+            "terrain in FOLDER/profile.csv: the body holds nothing. Raise the surface there, or use the shape \"box\" "
+            "or \"polygon\".");
+  write_beside_the_case("profile.csv", header_with_surface + "0,0,0\n50,1,9\n100,2,2\n");
+  EXPECT_EQ(error_of_changed({profile, surface}), "no error");
+}
+
+TEST(Paths, DoNotLeaveTheFolderOfTheCase) {
+  const auto with_file = [](const std::string& file) {
+    return error_of_changed({{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"" + file + "\""}});
+  };
+  const fs::path folder = folder_of_this_test();
+  fs::remove_all(folder);
+  write_beside_the_case("profile.csv", header + "0,0\n100,0\n");
+  fs::create_directories(folder / "inside");
+  const fs::path outside = folder.string() + ".csv";
+  fs::copy_file(folder / "profile.csv", outside, fs::copy_options::overwrite_existing);
+  fs::create_symlink(outside, folder / "link.csv");
+  const std::string remedy =
+      ", which lies outside the folder of the case file; allowed: a file in that folder. Copy it there, or give its "
+      "path with --set terrain.file=PATH.";
+  for (const std::string& file : {"../" + outside.filename().string(), std::string("/nowhere/profile.csv"),
+                                  "inside/../../" + outside.filename().string(), std::string("link.csv")}) {
+    const std::string found = with_file(file);
+    EXPECT_EQ(found, "FOLDER/case.toml:10:8: terrain.file is \"" + file + "\"" + remedy);
+  }
+  EXPECT_EQ(with_file("inside/../profile.csv"), "no error");
+  EXPECT_EQ(with_file("no_profile.csv"),
+            "FOLDER/case.toml:10:8: terrain.file is \"no_profile.csv\": no such file (FOLDER); allowed: a file, told "
+            "from the folder of the case file.");
+  EXPECT_EQ(error_of_changed({profile}, {"terrain.file=" + outside.string()}), "no error") << "the command line may";
+  fs::remove(outside);
+}
+
+TEST(Values, FitOneAnother) {
+  const std::string too_long =
+      ": time.step is 3 s, longer than the run, which ends at time.end = 2 s; allowed: at most that. Make the step "
+      "smaller, or the run longer.";
+  EXPECT_EQ(error_of_changed({{"step = 0.001", "step = 3"}}), "FOLDER/case.toml:3:8" + too_long);
+  EXPECT_EQ(error_of_changed({{"step = 0.001", "step = 3"}}, {"time.end=2"}), "--set time.end=2" + too_long);
+  EXPECT_EQ(error_of_changed({{"[basal]", "[basal]\ncohesion = 1.0\nresidual_cohesion = 2.0\nslip_distance = 1.0"}}),
+            "FOLDER/case.toml:22:21: basal.residual_cohesion is 2 Pa, above basal.cohesion, which is 1 Pa; cohesion "
+            "along the ground is only lost. Give a residual at most the cohesion.");
+  EXPECT_EQ(
+      error_of_changed({{"[basal]", "[basal]\nmin_solid_fraction = 0.9"}}),
+      "FOLDER/case.toml:20:1: basal.max_solid_fraction is 0.85, not above basal.min_solid_fraction, which is 0.9; "
+      "Eq. 25 divides by their difference. Make the one larger or the other smaller.");
+  EXPECT_EQ(error_of_changed({{"[body.block]", "dilation_angle = 10.0\nfriction_angle = 5.0\n[body.block]"}}),
+            "FOLDER/case.toml:15:18: material.rock.dilation_angle is 10 degrees, above material.rock.friction_angle, "
+            "which is 5 degrees; allowed: at most the friction angle, else plastic flow makes energy.");
+  EXPECT_EQ(
+      error_of_changed({{"[body.block]", "residual_cohesion = 10.0\ncohesion = 5.0\n[body.block]"}}),
+      "FOLDER/case.toml:15:21: material.rock.residual_cohesion is 10 Pa, above material.rock.cohesion, which is 5 "
+      "Pa; softening takes cohesion away. Give a residual at most the cohesion.");
+}
+
+TEST(Values, GiveOneAnotherAMeaning) {
+  EXPECT_EQ(
+      error_of_text(sound, {"heat.enabled=false", "pressure.enabled=false", "mechanics.enabled=false"}),
+      "--set mechanics.enabled=false: mechanics.enabled, heat.enabled and pressure.enabled are all false: nothing "
+      "is left to compute. Set at least one of them to true.");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[mechanics]\nslope_shear = true\ninitial_stress = \"none\"\n[basal]"}}),
+            "FOLDER/case.toml:21:15: mechanics.slope_shear is true, and mechanics.initial_stress is not \"geostatic\"; "
+            "only that stress takes the shear. Set mechanics.initial_stress = \"geostatic\", or mechanics.slope_shear "
+            "= false.");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[band]\nregion = \"first_layer\"\n[basal]"}}, {"terrain.type=none"}),
+            "--set terrain.type=none: band.region is \"first_layer\", and the case has no terrain; there is no layer "
+            "above it. Set band.region = \"all\", or give terrain.type.");
+  EXPECT_EQ(
+      error_of_changed({{"elevation = 0.0", "slope = 30.0"}}),
+      "FOLDER/case.toml:10:9: terrain.slope is 30 degrees, and terrain.type is not \"plane\"; no other ground has "
+      "it. Set terrain.type = \"plane\", or remove terrain.slope.");
+}
+
+TEST(Frames, MeetTheDomain) {
+  const auto with_frame = [](const std::string& min, const std::string& max, const std::string& rest) {
+    return error_of_text(sound + "[frame.wall]\nmin = " + min + "\nmax = " + max + "\n" + rest);
+  };
+  EXPECT_EQ(with_frame("[0, 0]", "[1, 1]", "axis = \"z\"\nvelocity = 1\n"),
+            "FOLDER/case.toml:25:8: frame.wall.axis is \"z\" in a 2D case; allowed: \"x\" or \"y\". Up is \"y\" "
+            "there.");
+  EXPECT_EQ(with_frame("[0, 0]", "[1, 0]", "axis = \"y\"\nvelocity = 1\n"),
+            "FOLDER/case.toml:24:7: frame.wall.max is (1, 0), not above frame.wall.min, which is (0, 0), in every "
+            "direction; give the highest corner of the box.");
+  const std::string outside =
+      "FOLDER/case.toml:23:7: frame.wall reaches from (-9, 0) to (-5, 9) and stays outside the domain, which is (0, "
+      "-10) to (100, 50), until time.end; move the frame, or widen grid.min and grid.max.";
+  EXPECT_EQ(with_frame("[-9, 0]", "[-5, 9]", "axis = \"y\"\nvelocity = 3\n"), outside) << "it moves along the side";
+  EXPECT_EQ(with_frame("[-9, 0]", "[-5, 9]", "axis = \"x\"\nvelocity = 2\n"), outside) << "it is 1 m short";
+  EXPECT_EQ(with_frame("[-9, 0]", "[-5, 9]", "axis = \"x\"\nvelocity = 3\n"), "no error") << "it comes in time";
+  EXPECT_EQ(with_frame("[-9, 0]", "[5, 9]", "axis = \"x\"\nvelocity = -3\n"), "no error") << "it leaves";
+}
+
+TEST(Bodies, OfThreeDimensionsAreBoxes) {
+  const std::vector<Change> in_3d{{"[time]", "[case]\ndimension = 3\n[time]"},
+                                  {"min = [0.0, -10.0]", "min = [0.0, 0.0, -10.0]"},
+                                  {"max = [100.0, 50.0]", "max = [100.0, 50.0, 50.0]"},
+                                  {"shape = \"box\"\nmin = [0.0, 0.0]\nmax = [40.0, 20.0]", "shape = \"surface\""}};
+  EXPECT_EQ(error_of_changed(in_3d),
+            "FOLDER/case.toml:19:9: body.block.shape is for 2D cases; allowed in 3D: \"box\". Use the shape \"box\" "
+            "with min and max.");
+}
+
+}  // namespace
+}  // namespace thawslide::config

@@ -1,0 +1,128 @@
+// The reference of the case file in its four forms.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "config/declaration.hpp"
+#include "config/describe.hpp"
+
+namespace thawslide::config {
+namespace {
+
+using Json = nlohmann::json;
+
+// The part of a text from a title to what begins the next one.
+std::string section(const std::string& text, const std::string& title, const std::string& next) {
+  const std::size_t begin = text.find(title);
+  EXPECT_NE(begin, std::string::npos) << title;
+  return begin == std::string::npos ? "" : text.substr(begin, text.find(next, begin + 1) - begin);
+}
+
+TEST(Reference, DeclaresEveryKeyOnceWithItsWords) {
+  std::set<std::string> seen;
+  for (const auto& table : tables()) {
+    EXPECT_FALSE(table->text.empty()) << table->name;
+    for (const Entry& entry : table->entries()) {
+      EXPECT_TRUE(seen.insert(table->name + "." + entry.rule->key).second) << table->name << "." << entry.rule->key;
+      EXPECT_FALSE(entry.rule->text.empty()) << table->name << "." << entry.rule->key;
+      EXPECT_FALSE(entry.type.empty()) << table->name << "." << entry.rule->key;
+      const int ways = (entry.required.empty() ? 0 : 1) + (entry.default_text.empty() ? 0 : 1);
+      EXPECT_TRUE(ways == 1 || !entry.otherwise.empty()) << "absent " << table->name << "." << entry.rule->key;
+    }
+  }
+  EXPECT_GT(seen.size(), 90U);
+}
+
+TEST(Reference, TextHoldsEveryTableAndKey) {
+  const std::string text = describe_text();
+  for (const auto& table : tables()) {
+    const std::string part = section("\n" + text, "\n" + table->title() + "  " + table->text + "\n", "\n\n");
+    for (const Entry& entry : table->entries()) {
+      EXPECT_NE(part.find("\n  " + entry.rule->key + " "), std::string::npos) << table->title() << entry.rule->key;
+      EXPECT_NE(part.find(entry.rule->text), std::string::npos) << table->title() << entry.rule->key;
+    }
+  }
+}
+
+TEST(Reference, MarkdownHoldsEveryTableAndKey) {
+  const std::string text = describe_markdown();
+  for (const auto& table : tables()) {
+    const std::string part = section(text, "\n## `" + table->title() + "`\n", "\n## ");
+    for (const Entry& entry : table->entries()) {
+      EXPECT_NE(part.find("\n| `" + entry.rule->key + "` | " + entry.rule->unit + " | "), std::string::npos)
+          << table->title() << entry.rule->key;
+    }
+  }
+}
+
+TEST(Reference, JsonHoldsEveryTableAndKeyInOrder) {
+  const Json json = Json::parse(describe_json());
+  ASSERT_EQ(json.size(), tables().size());
+  for (std::size_t t = 0; t < json.size(); ++t) {
+    const std::vector<Entry> entries = tables()[t]->entries();
+    EXPECT_EQ(json[t].at("table"), tables()[t]->title());
+    ASSERT_EQ(json[t].at("keys").size(), entries.size()) << tables()[t]->title();
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      const Json& key = json[t].at("keys")[k];
+      EXPECT_EQ(key.at("key"), entries[k].rule->key);
+      EXPECT_EQ(key.at("unit"), entries[k].rule->unit);
+      EXPECT_EQ(key.at("text"), entries[k].rule->text);
+      EXPECT_EQ(key.at("words").size(), entries[k].words.size());
+      EXPECT_EQ(key.at("default").is_null(), entries[k].default_text.empty()) << entries[k].rule->key;
+    }
+  }
+}
+
+TEST(Reference, SchemaHoldsEveryTableAndKey) {
+  const Json schema = Json::parse(schema_json());
+  EXPECT_EQ(schema.at("additionalProperties"), false);
+  for (const auto& table : tables()) {
+    const std::size_t dot = table->name.find('.');
+    const Json* node = &schema.at("properties").at(table->name.substr(0, dot));
+    if (dot != std::string::npos) {
+      node = &node->at("properties").at(table->name.substr(dot + 1));
+    }
+    const Json& own = table->is_named() ? node->at("additionalProperties") : *node;
+    EXPECT_EQ(own.at("additionalProperties"), false) << table->title();
+    for (const Entry& entry : table->entries()) {
+      EXPECT_TRUE(own.at("properties").contains(entry.rule->key)) << table->title() << entry.rule->key;
+    }
+  }
+  const Json& body = schema.at("properties").at("body").at("additionalProperties").at("properties");
+  EXPECT_EQ(body.at("shape").at("enum"), Json({"box", "polygon", "surface"}));
+  EXPECT_EQ(schema.at("properties").at("grid").at("properties").at("cell").at("exclusiveMinimum"), 0.0);
+  EXPECT_TRUE(schema.at("properties").at("grid").at("properties").contains("boundary"));
+  EXPECT_TRUE(schema.at("properties").at("grid").at("properties").contains("cell"))
+      << "a table inside a table leaves its keys";
+}
+
+TEST(Reference, TellsUnitRangeDefaultWordsAndNeed) {
+  const std::string text = describe_text();
+  const auto expect = [&](const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << part; };
+  expect(
+      "  youngs_modulus            Young's modulus [Pa]\n"
+      "                            a number, > 0 [Pa]; required when mechanics.enabled is true; Tables 2, 3\n");
+  expect("a number, > 0 [s]; required when time.stepping is \"fixed\"; otherwise time.end, that is no cap\n");
+  expect("{ x = [...], value = [...] }, between 0 and 0.95, ends excluded; default: 0.375; Eq. 1, Table 2\n");
+  expect("\"keep_cohesion\": mu_e max(0, N - P) + c_S: cohesion is kept\n");
+  const Json all = Json::parse(describe_json());
+  EXPECT_EQ(all[1]["keys"][0]["key"], "end");
+  EXPECT_EQ(all[1]["keys"][0]["required"], "always");
+  EXPECT_TRUE(all[1]["keys"][0]["default"].is_null());
+  EXPECT_EQ(all[1]["keys"][3]["default"], "0.8");
+}
+
+TEST(Schema, KnowsTypesRangesWordsAndRequiredKeys) {
+  const Json schema = Json::parse(schema_json())["properties"];
+  EXPECT_EQ(schema["time"]["required"], Json::array({"end"}));
+  EXPECT_EQ(schema["time"]["properties"]["end"]["exclusiveMinimum"], 0.0);
+  EXPECT_EQ(schema["basal"]["properties"]["heat_fraction"]["maximum"], 1.0);
+  EXPECT_EQ(schema["terrain"]["properties"]["type"]["enum"], Json::array({"none", "flat", "plane", "profile"}));
+  EXPECT_EQ(schema["body"]["additionalProperties"]["required"], Json::array({"material"}));
+  EXPECT_EQ(schema["body"]["additionalProperties"]["properties"]["porosity"]["anyOf"].size(), 3U);
+  EXPECT_EQ(schema["heat"]["properties"]["boundary"]["properties"]["z_max"]["anyOf"].size(), 3U);
+}
+
+}  // namespace
+}  // namespace thawslide::config

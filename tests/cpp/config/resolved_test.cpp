@@ -1,0 +1,286 @@
+// The resolved case: every key as it was given or filled in, and read back to the same case.
+#include <map>
+#include <sstream>
+
+#include "case_messages.hpp"
+#include "config/declaration.hpp"
+#include "config/describe.hpp"
+
+namespace thawslide::config {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace case_messages;
+using testing_support::case_from_text;
+using Lines = std::map<std::string, std::map<std::string, std::string>>;  // value by table and key
+
+// Every key of a plane case, none at its default, written as the program writes it. What only a 3D case can show is in
+// the second text.
+const std::string every_key = R"([case]
+title = "Every \"key\""
+width = 12.5
+gravity = 9.75
+gravity_tilt = -1.5
+[time]
+end = 4.5
+stepping = "adaptive"
+step = 0.25
+safety = 0.5
+output_interval = 1.5
+history_interval = 0.125
+[grid]
+cell = 2.5
+min = [-5.0, -10.0]
+max = [95.0, 40.0]
+[grid.boundary]
+x_min = "fixed"
+x_max = "roller"
+y_min = "roller"
+y_max = "fixed"
+[terrain]
+type = "profile"
+elevation = -1.0
+file = "inputs/profile.csv"
+extend = true
+[checkpoint]
+interval = 3.0
+[report]
+times = [1.0, 2.5]
+targets = "inputs/targets.csv"
+[phases]
+rock_density = 2700.5
+ice_density = 900.5
+water_density = 1001.5
+rock_heat_capacity = 801.5
+ice_heat_capacity = 2001.5
+water_heat_capacity = 4001.5
+rock_conductivity = 3.5
+ice_conductivity = 2.5
+water_conductivity = 0.75
+rock_expansion = 0.001
+ice_expansion = 0.002
+water_expansion = 0.003
+water_bulk_modulus = 2000000000.0
+latent_heat = 330000.0
+water_unit_weight = 9800.0
+ice_to_rock_density_ratio = 0.325
+[freezing]
+curve = "linear"
+exponent = 4.0
+slope = 0.25
+reference_temperature = -0.5
+[material.rock]
+law = "elastic"
+youngs_modulus = 400000000.0
+poisson_ratio = 0.25
+friction_angle = 31.0
+dilation_angle = 4.0
+cohesion = 200000.0
+residual_cohesion = 100000.0
+tension_cutoff = 10000.0
+viscosity_time = 0.03
+hydraulic_conductivity = 0.0001
+[body.block]
+material = "rock"
+shape = "polygon"
+min = [1.0, 2.0]
+max = [3.0, 4.0]
+vertices = [[0.0, 0.0], [40.0, 0.0], [40.0, 20.0]]
+particles_per_axis = 3
+temperature = { depth = [0.0, 5.0], value = [-1.0, -2.0] }
+porosity = { x = [0.0, 40.0], value = [0.3, 0.4] }
+velocity = [1.5, -0.5]
+[frame.wall]
+min = [50.0, 0.0]
+max = [60.0, 9.0]
+axis = "y"
+velocity = 2.25
+[mechanics]
+enabled = false
+shape_function = "linear"
+initial_stress = "settle"
+k0 = 0.4
+settle_time = 6.0
+settle_damping = 7.0
+mass_damping = 8.0
+[basal]
+friction = "constant"
+friction_angle = 25.0
+lubrication_exponent = 3.0
+min_solid_fraction = 0.1
+max_solid_fraction = 0.9
+clamp = "joint"
+cap_pressure = true
+heat_fraction = 0.35
+cohesion = 300000.0
+cohesion_law = "time"
+residual_cohesion = 150000.0
+slip_distance = 400.0
+cohesion_loss_time = 20.0
+[mechanisms]
+deformation = false
+lubrication = false
+pressurization = false
+[band]
+thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] }
+region = "first_layer"
+[heat]
+enabled = false
+latent = false
+conduction = false
+advection = false
+[heat.boundary]
+x_min = { temperature = -6.0 }
+x_max = { flux = 12.5 }
+y_min = { temperature = -7.0 }
+y_max = { flux = -2.0 }
+[pressure]
+thermal_pressurization = false
+clapeyron = "printed"
+seepage = false
+thickness_direction = "vertical"
+thickness_update = "frozen"
+)";
+
+const std::string rest_in_3d = R"([case]
+dimension = 3
+[time]
+end = 4.5
+step = 0.25
+[grid]
+cell = 2.5
+min = [-5.0, 0.0, -10.0]
+max = [95.0, 10.0, 40.0]
+[grid.boundary]
+z_min = "fixed"
+z_max = "roller"
+[terrain]
+type = "plane"
+slope = 5.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 400000000.0
+poisson_ratio = 0.25
+[body.block]
+material = "rock"
+min = [0.0, 0.0, 1.0]
+max = [40.0, 5.0, 20.0]
+velocity = [1.5, -0.5, 0.25]
+[mechanics]
+slope_shear = true
+[basal]
+friction_angle = 25.0
+[heat.boundary]
+z_min = { temperature = -8.0 }
+z_max = { flux = 3.5 }
+[pressure]
+enabled = false
+)";
+
+Lines lines_of(const std::string& text) {
+  Lines lines;
+  std::istringstream stream(text);
+  std::string table;
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.empty() && line.front() == '[') {
+      table = line.substr(1, line.size() - 2);
+    } else if (const std::size_t equals = line.find(" = "); equals != std::string::npos && line.front() != '#') {
+      const std::size_t unit = line.find("  # ");
+      lines[table][line.substr(0, equals)] =
+          line.substr(equals + 3, unit == std::string::npos ? unit : unit - equals - 3);
+    }
+  }
+  return lines;
+}
+
+Case read_with_inputs(const std::string& text) {
+  write_beside_the_case("inputs/profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,-1\n");
+  write_beside_the_case("inputs/targets.csv", "quantity,time_s,value,unit,source\n");
+  return case_from_text(text);
+}
+
+// The name in the case of what the reference calls [body.NAME].
+std::string own_name(const TableDeclaration& table) {
+  const std::map<std::string, std::string> names{{"material", "rock"}, {"body", "block"}, {"frame", "wall"}};
+  return table.is_named() ? table.name + "." + names.at(table.name) : table.name;
+}
+
+TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
+  Lines given, resolved;
+  for (const std::string& text : {every_key, rest_in_3d}) {
+    const std::string written = resolved_toml(read_with_inputs(text), "inputs");
+    EXPECT_EQ(resolved_toml(read_with_inputs(written), "inputs"), written);
+    for (const auto& [table, keys] : lines_of(text)) {
+      for (const auto& [key, value] : keys) {
+        given[table].emplace(key, value);
+        EXPECT_EQ(lines_of(written)[table][key], value) << table << '.' << key;
+      }
+    }
+  }
+  // The two texts leave out no key, and give none at its default.
+  for (const auto& table : tables()) {
+    for (const Entry& entry : table->entries()) {
+      const std::string value = given[own_name(*table)][entry.rule->key];
+      EXPECT_NE(value, "") << table->name << '.' << entry.rule->key << " is not tested";
+      EXPECT_NE(value, entry.default_text) << table->name << '.' << entry.rule->key << " is tested at its default";
+    }
+  }
+}
+
+TEST(Resolved, WritesDefaultsUnitsAndNoKeyWithoutMeaning) {
+  const std::string text = resolved_toml(case_from_text(sound), "inputs");
+  const Lines lines = lines_of(text);
+  EXPECT_EQ(lines.at("phases").at("latent_heat"), "333500.0");
+  EXPECT_EQ(lines.at("material.rock").at("tension_cutoff"), "inf");
+  EXPECT_EQ(lines.at("grid.boundary").at("x_min"), "\"open\"");
+  EXPECT_EQ(lines.at("grid.boundary").count("z_min"), 0U);       // in 3D only
+  EXPECT_EQ(lines.at("basal").count("cohesion_loss_time"), 0U);  // not needed, and no default
+  EXPECT_EQ(text.find("\nthickness ="), std::string::npos);      // no band
+  EXPECT_NE(text.find("\nlatent_heat = 333500.0  # J/kg\n"), std::string::npos);
+  EXPECT_NE(text.find("\ngravity_tilt = 0.0  # degrees\n"), std::string::npos);
+}
+
+TEST(Resolved, LamplughReadsBackToItself) {
+  const Case lamplugh = read_case(fs::path(THAWSLIDE_SOURCE_DIR) / "cases" / "lamplugh");
+  const std::string resolved = resolved_toml(lamplugh, "inputs");
+  fs::create_directories(folder_of_this_test() / "inputs");
+  for (const std::string& file : {lamplugh.terrain.file, lamplugh.report.targets}) {
+    fs::copy_file(file, folder_of_this_test() / "inputs" / fs::path(file).filename(),
+                  fs::copy_options::overwrite_existing);
+  }
+  const Case again = case_from_text(resolved);
+  EXPECT_EQ(resolved_toml(again, "inputs"), resolved);
+  EXPECT_EQ(again.band.thickness.abscissa, lamplugh.band.thickness.abscissa);
+  EXPECT_EQ(again.terrain.file,
+            (folder_of_this_test() / "inputs" / "lamplugh_profile.csv").lexically_normal().string());
+  EXPECT_EQ(lines_of(resolved)["terrain"]["file"], "\"inputs/lamplugh_profile.csv\"");
+}
+
+// Numbers that no short decimal hits, a text with marks, three dimensions, every kind of table.
+TEST(Resolved, KeepsEveryBit) {
+  const std::string text = changed({{"[time]", "[case]\ndimension = 3\ntitle = 'a \"b\" \\ c'\n[time]"},
+                                    {"step = 0.001", "step = 0.00030000000000000003"},
+                                    {"min = [0.0, -10.0]", "min = [0.0, 0.0, -10.0]"},
+                                    {"max = [100.0, 50.0]", "max = [100.0, 50.0, 50.0]"},
+                                    {"min = [0.0, 0.0]\nmax = [40.0", "min = [0.0, 0.0, 0.0]\nmax = [40.0, 30.0"},
+                                    {"[basal]",
+                                     "temperature = { depth = [0, 10, 10], value = [-1e-7, -2, -3] }\n"
+                                     "porosity = { x = [0, 10], value = [0.1, 0.3333333333333333] }\n"
+                                     "[grid.boundary]\nz_min = \"fixed\"\n"
+                                     "[heat.boundary]\nz_max = { temperature = -5 }\n[basal]"}});
+  const Case first = case_from_text(text);
+  const std::string resolved = resolved_toml(first, "inputs");
+  const Case second = case_from_text(resolved);
+  EXPECT_EQ(resolved_toml(second, "inputs"), resolved);
+  EXPECT_EQ(second.general.title, "a \"b\" \\ c");
+  EXPECT_EQ(second.time.step, 0.00030000000000000003);
+  EXPECT_EQ(second.grid.boundary, first.grid.boundary);
+  EXPECT_EQ(second.heat.boundary[5].value, -5.0);
+  EXPECT_EQ(second.bodies.at("block").max, (Point{40.0, 30.0, 20.0}));
+  EXPECT_EQ(second.bodies.at("block").temperature.table.value, (std::vector<double>{-1e-7, -2.0, -3.0}));
+  EXPECT_EQ(second.bodies.at("block").porosity.over, InitialField::Over::x);
+  EXPECT_EQ(second.bodies.at("block").porosity.table.value[1], 0.3333333333333333);
+}
+
+}  // namespace
+}  // namespace thawslide::config
