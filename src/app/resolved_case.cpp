@@ -8,7 +8,7 @@ namespace thawslide::app {
 namespace fs = std::filesystem;
 
 std::vector<io::InputFile> write_resolved_case(const config::Case& parameters, const fs::path& folder) {
-  std::vector<fs::path> files{parameters.file};
+  std::vector<fs::path> files(parameters.case_files.begin(), parameters.case_files.end());
   for (const std::string& file : {parameters.terrain.file, parameters.report.targets}) {
     if (!file.empty()) {
       files.emplace_back(file);

@@ -31,11 +31,12 @@ Real melting_pressure(const BandModel<Dim, Real>& model, Real ice_pressure) {
 }
 
 // Seepage between melted particles (Eq. 23 with the consistent scaling: xi over an unscaled flow, V / xi of pore
-// space); frozen particles keep their pressure and act as sinks.
+// space); frozen particles keep their pressure and act as sinks. Differences within a cell, which nodes do not see, are
+// levelled by the particles themselves, and what this changes at the nodes is taken off there (Gerya and Yuen 2003).
 template <int Dim, class Real>
 void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                     const mpm::Nodes<Dim, Real>& nodes, SeepageNodes<Dim, Real>& work,
-                     const mpm::Particles<Dim, Real>& particles) {
+                     const mpm::Nodes<Dim, Real>& nodes, Real dt, SeepageNodes<Dim, Real>& work,
+                     mpm::Particles<Dim, Real>& particles) {
   work.pressure.resize(grid.blocks().size());
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
@@ -61,11 +62,18 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
       const Real scaling = particles.thermal_scaling(p);
       const Real volume = particles.volume(p);
       Vector<Real, Dim> flow = Vector<Real, Dim>::Zero();
+      particles.seepage_in_cell(p) = Real(0);
       if (melted_before(model, particles, p)) {
         Vector<Real, Dim> gradient = Vector<Real, Dim>::Zero();
-        stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
+        Real seen = 0;
+        stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
           gradient += pressure.records[place][0] * slope;
+          seen += pressure.records[place][0] * weight;
         });
+        const Real diffusivity =
+            physics::hydraulic_diffusivity(model.phases, particles.porosity(p), Real(1), hydraulic);
+        particles.seepage_in_cell(p) = (seen - particles.pore_pressure(p)) *
+                                       physics::share_levelled_within_cell(diffusivity, grid.cell() / scaling, Dim, dt);
         const Real mobility = hydraulic / model.phases.water_unit_weight;
         flow = -volume * scaling * mobility * model.phases.water_bulk_modulus * gradient;
       }
@@ -75,23 +83,24 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
         patch.records[place][0] += flow.dot(slope);
         patch.records[place][1] += weight * pore_space;
+        patch.records[place][2] += weight * pore_space * particles.seepage_in_cell(p);
       });
     }
   });
   sum_patches(grid, work.flows);
 }
 
-// Rate of pressure by seepage at a particle (Eq. 22).
+// Pressure that seepage between nodes brings to a particle's place in a step (Eq. 22).
 template <int Dim, class Real>
-Real seepage_rate(const mpm::Stencil<Dim, Real, 2>& stencil, const mpm::Patch<Dim, Real, 2>& flows) {
-  Real rate = 0;
+Real seepage_between_nodes(const mpm::Stencil<Dim, Real, 2>& stencil, const mpm::Patch<Dim, Real, 3>& flows, Real dt) {
+  Real change = 0;
   stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
     const auto& node = flows.records[place];
     if (weight > Real(0) && node[1] > Real(0)) {
-      rate += weight * node[0] / node[1];
+      change += weight * (dt * node[0] - node[2]) / node[1];
     }
   });
-  return rate;
+  return change;
 }
 
 template <int Dim, class Real>
@@ -118,10 +127,10 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
                          SeepageNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
   const bool seepage = model.seepage && model.thermal_pressurization;
   if (seepage) {
-    seepage_to_grid(grid, model, nodes, work, particles);
+    seepage_to_grid(grid, model, nodes, dt, work, particles);
   }
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
-    mpm::Patch<Dim, Real, 2> flows;
+    mpm::Patch<Dim, Real, 3> flows;
     if (seepage) {
       load_patch(grid, t, work.flows, flows);
     }
@@ -137,7 +146,7 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
       Real seepage_change = 0;
       if (seepage && was_melted) {
         const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
-        seepage_change = dt * seepage_rate(stencil, flows);
+        seepage_change = particles.seepage_in_cell(p) + seepage_between_nodes(stencil, flows, dt);
       }
       pressurize(model, was_melted, seepage_change, particles, p);
       if (seepage && depth.depth_below_top(grid, particles, p) < Real(0.5) * grid.cell()) {

@@ -12,7 +12,8 @@ namespace thawslide::band {
 template <int Dim, class Real>
 struct SeepageNodes {
   mpm::NodeRecords<Dim, Real, 1> pressure;  // [Pa]
-  mpm::NodeRecords<Dim, Real, 2> flows;     // inflow times K_L [Pa m3/s], pore space of melted particles [m3]
+  mpm::NodeRecords<Dim, Real, 3>
+      flows;  // inflow times K_L [Pa m3/s], pore space [m3], pore space times seepage within cells
 };
 
 // Pore pressure of all particles after dt; to follow conduct_heat in a step, and average_on_grid at its start.

@@ -34,6 +34,7 @@ enum class ThicknessUpdate { each_step, frozen };
 enum class HeatBoundaryKind { insulated, temperature, flux };
 
 struct General {
+  std::string based_on;  // a case file of the same folder; empty: none
   std::string title;
   int dimension = 2;
   double width = 0.0;  // m; 0: extensive results are per metre of width (2D)
@@ -178,8 +179,9 @@ struct Report {
 };
 
 struct Case {
-  std::string name;  // of the run
-  std::string file;  // absolute path of the case file
+  std::string name;                     // of the run
+  std::string file;                     // absolute path of the case file
+  std::vector<std::string> case_files;  // that and the files it is based on, absolute
   General general;
   Time time;
   Grid grid;

@@ -11,6 +11,7 @@ namespace thawslide::config {
 namespace {
 
 constexpr double fewest_cells = 2.0;  // of the domain along each axis
+constexpr double most_cells = 5e5;    // what the numbers of the sparse grid's tiles can hold
 const char* const axis_names[] = {"x", "y", "z"};
 
 void check_grid(const Case& checked, Reading& reading) {
@@ -28,6 +29,13 @@ void check_grid(const Case& checked, Reading& reading) {
       return;
     }
     const double cells = length / grid.cell;
+    if (cells > most_cells) {
+      reading.report_misfit({"grid.cell", "grid.max", "grid.min"},
+                            fmt::format("grid.cell is {} m, and the domain is {} m long along {}: {:.6g} cells; "
+                                        "allowed: at most {:.6g}. Make the cell larger or the domain smaller.",
+                                        grid.cell, length, axis_names[a], cells, most_cells));
+      return;
+    }
     if (cells < fewest_cells) {
       reading.report_misfit({"grid.cell", "grid.max", "grid.min"},
                             fmt::format("grid.cell is {} m, and the domain is {} m long along {}; allowed: at least "

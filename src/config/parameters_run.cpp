@@ -7,6 +7,9 @@ namespace {
 
 std::vector<Parameter<General>> general_parameters() {
   return {
+      parameter(
+          &General::based_on,
+          {.key = "based_on", .text = "case file of the same folder that holds wherever this one gives nothing else"}),
       parameter(&General::title, {.key = "title", .text = "title for figures and reports"}),
       parameter(&General::dimension,
                 {.key = "dimension", .range = between(2, 3), .text = "2: plane strain, y is up; 3: z is up"}),

@@ -25,8 +25,10 @@ void Problems::raise_if_any() const {
   }
   std::vector<Problem> sorted = found_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
-    return std::tie(a.place.command_line, a.place.line, a.place.column) <
-           std::tie(b.place.command_line, b.place.line, b.place.column);
+    return a.place.command_line != b.place.command_line ? b.place.command_line
+           : a.place.command_line                       ? false
+                                                        : std::tie(a.place.source, a.place.line, a.place.column) <
+                                        std::tie(b.place.source, b.place.line, b.place.column);
   });
   std::string text;
   for (const Problem& problem : sorted) {

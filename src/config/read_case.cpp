@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <utility>
 
@@ -12,6 +10,7 @@
 #include "config/checks.hpp"
 #include "config/declaration.hpp"
 #include "config/overrides.hpp"
+#include "config/variants.hpp"
 
 namespace thawslide::config {
 
@@ -55,30 +54,6 @@ fs::path find_case_file(const fs::path& given) {
                                                : fmt::format("Give one of its case files: {}.", list_words(others))));
   }
   return file;
-}
-
-std::string read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (!stream) {
-    throw UserError(fmt::format("{}: the file cannot be read. Check its permissions.", file.string()));
-  }
-  return text;
-}
-
-toml::table parse(const std::string& text, const std::string& file) {
-  try {
-    toml::table root = toml::parse(text, std::string_view(file));
-    if (root.empty()) {
-      throw UserError(fmt::format(
-          "{}:1:1: the file is empty; a case has at least [time], [grid], [material.NAME] and [body.NAME].", file));
-    }
-    return root;
-  } catch (const toml::parse_error& error) {
-    const auto& begin = error.source().begin;
-    throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. Correct the line; https://toml.io tells the rules.",
-                                file, begin.line, begin.column, error.description()));
-  }
 }
 
 // Names at the top of the file that are no tables of ours.
@@ -145,9 +120,14 @@ Case read_case(const fs::path& case_file_or_folder, const std::vector<std::strin
   Case result;
   result.name = name_of(absolute);
   result.file = absolute.string();
-  toml::table root = parse(read_text(file), reading.file);
-  apply_overrides(root, reading);
-  read_tables(root, result, reading);
+  LayeredCase layered = read_with_bases(file);
+  apply_overrides(layered.root, reading);
+  read_tables(layered.root, result, reading);
+  // What was read is whole: nothing is left of the base but its file.
+  result.general.based_on.clear();
+  for (const fs::path& each : layered.files) {
+    result.case_files.push_back(fs::absolute(each).lexically_normal().string());
+  }
   check_case(result, reading);
   reading.problems.raise_if_any();
   return result;

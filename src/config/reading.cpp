@@ -20,7 +20,7 @@ bool within(const std::string& inner, const std::string& outer) {
 
 Place Reading::place_of(const std::string& dotted, const toml::source_region& region) const {
   if (region.begin.line > 0) {
-    return {file, region.begin.line, region.begin.column, false};
+    return {region.path ? *region.path : file, region.begin.line, region.begin.column, false};
   }
   for (auto override = overrides.rbegin(); override != overrides.rend(); ++override) {
     if (within(dotted, override->key) || within(override->key, dotted)) {

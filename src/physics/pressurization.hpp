@@ -2,6 +2,8 @@
 //   dP_L/dt = K_L/(n S) [beta_m dT/dt - div q_L],  q_L = -(k_L/gamma_w) grad P_L
 #pragma once
 
+#include <cmath>
+
 #include "physics/mixture.hpp"
 
 namespace thawslide::physics {
@@ -17,6 +19,14 @@ template <class Real>
 THAWSLIDE_HD Real hydraulic_diffusivity(const Phases<Real>& phases, Real porosity, Real saturation,
                                         Real hydraulic_conductivity) {
   return phases.water_bulk_modulus * hydraulic_conductivity / (porosity * saturation * phases.water_unit_weight);
+}
+
+// Share of the difference between a particle's pressure and the one nodes see at its place that diffusion levels out
+// within a step: 1 - exp(-dt D sum_a 2/h_a^2), h the scaled mesh size L_e/xi [m] (Gerya and Yuen 2003, Eq. 23). Nodes
+// do not see differences within a cell, and diffusion between nodes would leave them standing for ever.
+template <class Real>
+THAWSLIDE_HD Real share_levelled_within_cell(Real diffusivity, Real mesh_size, int dimension, Real dt) {
+  return -std::expm1(-dt * diffusivity * Real(2 * dimension) / (mesh_size * mesh_size));
 }
 
 }  // namespace thawslide::physics

@@ -142,21 +142,27 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
   });
 }
 
-std::vector<double> BlockColumn::seepage_rates(double scaling) const {
+std::vector<double> BlockColumn::seepage_between_nodes(double scaling, double dt) {
   const std::vector<double> pressure = averaged(&BlockRow::pore_pressure);
   std::vector<double> inflow(nodes_, 0.0);
   std::vector<double> pores(nodes_, 0.0);
-  for (const BlockRow& row : rows_) {
+  for (BlockRow& row : rows_) {
     const Place at = place(row);
     double flow = 0.0;
+    row.seepage_in_cell = 0.0;
     if (row.previous_temperature >= model_->reference_temperature) {
       const double gradient = (pressure[at.node + 1] - pressure[at.node]) / cell_;
       flow = -row_height_ * scaling * hydraulic_conductivity_ / model_->phases.water_unit_weight *
              model_->phases.water_bulk_modulus * gradient;
+      const double seen = at.weight * pressure[at.node] + (1.0 - at.weight) * pressure[at.node + 1];
+      const double diffusivity =
+          physics::hydraulic_diffusivity(model_->phases, row.porosity, 1.0, hydraulic_conductivity_);
+      row.seepage_in_cell =
+          (seen - row.pore_pressure) * physics::share_levelled_within_cell(diffusivity, cell_ / scaling, 2, dt);
     }
     const double pore_space = row_height_ / scaling * row.porosity;
-    inflow[at.node] += -flow / cell_;
-    inflow[at.node + 1] += flow / cell_;
+    inflow[at.node] += -dt * flow / cell_ - at.weight * pore_space * row.seepage_in_cell;
+    inflow[at.node + 1] += dt * flow / cell_ - (1.0 - at.weight) * pore_space * row.seepage_in_cell;
     pores[at.node] += at.weight * pore_space;
     pores[at.node + 1] += (1.0 - at.weight) * pore_space;
   }
@@ -187,12 +193,14 @@ void BlockColumn::drain_pore_pressure(double scaling, double dt) {
     return;
   }
   const bool seepage = model_->seepage && model_->thermal_pressurization && hydraulic_conductivity_ > 0.0;
-  const std::vector<double> rates = seepage ? seepage_rates(scaling) : std::vector<double>(nodes_, 0.0);
+  const std::vector<double> changes = seepage ? seepage_between_nodes(scaling, dt) : std::vector<double>(nodes_, 0.0);
   const double top = rows_.back().height + 0.5 * row_height_;
   for (BlockRow& row : rows_) {
     const Place at = place(row);
     const bool was_melted = row.previous_temperature >= model_->reference_temperature;
-    const double change = was_melted ? dt * (at.weight * rates[at.node] + (1.0 - at.weight) * rates[at.node + 1]) : 0.0;
+    const double change =
+        was_melted ? row.seepage_in_cell + at.weight * changes[at.node] + (1.0 - at.weight) * changes[at.node + 1]
+                   : 0.0;
     set_pressure(row, was_melted, was_melted ? row.previous_temperature : model_->reference_temperature, change);
     if (seepage && row.temperature >= model_->reference_temperature && top - row.height < 0.5 * cell_) {
       row.liquid_pressure = row.pore_pressure = 0.0;

@@ -16,7 +16,7 @@ struct BlockRow {
   double porosity, initial_porosity, initial_saturation;
   double temperature, previous_temperature, heat_content, saturation;
   double liquid_pressure = 0, ice_pressure = 0, pore_pressure = 0;
-  double secant_capacity = 0;
+  double secant_capacity = 0, seepage_in_cell = 0;
 };
 
 // What the contact law sees at the base node, interpolated as the MPM does.
@@ -57,7 +57,8 @@ class BlockColumn {
   [[nodiscard]] std::vector<double> nodal_rates(const std::vector<double>& power,
                                                 const std::vector<double>& capacity) const;
   [[nodiscard]] std::vector<double> averaged(double BlockRow::*member) const;
-  [[nodiscard]] std::vector<double> seepage_rates(double scaling) const;
+  // Pressure that seepage between nodes brings to each node in a step; that within cells goes to the rows.
+  [[nodiscard]] std::vector<double> seepage_between_nodes(double scaling, double dt);
   // The liquid's pressure goes on from where it was, or starts with Clapeyron's; `from`: temperature it is heated from
   // [C].
   void set_pressure(BlockRow& row, bool was_melted, double from, double seepage_change) const;

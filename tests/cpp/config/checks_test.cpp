@@ -64,6 +64,12 @@ TEST(Domain, HasAnExtent) {
             "along each axis. Make the cell smaller or the domain larger.");
 }
 
+TEST(Domain, HasNoMoreCellsThanTheGridCanNumber) {
+  EXPECT_EQ(error_of_changed({{"cell = 5.0", "cell = 1e-4"}}),
+            "FOLDER/case.toml:5:8: grid.cell is 0.0001 m, and the domain is 100 m long along x: 1e+06 cells; allowed: "
+            "at most 500000. Make the cell larger or the domain smaller.");
+}
+
 TEST(Domain, HoldsTheBody) {
   const std::string remedy =
       ", outside the domain, which is (0, -10) to (100, 50); move the body, or widen grid.min and grid.max.";

@@ -220,6 +220,9 @@ TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
   // The two texts leave out no key, and give none at its default.
   for (const auto& table : tables()) {
     for (const Entry& entry : table->entries()) {
+      if (entry.rule->key == "based_on") {
+        continue;  // a resolved case is based on nothing; variants_test.cpp
+      }
       const std::string value = given[own_name(*table)][entry.rule->key];
       EXPECT_NE(value, "") << table->name << '.' << entry.rule->key << " is not tested";
       EXPECT_NE(value, entry.default_text) << table->name << '.' << entry.rule->key << " is tested at its default";

@@ -1,0 +1,101 @@
+#include "config/variants.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "base/error.hpp"
+#include "config/reading.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (!stream) {
+    throw UserError(fmt::format("{}: the file cannot be read. Check its permissions.", file.string()));
+  }
+  return text;
+}
+
+toml::table parse(const std::string& text, const std::string& file) {
+  try {
+    toml::table root = toml::parse(text, std::string_view(file));
+    if (root.empty()) {
+      throw UserError(fmt::format(
+          "{}:1:1: the file is empty; a case has at least [time], [grid], [material.NAME] and [body.NAME].", file));
+    }
+    return root;
+  } catch (const toml::parse_error& error) {
+    const auto& begin = error.source().begin;
+    throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. Correct the line; https://toml.io tells the rules.",
+                                file, begin.line, begin.column, error.description()));
+  }
+}
+
+// The file that [case] based_on names, if there is one; `chain`: the files that led here.
+std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, const std::vector<fs::path>& chain) {
+  const auto* node = root.at_path("case.based_on").node();
+  const auto* text = node == nullptr ? nullptr : node->as_string();
+  if (text == nullptr || text->get().empty()) {
+    return std::nullopt;  // a value of another type is reported with the other keys
+  }
+  const auto& begin = node->source().begin;
+  const std::string place =
+      fmt::format("{}:{}:{}: case.based_on is \"{}\"", file.string(), begin.line, begin.column, text->get());
+  const fs::path name(text->get());
+  const fs::path base = file.parent_path() / name;
+  if (name.has_parent_path()) {
+    throw UserError(place + ", which is a path; allowed: the name of a case file of the same folder.");
+  }
+  std::error_code error;
+  if (!fs::is_regular_file(base, error)) {
+    throw UserError(place + ": no such file; allowed: the name of a case file of the same folder.");
+  }
+  if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
+    throw UserError(place + ", which leads back to itself. Let one of the files stand alone.");
+  }
+  return base;
+}
+
+// Moves what `over` holds into `under`; tables are joined, all else is replaced.
+void lay_over(toml::table& under, toml::table&& over) {
+  for (auto&& [key, node] : over) {
+    toml::table* inner = under.get_as<toml::table>(key.str());
+    if (inner != nullptr && node.is_table()) {
+      lay_over(*inner, std::move(*node.as_table()));
+    } else {
+      node.visit([&](auto&& value) { under.insert_or_assign(key, std::move(value)); });
+    }
+  }
+}
+
+toml::table read_chain(const fs::path& file, std::vector<fs::path>& chain) {
+  chain.push_back(file);
+  toml::table root = parse(read_text(file), file.string());
+  const std::optional<fs::path> base = base_of(root, file, chain);
+  if (!base) {
+    return root;
+  }
+  toml::table under = read_chain(*base, chain);
+  lay_over(under, std::move(root));
+  return under;
+}
+
+}  // namespace
+
+LayeredCase read_with_bases(const fs::path& file) {
+  LayeredCase result;
+  result.root = read_chain(file, result.files);
+  return result;
+}
+
+}  // namespace thawslide::config

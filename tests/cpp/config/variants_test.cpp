@@ -1,0 +1,83 @@
+// Case files based on others: what holds, where mistakes are told, what is refused.
+#include <gtest/gtest.h>
+
+#include "case_messages.hpp"
+#include "config/describe.hpp"
+
+namespace thawslide::config {
+namespace {
+
+using namespace case_messages;
+
+void write(const std::string& name, const std::string& text) {
+  std::filesystem::create_directories(folder_of_this_test());
+  std::ofstream(folder_of_this_test() / name) << text;
+}
+
+Case read(const std::string& name, const std::vector<std::string>& sets = {}) {
+  return read_case(folder_of_this_test() / name, sets);
+}
+
+std::string mistake(const std::string& name) {
+  try {
+    read(name);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "no mistake";
+}
+
+TEST(BasedOn, OtherKeysHoldWhereNothingElseIsGiven) {
+  write("case.toml", sound);
+  write("steep.toml",
+        "[case]\nbased_on = \"case.toml\"\n[basal]\nfriction_angle = 35.0\n[body.block]\nmax = [60.0, 30.0]\n");
+  write("steeper.toml", "[case]\nbased_on = \"steep.toml\"\n[basal]\nfriction_angle = 40.0\n");
+  const Case base = read("case.toml"), steep = read("steep.toml"), steeper = read("steeper.toml");
+  EXPECT_EQ(base.basal.friction_angle, 20.0);
+  EXPECT_EQ(steep.basal.friction_angle, 35.0);
+  EXPECT_EQ(steep.bodies.at("block").max[0], 60.0);
+  EXPECT_EQ(steep.bodies.at("block").material, "rock");
+  EXPECT_EQ(steep.time.end, base.time.end);
+  EXPECT_EQ(steeper.basal.friction_angle, 40.0);
+  EXPECT_EQ(steeper.bodies.at("block").max[0], 60.0);
+  EXPECT_EQ(steeper.case_files.size(), 3U);
+  EXPECT_EQ(read("steep.toml", {"basal.friction_angle=5"}).basal.friction_angle, 5.0);
+}
+
+TEST(BasedOn, TheResolvedCaseStandsAlone) {
+  write("case.toml", sound);
+  write("steep.toml", "[case]\nbased_on = \"case.toml\"\n[basal]\nfriction_angle = 35.0\n");
+  const std::string resolved = resolved_toml(read("steep.toml"), "inputs");
+  write("alone.toml", resolved);
+  std::filesystem::remove(folder_of_this_test() / "case.toml");
+  EXPECT_EQ(read("alone.toml").basal.friction_angle, 35.0);
+}
+
+TEST(BasedOn, MistakesAreToldWhereTheyWereWritten) {
+  const std::string folder = folder_of_this_test().string();
+  write("case.toml", changed({{"end = 2.0", "end = -2.0"}}));
+  write("odd.toml", "[case]\nbased_on = \"case.toml\"\n[basal]\nfriction_angel = 35.0\n");
+  const std::string text = mistake("odd.toml");
+  EXPECT_NE(text.find(folder + "/case.toml:2:7: time.end is -2;"), std::string::npos) << text;
+  EXPECT_NE(text.find(folder + "/odd.toml:4:1: "), std::string::npos) << text;
+  EXPECT_NE(text.find("did you mean 'friction_angle'?"), std::string::npos) << text;
+}
+
+TEST(BasedOn, ABaseMustBeThereAndLeadOn) {
+  const std::string folder = folder_of_this_test().string();
+  write("lost.toml", "[case]\nbased_on = \"nowhere.toml\"\n");
+  EXPECT_EQ(mistake("lost.toml"), folder +
+                                      "/lost.toml:2:12: case.based_on is \"nowhere.toml\": no such file; allowed: "
+                                      "the name of a case file of the same folder.");
+  write("away.toml", "[case]\nbased_on = \"../case.toml\"\n");
+  EXPECT_NE(mistake("away.toml").find("which is a path; allowed: the name of a case file of the same folder."),
+            std::string::npos);
+  write("one.toml", "[case]\nbased_on = \"two.toml\"\n");
+  write("two.toml", "[case]\nbased_on = \"one.toml\"\n");
+  EXPECT_NE(mistake("one.toml").find("two.toml:2:12: case.based_on is \"one.toml\", which leads back to itself."),
+            std::string::npos)
+      << mistake("one.toml");
+}
+
+}  // namespace
+}  // namespace thawslide::config
