@@ -24,7 +24,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if given.run is not None or given.setup is None or given.picture is None:
                 raise ReportError("--setup SETUP.json and --picture OUT.png belong together, without RUN")
             draw_setup_file(given.setup, given.picture, given.dpi)
-            print(given.picture)
         elif given.run is None:
             raise ReportError("give a run folder, e.g. thawslide-report runs/lamplugh")
         else:

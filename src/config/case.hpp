@@ -179,8 +179,10 @@ struct Report {
 };
 
 struct Case {
-  std::string name;                     // of the run
-  std::string file;                     // absolute path of the case file
+  std::string name;  // of the run
+  std::string file;  // absolute path of the case file
+  std::map<std::string, std::string>
+      places;                           // of each given table and key by dotted name: "case.toml:12:7", "--set ..."
   std::vector<std::string> case_files;  // that and the files it is based on, absolute
   General general;
   Time time;
@@ -200,5 +202,11 @@ struct Case {
   Checkpoint checkpoint;
   Report report;
 };
+
+// Where a key was written, for messages; the case file where it was not.
+inline const std::string& place_of(const Case& parameters, const std::string& dotted) {
+  const auto found = parameters.places.find(dotted);
+  return found == parameters.places.end() ? parameters.file : found->second;
+}
 
 }  // namespace thawslide::config

@@ -123,6 +123,9 @@ Case read_case(const fs::path& case_file_or_folder, const std::vector<std::strin
   LayeredCase layered = read_with_bases(file);
   apply_overrides(layered.root, reading);
   read_tables(layered.root, result, reading);
+  for (const auto& [key, place] : reading.places) {
+    result.places[key] = place.text();
+  }
   // What was read is whole: nothing is left of the base but its file.
   result.general.based_on.clear();
   for (const fs::path& each : layered.files) {

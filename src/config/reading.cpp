@@ -98,7 +98,8 @@ bool ValueReader::fail_type(const toml::node& node) const {
     char* end = nullptr;
     const double value = std::strtod(text->get().c_str(), &end);
     if (*end == '\0' && rule.range.holds(value)) {
-      message += "; remove the quotes";
+      message += reading.place_of(key, node.source()).command_line ? "; write " + plain_number(value)
+                                                                   : std::string("; remove the quotes");
     }
   }
   return fail(node, message);

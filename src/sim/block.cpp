@@ -218,15 +218,14 @@ std::vector<HistoryRow> run_block(const config::Case& parameters) {
                                 parameters.file, parameters.bodies.size()));
   }
   Block block(parameters, model, particles);
-  const double thickness = parameters.band.thickness.value.empty() ? 0.0 : parameters.band.thickness.at(0.0);
-  const double dt = parameters.time.stepping == config::Stepping::fixed
-                        ? parameters.time.step
-                        : parameters.time.safety * largest_stable_step(parameters, model, thickness, particles).step;
-  const StepLimit limit = largest_stable_step(parameters, model, thickness, particles);
-  if (parameters.time.step > limit.step) {
+  const StepLimit limit = largest_stable_step(parameters, model, smallest_thickness(parameters), particles);
+  double dt = parameters.time.step;
+  if (parameters.time.stepping == config::Stepping::adaptive) {
+    dt = std::min(dt, parameters.time.safety * limit.step);
+  } else if (dt > limit.step) {
     throw UserError(
         fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step.",
-                    parameters.file, parameters.time.step, limit.step, limit.what));
+                    config::place_of(parameters, "time.step"), dt, limit.step, limit.what));
   }
   const double interval = std::max(parameters.time.history_interval, dt);
   const auto steps = static_cast<long>(std::ceil(parameters.time.end / dt * (1.0 - 1e-12)));

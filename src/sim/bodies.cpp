@@ -55,6 +55,32 @@ class BodyShape {
     return place[Dim - 1] > profile_at(profile_.terrain, place[0]) && place[Dim - 1] < top(place[0], place[Dim - 1]);
   }
 
+  // Area of the section [m2], times the width in 3D [m3].
+  [[nodiscard]] double volume() const {
+    const double width = Dim == 2 ? 1.0 : upper_[1] - lower_[1];
+    double area = 0.0;
+    switch (body_->shape) {
+      case config::BodyShape::box:
+        return width * (upper_[0] - lower_[0]) * (upper_[Dim - 1] - lower_[Dim - 1]);
+      case config::BodyShape::polygon: {
+        const auto& v = body_->vertices;
+        for (std::size_t k = 0; k < v.size(); ++k) {
+          const auto& next = v[(k + 1) % v.size()];
+          area += 0.5 * (v[k][0] - v[0][0]) * (next[1] - v[0][1]) - 0.5 * (next[0] - v[0][0]) * (v[k][1] - v[0][1]);
+        }
+        return width * std::abs(area);
+      }
+      case config::BodyShape::surface:
+        break;
+    }
+    const auto& x = profile_.distance;
+    for (std::size_t k = 0; k + 1 < x.size(); ++k) {
+      area += 0.5 * (x[k + 1] - x[k]) *
+              (profile_.surface[k] - profile_.terrain[k] + profile_.surface[k + 1] - profile_.terrain[k + 1]);
+    }
+    return width * area;
+  }
+
   // Elevation of the body's top above a place within it.
   [[nodiscard]] double top(double x, double height) const {
     switch (body_->shape) {
@@ -124,8 +150,8 @@ struct Seed {
 
 // Particles stand at the centres of the cells' equal parts.
 template <int Dim>
-void seed_body(const config::Case& parameters, const config::Body& body, int number, std::vector<Seed<Dim>>& seeds) {
-  const BodyShape<Dim> shape(parameters, body);
+void seed_body(const config::Case& parameters, const config::Body& body, const BodyShape<Dim>& shape, int number,
+               std::vector<Seed<Dim>>& seeds) {
   const double spacing = parameters.grid.cell / body.particles_per_axis;
   std::array<long, 3> first{}, last{};
   for (std::size_t a = 0; a < Dim; ++a) {
@@ -143,6 +169,41 @@ void seed_body(const config::Case& parameters, const config::Body& body, int num
         if (shape.contains(place)) {
           seeds.push_back({number, place, shape.top(place[0], place[Dim - 1]) - place[Dim - 1]});
         }
+      }
+    }
+  }
+}
+
+// How far the volume of the particles may be from the body's: more, and the spacing is too coarse for its shape.
+constexpr double volume_tolerance = 0.15;
+
+template <int Dim>
+void require_volume(const config::Case& parameters, const std::string& name, const config::Body& body,
+                    const BodyShape<Dim>& shape, std::size_t particles) {
+  const double spacing = parameters.grid.cell / body.particles_per_axis;
+  const double seeded = static_cast<double>(particles) * std::pow(spacing, Dim);
+  if (std::abs(seeded / shape.volume() - 1.0) > volume_tolerance) {
+    throw UserError(fmt::format(
+        "{}: body '{}' has a volume of {:.6g} {}, and its {} particles, which stand {} m apart, {:.6g}; allowed: "
+        "within "
+        "{:g} %. Put its corners on multiples of the spacing, or make grid.cell smaller or particles_per_axis larger.",
+        config::place_of(parameters, "body." + name), name, shape.volume(), Dim == 2 ? "m3 per m" : "m3", particles,
+        spacing, seeded, 100.0 * volume_tolerance));
+  }
+}
+
+// No place may be filled twice.
+template <int Dim>
+void require_apart(const config::Case& parameters, const std::vector<std::string>& names,
+                   const std::vector<BodyShape<Dim>>& shapes, const std::vector<Seed<Dim>>& seeds) {
+  for (const Seed<Dim>& seed : seeds) {
+    for (std::size_t other = static_cast<std::size_t>(seed.body) + 1; other < shapes.size(); ++other) {
+      if (shapes[other].contains(seed.place)) {
+        throw UserError(
+            fmt::format("{}: body '{}' and body '{}' both fill the place x = {:.6g} m, elevation {:.6g} m; "
+                        "allowed: bodies that touch but do not overlap. Move one of them.",
+                        config::place_of(parameters, "body." + names[other]),
+                        names[static_cast<std::size_t>(seed.body)], names[other], seed.place[0], seed.place[Dim - 1]));
       }
     }
   }
@@ -198,19 +259,19 @@ void fill_bodies(const config::Case& parameters, const Model<Dim, Real>& model, 
   std::vector<Seed<Dim>> seeds;
   std::vector<const config::Body*> bodies;
   std::vector<std::size_t> material_of;
+  std::vector<std::string> names;
+  std::vector<BodyShape<Dim>> shapes;
   for (const auto& [name, body] : parameters.bodies) {
     const std::size_t before = seeds.size();
-    seed_body<Dim>(parameters, body, static_cast<int>(bodies.size()), seeds);
-    if (seeds.size() == before) {
-      throw UserError(
-          fmt::format("{}: body '{}' holds no particle: it is thinner than the particle spacing of {} m. Make "
-                      "the body larger or grid.cell smaller.",
-                      parameters.file, name, parameters.grid.cell / body.particles_per_axis));
-    }
+    names.push_back(name);
+    shapes.emplace_back(parameters, body);
+    seed_body(parameters, body, shapes.back(), static_cast<int>(bodies.size()), seeds);
+    require_volume(parameters, name, body, shapes.back(), seeds.size() - before);
     bodies.push_back(&body);
     const auto material = std::find(model.material_names.begin(), model.material_names.end(), body.material);
     material_of.push_back(static_cast<std::size_t>(material - model.material_names.begin()));
   }
+  require_apart(parameters, names, shapes, seeds);
   particles.resize(seeds.size());
   for (std::size_t p = 0; p < seeds.size(); ++p) {
     const Seed<Dim>& seed = seeds[p];

@@ -93,10 +93,11 @@ void Simulation<Dim, Real>::update_stress_and_porosity() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::conduct_heat() {
+  const Real added = band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
   if (!model_.band.heat) {
     return;
   }
-  ledger_.band_rescale += band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
+  ledger_.band_rescale += added;
   const auto gain = band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, heat_nodes_, particles_);
   ledger_.friction_heat += gain.friction;
   ledger_.boundary_heat += gain.boundary;
@@ -135,14 +136,12 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters)
       grid_(static_cast<Real>(parameters.grid.cell)) {
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
-    const auto& thickness = parameters_.band.thickness.value;
-    const double smallest = thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
-    const StepLimit limit = largest_stable_step(parameters_, model_, smallest, particles_);
+    const StepLimit limit = largest_stable_step(parameters_, model_, smallest_thickness(parameters_), particles_);
     if (parameters_.time.step > limit.step) {
       throw UserError(
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step, or "
                       "time.stepping = \"adaptive\".",
-                      parameters_.file, parameters_.time.step, limit.step, limit.what));
+                      config::place_of(parameters_, "time.step"), parameters_.time.step, limit.step, limit.what));
     }
   }
   begin();
@@ -257,7 +256,8 @@ StepLimit Simulation<Dim, Real>::step_limit() const {
 template <int Dim, class Real>
 double Simulation<Dim, Real>::next_step(double until) const {
   if (parameters_.time.stepping == config::Stepping::fixed) {
-    return parameters_.time.step;
+    const double left = parameters_.time.end - time_;  // the last step may be shorter
+    return left > (1.0 - 1e-9) * parameters_.time.step ? parameters_.time.step : left;
   }
   double dt = parameters_.time.safety * step_limit().step;
   if (parameters_.time.step > 0.0) {

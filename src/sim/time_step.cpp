@@ -9,9 +9,9 @@ namespace thawslide::sim {
 
 namespace {
 
-// Measured on resting and sliding blocks with 2 particles a cell and axis (docs/theory.md, "Stability limits"): the
-// step at which noise grows, in units of the textbook limits named beside each.
-constexpr double wave_share = 1.0;       // of cell / P-wave speed
+// Shares of the limits named beside each (docs/theory.md, "Stability limits"). The wave's was measured on resting and
+// sliding blocks with 2 particles a cell and axis; diffusion at 0.99 of the textbook limit was seen to be stable.
+constexpr double wave_share = 1.0;       // of cell / P-wave speed, with viscosity as in wave_limit
 constexpr double particle_share = 0.5;   // of cell / particle speed: a particle may not pass a node unseen
 constexpr double diffusion_share = 1.0;  // of length^2 / (2 Dim diffusivity)
 
@@ -25,6 +25,11 @@ double wave_limit(double cell, double speed, double viscosity_time) {
 }
 
 }  // namespace
+
+double smallest_thickness(const config::Case& parameters) {
+  const auto& thickness = parameters.band.thickness.value;
+  return thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
+}
 
 template <int Dim, class Real>
 StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,

@@ -16,6 +16,9 @@ struct StepLimit {
 };
 
 // The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage.
+// The band's smallest thickness over time [m]; 0 without a band.
+double smallest_thickness(const config::Case& parameters);
+
 template <int Dim, class Real>
 StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                               const mpm::Particles<Dim, Real>& particles);

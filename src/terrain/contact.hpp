@@ -15,7 +15,6 @@ namespace thawslide::terrain {
 template <int Dim, class Real>
 struct ContactWork {
   Real friction_work = 0;                               // dissipated by sliding
-  Real friction_heat = 0;                               // the part of it that heats the slide
   Real loss = 0;                                        // taken by impact on ground and walls, and by sticking
   Real frame_work = 0;                                  // done by rigid frames on the slide
   Real damping = 0;                                     // taken by mass damping

@@ -11,7 +11,7 @@ from conftest import LAMPLUGH, Program, history, run_facts, sets, snapshot_files
 
 PATTERN = (
     r"error: the run went bad at t = (\S+) s \(step (\d+)\): particle (\d+) of body '(\w+)' at \((\S+), (\S+)\) m: "
-    r"(.*)\. Likely cause: (.*)\n"
+    r"(.*?)\. (?:It moves at \S+ m/s, the slide at \S+ m/s in the mean\. )?Likely cause: (.*)\n"
 )
 
 

@@ -51,13 +51,13 @@ def _finish(axes: Axes, column: str, values: np.ndarray) -> None:
     if column == "band_saturation":
         axes.set_ylim(0.0, 1.02)
     elif column == "band_friction_coefficient":
-        axes.set_ylim(bottom=0.0)
+        axes.set_ylim(0.0, 1.08 * np.nanmax(values))
     elif column == "band_temperature_C":
         low, high = np.nanmin(values), np.nanmax(values)
         for level, words in ((0.0, "ice melts"), (100.0, "boiling is not modelled")):
             if low < level < high:
                 axes.axhline(level, color=NOTE, linewidth=0.8, linestyle=":")
                 axes.annotate(
-                    words, (0.0, level), xycoords=("axes fraction", "data"), xytext=(4, 3), textcoords="offset points",
-                    ha="left", size=7.5, color=NOTE,
+                    words, (1.0, level), xycoords=("axes fraction", "data"), xytext=(-4, 3), textcoords="offset points",
+                    ha="right", size=7.5, color=NOTE,
                 )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
@@ -31,6 +32,18 @@ def seismic_force(run: Run) -> tuple[dict[str, Numbers], Numbers]:
     return parts, np.sqrt(sum(np.square(values) for values in parts.values()))
 
 
+def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
+    """Name the force with which the stress of t = 0 adjusts, where it is of the size of the rest."""
+    start = time <= time[0] + 0.01 * (time[-1] - time[0])
+    if not np.isfinite(magnitude[start]).any() or np.nanmax(magnitude[start]) < 0.5 * np.nanmax(magnitude):
+        return
+    first = int(np.nanargmax(np.where(start, magnitude, -np.inf)))
+    axes.annotate(
+        "the stress of t = 0 adjusts", (time[first], magnitude[first]), xytext=(12, 4), textcoords="offset points",
+        size=8, color=NOTE, arrowprops={"arrowstyle": "-", "color": NOTE, "linewidth": 0.6},
+    )  # fmt: skip
+
+
 @styled
 def force(run: Run) -> Figure:
     """Draw the force on the ground less the static weight, (a) its size, (b) its components; (c) plastic strain."""
@@ -51,6 +64,7 @@ def force(run: Run) -> Figure:
     if reported and run.per_metre:
         note = "reported force not drawn: the case states no width"
         size.text(0.01, 0.96, note, transform=size.transAxes, va="top", size=8, color=NOTE)
+    _mark_start(size, time, magnitude / divisor)
     size.set_ylim(0.0, 1.25 * size.get_ylim()[1])  # room for the legend
 
     vertical = "xyz"[run.vertical]

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
@@ -31,6 +31,8 @@ VELOCITY = Painting("velocity", "velocity", "m/s", "viridis")
 PLASTIC_STRAIN = Painting("plastic_strain", "equivalent plastic strain", "1", "cividis")
 TEMPERATURE = Painting("temperature", "temperature", "°C", "plasma")
 PORE_PRESSURE = Painting("pore_pressure", "pore pressure", "Pa", "viridis")
+
+BOILING = 100.0  # °C
 
 # The page, in inches.
 _WIDTH, _LEFT, _RIGHT, _GAP = 10.0, 0.75, 0.2, 0.75
@@ -93,6 +95,24 @@ def pore_pressure(run: Run) -> Figure:
     return draw(run, PORE_PRESSURE)
 
 
+def number_text(value: float) -> str:
+    """Return a number in three digits, large ones with a comma between thousands."""
+    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
+
+
+def normalisation(values: Numbers, painting: Painting) -> tuple[Normalize, str]:
+    """Return how values become colours, and which ends of the colourbar are open.
+
+    Temperatures end at 100 °C, beyond which they are not to be believed, and change pace where ice melts.
+    """
+    low, high, extend = colour_range(values, painting.field in ("velocity", "plastic_strain"))
+    if painting is not TEMPERATURE:
+        return Normalize(low, high), extend
+    if high > BOILING:
+        high, extend = BOILING, "both" if extend in ("min", "both") else "max"
+    return (TwoSlopeNorm(0.0, low, high) if low < 0.0 < high else Normalize(low, high)), extend
+
+
 def draw(run: Run, painting: Painting) -> Figure:
     """Draw an overview of the whole profile, a panel for each chosen time and one colourbar."""
     shots = chosen_snapshots(run)
@@ -100,8 +120,8 @@ def draw(run: Run, painting: Painting) -> Figure:
     divisor, unit = prefixed(np.concatenate(values), "Pa") if painting.unit == "Pa" else (1.0, painting.unit)
     values = [value / divisor for value in values]
     unit = "" if unit == "1" else unit
-    low, high, extend = colour_range(np.concatenate(values), painting.field in ("velocity", "plastic_strain"))
-    painter = ScalarMappable(Normalize(low, high), painting.colours)
+    norm, extend = normalisation(np.concatenate(values), painting)
+    painter = ScalarMappable(norm, painting.colours)
 
     page = _Page(run, shots)
     figure = page.figure
@@ -115,13 +135,16 @@ def draw(run: Run, painting: Painting) -> Figure:
         panel, strip = page.panel(number)
         _draw_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
         panel.set_title(f"({_LETTERS[number]}) t = {shot.time:g} s, {window.note()}", loc="left")
-        largest = f"max {np.nanmax(value):.3g} {unit}" if np.isfinite(value).any() else "no values"
+        largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
         panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
         if strip is not None:
             _draw_strip(strip, run, shot, value, window, painter, page.panel_width, highest)
             panel.set_xlabel("")
             panel.tick_params(labelbottom=False)
     bar = figure.colorbar(painter, cax=page.colourbar(), orientation="horizontal", extend=extend)
+    if isinstance(norm, TwoSlopeNorm):  # both halves have their ticks
+        bar.set_ticks([norm.vmin, 0.5 * norm.vmin, *np.linspace(0.0, norm.vmax, 5)], labels=None)
+        bar.ax.xaxis.set_major_formatter("{x:.3g}")
     bar.set_label(painting.words + (f" ({unit})" if unit else ""), labelpad=1)
     return figure
 

@@ -78,7 +78,9 @@ TEST(Set, OfAWrongType) {
   EXPECT_EQ(error_of_text(sound, {"grid.cell=five"}),
             "--set grid.cell=five: grid.cell is the text \"five\"; allowed: a number, > 0 [m].");
   EXPECT_EQ(error_of_text(sound, {"grid.cell='5'"}),
-            "--set grid.cell='5': grid.cell is the text \"5\"; allowed: a number, > 0 [m]; remove the quotes.");
+            "--set grid.cell='5': grid.cell is the text \"5\"; allowed: a number, > 0 [m]; write 5.");
+  EXPECT_EQ(error_of_text(sound, {"grid.cell=.5"}),
+            "--set grid.cell=.5: grid.cell is the text \".5\"; allowed: a number, > 0 [m]; write 0.5.");
   EXPECT_EQ(error_of_text(sound, {"grid.cell=[5.0]"}),
             "--set grid.cell=[5.0]: grid.cell is an array of 1; allowed: a number, > 0 [m].");
   EXPECT_EQ(error_of_text(sound, {"grid.max=100"}),

@@ -158,5 +158,19 @@ TEST(BlockModel, AgreesWithTheMaterialPoints) {
   EXPECT_GT(value_of(block, "band_saturation"), 0.3) << "the base must have begun to melt for this to say much";
 }
 
+// Adaptive stepping takes the limits of the run, with the cap that time.step sets, and gives what a fixed step gives.
+TEST(BlockModel, StepsAdaptively) {
+  const std::vector<std::string> adaptive{"time.stepping=adaptive", "time.step=0.002"};
+  const auto fixed = run_block(case_from_text(sliding, {"time.step=0.001"}));
+  const auto rows = run_block(case_from_text(sliding, adaptive));
+  EXPECT_NEAR(value_of(rows.back(), "velocity_m_s") / value_of(fixed.back(), "velocity_m_s"), 1.0, 1e-3);
+  std::string text = sliding;
+  const std::string step = "step = ";
+  const std::size_t at = text.find(step);
+  text.erase(at, text.find('\n', at) - at + 1);
+  const auto free = run_block(case_from_text(text, {"time.stepping=adaptive"}));
+  EXPECT_NEAR(value_of(free.back(), "velocity_m_s") / value_of(fixed.back(), "velocity_m_s"), 1.0, 2e-3);
+}
+
 }  // namespace
 }  // namespace thawslide::sim

@@ -1,0 +1,36 @@
+// The whole Lamplugh run: what its README says of it, and ledgers that close to the end.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+TEST(WholeLamplugh, RunsOutAndStopsNearWhatWasReported) {
+  Simulation<2, double> simulation(config::read_case(std::string(THAWSLIDE_SOURCE_DIR) + "/cases/lamplugh"));
+  double peak = 0.0;
+  while (simulation.time() < 200.0 - 1e-9) {
+    run_until(simulation, simulation.time() + 1.0);
+    peak = std::max(peak, value_of(history_row(simulation), "mean_velocity_m_s"));
+  }
+  const auto row = history_row(simulation);
+  EXPECT_NEAR(peak, 80.0, 4.0);
+  EXPECT_NEAR(value_of(row, "mean_displacement_m"), 5770.0, 160.0);
+  EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.01);
+  const double work = value_of(row, "friction_work_J");
+  EXPECT_LT(std::abs(value_of(row, "mechanical_residual_J")), 2e-3 * work);
+  EXPECT_LT(std::abs(value_of(row, "thermal_residual_J")), 1e-10 * value_of(row, "friction_heat_J"));
+  for (const std::string axis : {"x", "y"}) {
+    EXPECT_LT(std::abs(value_of(row, "momentum_residual_" + axis + "_N_s")),
+              1e-9 * std::abs(value_of(row, "gravity_impulse_y_N_s")));
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,178 @@
+// Switches of the model, each by what it does to a run.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+const std::string block = R"(
+[time]
+end = 1.0
+step = 0.002
+[grid]
+cell = 10.0
+min = [-50.0, -150.0]
+max = [300.0, 150.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+viscosity_time = 0.02
+[body.block]
+material = "rock"
+shape = "box"
+min = [0.0, 0.0]
+max = [100.0, 50.0]
+temperature = -0.2
+porosity = 0.375
+[basal]
+friction = "constant"
+friction_angle = 20.0
+[band]
+thickness = 0.05
+)";
+
+using Sets = std::vector<std::string>;
+
+TEST(Switch, ClapeyronSign) {
+  for (const double sign : {1.0, -1.0}) {
+    const Simulation<2, double> simulation(
+        case_from_text(block, {sign > 0.0 ? "pressure.clapeyron=usual" : "pressure.clapeyron=printed"}));
+    const auto& particles = simulation.particles();
+    const double logarithm = 1000.0 * 333.5e3 * std::log((273.15 - 0.2) / 273.15);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double from_ice = particles.ice_pressure(p) / 0.917;
+      EXPECT_NEAR(particles.liquid_pressure(p) - from_ice, sign * logarithm, 1e-6 * std::abs(logarithm));
+    }
+  }
+}
+
+TEST(Switch, ThicknessAlongTheNormalOrVertical) {
+  const Sets tilted{"terrain.type=plane", "terrain.slope=30.0", "body.block.shape=polygon",
+                    "body.block.vertices=[[0,0],[100,-57.735],[100,-7.735],[0,50]]"};
+  Sets vertical = tilted;
+  vertical.emplace_back("pressure.thickness_direction=vertical");
+  const Simulation<2, double> along(case_from_text(block, tilted)), upright(case_from_text(block, vertical));
+  const double cosine = std::cos(pi<double> / 6.0);
+  for (std::size_t p = 0; p < along.particles().size(); ++p) {
+    EXPECT_NEAR(along.particles().flow_depth(p) / upright.particles().flow_depth(p), cosine, 1e-12);
+  }
+}
+
+TEST(Switch, ThicknessFollowsTheSlideOrIsFrozen) {
+  for (const bool frozen : {false, true}) {
+    Sets sets{"body.block.velocity=[20.0,0.0]"};
+    if (frozen) {
+      sets.emplace_back("pressure.thickness_update=frozen");
+    }
+    Simulation<2, double> simulation(case_from_text(block, sets));
+    std::vector<double> start(simulation.particles().size());
+    for (std::size_t p = 0; p < start.size(); ++p) {
+      start[static_cast<std::size_t>(simulation.particles().id(p))] = simulation.particles().flow_depth(p);
+    }
+    run_until(simulation, 0.5);
+    double change = 0.0;
+    for (std::size_t p = 0; p < start.size(); ++p) {
+      const double before = start[static_cast<std::size_t>(simulation.particles().id(p))];
+      change = std::max(change, std::abs(simulation.particles().flow_depth(p) - before));
+    }
+    EXPECT_EQ(change == 0.0, frozen) << change;
+  }
+}
+
+TEST(Switch, BandScalingOfAllParticlesOrOfTheFirstLayer) {
+  for (const bool first : {false, true}) {
+    Sets sets;
+    if (first) {
+      sets.emplace_back("band.region=first_layer");
+    }
+    const Simulation<2, double> simulation(case_from_text(block, sets));
+    const auto& particles = simulation.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const bool scaled = !first || particles.position(p, 1) - 150.0 < 10.0;
+      EXPECT_DOUBLE_EQ(particles.thermal_scaling(p), scaled ? 200.0 : 1.0);
+    }
+  }
+}
+
+// Traction along the base over its length, at a pore pressure far above the overburden.
+double traction_under_pressure(const Sets& more) {
+  Sets sets{"body.block.temperature=5.0", "body.block.velocity=[5.0,0.0]",
+            "basal.cohesion=5e4",         "basal.cohesion_law=constant",
+            "heat.enabled=false",         "pressure.seepage=false"};
+  sets.insert(sets.end(), more.begin(), more.end());
+  Simulation<2, double> simulation(case_from_text(block, sets));
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    simulation.particles().liquid_pressure(p) = simulation.particles().pore_pressure(p) = 5e6;
+  }
+  double force = 0.0;
+  for (int k = 0; k < 100; ++k) {
+    simulation.step(0.002);
+    force += simulation.contact().force[0] / 100.0;
+  }
+  return force / 100.0;
+}
+
+TEST(Switch, WhereThePressureIsClamped) {
+  EXPECT_NEAR(traction_under_pressure({}) / 5e4, 1.0, 0.02);
+  EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint"}), 0.0, 1.0);
+  EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint", "basal.cap_pressure=true"}) / 5e4, 1.0, 0.02);
+  EXPECT_NEAR(traction_under_pressure({"mechanisms.pressurization=false"}) /
+                  (5e4 + std::tan(20.0 * pi<double> / 180.0) * 2093.75 * 9.81 * 50.0),
+              1.0, 0.02);
+}
+
+// A band that thickens drains slower, with heat on or off.
+TEST(Switch, TheBandFollowsItsTableWithoutHeat) {
+  Simulation<2, double> simulation(case_from_text(
+      block, {"heat.enabled=false", "band.thickness={ time = [0.0, 0.5, 0.5, 1.0], value = [0.05, 0.05, 0.5, 0.5] }"}));
+  run_until(simulation, 0.4);
+  EXPECT_DOUBLE_EQ(simulation.particles().thermal_scaling(0), 200.0);
+  run_until(simulation, 0.6);
+  EXPECT_DOUBLE_EQ(simulation.particles().thermal_scaling(0), 20.0);
+}
+
+TEST(TimeStep, TheLastFixedStepEndsWithTheRun) {
+  Simulation<2, double> simulation(case_from_text(block, {"time.step=0.003", "time.end=0.01"}));
+  while (simulation.time() < 0.01) {
+    simulation.step(simulation.next_step(0.01));
+  }
+  EXPECT_EQ(simulation.step_number(), 4);
+  EXPECT_DOUBLE_EQ(simulation.time(), 0.01);
+}
+
+TEST(Bodies, MayNotOverlapNorMissTheirVolume) {
+  const auto mistake = [](const std::string& text, const Sets& sets) -> std::string {
+    try {
+      const Simulation<2, double> simulation(case_from_text(text, sets));
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "no mistake";
+  };
+  const std::string second =
+      "[body.other]\nmaterial = \"rock\"\nshape = \"box\"\nmin = [90.0, 0.0]\nmax = [150.0, 50.0]\n";
+  EXPECT_NE(mistake(block + second, {}).find("body 'block' and body 'other' both fill the place x = 92.5 m"),
+            std::string::npos)
+      << mistake(block + second, {});
+  EXPECT_EQ(mistake(block + second, {"body.other.min=[100.0,0.0]"}), "no mistake");
+  const std::string thin = mistake(block, {"body.block.min=[0.0,4.0]", "body.block.max=[100.0,8.0]"});
+  EXPECT_NE(thin.find("body 'block' has a volume of 400 m3 per m, and its 20 particles, which stand 5 m apart, 500; "
+                      "allowed: within 15 %."),
+            std::string::npos)
+      << thin;
+}
+
+}  // namespace
+}  // namespace thawslide::sim
