@@ -1,6 +1,7 @@
 // Averages of band quantities at nodes, and the depth of flow above particles.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "band/model.hpp"
@@ -16,8 +17,7 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particle
                      const BandModel<Dim, Real>& model, mpm::Nodes<Dim, Real>& nodes);
 
 // H of P_I = rho_I g H [m]: band particles see the thickness of the whole grid column (volume over footprint), others
-// their depth below its top; both times slope_cosine(x), the cosine of the terrain's slope there. columns_top is filled
-// with the depth below the column's top for every particle.
+// their depth below its top; both times slope_cosine(x), the cosine of the terrain's slope there.
 template <int Dim, class Real>
 class FlowDepth {
  public:
@@ -27,9 +27,11 @@ class FlowDepth {
   // particles.flow_depth from the columns and in_band.
   void depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid, mpm::Particles<Dim, Real>& particles) const;
 
-  // Depth of a particle below the top of its column [m], vertical.
+  // Depth of particle p of tile t below the top of its column [m], vertical.
   [[nodiscard]] Real depth_below_top(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
-                                     std::uint32_t p) const;
+                                     std::size_t t, std::uint32_t p) const {
+    return column(grid, particles, t, p).top - particles.position(p, Dim - 1);
+  }
 
  private:
   struct Column {
@@ -37,12 +39,25 @@ class FlowDepth {
     Real top = 0;
     Real cosine = 1;
   };
+  // The columns that a tile's particles stand in: their cells reach one below the tile's first node.
+  static constexpr int columns_per_axis = mpm::Tile<Dim>::edge + 1;
+  static constexpr auto columns_per_tile = static_cast<std::size_t>(mpm::power(columns_per_axis, Dim - 1));
+  struct TileColumns {
+    std::array<Column, columns_per_tile> part;
+    std::array<std::int32_t, columns_per_tile> number;
+  };
 
-  static std::uint64_t column_key(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
-                                  std::uint32_t p);
+  static std::size_t place_in_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
+                                   std::size_t t, std::uint32_t p);
+  static std::uint64_t column_key(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, std::size_t place);
+  [[nodiscard]] const Column& column(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
+                                     std::size_t t, std::uint32_t p) const {
+    return columns_[static_cast<std::size_t>(tiles_[t].number[place_in_tile(grid, particles, t, p)])];
+  }
 
   KeyIndex index_;
   std::vector<Column> columns_;
+  std::vector<TileColumns> tiles_;
 };
 
 }  // namespace thawslide::band

@@ -149,7 +149,7 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
         seepage_change = particles.seepage_in_cell(p) + seepage_between_nodes(stencil, flows, dt);
       }
       pressurize(model, was_melted, seepage_change, particles, p);
-      if (seepage && depth.depth_below_top(grid, particles, p) < Real(0.5) * grid.cell()) {
+      if (seepage && depth.depth_below_top(grid, particles, t, p) < Real(0.5) * grid.cell()) {
         particles.liquid_pressure(p) = Real(0);  // the free surface is at atmospheric pressure
         particles.pore_pressure(p) = Real(0);
       }

@@ -93,7 +93,11 @@ void Simulation<Dim, Real>::update_stress_and_porosity() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::conduct_heat() {
-  const Real added = band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
+  Real added = 0;
+  if (model_.band.region != band::ScaledRegion::all || band_thickness() != thickness_in_force_) {
+    thickness_in_force_ = band_thickness();
+    added = band::rescale_band(grid_, model_.band, static_cast<Real>(thickness_in_force_), particles_);
+  }
   if (!model_.band.heat) {
     return;
   }

@@ -93,7 +93,7 @@ class Simulation {
   Ledger<Dim, Real> ledger_;
   mpm::BadParticle bad_;
   Stopwatch stopwatch_;
-  double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0;
+  double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, thickness_in_force_ = -1.0;
   std::int64_t step_number_ = 0;
   int sorting_interval_ = 64;
   Real dt_ = 0;
