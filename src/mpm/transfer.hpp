@@ -152,8 +152,8 @@ struct Stencil {
 
 // Stencil of a particle in its tile, for shape functions Shape (Ugimp, Linear). half: its half size in cells.
 template <class Shape, int Dim, class Real>
-Stencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile_key,
-                                const Vector<Real, Dim>& position, Real half) {
+THAWSLIDE_ALWAYS_INLINE Stencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile_key,
+                                                        const Vector<Real, Dim>& position, Real half) {
   using T = Tile<Dim>;
   typename T::Index node{};
   Vector<Real, Dim> offset;
