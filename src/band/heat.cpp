@@ -337,12 +337,13 @@ void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Rea
 template <int Dim, class Real>
 Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
                   const std::function<Real(Real)>& layer_thickness, mpm::Particles<Dim, Real>& particles) {
+  const bool by_place = thickness > Real(0) && layer_thickness;
+  const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
   const auto scaling_at = [&](std::uint32_t p) {
-    const bool scaled = thickness > Real(0) && (model.region == ScaledRegion::all || particles.in_band(p) != 0);
-    if (!scaled) {
+    if (model.region != ScaledRegion::all && particles.in_band(p) == 0) {
       return Real(1);
     }
-    return (layer_thickness ? layer_thickness(particles.position(p, 0)) : grid.cell()) / thickness;
+    return by_place ? layer_thickness(particles.position(p, 0)) / thickness : of_a_cell;
   };
   Real added = 0;
   for (const std::uint32_t p : grid.order()) {

@@ -1,3 +1,4 @@
+// Sums over the particles of a run: energies, masses, momentum.
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
