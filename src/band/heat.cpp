@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "band/particle_heat.hpp"
+
 namespace thawslide::band {
 
 namespace {
@@ -50,8 +52,8 @@ void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim,
 }
 
 // Eq. 19's sums over particles: conduction and advection, and the capacity with the tangent to the heat content.
-template <int Dim, class Real, class Content>
-void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Content& content,
+template <int Dim, class Real, class Law>
+void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Law& law,
                    mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
   auto& patches = work.rates.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
@@ -85,7 +87,7 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
         advection = volume * model.phases.water_density * model.phases.water_heat_capacity * mobility *
                     pressure_gradient.dot(temperature_gradient);
       }
-      const Real tangent = content.apparent_capacity(particles.temperature(p), particles.initial_porosity(p));
+      const Real tangent = law.tangent(p);
       particles.secant_capacity(p) = tangent;
       const Real capacity = particles.initial_volume(p) / scaling * tangent;
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
@@ -166,8 +168,8 @@ Real interpolated_rate(const mpm::Stencil<Dim, Real, 2>& stencil, const mpm::Pat
 
 // Secant capacity along the predicted change, to particles and nodes: with it the sum of what particles take equals
 // what nodes give.
-template <int Dim, class Real, class Content>
-void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Content& content, Real dt,
+template <int Dim, class Real, class Law>
+void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real dt,
                              HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
   auto& patches = work.capacity.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
@@ -180,9 +182,8 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Conte
       const std::uint32_t p = grid.order()[k];
       const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       const Real change = dt * interpolated_rate(stencil, state);
-      if (!content.drowns_in_round_off(change)) {  // else the tangent, which stands there already, is the secant
-        particles.secant_capacity(p) =
-            content.secant_capacity(particles.temperature(p), change, particles.initial_porosity(p));
+      if (!law.content.drowns_in_round_off(change)) {  // else the tangent, which stands there already, is the secant
+        particles.secant_capacity(p) = law.secant(p, change);
       }
       const Real capacity = particles.initial_volume(p) / particles.thermal_scaling(p) * particles.secant_capacity(p);
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
@@ -193,11 +194,29 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Conte
   sum_patches(grid, work.capacity);
 }
 
-// Eq. 18 for the heat content: what the nodes give goes into each particle's account, and its temperature follows.
-template <int Dim, class Real, class Content>
-void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                       const Content& content, Real dt, HeatNodes<Dim, Real>& work,
-                       mpm::Particles<Dim, Real>& particles) {
+// Adds up what `of_particle(p)` [J/m3, per volume of t = 0] makes over all particles [J], with the volume heat counts.
+template <int Dim, class Real, class OfParticle>
+Real sum_of_heat(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
+                 const OfParticle& of_particle) {
+  std::vector<Real> sums(grid.tiles().size(), Real(0));
+  parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    const auto& tile = grid.tiles()[t];
+    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      sums[t] += particles.initial_volume(p) / particles.thermal_scaling(p) * of_particle(p);
+    }
+  });
+  Real sum = 0;
+  for (const Real part : sums) {
+    sum += part;
+  }
+  return sum;
+}
+
+// What the nodes give goes into each particle by take(p, gain [J/m3]); its saturation and porosity follow.
+template <int Dim, class Real, class Law, class Take>
+void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Law& law,
+                       Real dt, HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles, const Take& take) {
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     mpm::Patch<Dim, Real, 3> state;
     mpm::Patch<Dim, Real, 1> orphan;
@@ -222,17 +241,67 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
       }
       const Real old_temperature = particles.temperature(p);
       particles.previous_temperature(p) = old_temperature;
-      const Real heat_content = particles.heat_content(p) + gain;
-      if (heat_content != particles.heat_content(p)) {
-        particles.heat_content(p) = heat_content;
-        const Real guess = old_temperature + gain / particles.secant_capacity(p);
-        particles.temperature(p) = content.temperature(heat_content, particles.initial_porosity(p), guess);
-        particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
+      if (take(p, gain)) {
+        particles.liquid_saturation(p) = law.content.curve.saturation(particles.temperature(p));
         particles.porosity(p) = physics::updated_porosity(model.phases, particles.porosity(p), Real(0),
                                                           particles.temperature(p) - old_temperature);
       }
     }
   });
+}
+
+// Heat made by masses that follow porosity and volume: temperatures stay, the heat the particles hold does not.
+template <int Dim, class Real, class Law>
+Real count_masses_anew(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, mpm::Particles<Dim, Real>& particles) {
+  return sum_of_heat(grid, particles, [&](std::uint32_t p) {
+    const Real before = particles.heat_content(p);
+    particles.heat_content(p) = law.heat(p);
+    return particles.heat_content(p) - before;
+  });
+}
+
+// Eq. 18 for the heat content: the gain goes into the particle's account, and its temperature follows.
+template <int Dim, class Real, class Law>
+HeatGain<Real> update_heat_content(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                                   const Law& law, Real dt, bool first_step, const mpm::Nodes<Dim, Real>& nodes,
+                                   HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
+  const auto with_tangent = [&](std::size_t b, std::size_t k) { return work.rates(b, k)[2]; };
+  const auto with_secant = [&](std::size_t b, std::size_t k) { return work.capacity(b, k)[0]; };
+  solve_rates(grid, model, dt, first_step, nodes, with_tangent, work);
+  secant_capacity_to_grid(grid, law, dt, work, particles);
+  const HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, with_secant, work);
+  heat_to_particles(grid, model, law, dt, work, particles, [&](std::uint32_t p, Real taken) {
+    const Real heat_content = particles.heat_content(p) + taken;
+    if (heat_content == particles.heat_content(p)) {
+      return false;
+    }
+    particles.heat_content(p) = heat_content;
+    const Real guess = particles.temperature(p) + taken / particles.secant_capacity(p);
+    particles.temperature(p) = law.temperature(p, heat_content, guess);
+    return true;
+  });
+  return gain;
+}
+
+// Eqs. 18 and 19 as printed: the old apparent capacity turns heat into a change of temperature. The heat a particle
+// then holds is not what it was given; the difference is counted.
+template <int Dim, class Real, class Law>
+HeatGain<Real> update_temperature(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                                  const Law& law, Real dt, bool first_step, const mpm::Nodes<Dim, Real>& nodes,
+                                  HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
+  const auto with_tangent = [&](std::size_t b, std::size_t k) { return work.rates(b, k)[2]; };
+  HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, with_tangent, work);
+  heat_to_particles(grid, model, law, dt, work, particles, [&](std::uint32_t p, Real taken) {
+    particles.temperature(p) += taken / particles.secant_capacity(p);  // which still is the tangent
+    return taken != Real(0);
+  });
+  gain.capacity = sum_of_heat(grid, particles, [&](std::uint32_t p) {
+    const Real taken = particles.secant_capacity(p) * (particles.temperature(p) - particles.previous_temperature(p));
+    const Real before = particles.heat_content(p);
+    particles.heat_content(p) = law.heat(p);
+    return particles.heat_content(p) - before - taken;
+  });
+  return gain;
 }
 
 }  // namespace
@@ -241,15 +310,14 @@ template <int Dim, class Real>
 HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                             bool first_step, const mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& work,
                             mpm::Particles<Dim, Real>& particles) {
-  return model.with_heat_content([&](const auto& content) {
+  return with_particle_heat(model, particles, [&](const auto& law) {
+    const Real from_porosity = model.current_masses ? count_masses_anew(grid, law, particles) : Real(0);
     set_node_state(grid, model, nodes, work);
-    flows_to_grid(grid, model, content, particles, work);
-    solve_rates(
-        grid, model, dt, first_step, nodes, [&](std::size_t b, std::size_t k) { return work.rates(b, k)[2]; }, work);
-    secant_capacity_to_grid(grid, content, dt, work, particles);
-    const HeatGain<Real> gain = solve_rates(
-        grid, model, dt, first_step, nodes, [&](std::size_t b, std::size_t k) { return work.capacity(b, k)[0]; }, work);
-    heat_to_particles(grid, model, content, dt, work, particles);
+    flows_to_grid(grid, model, law, particles, work);
+    HeatGain<Real> gain = model.secant_capacity
+                              ? update_heat_content(grid, model, law, dt, first_step, nodes, work, particles)
+                              : update_temperature(grid, model, law, dt, first_step, nodes, work, particles);
+    gain.porosity = from_porosity;
     return gain;
   });
 }
@@ -268,12 +336,18 @@ void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Rea
 
 template <int Dim, class Real>
 Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
-                  mpm::Particles<Dim, Real>& particles) {
-  const Real band_scaling = thickness > Real(0) ? grid.cell() / thickness : Real(1);
+                  const std::function<Real(Real)>& layer_thickness, mpm::Particles<Dim, Real>& particles) {
+  const bool by_place = thickness > Real(0) && layer_thickness;
+  const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
+  const auto scaling_at = [&](std::uint32_t p) {
+    if (model.region != ScaledRegion::all && particles.in_band(p) == 0) {
+      return Real(1);
+    }
+    return by_place ? layer_thickness(particles.position(p, 0)) / thickness : of_a_cell;
+  };
   Real added = 0;
   for (const std::uint32_t p : grid.order()) {
-    const bool scaled = model.region == ScaledRegion::all || particles.in_band(p) != 0;
-    const Real scaling = scaled ? band_scaling : Real(1);
+    const Real scaling = scaling_at(p);
     const Real old = particles.thermal_scaling(p);
     if (scaling != old) {
       added += particles.initial_volume(p) * particles.heat_content(p) * (Real(1) / scaling - Real(1) / old);
@@ -289,7 +363,7 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
                                                   mpm::Particles<Dim, Real>&);                                     \
   template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);              \
   template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real,      \
-                                        mpm::Particles<Dim, Real>&);
+                                        const std::function<Real(Real)>&, mpm::Particles<Dim, Real>&);
 THAWSLIDE_INSTANTIATE(2, double)
 THAWSLIDE_INSTANTIATE(3, double)
 #undef THAWSLIDE_INSTANTIATE

@@ -1,6 +1,8 @@
 // Heat on the grid (Eqs. 9, 18-20), with the shear band scaling of Sec. 2.3: as if the grid were xi times finer.
 #pragma once
 
+#include <functional>
+
 #include "band/model.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/particles.hpp"
@@ -13,6 +15,8 @@ struct HeatGain {
   Real friction = 0;
   Real boundary = 0;
   Real advection = 0;
+  Real capacity = 0;  // made by updating with the old apparent capacity
+  Real porosity = 0;  // made by counting masses from the current porosity and volume
 };
 
 // Records of the heat stage at a node.
@@ -35,10 +39,11 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
 template <int Dim, class Real>
 void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles);
 
-// Gives each particle the scaling xi = cell / thickness now in force (1 outside the region); returns the heat [J] the
-// change adds at constant temperature and pressure. thickness 0: no band, xi = 1.
+// Gives each particle the scaling xi = layer / thickness now in force (1 outside the region); returns the heat [J] the
+// change adds at constant temperature and pressure. thickness 0: no band, xi = 1. layer_thickness(x), the thickness of
+// the cells that make up the band, may be empty: one cell.
 template <int Dim, class Real>
 Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
-                  mpm::Particles<Dim, Real>& particles);
+                  const std::function<Real(Real)>& layer_thickness, mpm::Particles<Dim, Real>& particles);
 
 }  // namespace thawslide::band

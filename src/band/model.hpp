@@ -36,12 +36,16 @@ struct BandModel {
   HeatFace<Real> faces[2 * Dim] = {};
   Vector<Real, Dim> extent;  // upper corner of the domain [m]
   ScaledRegion region = ScaledRegion::all;
-  bool lubrication = true;  // off: Eq. 25 sees the initial porosity and saturation (Sec. 3.3)
+  bool secant_capacity = true;  // off: the old apparent capacity, as Eq. 19 is printed
+  bool current_masses = false;  // heat is held by masses from the current porosity and volume, as printed
+  bool lubrication = true;      // off: Eq. 25 sees the initial porosity and saturation (Sec. 3.3)
 
   bool pressure = true;
   bool thermal_pressurization = true;
+  bool volumetric_term = false;  // Eq. 8's -div v, which Eq. 23 drops
   bool seepage = true;
-  Real clapeyron_sign = 1;  // +1 as usual, -1 as Eq. 4 prints it
+  bool seepage_as_printed = false;  // Eq. 23 with one xi over the whole pore space
+  Real clapeyron_sign = 1;          // +1 as usual, -1 as Eq. 4 prints it
   bool normal_thickness = true;
   bool thickness_each_step = true;
   Real gravity = 0;                          // magnitude [m/s2]

@@ -30,9 +30,9 @@ Real melting_pressure(const BandModel<Dim, Real>& model, Real ice_pressure) {
   return ice_pressure * model.phases.water_density / model.phases.ice_density;
 }
 
-// Seepage between melted particles (Eq. 23 with the consistent scaling: xi over an unscaled flow, V / xi of pore
-// space); frozen particles keep their pressure and act as sinks. Differences within a cell, which nodes do not see, are
-// levelled by the particles themselves, and what this changes at the nodes is taken off there (Gerya and Yuen 2003).
+// Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or whole as printed); frozen particles
+// keep their pressure and act as sinks. Differences within a cell, which nodes do not see, are levelled by the
+// particles themselves, and what this changes at the nodes is taken off there (Gerya and Yuen 2003).
 template <int Dim, class Real>
 void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                      const mpm::Nodes<Dim, Real>& nodes, Real dt, SeepageNodes<Dim, Real>& work,
@@ -60,6 +60,7 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
       }
       const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       const Real scaling = particles.thermal_scaling(p);
+      const Real pore_scaling = physics::pore_space_scaling(scaling, model.seepage_as_printed);
       const Real volume = particles.volume(p);
       Vector<Real, Dim> flow = Vector<Real, Dim>::Zero();
       particles.seepage_in_cell(p) = Real(0);
@@ -71,15 +72,16 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
           seen += pressure.records[place][0] * weight;
         });
         const Real diffusivity =
+            scaling * pore_scaling *
             physics::hydraulic_diffusivity(model.phases, particles.porosity(p), Real(1), hydraulic);
         particles.seepage_in_cell(p) = (seen - particles.pore_pressure(p)) *
-                                       physics::share_levelled_within_cell(diffusivity, grid.cell() / scaling, Dim, dt);
+                                       physics::share_levelled_within_cell(diffusivity, grid.cell(), Dim, dt);
         const Real mobility = hydraulic / model.phases.water_unit_weight;
         flow = -volume * scaling * mobility * model.phases.water_bulk_modulus * gradient;
       }
       // Frozen particles count with their pores, as they do in the nodal pressure: the share that reaches them is lost
       // to the sink. Left out, a node with few melted particles would drive these to pressures without bound.
-      const Real pore_space = volume / scaling * particles.porosity(p);
+      const Real pore_space = volume / pore_scaling * particles.porosity(p);
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
         patch.records[place][0] += flow.dot(slope);
         patch.records[place][1] += weight * pore_space;
@@ -115,6 +117,10 @@ void pressurize(const BandModel<Dim, Real>& model, bool was_melted, Real seepage
         physics::undrained_pressure_coefficient(model.phases, particles.porosity(p), particles.liquid_saturation(p));
     particles.liquid_pressure(p) = (was_melted ? particles.liquid_pressure(p) : start) +
                                    coefficient * (particles.temperature(p) - from) + seepage_change;
+    if (model.volumetric_term && was_melted) {
+      particles.liquid_pressure(p) -=
+          physics::pore_stiffness(model.phases, particles.porosity(p), Real(1)) * particles.volume_strain(p);
+    }
   }
   particles.pore_pressure(p) = particles.liquid_pressure(p);
 }

@@ -28,7 +28,11 @@ enum class FrictionLaw { constant, lubricated };
 enum class CohesionLaw { constant, slip, ice, time };
 enum class FrictionClamp { keep_cohesion, joint };
 enum class BandRegion { all, first_layer };
+enum class CutCells { as_they_are, equal_thickness };
+enum class HeatUpdate { enthalpy, apparent_capacity };
+enum class HeatMasses { initial, current };
 enum class ClapeyronSign { usual, printed };
+enum class SeepageScaling { consistent, printed };
 enum class ThicknessDirection { normal, vertical };
 enum class ThicknessUpdate { each_step, frozen };
 enum class HeatBoundaryKind { insulated, temperature, flux };
@@ -118,9 +122,10 @@ struct Mechanics {
   InitialStress initial_stress = InitialStress::geostatic;
   double k0 = -1.0;  // negative: nu / (1 - nu)
   bool slope_shear = false;
-  double settle_time = 0.0;     // s, InitialStress::settle
-  double settle_damping = 0.0;  // 1/s, during settling
-  double mass_damping = 0.0;    // 1/s, during the run
+  bool effective_stress = false;  // the pore pressure acts inside the body too
+  double settle_time = 0.0;       // s, InitialStress::settle
+  double settle_damping = 0.0;    // 1/s, during settling
+  double mass_damping = 0.0;      // 1/s, during the run
 };
 
 struct Basal {
@@ -145,6 +150,7 @@ struct Mechanisms {  // Sec. 3.3
 struct Band {
   Table thickness;  // m over time; empty: no band, xi = 1
   BandRegion region = BandRegion::all;
+  CutCells cut_cells = CutCells::as_they_are;
 };
 
 struct HeatBoundary {
@@ -154,6 +160,8 @@ struct HeatBoundary {
 
 struct Heat {
   bool enabled = true;
+  HeatUpdate update = HeatUpdate::enthalpy;
+  HeatMasses masses = HeatMasses::initial;
   bool latent = true;
   bool conduction = true;
   bool advection = true;
@@ -164,7 +172,9 @@ struct Pressure {
   bool enabled = true;
   bool thermal_pressurization = true;  // off: once melted the liquid keeps r^-1 P_I
   ClapeyronSign clapeyron = ClapeyronSign::usual;
+  bool volumetric_term = false;
   bool seepage = true;
+  SeepageScaling seepage_scaling = SeepageScaling::consistent;
   ThicknessDirection thickness_direction = ThicknessDirection::normal;
   ThicknessUpdate thickness_update = ThicknessUpdate::each_step;
 };

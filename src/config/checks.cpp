@@ -117,6 +117,20 @@ void check_switches(const Case& checked, Reading& reading) {
         "band.region is \"first_layer\", and the case has no terrain; there is no layer above it. Set "
         "band.region = \"all\", or give terrain.type.");
   }
+  if (reading.sound({"band.cut_cells", "terrain.type"}) && checked.band.cut_cells == CutCells::equal_thickness &&
+      !has_ground) {
+    reading.report_misfit(
+        {"band.cut_cells", "terrain.type"},
+        "band.cut_cells is \"equal_thickness\", and the case has no terrain; nothing cuts through cells. Set "
+        "band.cut_cells = \"as_they_are\", or give terrain.type.");
+  }
+  if (reading.sound({"mechanics.effective_stress", "pressure.enabled"}) && checked.mechanics.effective_stress &&
+      !checked.pressure.enabled) {
+    reading.report_misfit(
+        {"mechanics.effective_stress", "pressure.enabled"},
+        "mechanics.effective_stress is true, and pressure.enabled is false; there is no pore pressure to take off. Set "
+        "pressure.enabled = true, or mechanics.effective_stress = false.");
+  }
   if (reading.sound({"terrain.slope", "terrain.type"}) && checked.terrain.slope != 0.0 &&
       checked.terrain.kind != TerrainKind::plane) {
     reading.report_misfit(

@@ -26,6 +26,12 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
       parameter(
           &Mechanics::slope_shear,
           {.key = "slope_shear", .text = "the geostatic stress holds the shear stress of an infinite slope as well"}),
+      parameter(
+          &Mechanics::effective_stress,
+          {.key = "effective_stress",
+           .text = "stress and strength inside the body are of the effective stress, sigma + P I; false: P acts on the "
+                   "ground only",
+           .source = "Eq. 10"}),
       parameter(&Mechanics::settle_time,
                 {.key = "settle_time", .unit = "s", .range = above(0), .text = "time the body settles before t = 0"})
           .required_if(when_settling, settles),
@@ -156,6 +162,7 @@ std::vector<Parameter<Band>> band_parameters() {
           .otherwise("no band: xi = 1"),
       parameter(&Band::region,
                 {.key = "region", .text = "particles that the scaling xi acts on", .source = "Sec. 2.3"}),
+      parameter(&Band::cut_cells, {.key = "cut_cells", .text = "the band where the ground cuts through cells"}),
   };
 }
 
@@ -164,6 +171,9 @@ std::vector<Parameter<Heat>> heat_parameters() {
       parameter(&Heat::enabled, {.key = "enabled",
                                  .text = "temperature and phase change (Eq. 9); false: temperatures stay as at t = 0",
                                  .source = "Eqs. 9, 18-20"}),
+      parameter(&Heat::update, {.key = "update", .text = "how temperatures follow from heat", .source = "Eqs. 18, 19"}),
+      parameter(&Heat::masses,
+                {.key = "masses", .text = "the rock, ice and water that hold heat", .source = "Eqs. 6, 9"}),
       parameter(
           &Heat::latent,
           {.key = "latent",
@@ -195,9 +205,15 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
            .source = "Eq. 23"}),
       parameter(&Pressure::clapeyron,
                 {.key = "clapeyron", .text = "sign before the logarithm of the Clapeyron equation", .source = "Eq. 4"}),
+      parameter(&Pressure::volumetric_term,
+                {.key = "volumetric_term",
+                 .text = "compressing the body presses on melted pore water too: -div v in Eq. 8, which Eq. 23 drops",
+                 .source = "Eq. 8"}),
       parameter(
           &Pressure::seepage,
           {.key = "seepage", .text = "Darcy flow of melted pore water (Eq. 22); false: undrained", .source = "Eq. 22"}),
+      parameter(&Pressure::seepage_scaling,
+                {.key = "seepage_scaling", .text = "how seepage is scaled in the band", .source = "Eq. 23"}),
       parameter(&Pressure::thickness_direction,
                 {.key = "thickness_direction",
                  .text = "how the slide's thickness H in the ice pressure P_I = rho_I g H is measured"}),

@@ -73,10 +73,28 @@ inline std::vector<Choice<BandRegion>> choices(BandRegion) {
   return {{BandRegion::all, "all", "all particles, as printed"},
           {BandRegion::first_layer, "first_layer", "the first cell layer above the terrain"}};
 }
+inline std::vector<Choice<CutCells>> choices(CutCells) {
+  return {{CutCells::as_they_are, "as_they_are", "its cells hold what lies in them: xi = grid.cell / e everywhere"},
+          {CutCells::equal_thickness, "equal_thickness", "xi is such that what lies in them counts as thick as e"}};
+}
+inline std::vector<Choice<HeatUpdate>> choices(HeatUpdate) {
+  return {{HeatUpdate::enthalpy, "enthalpy", "heat content with its secant capacity: closes to round-off"},
+          {HeatUpdate::apparent_capacity, "apparent_capacity",
+           "the old apparent capacity, as printed: what it makes or loses is capacity_heat_J"}};
+}
+inline std::vector<Choice<HeatMasses>> choices(HeatMasses) {
+  return {{HeatMasses::initial, "initial", "those of t = 0: no heat and no mass is made"},
+          {HeatMasses::current, "current",
+           "from the current porosity and volume, as printed: what they make is porosity_heat_J"}};
+}
 inline std::vector<Choice<ClapeyronSign>> choices(ClapeyronSign) {
   return {{ClapeyronSign::usual, "usual",
            "plus: P_L = P_I/r + rho_L L_f ln(T/Tref), pressure falls with temperature below Tref"},
           {ClapeyronSign::printed, "printed", "minus, as Eq. 4 is printed"}};
+}
+inline std::vector<Choice<SeepageScaling>> choices(SeepageScaling) {
+  return {{SeepageScaling::consistent, "consistent", "flow times xi, pore space over xi, as Eq. 19 does with heat"},
+          {SeepageScaling::printed, "printed", "flow times xi, whole pore space, as Eq. 23 is printed"}};
 }
 inline std::vector<Choice<ThicknessDirection>> choices(ThicknessDirection) {
   return {{ThicknessDirection::normal, "normal", "along the terrain normal"},

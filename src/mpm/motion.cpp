@@ -45,6 +45,15 @@ Real double_contraction(const SymmetricTensor<Real>& a, const SymmetricTensor<Re
 }  // namespace
 
 template <int Dim, class Real>
+void split_total_stress(Particles<Dim, Real>& particles) {
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    for (int c = 0; c < 3; ++c) {
+      particles.stress(p, c) += particles.pore_pressure(p);
+    }
+  }
+}
+
+template <int Dim, class Real>
 void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes) {
   using Layout = MomentumLayout<Dim>;
@@ -62,6 +71,11 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
         Eigen::Matrix<Real, Particles<Dim, Real>::tensor_components, 1> stress;
         for (int c = 0; c < Particles<Dim, Real>::tensor_components; ++c) {
           stress[c] = volume * (particles.stress(p, c) + particles.viscous_stress(p, c));
+        }
+        if (model.effective_stress) {
+          for (int c = 0; c < 3; ++c) {
+            stress[c] -= volume * particles.pore_pressure(p);
+          }
         }
         const Real pore_pressure = particles.pore_pressure(p);
         const Real saturation = particles.liquid_saturation(p);
@@ -164,8 +178,10 @@ THAWSLIDE_ALWAYS_INLINE StressWork<Real> deform(Particles<Dim, Real>& particles,
   }
   particles.plastic_strain(p) += result.equivalent_plastic_strain_increment;
   particles.volume(p) = volume * increment.volume_ratio;
-  particles.porosity(p) = physics::updated_porosity(
-      phases, particles.porosity(p), increment.strain[0] + increment.strain[1] + increment.strain[2], Real(0));
+  const Real volume_strain = increment.strain[0] + increment.strain[1] + increment.strain[2];
+  particles.volume_strain(p) = volume_strain;
+  particles.porosity(p) = physics::updated_porosity(phases, particles.porosity(p), volume_strain, Real(0));
+  work.pore = -volume * particles.pore_pressure(p) * volume_strain;
   return work;
 }
 
@@ -201,6 +217,7 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
                 sum.total += work.total;
                 sum.plastic += work.plastic;
                 sum.viscous += work.viscous;
+                sum.pore += work.pore;
                 if (!(particles.volume(p) > Real(0))) {
                   bads[t].note(particles.id(p),
                                std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
@@ -216,6 +233,7 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
     sum.total += work.total;
     sum.plastic += work.plastic;
     sum.viscous += work.viscous;
+    sum.pore += work.pore;
   }
   for (const BadParticle& one : bads) {
     bad.note(one.id, one.fault);
@@ -255,6 +273,7 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
+  template void split_total_stress<Dim, Real>(Particles<Dim, Real>&);                                                  \
   template void momentum_to_grid<Dim, Real>(const SparseGrid<Dim, Real>&, const Particles<Dim, Real>&,                 \
                                             const MotionModel<Dim, Real>&, Nodes<Dim, Real>&);                         \
   template MoveWork<Real> move_particles<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,               \

@@ -38,7 +38,8 @@ struct MotionModel {
   std::vector<BodyModel<Real>> bodies;
   std::vector<MaterialModel<Real>> materials;
   physics::Phases<Real> phases;
-  bool lubrication = true;  // off: Eq. 25 sees the initial porosity and saturation (Sec. 3.3)
+  bool effective_stress = false;  // stress is effective: the pore pressure acts inside the body too
+  bool lubrication = true;        // off: Eq. 25 sees the initial porosity and saturation (Sec. 3.3)
 };
 
 // Energies of one step [J].
@@ -47,6 +48,7 @@ struct StressWork {
   Real total = 0;    // of the constitutive stress on the strain
   Real plastic = 0;  // dissipated in plastic strain
   Real viscous = 0;  // dissipated by viscosity
+  Real pore = 0;     // of the pore pressure on the volume, where it acts inside the body
 };
 
 // What moving the particles cost.
@@ -79,6 +81,10 @@ Real basal_solid_fraction(const Particles<Dim, Real>& particles, const physics::
                      : physics::effective_solid_fraction(phases, particles.initial_porosity(p),
                                                          particles.initial_saturation(p));
 }
+
+// From total stress to effective stress, sigma + P I.
+template <int Dim, class Real>
+void split_total_stress(Particles<Dim, Real>& particles);
 
 // Particle mass, momentum, force (Eq. 12), volume and band quantities to the nodes.
 template <int Dim, class Real>

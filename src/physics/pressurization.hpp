@@ -1,5 +1,6 @@
 // Thermal pressurization and seepage of the melted pore (Eqs. 8, 22, 23 at S = 1).
 //   dP_L/dt = K_L/(n S) [beta_m dT/dt - div q_L],  q_L = -(k_L/gamma_w) grad P_L
+// and, by switch, Eq. 8's - [S + (1-S) r] div v within the bracket, which Eq. 23 drops.
 #pragma once
 
 #include <cmath>
@@ -14,6 +15,21 @@ THAWSLIDE_HD Real undrained_pressure_coefficient(const Phases<Real>& phases, Rea
   return phases.water_bulk_modulus * expansion(phases, porosity, saturation) / (porosity * saturation);
 }
 
+// K_L/(n S) [Pa]: pressure per volumetric compression of a pore that does not drain (Eq. 8, r = rho_I/rho_L, times
+// S + (1 - S) r, which is 1 once melted).
+template <class Real>
+THAWSLIDE_HD Real pore_stiffness(const Phases<Real>& phases, Real porosity, Real saturation) {
+  const Real ratio = phases.ice_density / phases.water_density;
+  return phases.water_bulk_modulus * (saturation + (Real(1) - saturation) * ratio) / (porosity * saturation);
+}
+
+// What the pore space is divided by when flow is multiplied by xi: xi, as Eq. 19 divides the capacity, or, as Eq. 23
+// is printed, nothing.
+template <class Real>
+THAWSLIDE_HD Real pore_space_scaling(Real scaling, bool as_printed) {
+  return as_printed ? Real(1) : scaling;
+}
+
 // D = K_L k_L/(n S gamma_w) [m2/s]; hydraulic conductivity k_L [m/s].
 template <class Real>
 THAWSLIDE_HD Real hydraulic_diffusivity(const Phases<Real>& phases, Real porosity, Real saturation,
@@ -22,8 +38,8 @@ THAWSLIDE_HD Real hydraulic_diffusivity(const Phases<Real>& phases, Real porosit
 }
 
 // Share of the difference between a particle's pressure and the one nodes see at its place that diffusion levels out
-// within a step: 1 - exp(-dt D sum_a 2/h_a^2), h the scaled mesh size L_e/xi [m] (Gerya and Yuen 2003, Eq. 23). Nodes
-// do not see differences within a cell, and diffusion between nodes would leave them standing for ever.
+// within a step: 1 - exp(-dt D sum_a 2/h_a^2), h the mesh size that D is meant for [m] (Gerya and Yuen 2003, Eq. 23).
+// Nodes do not see differences within a cell, and diffusion between nodes would leave them standing for ever.
 template <class Real>
 THAWSLIDE_HD Real share_levelled_within_cell(Real diffusivity, Real mesh_size, int dimension, Real dt) {
   return -std::expm1(-dt * diffusivity * Real(2 * dimension) / (mesh_size * mesh_size));

@@ -123,7 +123,9 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
     for (BlockRow& row : rows_) {
       const Place at = place(row);
       const double change = dt * (at.weight * predicted[at.node] + (1.0 - at.weight) * predicted[at.node + 1]);
-      row.secant_capacity = content.secant_capacity(row.temperature, change, row.initial_porosity);
+      row.secant_capacity = model_->secant_capacity
+                                ? content.secant_capacity(row.temperature, change, row.initial_porosity)
+                                : content.apparent_capacity(row.temperature, row.initial_porosity);
       const double capacity = row_height_ / scaling * row.secant_capacity;
       secant[at.node] += at.weight * capacity;
       secant[at.node + 1] += (1.0 - at.weight) * capacity;
@@ -132,9 +134,14 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
     for (BlockRow& row : rows_) {
       const Place at = place(row);
       row.previous_temperature = row.temperature;
-      row.heat_content +=
-          row.secant_capacity * dt * (at.weight * rates[at.node] + (1.0 - at.weight) * rates[at.node + 1]);
-      row.temperature = content.temperature(row.heat_content, row.initial_porosity, row.temperature);
+      const double change = dt * (at.weight * rates[at.node] + (1.0 - at.weight) * rates[at.node + 1]);
+      if (model_->secant_capacity) {
+        row.heat_content += row.secant_capacity * change;
+        row.temperature = content.temperature(row.heat_content, row.initial_porosity, row.temperature);
+      } else {
+        row.temperature += change;
+        row.heat_content = content.content(row.temperature, row.initial_porosity);
+      }
       row.saturation = content.curve.saturation(row.temperature);
       row.porosity =
           physics::updated_porosity(model_->phases, row.porosity, 0.0, row.temperature - row.previous_temperature);
@@ -143,6 +150,7 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
 }
 
 std::vector<double> BlockColumn::seepage_between_nodes(double scaling, double dt) {
+  const double pore_scaling = physics::pore_space_scaling(scaling, model_->seepage_as_printed);
   const std::vector<double> pressure = averaged(&BlockRow::pore_pressure);
   std::vector<double> inflow(nodes_, 0.0);
   std::vector<double> pores(nodes_, 0.0);
@@ -156,11 +164,11 @@ std::vector<double> BlockColumn::seepage_between_nodes(double scaling, double dt
              model_->phases.water_bulk_modulus * gradient;
       const double seen = at.weight * pressure[at.node] + (1.0 - at.weight) * pressure[at.node + 1];
       const double diffusivity =
+          scaling * pore_scaling *
           physics::hydraulic_diffusivity(model_->phases, row.porosity, 1.0, hydraulic_conductivity_);
-      row.seepage_in_cell =
-          (seen - row.pore_pressure) * physics::share_levelled_within_cell(diffusivity, cell_ / scaling, 2, dt);
+      row.seepage_in_cell = (seen - row.pore_pressure) * physics::share_levelled_within_cell(diffusivity, cell_, 2, dt);
     }
-    const double pore_space = row_height_ / scaling * row.porosity;
+    const double pore_space = row_height_ / pore_scaling * row.porosity;
     inflow[at.node] += -dt * flow / cell_ - at.weight * pore_space * row.seepage_in_cell;
     inflow[at.node + 1] += dt * flow / cell_ - (1.0 - at.weight) * pore_space * row.seepage_in_cell;
     pores[at.node] += at.weight * pore_space;

@@ -15,7 +15,8 @@ namespace {
 template <int Dim>
 class BodyShape {
  public:
-  BodyShape(const config::Case& parameters, const config::Body& body) : body_(&body) {
+  BodyShape(const config::Case& parameters, const config::Body& body)
+      : body_(&body), tie_(1e-9 * parameters.grid.cell) {
     for (std::size_t a = 0; a < Dim; ++a) {
       lower_[a] = body.min[a];
       upper_[a] = body.max[a];
@@ -44,15 +45,17 @@ class BodyShape {
         return false;
       }
     }
+    // A centre that lies on a slanting side to round-off is inside if the body is above that side.
+    const double height = place[Dim - 1] + tie_;
     switch (body_->shape) {
       case config::BodyShape::box:
         return true;
       case config::BodyShape::polygon:
-        return crossings_above(place[0], place[Dim - 1]) % 2 == 1;
+        return crossings_above(place[0], height) % 2 == 1;
       case config::BodyShape::surface:
         break;
     }
-    return place[Dim - 1] > profile_at(profile_.terrain, place[0]) && place[Dim - 1] < top(place[0], place[Dim - 1]);
+    return height > profile_at(profile_.terrain, place[0]) && height < top(place[0], place[Dim - 1]);
   }
 
   // Area of the section [m2], times the width in 3D [m3].
@@ -137,6 +140,7 @@ class BodyShape {
   }
 
   const config::Body* body_;
+  double tie_;
   config::ProfileTable profile_;
   std::array<double, Dim> lower_{}, upper_{};
 };

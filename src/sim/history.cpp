@@ -56,6 +56,7 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("plastic_J", ledger.plastic);
   add("viscous_J", ledger.viscous);
   add("damping_J", ledger.damping);
+  add("pore_work_J", ledger.pore_work);
   add("friction_work_J", ledger.friction_work);
   add("contact_loss_J", ledger.contact_loss);
   add("frame_work_J", ledger.frame_work);
@@ -66,10 +67,14 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("boundary_heat_J", ledger.boundary_heat);
   add("band_rescale_J", ledger.band_rescale);
   add("advection_J", ledger.advection);
+  add("capacity_heat_J", ledger.capacity_heat);
+  add("porosity_heat_J", ledger.porosity_heat);
   add("numerical_J", ledger.numerical);
-  add("mechanical_residual_J", stored + dissipated - ledger.frame_work - ledger.numerical - ledger.initial_mechanical);
+  add("mechanical_residual_J",
+      stored + dissipated + ledger.pore_work - ledger.frame_work - ledger.numerical - ledger.initial_mechanical);
   add("thermal_residual_J", sums.sensible + sums.latent - ledger.initial_thermal - ledger.friction_heat -
-                                ledger.boundary_heat - ledger.band_rescale - ledger.advection);
+                                ledger.boundary_heat - ledger.band_rescale - ledger.advection - ledger.capacity_heat -
+                                ledger.porosity_heat);
   add("mass_kg", sums.mass);
   add("rock_kg", sums.rock);
   add("ice_kg", sums.ice);

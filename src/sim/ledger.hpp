@@ -8,14 +8,14 @@ namespace thawslide::sim {
 template <int Dim, class Real>
 struct Ledger {
   // Mechanical: stress work by kind, work of contact and constraints.
-  Real stress_work = 0, plastic = 0, viscous = 0, damping = 0;
+  Real stress_work = 0, plastic = 0, viscous = 0, damping = 0, pore_work = 0;
   Real friction_work = 0, contact_loss = 0, frame_work = 0;
   // What the transfers make or lose, computed and not left over: the kinetic energy that FLIP gives particles less what
   // nodes gained, sum m_p |dv_p|^2/2 - sum m_i |dv_i|^2/2; and the work of internal forces at the nodes' mid-step
   // velocity less that at the mapped-back (MUSL) velocity, which is what the stress work books.
   Real numerical = 0;
   // Thermal.
-  Real friction_heat = 0, boundary_heat = 0, band_rescale = 0, advection = 0;
+  Real friction_heat = 0, boundary_heat = 0, band_rescale = 0, advection = 0, capacity_heat = 0, porosity_heat = 0;
   // Impulses on the slide [N s]: of gravity, of the ground, of walls, frames and mass damping.
   Vector<Real, Dim> gravity_impulse = Vector<Real, Dim>::Zero();
   Vector<Real, Dim> ground_impulse = Vector<Real, Dim>::Zero();
@@ -28,8 +28,8 @@ struct Ledger {
   template <class Visit>
   void for_each(const Visit& visit) {
     for (Real* account : {&stress_work, &plastic, &viscous, &damping, &friction_work, &contact_loss, &frame_work,
-                          &numerical, &friction_heat, &boundary_heat, &band_rescale, &advection, &initial_mechanical,
-                          &initial_thermal, &initial_mass}) {
+                          &numerical, &pore_work, &friction_heat, &boundary_heat, &band_rescale, &advection,
+                          &capacity_heat, &porosity_heat, &initial_mechanical, &initial_thermal, &initial_mass}) {
       visit(*account);
     }
     for (Vector<Real, Dim>* impulse : {&gravity_impulse, &ground_impulse, &constraint_impulse, &initial_momentum}) {

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "config/profile_csv.hpp"
+#include "terrain/layer_thickness.hpp"
 
 namespace thawslide::sim {
 
@@ -149,10 +150,14 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   }
   band.region =
       parameters.band.region == config::BandRegion::all ? band::ScaledRegion::all : band::ScaledRegion::first_layer;
+  band.secant_capacity = parameters.heat.update == config::HeatUpdate::enthalpy;
+  band.current_masses = parameters.heat.masses == config::HeatMasses::current;
   band.lubrication = motion.lubrication;
   band.pressure = parameters.pressure.enabled;
   band.thermal_pressurization = parameters.pressure.thermal_pressurization;
+  band.volumetric_term = parameters.pressure.volumetric_term;
   band.seepage = parameters.pressure.seepage;
+  band.seepage_as_printed = parameters.pressure.seepage_scaling == config::SeepageScaling::printed;
   band.clapeyron_sign = parameters.pressure.clapeyron == config::ClapeyronSign::usual ? Real(1) : Real(-1);
   band.normal_thickness = parameters.pressure.thickness_direction == config::ThicknessDirection::normal;
   band.thickness_each_step = parameters.pressure.thickness_update == config::ThicknessUpdate::each_step;
@@ -208,6 +213,7 @@ Model<Dim, Real> make_model(const config::Case& parameters) {
   model.motion.gravity[0] = static_cast<Real>(parameters.general.gravity * std::sin(tilt));
   model.motion.gravity[Dim - 1] = static_cast<Real>(-parameters.general.gravity * std::cos(tilt));
   model.motion.phases = make_phases<Real>(parameters.phases);
+  model.motion.effective_stress = parameters.mechanics.effective_stress && parameters.pressure.enabled;
   model.motion.lubrication = parameters.mechanisms.lubrication;
   for (const auto& [name, material] : parameters.materials) {
     model.material_names.push_back(name);
@@ -223,6 +229,14 @@ Model<Dim, Real> make_model(const config::Case& parameters) {
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
   model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
   model.ground = make_ground<Dim>(parameters, model.origin);
+  model.largest_layer = static_cast<Real>(parameters.grid.cell);
+  if (model.ground && parameters.band.cut_cells == config::CutCells::equal_thickness) {
+    const double spacing = parameters.grid.cell / parameters.bodies.begin()->second.particles_per_axis;
+    const terrain::LayerThickness layer(*model.ground, parameters.grid.cell, spacing,
+                                        static_cast<double>(model.constraints.extent[0]));
+    model.largest_layer = static_cast<Real>(layer.largest());
+    model.layer_thickness = [layer](Real x) { return static_cast<Real>(layer.at(static_cast<double>(x))); };
+  }
   return model;
 }
 

@@ -1,6 +1,7 @@
 // From the case to what each stage needs: parameters in the solver's types, positions relative to the local origin.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Model {
   terrain::ContactModel<Dim, Real> contact;
   band::BandModel<Dim, Real> band;
   std::optional<terrain::Ground<Dim>> ground;
+  // Of the cells that make up the band, over x, both in [m]; empty: one cell. The largest counts for the step.
+  std::function<Real(Real)> layer_thickness;
+  Real largest_layer = 0;
   std::vector<std::string> body_names, material_names;  // by number
 };
 

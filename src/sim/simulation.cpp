@@ -89,14 +89,17 @@ void Simulation<Dim, Real>::update_stress_and_porosity() {
   ledger_.stress_work += work.total;
   ledger_.plastic += work.plastic;
   ledger_.viscous += work.viscous;
+  ledger_.pore_work += model_.motion.effective_stress ? work.pore : Real(0);
 }
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::conduct_heat() {
   Real added = 0;
-  if (model_.band.region != band::ScaledRegion::all || band_thickness() != thickness_in_force_) {
+  const bool depends_on_place = model_.band.region != band::ScaledRegion::all || model_.layer_thickness;
+  if (depends_on_place || band_thickness() != thickness_in_force_) {
     thickness_in_force_ = band_thickness();
-    added = band::rescale_band(grid_, model_.band, static_cast<Real>(thickness_in_force_), particles_);
+    added = band::rescale_band(grid_, model_.band, static_cast<Real>(thickness_in_force_), model_.layer_thickness,
+                               particles_);
   }
   if (!model_.band.heat) {
     return;
@@ -106,6 +109,8 @@ void Simulation<Dim, Real>::conduct_heat() {
   ledger_.friction_heat += gain.friction;
   ledger_.boundary_heat += gain.boundary;
   ledger_.advection += gain.advection;
+  ledger_.capacity_heat += gain.capacity;
+  ledger_.porosity_heat += gain.porosity;
 }
 
 template <int Dim, class Real>
@@ -149,6 +154,9 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters)
     }
   }
   begin();
+  if (model_.motion.effective_stress) {
+    mpm::split_total_stress(particles_);
+  }
 }
 
 template <int Dim, class Real>
@@ -158,7 +166,7 @@ void Simulation<Dim, Real>::begin() {
   contact_ = {};
   find_particles_cells();
   mark_band();
-  band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), particles_);
+  band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);
   update_columns();
   flow_depth_.depth_to_particles(grid_, particles_);
   band::set_pore_pressure(model_.band, particles_);
@@ -361,41 +369,7 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   find_particles_cells();
 }
 
-template <int Dim, class Real>
-BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
-  const auto& particles = simulation.particles();
-  const auto& model = simulation.model();
-  const physics::Phases<Real>& phases = model.motion.phases;
-  BodySums<Dim, Real> sums;
-  for (const std::uint32_t p : simulation.grid().order()) {
-    const Real mass = particles.mass(p);
-    for (int a = 0; a < Dim; ++a) {
-      sums.momentum[a] += mass * particles.velocity(p, a);
-      sums.kinetic += Real(0.5) * mass * particles.velocity(p, a) * particles.velocity(p, a);
-      sums.potential -=
-          mass * model.motion.gravity[a] * (particles.position(p, a) + static_cast<Real>(model.origin[a]));
-    }
-    const Real thermal_volume = particles.initial_volume(p) / particles.thermal_scaling(p);
-    const bool latent_counts = simulation.parameters().heat.latent;
-    const Real latent = latent_counts ? phases.ice_density * particles.initial_porosity(p) * phases.latent_heat *
-                                            particles.liquid_saturation(p)
-                                      : Real(0);
-    sums.latent += thermal_volume * latent;
-    sums.sensible += thermal_volume * (particles.heat_content(p) - latent);
-    const Real start = particles.initial_saturation(p);
-    const Real pore_water = particles.initial_volume(p) * particles.initial_porosity(p) *
-                            (phases.water_density * start + phases.ice_density * (Real(1) - start));
-    sums.mass += mass;
-    sums.rock += mass - pore_water;
-    sums.ice += (Real(1) - particles.liquid_saturation(p)) * pore_water;
-    sums.water += particles.liquid_saturation(p) * pore_water;
-  }
-  return sums;
-}
-
 template class Simulation<2, double>;
 template class Simulation<3, double>;
-template BodySums<2, double> sum_over_body<2, double>(const Simulation<2, double>&);
-template BodySums<3, double> sum_over_body<3, double>(const Simulation<3, double>&);
 
 }  // namespace thawslide::sim

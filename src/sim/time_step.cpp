@@ -45,6 +45,7 @@ StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, R
   double largest_speed = 0.0;
   double largest_diffusivity = 0.0;
   double largest_seepage = 0.0;
+  double pore_stiffness = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     smallest_density = std::min(smallest_density, static_cast<double>(particles.mass(p) / particles.volume(p)));
     double speed2 = 0.0;
@@ -57,15 +58,21 @@ StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, R
     largest_diffusivity = std::max(
         largest_diffusivity, static_cast<double>(physics::conductivity(model.motion.phases, porosity, saturation) /
                                                  physics::heat_capacity(model.motion.phases, porosity, saturation)));
+    pore_stiffness =
+        std::max(pore_stiffness, static_cast<double>(physics::pore_stiffness(model.motion.phases, porosity, Real(1))));
     const auto material = static_cast<std::size_t>(particles.material(p));
     largest_seepage = std::max(
         largest_seepage, static_cast<double>(physics::hydraulic_diffusivity(
                              model.motion.phases, porosity, Real(1), model.band.hydraulic_conductivity[material])));
   }
+  if (!model.motion.effective_stress || !model.band.volumetric_term) {
+    pore_stiffness = 0.0;  // the pore does not push back
+  }
   if (parameters.mechanics.enabled) {
     for (std::size_t m = 0; m < model.motion.materials.size(); ++m) {
       const auto& material = model.motion.materials[m];
-      const double speed = std::sqrt(static_cast<double>(material.elastic.p_wave_modulus()) / smallest_density);
+      const double modulus = static_cast<double>(material.elastic.p_wave_modulus()) + pore_stiffness;
+      const double speed = std::sqrt(modulus / smallest_density);
       take(wave_share * wave_limit(cell, speed, static_cast<double>(material.viscosity_time)),
            fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", model.material_names[m],
                        speed,
@@ -79,14 +86,16 @@ StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, R
     }
   }
   // Heat and pore pressure see the finer grid of the band.
-  const double length = thickness > 0.0 ? std::min(cell, thickness) : cell;
+  const double scaled = thickness * (cell / static_cast<double>(model.largest_layer));
+  const double length = thickness > 0.0 ? std::min(cell, scaled) : cell;
   if (parameters.heat.enabled && parameters.heat.conduction && largest_diffusivity > 0.0) {
     take(diffusion_share * length * length / (2.0 * Dim * largest_diffusivity),
          fmt::format("heat conduction over {:.4g} m", length));
   }
   if (parameters.pressure.enabled && parameters.pressure.seepage && largest_seepage > 0.0) {
-    take(diffusion_share * length * length / (2.0 * Dim * largest_seepage),
-         fmt::format("seepage over {:.4g} m", length));
+    const double pore_length = model.band.seepage_as_printed ? std::sqrt(cell * length) : length;
+    take(diffusion_share * pore_length * pore_length / (2.0 * Dim * largest_seepage),
+         fmt::format("seepage over {:.4g} m", pore_length));
   }
   return limit;
 }

@@ -33,6 +33,7 @@ MECHANICAL = {
     "plastic_J": ("plastic work", ORANGE),
     "viscous_J": ("viscous work", YELLOW),
     "damping_J": ("damping", "#8C564B"),
+    "pore_work_J": ("work on pore water", "#BCBD22"),
     "friction_work_J": ("basal friction", RED),
     "contact_loss_J": ("impact on the ground", PURPLE),
     "frame_work_J": ("work of frames", GREEN),
@@ -45,6 +46,8 @@ THERMAL = {
     "boundary_heat_J": ("through boundaries", GREEN),
     "band_rescale_J": ("band rescaling", ORANGE),
     "advection_J": ("advection", PURPLE),
+    "capacity_heat_J": ("made by the old capacity", YELLOW),
+    "porosity_heat_J": ("made by changed masses", "#999999"),
 }
 RESIDUALS = {"mechanical_residual_J": (MECHANICAL, BLUE), "thermal_residual_J": (THERMAL, RED)}
 

@@ -258,6 +258,14 @@ TEST(Values, GiveOneAnotherAMeaning) {
   EXPECT_EQ(error_of_changed({{"[basal]", "[band]\nregion = \"first_layer\"\n[basal]"}}, {"terrain.type=none"}),
             "--set terrain.type=none: band.region is \"first_layer\", and the case has no terrain; there is no layer "
             "above it. Set band.region = \"all\", or give terrain.type.");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[band]\ncut_cells = \"equal_thickness\"\n[basal]"}}, {"terrain.type=none"}),
+            "--set terrain.type=none: band.cut_cells is \"equal_thickness\", and the case has no terrain; nothing cuts "
+            "through cells. Set band.cut_cells = \"as_they_are\", or give terrain.type.");
+  EXPECT_EQ(
+      error_of_changed({{"[basal]", "[mechanics]\neffective_stress = true\n[basal]"}}, {"pressure.enabled=false"}),
+      "--set pressure.enabled=false: mechanics.effective_stress is true, and pressure.enabled is false; there is no "
+      "pore "
+      "pressure to take off. Set pressure.enabled = true, or mechanics.effective_stress = false.");
   EXPECT_EQ(
       error_of_changed({{"elevation = 0.0", "slope = 30.0"}}),
       "FOLDER/case.toml:10:9: terrain.slope is 30 degrees, and terrain.type is not \"plane\"; no other ground has "

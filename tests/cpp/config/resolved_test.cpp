@@ -100,6 +100,7 @@ enabled = false
 shape_function = "linear"
 initial_stress = "settle"
 k0 = 0.4
+effective_stress = true
 settle_time = 6.0
 settle_damping = 7.0
 mass_damping = 8.0
@@ -124,8 +125,11 @@ pressurization = false
 [band]
 thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] }
 region = "first_layer"
+cut_cells = "equal_thickness"
 [heat]
 enabled = false
+update = "apparent_capacity"
+masses = "current"
 latent = false
 conduction = false
 advection = false
@@ -137,7 +141,9 @@ y_max = { flux = -2.0 }
 [pressure]
 thermal_pressurization = false
 clapeyron = "printed"
+volumetric_term = true
 seepage = false
+seepage_scaling = "printed"
 thickness_direction = "vertical"
 thickness_update = "frozen"
 )";

@@ -1,0 +1,72 @@
+// Sums over the particles of a run: energies, masses, momentum.
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// Masses of rock, ice and water in a particle [kg].
+template <class Real>
+struct PhaseMasses {
+  Real rock, ice, water;
+};
+
+// Those of t = 0, of which ice and water change into each other at constant sum.
+template <int Dim, class Real>
+PhaseMasses<Real> initial_masses(const mpm::Particles<Dim, Real>& particles, const physics::Phases<Real>& phases,
+                                 std::uint32_t p) {
+  const Real start = particles.initial_saturation(p);
+  const Real pore_water = particles.initial_volume(p) * particles.initial_porosity(p) *
+                          (phases.water_density * start + phases.ice_density * (Real(1) - start));
+  return {particles.mass(p) - pore_water, (Real(1) - particles.liquid_saturation(p)) * pore_water,
+          particles.liquid_saturation(p) * pore_water};
+}
+
+// Those of the current porosity and volume, as printed: their sum is not the particle's mass.
+template <int Dim, class Real>
+PhaseMasses<Real> current_masses(const mpm::Particles<Dim, Real>& particles, const physics::Phases<Real>& phases,
+                                 std::uint32_t p) {
+  const Real pore = particles.volume(p) * particles.porosity(p);
+  return {(particles.volume(p) - pore) * phases.rock_density,
+          pore * (Real(1) - particles.liquid_saturation(p)) * phases.ice_density,
+          pore * particles.liquid_saturation(p) * phases.water_density};
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
+  const auto& particles = simulation.particles();
+  const auto& model = simulation.model();
+  const physics::Phases<Real>& phases = model.motion.phases;
+  const bool current = model.band.current_masses;
+  BodySums<Dim, Real> sums;
+  for (const std::uint32_t p : simulation.grid().order()) {
+    const Real mass = particles.mass(p);
+    for (int a = 0; a < Dim; ++a) {
+      sums.momentum[a] += mass * particles.velocity(p, a);
+      sums.kinetic += Real(0.5) * mass * particles.velocity(p, a) * particles.velocity(p, a);
+      sums.potential -=
+          mass * model.motion.gravity[a] * (particles.position(p, a) + static_cast<Real>(model.origin[a]));
+    }
+    const Real pore = current ? particles.volume(p) * particles.porosity(p)
+                              : particles.initial_volume(p) * particles.initial_porosity(p);
+    const Real latent = simulation.parameters().heat.latent
+                            ? phases.ice_density * pore * phases.latent_heat * particles.liquid_saturation(p)
+                            : Real(0);
+    sums.latent += latent / particles.thermal_scaling(p);
+    sums.sensible += (particles.initial_volume(p) * particles.heat_content(p) - latent) / particles.thermal_scaling(p);
+    const PhaseMasses<Real> masses =
+        current ? current_masses(particles, phases, p) : initial_masses(particles, phases, p);
+    sums.mass += mass;
+    sums.rock += masses.rock;
+    sums.ice += masses.ice;
+    sums.water += masses.water;
+  }
+  return sums;
+}
+
+template BodySums<2, double> sum_over_body<2, double>(const Simulation<2, double>&);
+template BodySums<3, double> sum_over_body<3, double>(const Simulation<3, double>&);
+
+}  // namespace thawslide::sim
