@@ -194,6 +194,23 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
   sum_patches(grid, work.capacity);
 }
 
+// What a particle gets of the heat of nodes without hat weight [W/kg], by the weight of its momentum there.
+template <int Dim, class Real>
+Real orphan_heating(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, std::uint64_t tile,
+                    const mpm::Patch<Dim, Real, 1>& orphan, const mpm::Particles<Dim, Real>& particles,
+                    std::uint32_t p) {
+  Real specific = 0;
+  mpm::with_shape<Real>(model.shape, [&](auto shape) {
+    const auto place = mpm::place_of(grid, particles.position.template get<Vector<Real, Dim>>(p));
+    const Real half = model.half_size[static_cast<std::size_t>(particles.body(p))];
+    const auto stencil = mpm::make_stencil<decltype(shape)>(grid, tile, place, half, model.sides);
+    stencil.for_each_node([&](std::size_t node, Real weight, const Vector<Real, Dim>& /*slope*/) {
+      specific += weight * orphan.records[node][0];
+    });
+  });
+  return specific;
+}
+
 // Adds up what `of_particle(p)` [J/m3, per volume of t = 0] makes over all particles [J], with the volume heat counts.
 template <int Dim, class Real, class OfParticle>
 Real sum_of_heat(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
@@ -230,14 +247,8 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
       const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       Real gain = particles.secant_capacity(p) * dt * interpolated_rate(stencil, state);
       if (work.any_orphan) {
-        const auto wide = mpm::make_stencil<mpm::Ugimp<Real>, Dim, Real>(
-            grid, tile.key, particles.position.template get<Vector<Real, Dim>>(p),
-            model.half_size[static_cast<std::size_t>(particles.body(p))]);
-        Real specific = 0;
-        wide.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
-          specific += weight * orphan.records[place][0];
-        });
-        gain += dt * specific * particles.mass(p) * particles.thermal_scaling(p) / particles.initial_volume(p);
+        gain += dt * orphan_heating(grid, model, tile.key, orphan, particles, p) * particles.mass(p) *
+                particles.thermal_scaling(p) / particles.initial_volume(p);
       }
       const Real old_temperature = particles.temperature(p);
       particles.previous_temperature(p) = old_temperature;

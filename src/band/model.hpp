@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/linear.hpp"
+#include "mpm/transfer.hpp"
 #include "physics/freezing.hpp"
 #include "physics/heat_content.hpp"
 #include "physics/mixture.hpp"
@@ -48,9 +49,11 @@ struct BandModel {
   Real clapeyron_sign = 1;          // +1 as usual, -1 as Eq. 4 prints it
   bool normal_thickness = true;
   bool thickness_each_step = true;
-  Real gravity = 0;                          // magnitude [m/s2]
-  std::vector<Real> hydraulic_conductivity;  // by material [m/s]
-  std::vector<Real> half_size;               // of a body's particles, in cells
+  Real gravity = 0;                              // magnitude [m/s2]
+  std::vector<Real> hydraulic_conductivity;      // by material [m/s]
+  std::vector<Real> half_size;                   // of a body's particles, in cells
+  mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
+  mpm::HeldSides<Dim> sides;
 
   // Calls work(content) with the heat content law of the run.
   template <class Work>

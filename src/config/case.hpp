@@ -22,7 +22,8 @@ enum class TerrainKind { none, flat, plane, profile };
 enum class LawKind { elastic, mohr_coulomb };
 enum class CurveKind { power_law, linear };
 enum class BodyShape { box, polygon, surface };
-enum class ShapeFunction { ugimp, linear };
+enum class ShapeFunction { ugimp, linear, quadratic };
+enum class Transfer { flip, blend, apic };
 enum class InitialStress { geostatic, none, settle };
 enum class FrictionLaw { constant, lubricated };
 enum class CohesionLaw { constant, slip, ice, time };
@@ -119,6 +120,8 @@ struct Frame {
 struct Mechanics {
   bool enabled = true;
   ShapeFunction shape_function = ShapeFunction::ugimp;
+  Transfer transfer = Transfer::flip;
+  double pic_share = 0.0;  // Transfer::blend
   InitialStress initial_stress = InitialStress::geostatic;
   double k0 = -1.0;  // negative: nu / (1 - nu)
   bool slope_shear = false;

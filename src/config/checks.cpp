@@ -111,6 +111,22 @@ void check_switches(const Case& checked, Reading& reading) {
         "mechanics.slope_shear is true, and mechanics.initial_stress is not \"geostatic\"; only that stress "
         "takes the shear. Set mechanics.initial_stress = \"geostatic\", or mechanics.slope_shear = false.");
   }
+  if (reading.sound({"mechanics.pic_share", "mechanics.transfer"}) && checked.mechanics.pic_share != 0.0 &&
+      checked.mechanics.transfer != Transfer::blend) {
+    reading.report_misfit(
+        {"mechanics.pic_share", "mechanics.transfer"},
+        fmt::format("mechanics.pic_share is {}, and mechanics.transfer is not \"blend\"; no other transfer has it. Set "
+                    "mechanics.transfer = \"blend\", or remove mechanics.pic_share.",
+                    checked.mechanics.pic_share));
+  }
+  if (reading.sound({"mechanics.transfer", "mechanics.shape_function"}) &&
+      checked.mechanics.transfer == Transfer::apic && checked.mechanics.shape_function == ShapeFunction::linear) {
+    reading.report_misfit(
+        {"mechanics.transfer", "mechanics.shape_function"},
+        "mechanics.transfer is \"apic\", and mechanics.shape_function is \"linear\"; allowed with it: \"quadratic\" or "
+        "\"ugimp\", since nodes almost without mass would spoil the affine velocity. Set mechanics.shape_function = "
+        "\"quadratic\", or another mechanics.transfer.");
+  }
   if (reading.sound({"band.region", "terrain.type"}) && checked.band.region == BandRegion::first_layer && !has_ground) {
     reading.report_misfit(
         {"band.region", "terrain.type"},

@@ -17,6 +17,13 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
                  .source = "Sec. 3.1"}),
       parameter(&Mechanics::shape_function,
                 {.key = "shape_function", .text = "shape functions that carry momentum between particles and grid"}),
+      parameter(&Mechanics::transfer,
+                {.key = "transfer", .text = "how particles take their velocities from the grid", .source = "Eq. 13"}),
+      parameter(&Mechanics::pic_share, {.key = "pic_share",
+                                        .range = between(0, 1),
+                                        .text = "share of the node velocities in a particle's; 0: FLIP, 1: PIC"})
+          .required_if("when mechanics.transfer is \"blend\"",
+                       [](const Case&, const Mechanics& mechanics) { return mechanics.transfer == Transfer::blend; }),
       parameter(&Mechanics::initial_stress,
                 {.key = "initial_stress", .text = "stress at t = 0, of which the paper says nothing"}),
       parameter(&Mechanics::k0, {.key = "k0",

@@ -46,7 +46,13 @@ inline std::vector<Choice<BodyShape>> choices(BodyShape) {
 }
 inline std::vector<Choice<ShapeFunction>> choices(ShapeFunction) {
   return {{ShapeFunction::ugimp, "ugimp", "uniform generalised interpolation"},
-          {ShapeFunction::linear, "linear", "linear hat functions"}};
+          {ShapeFunction::linear, "linear", "linear hat functions"},
+          {ShapeFunction::quadratic, "quadratic", "quadratic B-splines"}};
+}
+inline std::vector<Choice<Transfer>> choices(Transfer) {
+  return {{Transfer::flip, "flip", "particles take the changes of node velocities (Eq. 13)"},
+          {Transfer::blend, "blend", "FLIP, and a share of the node velocities themselves (PIC)"},
+          {Transfer::apic, "apic", "the node velocities, and an affine velocity about the particle"}};
 }
 inline std::vector<Choice<InitialStress>> choices(InitialStress) {
   return {

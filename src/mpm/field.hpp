@@ -14,7 +14,8 @@
 
 namespace thawslide::mpm {
 
-enum class FieldShape { scalar, vector, tensor };  // tensor: symmetric, order xx yy zz xy [yz xz]
+// tensor: symmetric, order xx yy zz xy [yz xz]; matrix: by columns, never in a snapshot
+enum class FieldShape { scalar, vector, tensor, matrix };
 
 struct FieldInfo {
   const char* name;

@@ -2,28 +2,65 @@
 
 #include <cmath>
 
+#include "base/error.hpp"
 #include "physics/kinematics.hpp"
 
 namespace thawslide::mpm {
 
 namespace {
 
-// Calls work(shape) with the shape functions chosen.
-template <class Real, class Work>
-void with_shape(ShapeKind kind, const Work& work) {
-  if (kind == ShapeKind::ugimp) {
-    work(Ugimp<Real>{});
+// The transfers of MotionModel, as types.
+template <class Real>
+struct FlipPic {
+  static constexpr bool affine = false;
+  Real pic_share;
+};
+template <class Real>
+struct Apic {
+  static constexpr bool affine = true;
+  Real pic_share = 1;
+};
+
+// Calls work(shape, transfer) with what the model chose.
+template <int Dim, class Real, class Work>
+void with_transfer(const MotionModel<Dim, Real>& model, const Work& work) {
+  if (model.transfer == TransferKind::flip_pic) {
+    with_shape<Real>(model.shape, [&](auto shape) { work(shape, FlipPic<Real>{model.pic_share}); });
+    return;
+  }
+  THAWSLIDE_ASSERT(model.shape != ShapeKind::linear, "APIC with linear shape functions");
+  if (model.shape == ShapeKind::ugimp) {
+    work(Ugimp<Real>{}, Apic<Real>{});
   } else {
-    work(Linear<Real>{});
+    work(Quadratic<Real>{}, Apic<Real>{});
   }
 }
 
-template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE Stencil<Dim, Real> momentum_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile,
-                                                            std::uint32_t p, const Particles<Dim, Real>& particles,
-                                                            const MotionModel<Dim, Real>& model, auto shape) {
-  return make_stencil<decltype(shape), Dim, Real>(grid, tile, particles.position.template get<Vector<Real, Dim>>(p),
-                                                  model.bodies[static_cast<std::size_t>(particles.body(p))].half_size);
+// The nodes of a particle; its place, for make_affine.
+template <class Shape, int Dim, class Real>
+struct MomentumStencil {
+  Place<Dim, Real> place;
+  Stencil<Dim, Real> nodes;
+
+  THAWSLIDE_ALWAYS_INLINE MomentumStencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile, std::uint32_t p,
+                                          const Particles<Dim, Real>& particles, const MotionModel<Dim, Real>& model)
+      : place(place_of(grid, particles.position.template get<Vector<Real, Dim>>(p))),
+        nodes(make_stencil<Shape>(grid, tile, place,
+                                  model.bodies[static_cast<std::size_t>(particles.body(p))].half_size, model.sides)) {}
+};
+
+// Adds S m C (x_i - x_p), the momentum of the velocity about a particle, to the nodes.
+template <int Dim, class Real, class Records>
+THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const AffineStencil<Dim, Real>& affine, Real mass,
+                                                 const Matrix<Real, Dim>& velocity, std::size_t first,
+                                                 Records& records) {
+  const Matrix<Real, Dim> moment = mass * velocity * affine.moment.asDiagonal();
+  affine.nodes.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& arm) {
+    const Vector<Real, Dim> momentum = moment * arm;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      records[place][first + a] += momentum[static_cast<int>(a)];
+    }
+  });
 }
 
 // sigma.G for a tensor stored as xx yy zz xy [yz xz].
@@ -58,7 +95,7 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes) {
   using Layout = MomentumLayout<Dim>;
   auto& patches = nodes.momentum.patches(grid.tiles().size());
-  with_shape<Real>(model.shape, [&](auto shape) {
+  with_transfer(model, [&](auto shape, auto transfer) {
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
       auto& patch = patches[t];
       patch.clear();
@@ -82,8 +119,8 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
         const Real temperature = particles.temperature(p);
         const Real solid_fraction = basal_solid_fraction(particles, model.phases, model.lubrication, p);
         const Real slip = particles.slip(p);
-        const auto stencil = momentum_stencil(grid, tile.key, p, particles, model, shape);
-        stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& gradient) {
+        const MomentumStencil<decltype(shape), Dim, Real> stencil(grid, tile.key, p, particles, model);
+        stencil.nodes.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& gradient) {
           auto& node = patch.records[place];
           const Real m = weight * mass;
           const Vector<Real, Dim> internal = traction<Dim, Real>(stress, gradient);
@@ -100,11 +137,62 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
           node[Layout::solid_fraction] += m * solid_fraction;
           node[Layout::slip] += m * slip;
         });
+        if constexpr (decltype(transfer)::affine) {
+          add_affine_momentum(make_affine<decltype(shape)>(grid, stencil.nodes, stencil.place, model.sides), mass,
+                              affine_velocity(particles, p), Layout::momentum, patch.records);
+        }
       }
     });
   });
   sum_patches(grid, nodes.momentum);
 }
+
+namespace {
+
+// What a particle reads of the nodes about it.
+template <int Dim, class Real>
+struct NodeMotion {
+  Vector<Real, Dim> acceleration = Vector<Real, Dim>::Zero();
+  Vector<Real, Dim> middle_velocity = Vector<Real, Dim>::Zero();
+};
+
+template <int Dim, class Real>
+using MotionPatch = Patch<Dim, Real, MotionLayout<Dim>::size>;
+
+// One particle's new velocity. Returns the kinetic energy of MoveWork.
+template <int Dim, class Real>
+THAWSLIDE_ALWAYS_INLINE Real take_velocity(const NodeMotion<Dim, Real>& seen, Real pic_share, Real dt,
+                                           Particles<Dim, Real>& particles, std::uint32_t p) {
+  const auto old = particles.velocity.template get<Vector<Real, Dim>>(p);
+  const Vector<Real, Dim> change = dt * seen.acceleration;
+  const Vector<Real, Dim> flip = old + change;
+  const Vector<Real, Dim> pic = seen.middle_velocity + Real(0.5) * change;
+  const Vector<Real, Dim> towards_pic = pic_share * (pic - flip);
+  particles.velocity.set(p, Vector<Real, Dim>(flip + towards_pic));
+  return particles.mass(p) * (Real(0.5) * (change + towards_pic).squaredNorm() + old.dot(towards_pic));
+}
+
+// One particle's new affine velocity. Returns the part of sum p_i.dv_i that was the old one's.
+template <int Dim, class Real>
+THAWSLIDE_ALWAYS_INLINE Real take_affine_velocity(const AffineStencil<Dim, Real>& affine,
+                                                  const MotionPatch<Dim, Real>& motion, Real dt,
+                                                  Particles<Dim, Real>& particles, std::uint32_t p) {
+  using Layout = MotionLayout<Dim>;
+  Matrix<Real, Dim> change = Matrix<Real, Dim>::Zero();
+  Matrix<Real, Dim> middle = Matrix<Real, Dim>::Zero();
+  affine.nodes.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& arm) {
+    change += dt * vector_at<Dim, Real>(motion.records[place], Layout::acceleration) * arm.transpose();
+    middle += vector_at<Dim, Real>(motion.records[place], Layout::middle_velocity) * arm.transpose();
+  });
+  const Matrix<Real, Dim> moment = affine_velocity(particles, p) * affine.moment.asDiagonal();
+  const Matrix<Real, Dim> velocity = middle + Real(0.5) * change;
+  for (int c = 0; c < Dim * Dim; ++c) {
+    particles.affine_velocity(p, c) = velocity(c % Dim, c / Dim);
+  }
+  return particles.mass(p) * moment.cwiseProduct(change).sum();
+}
+
+}  // namespace
 
 template <int Dim, class Real>
 MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
@@ -112,32 +200,35 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
   using Layout = MotionLayout<Dim>;
   auto& patches = nodes.velocity.patches(grid.tiles().size());
   std::vector<MoveWork<Real>> works(grid.tiles().size());
-  with_shape<Real>(model.shape, [&](auto shape) {
+  with_transfer(model, [&](auto shape, auto transfer) {
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
       auto& patch = patches[t];
       patch.clear();
-      Patch<Dim, Real, Layout::size> motion;
+      MotionPatch<Dim, Real> motion;
       load_patch(grid, t, nodes.motion, motion);
       const auto& tile = grid.tiles()[t];
       for (std::uint32_t k = tile.first; k < tile.last; ++k) {
         const std::uint32_t p = grid.order()[k];
-        const auto stencil = momentum_stencil(grid, tile.key, p, particles, model, shape);
-        Vector<Real, Dim> acceleration = Vector<Real, Dim>::Zero();
-        Vector<Real, Dim> middle_velocity = Vector<Real, Dim>::Zero();
-        stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
-          acceleration += weight * vector_at<Dim, Real>(motion.records[place], Layout::acceleration);
-          middle_velocity += weight * vector_at<Dim, Real>(motion.records[place], Layout::middle_velocity);
+        const MomentumStencil<decltype(shape), Dim, Real> stencil(grid, tile.key, p, particles, model);
+        NodeMotion<Dim, Real> seen;
+        stencil.nodes.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
+          seen.acceleration += weight * vector_at<Dim, Real>(motion.records[place], Layout::acceleration);
+          seen.middle_velocity += weight * vector_at<Dim, Real>(motion.records[place], Layout::middle_velocity);
         });
+        particles.step_displacement.set(p, Vector<Real, Dim>(dt * seen.middle_velocity));
+        works[t].particle_kinetic += take_velocity(seen, transfer.pic_share, dt, particles, p);
         const Real mass = particles.mass(p);
-        const Vector<Real, Dim> velocity = particles.velocity.template get<Vector<Real, Dim>>(p) + dt * acceleration;
-        particles.velocity.set(p, velocity);
-        particles.step_displacement.set(p, Vector<Real, Dim>(dt * middle_velocity));
-        works[t].particle_kinetic += Real(0.5) * mass * dt * dt * acceleration.squaredNorm();
-        stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
+        const auto velocity = particles.velocity.template get<Vector<Real, Dim>>(p);
+        stencil.nodes.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
           for (std::size_t a = 0; a < Dim; ++a) {
             patch.records[place][a] += weight * mass * velocity[static_cast<int>(a)];
           }
         });
+        if constexpr (decltype(transfer)::affine) {
+          const auto affine = make_affine<decltype(shape)>(grid, stencil.nodes, stencil.place, model.sides);
+          works[t].particle_kinetic -= take_affine_velocity(affine, motion, dt, particles, p);
+          add_affine_momentum(affine, mass, affine_velocity(particles, p), 0, patch.records);
+        }
       }
     });
   });
@@ -207,9 +298,9 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
             [&](const auto& law) {
               for (; k < tile.last && particles.material(grid.order()[k]) == material; ++k) {
                 const std::uint32_t p = grid.order()[k];
-                const auto stencil = momentum_stencil(grid, tile.key, p, particles, model, shape);
+                const MomentumStencil<decltype(shape), Dim, Real> stencil(grid, tile.key, p, particles, model);
                 Matrix<Real, Dim> gradient = Matrix<Real, Dim>::Zero();
-                stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
+                stencil.nodes.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
                   gradient += vector_at<Dim, Real>(velocity.records[place], 0) * slope.transpose();
                 });
                 const StressWork<Real> work =

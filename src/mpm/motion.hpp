@@ -13,7 +13,9 @@
 
 namespace thawslide::mpm {
 
-enum class ShapeKind { ugimp, linear };
+// How particles take their velocity from the nodes: by their changes (FLIP, Eq. 13) with a share of their velocities
+// (PIC), or their velocities with the affine velocity about the particle (APIC; Jiang et al. 2015).
+enum class TransferKind { flip_pic, apic };
 
 // What a body's particles share.
 template <class Real>
@@ -33,6 +35,9 @@ struct MaterialModel {
 template <int Dim, class Real>
 struct MotionModel {
   ShapeKind shape = ShapeKind::ugimp;
+  HeldSides<Dim> sides;
+  TransferKind transfer = TransferKind::flip_pic;
+  Real pic_share = 0;         // of TransferKind::flip_pic; 0: FLIP
   Vector<Real, Dim> gravity;  // [m/s2]
   Real mass_damping = 0;      // [1/s]
   std::vector<BodyModel<Real>> bodies;
@@ -54,7 +59,9 @@ struct StressWork {
 // What moving the particles cost.
 template <class Real>
 struct MoveWork {
-  Real particle_kinetic = 0;  // sum m |dv|^2 / 2 over particles [J]
+  // Kinetic energy that particles gained, less sum p_i.dv_i over the nodes [J]: sum m |dv_p|^2/2 in FLIP. Less
+  // sum m_i |dv_i|^2/2 it is what the transfers between particles and nodes made.
+  Real particle_kinetic = 0;
 };
 
 // What can be wrong with a particle.
@@ -91,8 +98,8 @@ template <int Dim, class Real>
 void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes);
 
-// New velocities (Eq. 13) and displacements (Eq. 14, with the sum sign it lost) from node motion; then the moved
-// particles' momentum back to the nodes (MUSL). The displacement takes effect in take_new_positions.
+// New velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with the sum sign it lost) from node motion;
+// then the moved particles' momentum back to the nodes (MUSL). The displacement takes effect in take_new_positions.
 template <int Dim, class Real>
 MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                               const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes);

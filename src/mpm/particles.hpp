@@ -27,6 +27,8 @@ class Particles {
   Scalar initial_volume{fields, {"initial_volume", "m3"}};
   VectorField position{fields, {"position", "m", FieldShape::vector}};  // relative to the domain's lower corner
   VectorField velocity{fields, {"velocity", "m/s", FieldShape::vector, true}};
+  // C of APIC: the velocity about the particle is v + C (x - x_p); by columns
+  Field<Real, Dim * Dim> affine_velocity{fields, {"affine_velocity", "1/s", FieldShape::matrix}};
   VectorField displacement{fields, {"displacement", "m", FieldShape::vector, true}};
   Scalar path_length{fields, {"path_length", "m", FieldShape::scalar, true}};
   TensorField stress{fields, {"stress", "Pa", FieldShape::tensor, true}};
@@ -76,6 +78,16 @@ class Particles {
  private:
   std::size_t size_ = 0;
 };
+
+// The particle's affine velocity C [1/s] as a matrix.
+template <int Dim, class Real>
+Matrix<Real, Dim> affine_velocity(const Particles<Dim, Real>& particles, std::size_t particle) {
+  Matrix<Real, Dim> matrix;
+  for (int c = 0; c < Dim * Dim; ++c) {
+    matrix(c % Dim, c / Dim) = particles.affine_velocity(particle, c);
+  }
+  return matrix;
+}
 
 // A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.
 template <int Dim, class Real>

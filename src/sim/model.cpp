@@ -53,6 +53,34 @@ mpm::MaterialModel<Real> make_material(const config::Material& material, bool de
 }
 
 template <int Dim, class Real>
+void set_transfer(const config::Case& parameters, mpm::MotionModel<Dim, Real>& motion) {
+  const config::Mechanics& mechanics = parameters.mechanics;
+  switch (mechanics.shape_function) {
+    case config::ShapeFunction::ugimp:
+      motion.shape = mpm::ShapeKind::ugimp;
+      break;
+    case config::ShapeFunction::linear:
+      motion.shape = mpm::ShapeKind::linear;
+      break;
+    case config::ShapeFunction::quadratic:
+      motion.shape = mpm::ShapeKind::quadratic;
+      break;
+  }
+  motion.transfer =
+      mechanics.transfer == config::Transfer::apic ? mpm::TransferKind::apic : mpm::TransferKind::flip_pic;
+  motion.pic_share = static_cast<Real>(mechanics.pic_share);
+  for (std::size_t a = 0; a < Dim; ++a) {
+    const double length = parameters.grid.max[a] - parameters.grid.min[a];
+    if (parameters.grid.boundary[2 * a] != config::BoundaryKind::open) {
+      motion.sides.lower[a] = 0;
+    }
+    if (parameters.grid.boundary[2 * a + 1] != config::BoundaryKind::open) {
+      motion.sides.upper[a] = static_cast<int>(std::lround(length / parameters.grid.cell));
+    }
+  }
+}
+
+template <int Dim, class Real>
 mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, const Vector<double, Dim>& origin) {
   mpm::Constraints<Dim, Real> constraints;
   for (std::size_t a = 0; a < Dim; ++a) {
@@ -168,6 +196,8 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   for (const auto& body : motion.bodies) {
     band.half_size.push_back(body.half_size);
   }
+  band.shape = motion.shape;
+  band.sides = motion.sides;
   return band;
 }
 
@@ -206,8 +236,7 @@ Model<Dim, Real> make_model(const config::Case& parameters) {
   for (std::size_t a = 0; a < Dim; ++a) {
     model.origin[static_cast<int>(a)] = parameters.grid.min[a];
   }
-  model.motion.shape = parameters.mechanics.shape_function == config::ShapeFunction::ugimp ? mpm::ShapeKind::ugimp
-                                                                                           : mpm::ShapeKind::linear;
+  set_transfer(parameters, model.motion);
   const double tilt = radians(parameters.general.gravity_tilt);
   model.motion.gravity.setZero();
   model.motion.gravity[0] = static_cast<Real>(parameters.general.gravity * std::sin(tilt));

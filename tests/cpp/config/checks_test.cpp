@@ -301,5 +301,23 @@ TEST(Bodies, OfThreeDimensionsAreBoxes) {
             "with min and max.");
 }
 
+TEST(Transfers, PicShareBelongsToTheBlend) {
+  const Change share{"[basal]", "[mechanics]\npic_share = 0.1\n[basal]"};
+  EXPECT_EQ(error_of_changed({share}),
+            "FOLDER/case.toml:21:13: mechanics.pic_share is 0.1, and mechanics.transfer is not \"blend\"; no other "
+            "transfer has it. Set mechanics.transfer = \"blend\", or remove mechanics.pic_share.");
+  EXPECT_EQ(error_of_changed({share}, {"mechanics.transfer=blend"}), "no error");
+}
+
+TEST(Transfers, ApicNeedsShapeFunctionsWithASecondMoment) {
+  const Change apic{"[basal]", "[mechanics]\ntransfer = \"apic\"\nshape_function = \"linear\"\n[basal]"};
+  EXPECT_EQ(
+      error_of_changed({apic}),
+      "FOLDER/case.toml:21:12: mechanics.transfer is \"apic\", and mechanics.shape_function is \"linear\"; allowed "
+      "with it: \"quadratic\" or \"ugimp\", since nodes almost without mass would spoil the affine velocity. Set "
+      "mechanics.shape_function = \"quadratic\", or another mechanics.transfer.");
+  EXPECT_EQ(error_of_changed({apic}, {"mechanics.shape_function=quadratic"}), "no error");
+}
+
 }  // namespace
 }  // namespace thawslide::config

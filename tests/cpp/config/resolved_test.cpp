@@ -98,6 +98,8 @@ velocity = 2.25
 [mechanics]
 enabled = false
 shape_function = "linear"
+transfer = "blend"
+pic_share = 0.125
 initial_stress = "settle"
 k0 = 0.4
 effective_stress = true

@@ -1,0 +1,156 @@
+// A square that vibrates with large displacements along its axes (Wallstedt and Guilkey 2008), with the body force that
+// makes the motion exact for log-strain elasticity.
+//   u1 = A sin(2 pi X) sin(c pi t),  u2 = -A sin(2 pi Y) sin(c pi t),  c^2 = E/rho0
+//   F11 = 1 + du1/dX,  F22 = 1 + du2/dY;  sigma11 = M ln F11 + lambda ln F22,  M = lambda + 2 mu;  P11 = F22 sigma11
+//   rho0 a1 = dP11/dX + rho0 b1  ->  b1 = -c^2 pi^2 u1 + 4 pi^2 u1 M F22/(rho0 F11), and alike for 2
+// The unit square lies in the domain's corner at the origin, its sides on rollers.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mpm/motion.hpp"
+#include "terrain/contact.hpp"
+
+namespace thawslide::sim {
+
+class ManufacturedVibration {
+ public:
+  using Plane = Vector<double, 2>;
+  static constexpr double density = 1000.0, youngs_modulus = 1e7, poisson_ratio = 0.3;
+
+  // cells: along a side; 4 particles a cell.
+  ManufacturedVibration(int cells, double amplitude, mpm::ShapeKind shape, mpm::TransferKind transfer, double pic_share)
+      : amplitude_(amplitude), grid_(1.0 / cells) {
+    model_.shape = shape;
+    model_.transfer = transfer;
+    model_.pic_share = pic_share;
+    model_.gravity.setZero();
+    model_.bodies = {{0.25}};
+    elastic_ = physics::Elastic<double>::from_young_poisson(youngs_modulus, poisson_ratio);
+    model_.materials = {{physics::LinearElastic<double>{}, elastic_, 0.0, 0.0}};
+    model_.sides.lower.fill(0);
+    model_.sides.upper.fill(cells);
+    constraints_.extent = Plane(1.0, 1.0);
+    std::fill(std::begin(constraints_.faces), std::end(constraints_.faces), mpm::FaceKind::roller);
+    fill(2 * cells);
+  }
+
+  void run(double end, double largest_step) {
+    const int steps = static_cast<int>(std::ceil(end / largest_step));
+    for (int k = 0; k < steps; ++k) {
+      step(end / steps);
+    }
+  }
+
+  // Root mean square over particles of the displacement's error [m].
+  [[nodiscard]] double error() const {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      const auto displacement = particles_.displacement.get<Plane>(p);
+      sum += (displacement - exact(start(p))).squaredNorm();
+    }
+    return std::sqrt(sum / static_cast<double>(particles_.size()));
+  }
+
+  [[nodiscard]] static double period() { return 2.0 / speed(); }
+  // The step at which an elastic wave crosses a cell.
+  [[nodiscard]] double wave_step() const { return grid_.cell() * std::sqrt(density / elastic_.p_wave_modulus()); }
+
+ private:
+  static double speed() { return std::sqrt(youngs_modulus / density); }
+
+  [[nodiscard]] Plane exact(const Plane& place) const {
+    const double now = amplitude_ * std::sin(speed() * pi<double> * time_);
+    return {now * std::sin(2.0 * pi<double> * place[0]), -now * std::sin(2.0 * pi<double> * place[1])};
+  }
+
+  [[nodiscard]] Plane body_force(const Plane& place) const {
+    const Plane displacement = exact(place);
+    const double now = 2.0 * pi<double> * amplitude_ * std::sin(speed() * pi<double> * time_);
+    const double stretch[2] = {1.0 + now * std::cos(2.0 * pi<double> * place[0]),
+                               1.0 - now * std::cos(2.0 * pi<double> * place[1])};
+    const double stiffness = 4.0 * pi<double> * pi<double> * elastic_.p_wave_modulus() / density;
+    const double inertia = speed() * speed() * pi<double> * pi<double>;
+    return {displacement[0] * (stiffness * stretch[1] / stretch[0] - inertia),
+            displacement[1] * (stiffness * stretch[0] / stretch[1] - inertia)};
+  }
+
+  void fill(int rows) {
+    particles_.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(rows));
+    const double spacing = 1.0 / rows;
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      const auto i = static_cast<int>(p) % rows, j = static_cast<int>(p) / rows;
+      const Plane place((i + 0.5) * spacing, (j + 0.5) * spacing);
+      const double rate = amplitude_ * speed() * pi<double>;
+      particles_.id(p) = static_cast<std::int64_t>(p);
+      particles_.volume(p) = spacing * spacing;
+      particles_.mass(p) = density * particles_.volume(p);
+      particles_.position.set(p, place);
+      particles_.velocity.set(
+          p, Plane(rate * std::sin(2.0 * pi<double> * place[0]), -rate * std::sin(2.0 * pi<double> * place[1])));
+      particles_.affine_velocity(p, 0) = 2.0 * pi<double> * rate * std::cos(2.0 * pi<double> * place[0]);
+      particles_.affine_velocity(p, 3) = -2.0 * pi<double> * rate * std::cos(2.0 * pi<double> * place[1]);
+      particles_.porosity(p) = 0.3;
+    }
+  }
+
+  [[nodiscard]] Plane start(std::size_t p) const {
+    return particles_.position.get<Plane>(p) - particles_.displacement.get<Plane>(p);
+  }
+
+  void add_body_force() {
+    using Layout = mpm::MomentumLayout<2>;
+    auto& patches = body_force_.patches(grid_.tiles().size());
+    mpm::with_shape<double>(model_.shape, [&](auto shape) {
+      for (std::size_t t = 0; t < grid_.tiles().size(); ++t) {
+        const auto& tile = grid_.tiles()[t];
+        patches[t].clear();
+        for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+          const std::uint32_t p = grid_.order()[k];
+          const Plane force = particles_.mass(p) * body_force(start(p));
+          const auto place = mpm::place_of(grid_, particles_.position.get<Plane>(p));
+          mpm::make_stencil<decltype(shape)>(grid_, tile.key, place, 0.25, model_.sides)
+              .for_each_node([&](std::size_t node, double weight, const Plane& /*gradient*/) {
+                patches[t].records[node][0] += weight * force[0];
+                patches[t].records[node][1] += weight * force[1];
+              });
+        }
+      }
+    });
+    sum_patches(grid_, body_force_);
+    for (std::size_t b = 0; b < grid_.blocks().size(); ++b) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<2>::nodes); ++k) {
+        nodes_.momentum(b, k)[Layout::force] += body_force_(b, k)[0];
+        nodes_.momentum(b, k)[Layout::force + 1] += body_force_(b, k)[1];
+      }
+    }
+  }
+
+  void step(double dt) {
+    mpm::BadParticle bad;
+    grid_.update(particles_, 64);
+    mpm::momentum_to_grid(grid_, particles_, model_, nodes_);
+    add_body_force();
+    const terrain::GroundOnGrid<2, double>* no_ground = nullptr;
+    terrain::resolve_contact(grid_, no_ground, constraints_, terrain::ContactModel<2, double>{}, time_, dt, nodes_);
+    mpm::move_particles(grid_, particles_, model_, dt, nodes_);
+    terrain::constrain_mapped_back(grid_, no_ground, constraints_, model_.gravity, time_, dt, nodes_);
+    mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, bad);
+    mpm::take_new_positions(particles_, constraints_.extent, bad);
+    THAWSLIDE_ASSERT(bad.id < 0, "particle {} went bad at {} s", bad.id, time_);
+    time_ += dt;
+  }
+
+  double amplitude_, time_ = 0.0;
+  physics::Elastic<double> elastic_;
+  mpm::MotionModel<2, double> model_;
+  mpm::Constraints<2, double> constraints_;
+  mpm::Particles<2, double> particles_;
+  mpm::SparseGrid<2, double> grid_;
+  mpm::Nodes<2, double> nodes_;
+  mpm::NodeRecords<2, double, 2> body_force_;
+};
+
+}  // namespace thawslide::sim

@@ -1,0 +1,191 @@
+// Vibration: a bar's first mode at small amplitude, and a square with large displacements; orders of convergence.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "manufactured_vibration.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+// A bar of 1 m between walls, in uniaxial stress (Poisson's ratio 0): v = V sin(pi x) cos(omega t), omega = pi c/L.
+constexpr double bar_speed = 1e-3;                                                      // V [m/s]
+const double bar_wave_speed = std::sqrt(1e7 / ((1.0 - 1e-6) * 2750.0 + 1e-6 * 917.0));  // c [m/s]
+
+config::Case bar(int cells, const std::vector<std::string>& sets) {
+  const double cell = 1.0 / cells;
+  const std::string text = fmt::format(R"(
+[case]
+gravity = 0.0
+[time]
+end = 1.0
+step = {}
+[grid]
+cell = {}
+min = [0.0, 0.0]
+max = [1.0, {}]
+[grid.boundary]
+x_min = "roller"
+x_max = "roller"
+y_min = "roller"
+y_max = "roller"
+[material.rock]
+law = "elastic"
+youngs_modulus = 1e7
+poisson_ratio = 0.0
+[body.bar]
+material = "rock"
+min = [0.0, 0.0]
+max = [1.0, {}]
+porosity = 1e-6
+[mechanics]
+initial_stress = "none"
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)",
+                                       0.1 * cell / bar_wave_speed, cell, 2.0 * cell, 2.0 * cell);
+  return case_from_text(text, sets);
+}
+
+struct Mode {
+  double frequency;  // over the exact one
+  double amplitude;  // of the velocity in the third period, over the first one's
+  double stroke;     // of the displacement, over the exact one
+};
+
+// Three periods of mode 1. Zeros of the modal velocity tell the frequency.
+Mode vibrate(int cells, const std::vector<std::string>& sets) {
+  Simulation<2, double> simulation(bar(cells, sets));
+  auto& particles = simulation.particles();
+  std::vector<double> form(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    form[static_cast<std::size_t>(particles.id(p))] = std::sin(pi<double> * particles.position(p, 0));
+    particles.velocity(p, 0) = bar_speed * std::sin(pi<double> * particles.position(p, 0));
+    particles.affine_velocity(p, 0) = bar_speed * pi<double> * std::cos(pi<double> * particles.position(p, 0));
+  }
+  const auto modal = [&](const auto& field) {
+    double sum = 0.0, norm = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double f = form[static_cast<std::size_t>(particles.id(p))];
+      sum += f * field(p, 0);
+      norm += f * f;
+    }
+    return sum / norm;
+  };
+  const double omega = pi<double> * bar_wave_speed;
+  const double period = 2.0 * pi<double> / omega;
+  std::vector<double> zeros;
+  double old = modal(particles.velocity), largest_late = 0.0, highest = 0.0, lowest = 0.0;
+  while (simulation.time() < 3.0 * period) {
+    const double dt = simulation.parameters().time.step;
+    simulation.step(dt);
+    const double velocity = modal(particles.velocity), displacement = modal(particles.displacement);
+    if (old * velocity < 0.0) {
+      zeros.push_back(simulation.time() - dt * velocity / (velocity - old));
+    }
+    old = velocity;
+    if (simulation.time() < period) {
+      highest = std::max(highest, displacement);
+      lowest = std::min(lowest, displacement);
+    } else if (simulation.time() > 2.25 * period) {
+      largest_late = std::max(largest_late, velocity);
+    }
+  }
+  const double measured = 2.0 * (zeros.back() - zeros.front()) / static_cast<double>(zeros.size() - 1);
+  return {period / measured, largest_late / bar_speed, 0.5 * (highest - lowest) * omega / bar_speed};
+}
+
+Mode vibrate_with(const std::string& shape, const std::string& transfer, int cells) {
+  return vibrate(cells, {"mechanics.shape_function=" + shape, "mechanics.transfer=" + transfer});
+}
+
+// The order at which an error falls from `coarse` to `fine` with half the cell.
+double order(double coarse, double fine) { return std::log2(coarse / fine); }
+
+// Frequency in second order of the cell, whatever carries the momentum; the amplitude faster still.
+void expect_second_order(const std::string& shape, const std::string& transfer, double error) {
+  SCOPED_TRACE(shape + " " + transfer);
+  const Mode coarse = vibrate_with(shape, transfer, 16), fine = vibrate_with(shape, transfer, 32);
+  EXPECT_NEAR(fine.frequency, 1.0, error);
+  EXPECT_NEAR(order(coarse.frequency - 1.0, fine.frequency - 1.0), 2.0, 0.1);
+  EXPECT_NEAR(fine.amplitude, 1.0, 3e-3);
+  EXPECT_GT(order(coarse.amplitude - 1.0, fine.amplitude - 1.0), 2.9);
+  EXPECT_NEAR(fine.stroke, 1.0, 1e-3);
+}
+
+TEST(Bar, UgimpFlip) { expect_second_order("ugimp", "flip", 1.5e-3); }
+TEST(Bar, UgimpApic) { expect_second_order("ugimp", "apic", 5e-4); }
+TEST(Bar, LinearFlip) { expect_second_order("linear", "flip", 1.5e-3); }
+TEST(Bar, QuadraticFlip) { expect_second_order("quadratic", "flip", 2.7e-3); }
+TEST(Bar, QuadraticApic) { expect_second_order("quadratic", "apic", 1.4e-3); }
+
+// PIC damps by its share in each step: here some 1 % of 960 steps.
+TEST(Bar, PicDamps) {
+  const Mode mode = vibrate(16, {"mechanics.transfer=blend", "mechanics.pic_share=0.01"});
+  EXPECT_LT(mode.amplitude, 0.96);
+  EXPECT_GT(mode.amplitude, 0.94);
+}
+
+constexpr auto flip = mpm::TransferKind::flip_pic;
+constexpr auto apic = mpm::TransferKind::apic;
+
+// Largest displacements, at a quarter of the period, where u = A. Eq. 14 leaves dt (v(0) - v)/2 in them, so the step
+// falls with the square of the cell.
+double square_error(int cells, double amplitude, mpm::ShapeKind shape, mpm::TransferKind transfer) {
+  ManufacturedVibration square(cells, amplitude, shape, transfer, 0.0);
+  square.run(ManufacturedVibration::period() / 4.0, 0.8 / cells * square.wave_step());
+  return square.error() / amplitude;
+}
+
+struct Errors {
+  double coarse, fine;
+  Errors(int cells, double amplitude, mpm::ShapeKind shape, mpm::TransferKind transfer)
+      : coarse(square_error(cells, amplitude, shape, transfer)),
+        fine(square_error(2 * cells, amplitude, shape, transfer)) {}
+  [[nodiscard]] double order() const { return std::log2(coarse / fine); }
+};
+
+// Particles stay in their cells: second order for all.
+TEST(Square, ConvergesInSecondOrderWhereNothingCrossesCells) {
+  for (const mpm::TransferKind transfer : {flip, apic}) {
+    const Errors ugimp(8, 1e-4, mpm::ShapeKind::ugimp, transfer);
+    EXPECT_NEAR(ugimp.order(), 2.0, 0.2);
+    EXPECT_LT(ugimp.fine, 0.012);
+  }
+  const Errors linear(8, 1e-4, mpm::ShapeKind::linear, flip);
+  EXPECT_NEAR(linear.order(), 2.0, 0.2);
+  EXPECT_LT(linear.fine, 0.005);
+}
+
+// The same at the walls, where the spline hands over to hats; with a node beyond held at 0 the order was 1.
+TEST(Square, QuadraticConvergesInSecondOrderBetweenWalls) {
+  for (const mpm::TransferKind transfer : {flip, apic}) {
+    const Errors quadratic(16, 1e-4, mpm::ShapeKind::quadratic, transfer);
+    EXPECT_NEAR(quadratic.order(), 1.95, 0.15);
+    EXPECT_LT(quadratic.fine, transfer == flip ? 0.01 : 0.0016);
+  }
+}
+
+// Stretches from 0.87 to 1.13: particles cross cells. Quadratic splines keep nearly the second order, uGIMP, whose
+// particles no longer fill space, loses one at first; linear hats, whose gradients jump, do not converge (Steffen,
+// Kirby and Berzins 2008).
+TEST(Square, LargeDisplacementsTellShapeFunctionsApart) {
+  const double amplitude = 0.02;
+  const Errors quadratic(16, amplitude, mpm::ShapeKind::quadratic, flip);
+  EXPECT_GT(quadratic.order(), 1.75);
+  EXPECT_LT(quadratic.fine, 0.011);
+  const Errors ugimp(8, amplitude, mpm::ShapeKind::ugimp, flip);
+  EXPECT_NEAR(ugimp.order(), 0.92, 0.15);
+  const Errors linear(8, amplitude, mpm::ShapeKind::linear, flip);
+  EXPECT_LT(linear.order(), 0.0);
+  EXPECT_GT(linear.fine, 3.0 * ugimp.fine);
+}
+
+}  // namespace
+}  // namespace thawslide::sim
