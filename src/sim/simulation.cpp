@@ -49,7 +49,7 @@ void Simulation<Dim, Real>::find_particles_cells() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::average_band_on_grid() {
-  if (model_.ground || model_.band.heat) {
+  if (model_.ground || model_.band.heat || model_.band.pressure) {
     band::average_on_grid(grid_, particles_, model_.band, nodes_);
   }
 }

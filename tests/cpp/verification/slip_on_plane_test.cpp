@@ -65,7 +65,7 @@ TEST(SlipOnPlane, LosesStrengthAsRiceSays) {
   Curve curve{"slip [m]", "strength over that at the start", {}, {}, {}};
   for (const double cell : cells) {
     Simulation<2, double> simulation(case_from_text(
-        slab, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 5e-4 * cell),
+        slab, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-5 * cell * cell),
                fmt::format("band.thickness={}", 1e-3 * cell), fmt::format("body.slab.max=[{},160.0]", 4.0 * cell)}));
     auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
