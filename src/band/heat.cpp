@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "band/particle_heat.hpp"
+#include "physics/pressurization.hpp"
 
 namespace thawslide::band {
 
@@ -52,9 +53,12 @@ void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim,
 }
 
 // Eq. 19's sums over particles: conduction and advection, and the capacity with the tangent to the heat content.
+// Differences within a cell, which nodes do not see, are levelled by the particles themselves, and the heat that this
+// brings is taken off at the nodes (Gerya and Yuen 2003); `levels` is false in the step in which prescribed
+// temperatures jump, since the nodes then are ahead of the particles, and for the printed update.
 template <int Dim, class Real, class Law>
-void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Law& law,
-                   mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
+void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Law& law, Real dt,
+                   bool levels, mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
   auto& patches = work.rates.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
@@ -67,17 +71,27 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
       const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
       Vector<Real, Dim> temperature_gradient = Vector<Real, Dim>::Zero();
       Vector<Real, Dim> pressure_gradient = Vector<Real, Dim>::Zero();
-      stencil.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
+      Real seen = 0;
+      stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
+        seen += state.records[place][0] * weight;
         temperature_gradient += state.records[place][0] * slope;
         pressure_gradient += state.records[place][1] * slope;
       });
       const Real scaling = particles.thermal_scaling(p);
       const Real volume = particles.volume(p);
+      const Real tangent = law.tangent(p);
+      particles.secant_capacity(p) = tangent;
+      particles.conduction_in_cell(p) = Real(0);
       Vector<Real, Dim> flow = Vector<Real, Dim>::Zero();
       if (model.conduction) {
         const Real conductivity =
             physics::conductivity(model.phases, particles.porosity(p), particles.liquid_saturation(p));
         flow = -volume * scaling * conductivity * temperature_gradient;
+        if (levels) {
+          particles.conduction_in_cell(p) =
+              (seen - particles.temperature(p)) *
+              physics::share_levelled_within_cell(conductivity / tangent, grid.cell() / scaling, Dim, dt);
+        }
       }
       Real advection = 0;
       const Real hydraulic = model.hydraulic_conductivity[static_cast<std::size_t>(particles.material(p))];
@@ -87,25 +101,24 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
         advection = volume * model.phases.water_density * model.phases.water_heat_capacity * mobility *
                     pressure_gradient.dot(temperature_gradient);
       }
-      const Real tangent = law.tangent(p);
-      particles.secant_capacity(p) = tangent;
       const Real capacity = particles.initial_volume(p) / scaling * tangent;
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
         auto& node = patch.records[place];
         node[0] += flow.dot(slope);
         node[1] += weight * advection;
         node[2] += weight * capacity;
+        node[3] += weight * capacity * particles.conduction_in_cell(p);
       });
     }
   });
   sum_patches(grid, work.rates);
 }
 
-// The nodal rate of temperature with the capacity given by `capacity_at`; friction heat and face conditions come in
-// here.
-template <int Dim, class Real, class CapacityAt>
+// The nodal rate of temperature with what `stored_at` gives: the capacity, and the heat that particles took by
+// levelling within cells; friction heat and face conditions come in here.
+template <int Dim, class Real, class StoredAt>
 HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                           bool first_step, const mpm::Nodes<Dim, Real>& nodes, const CapacityAt& capacity_at,
+                           bool first_step, const mpm::Nodes<Dim, Real>& nodes, const StoredAt& stored_at,
                            HeatNodes<Dim, Real>& work) {
   std::vector<HeatGain<Real>> gains(grid.blocks().size());
   std::vector<std::uint8_t> orphans(grid.blocks().size(), 0);
@@ -115,7 +128,7 @@ HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       const auto& rates = work.rates(b, k);
       const Real friction = nodes.contact(b, k)[ContactLayout::friction_heat];
-      const Real capacity = capacity_at(b, k);
+      const auto [capacity, levelled] = stored_at(b, k);
       Real& rate = work.state(b, k)[2];
       rate = Real(0);
       work.orphan(b, k)[0] = Real(0);
@@ -127,7 +140,7 @@ HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
         }
         continue;
       }
-      Real power = rates[0] + rates[1] + friction;
+      Real power = rates[0] + rates[1] + friction - levelled / dt;
       gain.advection += dt * rates[1];
       const HeatFace<Real>* face = face_of(model, mpm::node_position(grid, b, k));
       if (face != nullptr && face->kind == FaceHeat::temperature) {
@@ -181,13 +194,14 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
       const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
-      const Real change = dt * interpolated_rate(stencil, state);
+      const Real change = particles.conduction_in_cell(p) + dt * interpolated_rate(stencil, state);
       if (!law.content.drowns_in_round_off(change)) {  // else the tangent, which stands there already, is the secant
         particles.secant_capacity(p) = law.secant(p, change);
       }
       const Real capacity = particles.initial_volume(p) / particles.thermal_scaling(p) * particles.secant_capacity(p);
       stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
         patch.records[place][0] += weight * capacity;
+        patch.records[place][1] += weight * capacity * particles.conduction_in_cell(p);
       });
     }
   });
@@ -245,7 +259,8 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
       const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
-      Real gain = particles.secant_capacity(p) * dt * interpolated_rate(stencil, state);
+      Real gain =
+          particles.secant_capacity(p) * (particles.conduction_in_cell(p) + dt * interpolated_rate(stencil, state));
       if (work.any_orphan) {
         gain += dt * orphan_heating(grid, model, tile.key, orphan, particles, p) * particles.mass(p) *
                 particles.thermal_scaling(p) / particles.initial_volume(p);
@@ -276,8 +291,12 @@ template <int Dim, class Real, class Law>
 HeatGain<Real> update_heat_content(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                                    const Law& law, Real dt, bool first_step, const mpm::Nodes<Dim, Real>& nodes,
                                    HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
-  const auto with_tangent = [&](std::size_t b, std::size_t k) { return work.rates(b, k)[2]; };
-  const auto with_secant = [&](std::size_t b, std::size_t k) { return work.capacity(b, k)[0]; };
+  const auto with_tangent = [&](std::size_t b, std::size_t k) {
+    return std::pair(work.rates(b, k)[2], work.rates(b, k)[3]);
+  };
+  const auto with_secant = [&](std::size_t b, std::size_t k) {
+    return std::pair(work.capacity(b, k)[0], work.capacity(b, k)[1]);
+  };
   solve_rates(grid, model, dt, first_step, nodes, with_tangent, work);
   secant_capacity_to_grid(grid, law, dt, work, particles);
   const HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, with_secant, work);
@@ -300,7 +319,7 @@ template <int Dim, class Real, class Law>
 HeatGain<Real> update_temperature(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                                   const Law& law, Real dt, bool first_step, const mpm::Nodes<Dim, Real>& nodes,
                                   HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
-  const auto with_tangent = [&](std::size_t b, std::size_t k) { return work.rates(b, k)[2]; };
+  const auto with_tangent = [&](std::size_t b, std::size_t k) { return std::pair(work.rates(b, k)[2], Real(0)); };
   HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, with_tangent, work);
   heat_to_particles(grid, model, law, dt, work, particles, [&](std::uint32_t p, Real taken) {
     particles.temperature(p) += taken / particles.secant_capacity(p);  // which still is the tangent
@@ -324,7 +343,7 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
   return with_particle_heat(model, particles, [&](const auto& law) {
     const Real from_porosity = model.current_masses ? count_masses_anew(grid, law, particles) : Real(0);
     set_node_state(grid, model, nodes, work);
-    flows_to_grid(grid, model, law, particles, work);
+    flows_to_grid(grid, model, law, dt, model.secant_capacity && !first_step, particles, work);
     HeatGain<Real> gain = model.secant_capacity
                               ? update_heat_content(grid, model, law, dt, first_step, nodes, work, particles)
                               : update_temperature(grid, model, law, dt, first_step, nodes, work, particles);

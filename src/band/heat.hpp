@@ -22,8 +22,8 @@ struct HeatGain {
 // Records of the heat stage at a node.
 template <int Dim, class Real>
 struct HeatNodes {
-  mpm::NodeRecords<Dim, Real, 3> rates;     // heat flow in [W], advection [W], capacity [J/K]
-  mpm::NodeRecords<Dim, Real, 1> capacity;  // with the secant capacity [J/K]
+  mpm::NodeRecords<Dim, Real, 4> rates;     // heat flow in [W], advection [W], capacity [J/K], levelled in cells [J]
+  mpm::NodeRecords<Dim, Real, 2> capacity;  // with the secant capacity: [J/K], levelled in cells [J]
   mpm::NodeRecords<Dim, Real, 3> state;     // temperature [C], pore pressure [Pa], rate of temperature [K/s]
   mpm::NodeRecords<Dim, Real, 1> orphan;    // friction heat of nodes without hat weight, per mass [W/kg]
   bool any_orphan = false;

@@ -48,11 +48,12 @@ class Particles {
   Scalar slip{fields, {"slip", "m", FieldShape::scalar, true}};
   Field<std::int32_t, 1> in_band{fields, {"in_band", "1", FieldShape::scalar, true}};
   // Within a step only: the displacement to come, its volumetric strain, the temperature before it, the capacity along
-  // it, and the pressure that seepage within the cell brings.
+  // it, and what conduction and seepage within the cell bring.
   VectorField step_displacement{fields, {"step_displacement", "m", FieldShape::vector, false, false}};
   Scalar volume_strain{fields, {"volume_strain", "1", FieldShape::scalar, false, false}};
   Scalar previous_temperature{fields, {"previous_temperature", "C", FieldShape::scalar, false, false}};
   Scalar secant_capacity{fields, {"secant_capacity", "J/m3/K", FieldShape::scalar, false, false}};
+  Scalar conduction_in_cell{fields, {"conduction_in_cell", "K", FieldShape::scalar, false, false}};
   Scalar seepage_in_cell{fields, {"seepage_in_cell", "Pa", FieldShape::scalar, false, false}};
   // clang-format on
 

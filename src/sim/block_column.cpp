@@ -97,14 +97,24 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
     const std::vector<double> pressure = averaged(&BlockRow::pore_pressure);
     std::vector<double> power(nodes_, 0.0);
     std::vector<double> tangent(nodes_, 0.0);
+    std::vector<double> levelled(nodes_, 0.0);
     power[0] = flux;
-    for (const BlockRow& row : rows_) {
+    for (BlockRow& row : rows_) {
       const Place at = place(row);
       const double gradient = (temperature[at.node + 1] - temperature[at.node]) / cell_;
       const double pressure_gradient = (pressure[at.node + 1] - pressure[at.node]) / cell_;
       double flow = 0.0;
+      row.secant_capacity = content.apparent_capacity(row.temperature, row.initial_porosity);
+      row.conduction_in_cell = 0.0;
       if (model_->conduction) {
-        flow = -row_height_ * scaling * physics::conductivity(model_->phases, row.porosity, row.saturation) * gradient;
+        const double conductivity = physics::conductivity(model_->phases, row.porosity, row.saturation);
+        flow = -row_height_ * scaling * conductivity * gradient;
+        const double seen = at.weight * temperature[at.node] + (1.0 - at.weight) * temperature[at.node + 1];
+        if (model_->secant_capacity) {
+          row.conduction_in_cell =
+              (seen - row.temperature) *
+              physics::share_levelled_within_cell(conductivity / row.secant_capacity, cell_ / scaling, 2, dt);
+        }
       }
       double advection = 0.0;
       if (model_->advection && model_->seepage && model_->thermal_pressurization &&
@@ -112,29 +122,43 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
         advection = row_height_ * model_->phases.water_density * model_->phases.water_heat_capacity * scaling *
                     hydraulic_conductivity_ / model_->phases.water_unit_weight * pressure_gradient * gradient;
       }
-      const double capacity = row_height_ / scaling * content.apparent_capacity(row.temperature, row.initial_porosity);
+      const double capacity = row_height_ / scaling * row.secant_capacity;
       power[at.node] += -flow / cell_ + at.weight * advection;
       power[at.node + 1] += flow / cell_ + (1.0 - at.weight) * advection;
+      levelled[at.node] += at.weight * capacity * row.conduction_in_cell;
+      levelled[at.node + 1] += (1.0 - at.weight) * capacity * row.conduction_in_cell;
       tangent[at.node] += at.weight * capacity;
       tangent[at.node + 1] += (1.0 - at.weight) * capacity;
     }
-    const std::vector<double> predicted = nodal_rates(power, tangent);
+    const auto less = [&](const std::vector<double>& heat) {
+      std::vector<double> left(nodes_);
+      for (std::size_t i = 0; i < nodes_; ++i) {
+        left[i] = power[i] - heat[i] / dt;
+      }
+      return left;
+    };
+    const std::vector<double> predicted = nodal_rates(less(levelled), tangent);
     std::vector<double> secant(nodes_, 0.0);
+    levelled.assign(nodes_, 0.0);
     for (BlockRow& row : rows_) {
       const Place at = place(row);
-      const double change = dt * (at.weight * predicted[at.node] + (1.0 - at.weight) * predicted[at.node + 1]);
+      const double change =
+          row.conduction_in_cell + dt * (at.weight * predicted[at.node] + (1.0 - at.weight) * predicted[at.node + 1]);
       row.secant_capacity = model_->secant_capacity
                                 ? content.secant_capacity(row.temperature, change, row.initial_porosity)
                                 : content.apparent_capacity(row.temperature, row.initial_porosity);
       const double capacity = row_height_ / scaling * row.secant_capacity;
       secant[at.node] += at.weight * capacity;
       secant[at.node + 1] += (1.0 - at.weight) * capacity;
+      levelled[at.node] += at.weight * capacity * row.conduction_in_cell;
+      levelled[at.node + 1] += (1.0 - at.weight) * capacity * row.conduction_in_cell;
     }
-    const std::vector<double> rates = nodal_rates(power, secant);
+    const std::vector<double> rates = nodal_rates(less(levelled), secant);
     for (BlockRow& row : rows_) {
       const Place at = place(row);
       row.previous_temperature = row.temperature;
-      const double change = dt * (at.weight * rates[at.node] + (1.0 - at.weight) * rates[at.node + 1]);
+      const double change =
+          row.conduction_in_cell + dt * (at.weight * rates[at.node] + (1.0 - at.weight) * rates[at.node + 1]);
       if (model_->secant_capacity) {
         row.heat_content += row.secant_capacity * change;
         row.temperature = content.temperature(row.heat_content, row.initial_porosity, row.temperature);

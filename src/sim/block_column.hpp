@@ -16,7 +16,7 @@ struct BlockRow {
   double porosity, initial_porosity, initial_saturation;
   double temperature, previous_temperature, heat_content, saturation;
   double liquid_pressure = 0, ice_pressure = 0, pore_pressure = 0;
-  double secant_capacity = 0, seepage_in_cell = 0;
+  double secant_capacity = 0, conduction_in_cell = 0, seepage_in_cell = 0;
 };
 
 // What the contact law sees at the base node, interpolated as the MPM does.

@@ -1,0 +1,206 @@
+// Heat conduction without motion: half space, two layers, and a manufactured solution with melting.
+#include "physics/exact/conduction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "record.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+// A bar of 4 m that does not move, melted, of two porosities; sides insulated but where --set says otherwise.
+const std::string bar = R"(
+[case]
+gravity = 0.0
+[time]
+end = 4.0e5
+step = 1000.0
+[grid]
+cell = 0.1
+min = [0.0, 0.0]
+max = [4.0, 1.0]
+[phases]
+rock_expansion = 0.0
+[material.bar]
+law = "elastic"
+[body.bar]
+material = "bar"
+min = [0.0, 0.0]
+max = [4.0, 0.2]
+temperature = 2.0
+[mechanics]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+// Gives particles temperatures, and the heat content and saturation that go with them.
+template <class Temperature>
+void set_temperatures(Simulation<2, double>& simulation, const Temperature& temperature) {
+  auto& particles = simulation.particles();
+  simulation.model().band.with_heat_content([&](const auto& content) {
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.temperature(p) = temperature(particles.position(p, 0), particles.position(p, 1));
+      particles.heat_content(p) = content.content(particles.temperature(p), particles.initial_porosity(p));
+      particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
+    }
+  });
+}
+
+// The bar at its end, on cells of a size, with steps in proportion to the cell's area. The run begins with the exact
+// temperatures of a time `start` after t = 0 of the exact solution, or as the case says if that is 0.
+template <class Exact>
+double error_on(double cell, double start, std::vector<std::string> sets, const Exact& exact, Curve* curve) {
+  sets.push_back(fmt::format("grid.cell={}", cell));
+  sets.push_back(fmt::format("time.step={}", 1000.0 * cell * cell / 0.01));
+  Simulation<2, double> simulation(case_from_text(bar, sets));
+  if (start > 0.0) {
+    set_temperatures(simulation, [&](double x, double /*y*/) { return exact(simulation, x, start); });
+  }
+  run_until(simulation, simulation.parameters().time.end);
+  const auto& particles = simulation.particles();
+  std::vector<double> errors;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double x = particles.position(p, 0);
+    const double expected = exact(simulation, x, start + simulation.time());
+    errors.push_back(particles.temperature(p) - expected);
+    if (curve != nullptr && particles.position(p, 1) < 0.5 * cell) {
+      curve->x.push_back(x);
+      curve->computed.push_back(particles.temperature(p));
+      curve->exact.push_back(expected);
+    }
+  }
+  return root_mean_square(errors);
+}
+
+const std::vector<double> cells{0.2, 0.1, 0.05};
+
+TEST(Conduction, HalfSpace) {
+  Record record("Heat conduction into a half space", "A bar at 2 C whose end is kept at 8 C.",
+                "T = T0 + (Ts - T0) erfc(x/sqrt(4 a t))", "Carslaw and Jaeger 1959, ch. 2");
+  const auto exact = [](const Simulation<2, double>& simulation, double x, double t) {
+    const auto& phases = simulation.model().motion.phases;
+    const double diffusivity = physics::conductivity(phases, 0.375, 1.0) / physics::heat_capacity(phases, 0.375, 1.0);
+    return physics::exact::half_space_temperature(x, t, 2.0, 8.0, diffusivity);
+  };
+  Curve curve{"x [m]", "temperature [C]", {}, {}, {}};
+  std::vector<double> errors;
+  for (const double cell : cells) {
+    errors.push_back(
+        error_on(cell, 0.0, {"heat.boundary.x_min={temperature=8.0}"}, exact, cell == 0.1 ? &curve : nullptr));
+  }
+  record.draw(curve);
+  record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, 2.0, 1.8);
+}
+
+TEST(Conduction, TwoLayers) {
+  Record record("Two layers of different conductivity",
+                "Layers of porosity 0.1 at 8 C and 0.9 at 2 C, from 2e4 s after they touched.",
+                "T = Ti + (Tj - Ti) erf(|x|/sqrt(4 a_j t)), Ti from sqrt(k C) of both",
+                "Carslaw and Jaeger 1959, ch. 2");
+  const auto exact = [](const Simulation<2, double>& simulation, double x, double t) {
+    const auto& phases = simulation.model().motion.phases;
+    const physics::exact::HalfSpace left{physics::conductivity(phases, 0.1, 1.0),
+                                         physics::heat_capacity(phases, 0.1, 1.0), 8.0};
+    const physics::exact::HalfSpace right{physics::conductivity(phases, 0.9, 1.0),
+                                          physics::heat_capacity(phases, 0.9, 1.0), 2.0};
+    return physics::exact::two_half_spaces_temperature(x - 2.0, t, left, right);
+  };
+  Curve curve{"x [m]", "temperature [C]", {}, {}, {}};
+  std::vector<double> errors;
+  for (const double cell : cells) {
+    errors.push_back(
+        error_on(cell, 2e4,
+                 {"time.end=6e4", "body.bar.temperature={x=[0.0,1.9999,2.0001,4.0],value=[8.0,8.0,2.0,2.0]}",
+                  "body.bar.porosity={x=[0.0,1.9999,2.0001,4.0],value=[0.1,0.1,0.9,0.9]}"},
+                 exact, cell == 0.1 ? &curve : nullptr));
+  }
+  record.draw(curve);
+  // A node at the interface averages over a kink of the temperature: first order.
+  record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, 1.0, 0.9);
+}
+
+// T = mean + amplitude cos(pi x/L) cos(pi y/L) exp(-t/tau) in an insulated square, all of it below freezing, so that
+// capacity (with latent heat) and conductivity follow the temperature. The source that makes it exact is added to the
+// particles' heat content between steps.
+struct Manufactured {
+  static constexpr double side = 2.0, mean = -2.0, amplitude = 1.5, decay = 4e5, end = 8e4;
+
+  [[nodiscard]] static double temperature(double x, double y, double t) {
+    const double k = pi<double> / side;
+    return mean + amplitude * std::cos(k * x) * std::cos(k * y) * std::exp(-t / decay);
+  }
+  // (C + rho_I n L_f dS/dT) dT/dt - div(k grad T) [W/m3]
+  template <class Content>
+  [[nodiscard]] static double source(const Content& content, double porosity, double x, double y, double t) {
+    const double k = pi<double> / side;
+    const double shrink = amplitude * std::exp(-t / decay);
+    const double here = temperature(x, y, t);
+    const double gradient2 = std::pow(shrink * k, 2) * (std::pow(std::sin(k * x) * std::cos(k * y), 2) +
+                                                        std::pow(std::cos(k * x) * std::sin(k * y), 2));
+    const auto curve = content.curve.at(here);
+    const auto& phases = content.phases;
+    const double slope = porosity * (phases.water_conductivity - phases.ice_conductivity) * curve.derivative;
+    return -content.apparent_capacity(here, porosity) * (here - mean) / decay +
+           physics::conductivity(phases, porosity, curve.saturation) * 2.0 * k * k * (here - mean) - slope * gradient2;
+  }
+};
+
+double manufactured_error(double cell) {
+  Simulation<2, double> simulation(case_from_text(
+      bar, {"grid.max=[2.0,2.0]", "body.bar.max=[2.0,2.0]", fmt::format("grid.cell={}", cell),
+            fmt::format("time.step={}", 256.0 * cell * cell / 0.01), "time.end=8e4", "freezing.exponent=2.0"}));
+  auto& particles = simulation.particles();
+  return simulation.model().band.with_heat_content([&](const auto& content) {
+    const auto set_heat = [&](std::size_t p, double heat) {
+      particles.heat_content(p) = heat;
+      particles.temperature(p) = content.temperature(heat, particles.initial_porosity(p), particles.temperature(p));
+      particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
+    };
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double start = Manufactured::temperature(particles.position(p, 0), particles.position(p, 1), 0.0);
+      set_heat(p, content.content(start, particles.initial_porosity(p)));
+    }
+    while (simulation.time() < Manufactured::end * (1.0 - 1e-12)) {
+      const double dt = simulation.next_step(Manufactured::end);
+      const double middle = simulation.time() + 0.5 * dt;
+      simulation.step(dt);
+      for (std::size_t p = 0; p < particles.size(); ++p) {
+        const double power = Manufactured::source(content, particles.initial_porosity(p), particles.position(p, 0),
+                                                  particles.position(p, 1), middle);
+        set_heat(p, particles.heat_content(p) + dt * power);
+      }
+    }
+    std::vector<double> errors;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      errors.push_back(particles.temperature(p) - Manufactured::temperature(particles.position(p, 0),
+                                                                            particles.position(p, 1),
+                                                                            Manufactured::end));
+    }
+    return root_mean_square(errors);
+  });
+}
+
+TEST(Conduction, ManufacturedWithMelting) {
+  Record record("Conduction with partial melting, manufactured",
+                "An insulated square whose ice melts and freezes, with a source of heat that makes a given temperature "
+                "field exact; capacity, latent heat and conductivity follow the temperature.",
+                "T = -2 + 1.5 cos(pi x/2) cos(pi y/2) exp(-t/4e5)", "method of manufactured solutions, Roache 2002");
+  const std::vector<double> sizes{0.25, 0.125, 0.0625};
+  std::vector<double> errors;
+  for (const double cell : sizes) {
+    errors.push_back(manufactured_error(cell));
+  }
+  record.expect_order("cell [m]", sizes, "rms error of temperature [K]", errors, 2.0, 1.8);
+}
+
+}  // namespace
+}  // namespace thawslide::verification

@@ -1,0 +1,215 @@
+// Elastic bodies in free motion: impact on the ground, and turning under stress.
+#include "physics/exact/elastic_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "record.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+const std::string falling = R"(
+[case]
+gravity = 0.0
+[time]
+end = 3.0
+step = 0.0005
+[grid]
+cell = 2.0
+min = [0.0, -4.0]
+max = [8.0, 60.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.0
+[body.bar]
+material = "rock"
+min = [0.0, 4.0]
+max = [8.0, 24.0]
+velocity = [0.0, -1.0]
+[mechanics]
+initial_stress = "none"
+[basal]
+friction = "constant"
+friction_angle = 0.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+)";
+
+// The bar on cells of a size, its lower end at a height; steps are 3/4 of what a wave needs to cross a cell.
+Simulation<2, double> falling_bar(double cell, double height) {
+  return Simulation<2, double>(case_from_text(
+      falling,
+      {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 1e-3 * cell),
+       fmt::format("body.bar.min=[0.0,{}]", height), fmt::format("body.bar.max=[{},{}]", 2.0 * cell, 20.0 + height)}));
+}
+
+TEST(ElasticImpact, GivesTheEnergyBack) {
+  Record record("Impact of an elastic bar",
+                "A bar of 20 m that touches the ground end on at t = 0 moves into it at 1 m/s.",
+                "it leaves with the speed it came with after 2 H/c; pressure rho c v until then",
+                "Timoshenko and Goodier 1951, ch. 15");
+  const std::vector<double> cells{2.0, 1.0, 0.5, 0.25};
+  std::vector<double> speed_error, energy_error, pressure_error;
+  Curve curve{"time [s]", "pressure on the ground [MPa]", {}, {}, {}};
+  for (const double cell : cells) {
+    Simulation<2, double> simulation = falling_bar(cell, 0.0);
+    const auto before = sum_over_body(simulation);
+    const double width = 2.0 * cell, density = before.mass / (width * 20.0);
+    const double pressure = physics::exact::impact_pressure(density, 5e8, 1.0);
+    const double duration = physics::exact::impact_time(density, 5e8, 20.0);
+    double mean = 0.0;
+    int samples = 0;
+    while (simulation.time() < 1.5 * duration) {
+      simulation.step(simulation.parameters().time.step);
+      const double force = -simulation.contact().force[1];
+      if (simulation.time() > 0.2 * duration && simulation.time() < 0.8 * duration) {
+        mean += force / width;
+        ++samples;
+      }
+      if (cell == 0.5) {
+        curve.x.push_back(simulation.time());
+        curve.computed.push_back(force / width / 1e6);
+        curve.exact.push_back(simulation.time() < duration ? pressure / 1e6 : 0.0);
+      }
+    }
+    const auto after = sum_over_body(simulation);
+    speed_error.push_back(std::abs(after.momentum[1] / before.mass - 1.0));
+    energy_error.push_back(std::abs(1.0 - after.kinetic / before.kinetic));
+    pressure_error.push_back(std::abs(mean / samples / pressure - 1.0));
+  }
+  record.draw(curve);
+  record.expect_order("cell [m]", cells, "speed after over speed before, less 1", speed_error, 0.5, 0.5);
+  record.expect_near("kinetic energy after over before, less 1, cells of 0.25 m", energy_error.back(), 0.0, 0.015);
+  record.expect_near("mean pressure over exact, less 1, cells of 0.25 m", pressure_error.back(), 0.0, 0.002);
+}
+
+TEST(ElasticImpact, IsFeltACellEarly) {
+  Record record("Early contact", "The same bar comes from two cells above the ground.",
+                "its lower end touches at height 0; the first force is felt where the lowest node first sees mass",
+                "docs/theory.md, section 5");
+  const std::vector<double> cells{2.0, 1.0, 0.5};
+  std::vector<double> heights;
+  for (const double cell : cells) {
+    Simulation<2, double> simulation = falling_bar(cell, 2.0 * cell);
+    while (!(simulation.contact().force[1] < 0.0)) {
+      ASSERT_LT(simulation.time(), 3.0 * cell);
+      simulation.step(simulation.parameters().time.step);
+    }
+    heights.push_back(2.0 * cell - simulation.time());
+    EXPECT_LE(heights.back(), cell);
+  }
+  record.expect_order("cell [m]", cells, "height of the lower end at the first force [m]", heights, 1.0, 0.99);
+}
+
+const std::string turning = R"(
+[case]
+gravity = 0.0
+[time]
+end = 1.6
+step = 0.001
+[grid]
+cell = 1.0
+min = [-15.0, -15.0]
+max = [15.0, 15.0]
+[material.rock]
+law = "elastic"
+youngs_modulus = 2e7
+poisson_ratio = 0.3
+[body.disc]
+material = "rock"
+shape = "polygon"
+vertices = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]
+[mechanics]
+initial_stress = "none"
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+std::string circle(double radius) {
+  std::string corners;
+  for (int k = 0; k < 360; ++k) {
+    const double angle = k * pi<double> / 180.0;
+    corners += fmt::format("{}[{:.9f},{:.9f}]", k == 0 ? "" : ",", radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return "[" + corners + "]";
+}
+
+// Error of the stress within 0.7 of the radius after a time, rms over the largest stress.
+double stress_error(const Simulation<2, double>& simulation, const physics::exact::TurningCylinder& exact) {
+  const auto& particles = simulation.particles();
+  std::vector<double> errors;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double x = particles.position(p, 0) - 15.0, y = particles.position(p, 1) - 15.0;
+    const double r = std::hypot(x, y);
+    if (r < 0.7 * exact.radius) {
+      const auto stress = exact.at(r);
+      const double c = x / r, s = y / r;
+      errors.push_back(particles.stress(p, 0) - (stress.radial * c * c + stress.around * s * s));
+      errors.push_back(particles.stress(p, 1) - (stress.radial * s * s + stress.around * c * c));
+      errors.push_back(particles.stress(p, 3) - (stress.radial - stress.around) * s * c);
+    }
+  }
+  return root_mean_square(errors) / exact.at(0.0).radial;
+}
+
+TEST(Turning, CarriesItsStressRound) {
+  Record record("A stressed cylinder turns",
+                "An elastic cylinder turns by 90 degrees about its axis, under the stress that turning "
+                "gives it.",
+                "s_r, s_t of the turning cylinder, at every angle", "Timoshenko and Goodier 1951, ch. 4");
+  const std::vector<double> cells{2.0, 1.0, 0.5};
+  std::vector<double> errors, spins;
+  for (const double cell : cells) {
+    Simulation<2, double> simulation(
+        case_from_text(turning, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-3 * cell),
+                                 "body.disc.vertices=" + circle(10.0)}));
+    auto& particles = simulation.particles();
+    const physics::exact::TurningCylinder exact{particles.mass(0) / particles.volume(0), 0.3, 1.0, 10.0};
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double x = particles.position(p, 0) - 15.0, y = particles.position(p, 1) - 15.0;
+      const double r = std::hypot(x, y), c = x / r, s = y / r;
+      const auto stress = exact.at(r);
+      particles.velocity(p, 0) = -y;
+      particles.velocity(p, 1) = x;
+      particles.stress(p, 0) = stress.radial * c * c + stress.around * s * s;
+      particles.stress(p, 1) = stress.radial * s * s + stress.around * c * c;
+      particles.stress(p, 2) = stress.along;
+      particles.stress(p, 3) = (stress.radial - stress.around) * s * c;
+    }
+    double worst = 0.0;
+    for (int part = 1; part <= 4; ++part) {
+      run_until(simulation, part * 0.125 * pi<double>);
+      worst = std::max(worst, stress_error(simulation, exact));
+    }
+    errors.push_back(worst);
+    double spin = 0.0, inertia = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double x = particles.position(p, 0) - 15.0, y = particles.position(p, 1) - 15.0;
+      spin += x * particles.velocity(p, 1) - y * particles.velocity(p, 0);
+      inertia += x * x + y * y;
+    }
+    spins.push_back(std::abs(spin / inertia - 1.0));
+  }
+  record.expect_order("cell [m]", cells, "error of the angular speed after 90 degrees [rad/s]", spins, 2.0, 1.8);
+  record.expect_order("cell [m]", cells, "largest rms error of stress over the turn, over s_r(0)", errors, 1.0, 0.9);
+}
+
+}  // namespace
+}  // namespace thawslide::verification

@@ -1,0 +1,151 @@
+// Freezing of a half space from its face, with the numbers of InterFrost's test case T1 (Grenier et al. 2018).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "freezing_similarity.hpp"
+#include "physics/exact/freezing_front.hpp"
+#include "record.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using physics::exact::FreezingProblem;
+using sim::Simulation;
+
+constexpr double latent_heat = 1680.0 * 334720.0 * 0.1218;  // [J/m3]
+constexpr double capacity = 690360.0;
+constexpr double k_frozen = 3.464352, k_between = 2.941352, k_thawed = 2.418352;
+
+// Heat capacities and densities are the same in all phases; a porosity of 0.3 gives InterFrost's conductivities.
+const std::string bar = R"(
+[case]
+gravity = 0.0
+[time]
+end = 86400.0
+step = 400.0
+[grid]
+cell = 0.1
+min = [0.0, 0.0]
+max = [4.0, 1.0]
+[phases]
+rock_density = 1000.0
+ice_density = 1000.0
+rock_heat_capacity = 690.36
+ice_heat_capacity = 690.36
+water_heat_capacity = 690.36
+rock_expansion = 0.0
+rock_conductivity = 2.0
+[freezing]
+curve = "linear"
+[material.bar]
+law = "elastic"
+[body.bar]
+material = "bar"
+min = [0.0, 0.0]
+max = [4.0, 0.2]
+temperature = 4.0
+porosity = 0.3
+[mechanics]
+enabled = false
+[pressure]
+enabled = false
+[heat.boundary]
+x_min = { temperature = -6.0 }
+)";
+
+FreezingProblem interfrost(double frozen) {
+  return {4.0, -6.0, 0.0, frozen, {k_frozen, k_between, k_thawed}, {capacity, capacity, capacity}, latent_heat};
+}
+
+// Root mean square error over the first metre after a day.
+template <class Exact>
+double error_on(double cell, double frozen, double k_ice, double k_water, const Exact& exact, Curve* curve) {
+  const double share = 0.3;
+  Simulation<2, double> simulation(
+      case_from_text(bar, {fmt::format("grid.cell={}", cell), fmt::format("body.bar.max=[4.0,{}]", cell),
+                           fmt::format("time.step={}", 400.0 * cell * cell / 0.01),
+                           fmt::format("phases.latent_heat={}", latent_heat / (1000.0 * share)),
+                           fmt::format("phases.ice_conductivity={}", (k_ice - (1.0 - share) * 2.0) / share),
+                           fmt::format("phases.water_conductivity={}", (k_water - (1.0 - share) * 2.0) / share),
+                           fmt::format("freezing.slope={}", -1.0 / frozen)}));
+  run_until(simulation, 86400.0);
+  const auto& particles = simulation.particles();
+  std::vector<double> errors;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double x = particles.position(p, 0);
+    if (x < 1.0) {
+      errors.push_back(particles.temperature(p) - exact.temperature(x, 86400.0));
+      if (curve != nullptr && particles.position(p, 1) < 0.5 * cell) {
+        curve->x.push_back(x);
+        curve->computed.push_back(particles.temperature(p));
+        curve->exact.push_back(exact.temperature(x, 86400.0));
+      }
+    }
+  }
+  return root_mean_square(errors);
+}
+
+template <class Exact>
+void expect_convergence(Record& record, double frozen, double k_ice, double k_water, const Exact& exact,
+                        double expected, double least) {
+  const std::vector<double> cells{0.1, 0.05, 0.025};
+  Curve curve{"x [m]", "temperature [C]", {}, {}, {}};
+  std::vector<double> errors;
+  for (const double cell : cells) {
+    errors.push_back(error_on(cell, frozen, k_ice, k_water, exact, cell == 0.05 ? &curve : nullptr));
+  }
+  record.draw(curve);
+  record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, expected, least);
+}
+
+TEST(Freezing, FrontsOfLunardini) {
+  Record record("Fronts of the three-zone solution", "InterFrost T1, wholly frozen at -1 C or at -4 C.",
+                "psi and gam of both conditions", "Lunardini 1985; values of InterFrost (Grenier et al. 2018)");
+  const physics::exact::ThreeZones one(interfrost(-1.0)), four(interfrost(-4.0));
+  record.expect_near("psi, Tm = -1 C", one.psi(), 0.13739, 5e-6);
+  record.expect_near("gam, Tm = -1 C", one.gam(), 2.06004, 5e-6);
+  record.expect_near("psi, Tm = -4 C", four.psi(), 0.06173, 5e-6);
+  record.expect_near("gam, Tm = -4 C", four.gam(), 1.39732, 5e-6);
+}
+
+TEST(Freezing, ThreeZonesOfLunardini) {
+  for (const double frozen : {-1.0, -4.0}) {
+    Record record(fmt::format("Freezing in three zones, wholly frozen at {} C", frozen),
+                  "InterFrost T1 with one conductivity in all zones, which the closed form needs where the model's "
+                  "follows the saturation.",
+                  "erf in three zones with two moving boundaries", "Lunardini 1985");
+    FreezingProblem problem = interfrost(frozen);
+    for (double& conductivity : problem.conductivity) {
+      conductivity = k_between;
+    }
+    expect_convergence(record, frozen, k_between, k_between, physics::exact::ThreeZones(problem), 2.0, 1.5);
+  }
+}
+
+TEST(Freezing, ConductivityThatFollowsTheSaturation) {
+  for (const double frozen : {-1.0, -4.0}) {
+    Record record(fmt::format("Freezing with conductivity of the mixture, wholly frozen at {} C", frozen),
+                  "InterFrost T1 with the conductivity of the mixture, between that of ice and that of water.",
+                  "-(eta/2) C_eff(T) T' = (k(T) T')', eta = x/sqrt(t), by shooting", "similarity solution");
+    const double slope = -1.0 / frozen;
+    const auto saturation = [slope](double t) { return std::clamp(1.0 + slope * t, 0.0, 1.0); };
+    const FreezingSimilarity exact(
+        -6.0, 4.0, 0.025, [&](double t) { return k_frozen + (k_thawed - k_frozen) * saturation(t); },
+        [&](double t) { return capacity + (t > frozen && t < 0.0 ? latent_heat * slope : 0.0); });
+    expect_convergence(record, frozen, k_frozen, k_thawed, exact, 2.0, 1.5);
+  }
+}
+
+TEST(Freezing, SharpFrontOfNeumann) {
+  Record record("Freezing at a sharp front", "InterFrost T1, wholly frozen 0.01 K below the freezing point.",
+                "erf on both sides of a front at 2 psi sqrt(a1 t)", "Neumann; Carslaw and Jaeger 1959, ch. 11");
+  const physics::exact::SharpFront exact(interfrost(-0.01));
+  expect_convergence(record, -0.01, k_frozen, k_thawed, exact, 1.0, 0.8);
+}
+
+}  // namespace
+}  // namespace thawslide::verification

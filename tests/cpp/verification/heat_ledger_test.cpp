@@ -1,0 +1,119 @@
+// Heat is neither lost nor made: while ice melts in an insulated body, and where friction makes it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "record.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+const std::string melting = R"(
+[case]
+gravity = 0.0
+[time]
+end = 2e7
+step = 1e4
+[grid]
+cell = 0.5
+min = [0.0, 0.0]
+max = [10.0, 5.0]
+[material.soil]
+law = "elastic"
+[body.soil]
+material = "soil"
+min = [0.0, 0.0]
+max = [10.0, 5.0]
+temperature = { x = [0.0, 4.99, 5.01, 10.0], value = [30.0, 30.0, -3.0, -3.0] }
+[mechanics]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+TEST(HeatLedger, ClosesThroughMelting) {
+  Record record("Heat of an insulated body that melts", "Half a body at 30 C melts the other half, at -3 C.",
+                "the heat content does not change", "energy balance");
+  for (const std::string curve : {"power_law", "linear"}) {
+    Simulation<2, double> simulation(case_from_text(melting, {"freezing.curve=" + curve}));
+    auto& particles = simulation.particles();
+    std::vector<double> start(particles.size());
+    double ice = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      start[static_cast<std::size_t>(particles.id(p))] = particles.heat_content(p);
+      ice += 1.0 - particles.liquid_saturation(p);
+    }
+    run_until(simulation, 2e7);
+    double moved = 0.0, left = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      moved += 0.5 * particles.initial_volume(p) *
+               std::abs(particles.heat_content(p) - start[static_cast<std::size_t>(particles.id(p))]);
+      left += 1.0 - particles.liquid_saturation(p);
+    }
+    EXPECT_LT(left, 0.9 * ice) << "ice must have melted for this to say much";
+    record.expect_near("residual over heat moved, " + curve,
+                       value_of(history_row(simulation), "thermal_residual_J") / moved, 0.0, 1e-12);
+  }
+}
+
+const std::string braking = R"(
+[time]
+end = 2.0
+step = 0.002
+[grid]
+cell = 5.0
+min = [-20.0, -10.0]
+max = [200.0, 40.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.0
+viscosity_time = 0.02
+[body.block]
+material = "rock"
+min = [0.0, 0.0]
+max = [40.0, 20.0]
+temperature = -0.2
+velocity = [20.0, 0.0]
+[basal]
+friction = "constant"
+friction_angle = 20.0
+heat_fraction = 0.35
+[band]
+thickness = 0.05
+[mechanisms]
+pressurization = false
+)";
+
+TEST(HeatLedger, FrictionHeatsTheSlide) {
+  Record record("Friction work becomes heat", "A block of rock and ice brakes on level ground and melts at its base.",
+                "work of friction = kinetic energy lost; 0.35 of it is heat in the block", "energy balance");
+  Simulation<2, double> simulation(case_from_text(braking));
+  const auto before = history_row(simulation);
+  run_until(simulation, 2.0);
+  const auto row = history_row(simulation);
+  const double work = value_of(row, "friction_work_J");
+  const double heat = value_of(row, "friction_heat_J");
+  const auto warmth = [](const auto& of) { return value_of(of, "sensible_J") + value_of(of, "latent_J"); };
+  EXPECT_GT(value_of(row, "latent_J"), value_of(before, "latent_J"));
+  record.expect_near("heat over work", heat / work, 0.35, 1e-13);
+  record.expect_near("warmth gained in the block over friction heat", (warmth(row) - warmth(before)) / heat, 1.0,
+                     1e-12);
+  record.expect_near("(work - heat - converted) over work", (work - heat - value_of(row, "converted_J")) / work, 0.0,
+                     1e-15);
+  const double lost = value_of(before, "kinetic_J") - value_of(row, "kinetic_J");
+  record.expect_near("work over kinetic energy lost", work / lost, 1.0, 5e-3);
+}
+
+}  // namespace
+}  // namespace thawslide::verification

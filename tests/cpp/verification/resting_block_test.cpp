@@ -1,0 +1,147 @@
+// What a block presses on the ground at rest, and at which angle it starts to slide.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "physics/exact/rigid_slide.hpp"
+#include "record.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+#include "terrain/base_pressure.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+const std::string resting = R"(
+[time]
+end = 2.0
+step = 0.002
+[grid]
+cell = 5.0
+min = [0.0, -10.0]
+max = [40.0, 40.0]
+[grid.boundary]
+x_min = "roller"
+x_max = "roller"
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+[body.block]
+material = "rock"
+min = [0.0, 0.0]
+max = [40.0, 20.0]
+[basal]
+friction = "constant"
+friction_angle = 30.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+)";
+
+struct Pressing {
+  double unevenness = 0.0;  // largest difference of the pressure at the base's nodes from weight over area, over it
+  double ringing = 0.0;     // largest difference of the total force from the weight, over it
+};
+
+Pressing press(const std::vector<std::string>& sets) {
+  Simulation<2, double> simulation(case_from_text(resting, sets));
+  simulation.settle();
+  const double weight = sum_over_body(simulation).mass * 9.81;
+  const double mean = weight / 40.0;
+  Pressing seen;
+  while (simulation.time() < 2.0 - 1e-9) {
+    const double dt = simulation.next_step(2.0);
+    simulation.step(dt);
+    seen.ringing = std::max(seen.ringing, std::abs(-simulation.contact().force[1] / weight - 1.0));
+    const auto& grid = simulation.grid();
+    for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+      const auto pressure = terrain::base_pressure(grid, simulation.nodes(), b, dt, 1e-6);
+      for (std::size_t k = 0; k < pressure.size(); ++k) {
+        if (simulation.nodes().base(b, k)[mpm::BaseLayout::load] > 0.0) {
+          seen.unevenness = std::max(seen.unevenness, std::abs(pressure[k] / mean - 1.0));
+        }
+      }
+    }
+  }
+  return seen;
+}
+
+TEST(RestingBlock, PressesEvenly) {
+  Record record("Force of a resting block", "A block of 20 m between smooth walls, with geostatic stress at t = 0.",
+                "its weight, spread evenly over the base", "statics");
+  for (const double cell : {5.0, 2.5, 1.25}) {
+    const Pressing seen = press({fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 1e-3 * cell)});
+    record.expect_near(fmt::format("cells of {} m: unevenness of the base pressure", cell), seen.unevenness, 0.0,
+                       1e-12);
+    record.expect_near(fmt::format("cells of {} m: change of the total force in 2 s", cell), seen.ringing, 0.0, 1e-12);
+  }
+  const Pressing settled =
+      press({"mechanics.initial_stress=settle", "mechanics.settle_time=6.0", "mechanics.settle_damping=8.0"});
+  record.expect_near("settled: unevenness of the base pressure", settled.unevenness, 0.0, 1e-3);
+  record.expect_near("settled: change of the total force in 2 s", settled.ringing, 0.0, 1e-3);
+}
+
+const std::string sweep = R"(
+[time]
+end = 2.0
+step = 0.0015
+[grid]
+cell = 5.0
+min = [-20.0, -10.0]
+max = [100.0, 40.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e9
+poisson_ratio = 0.0
+viscosity_time = 0.005
+[body.block]
+material = "rock"
+min = [0.0, 0.0]
+max = [40.0, 10.0]
+[mechanics]
+slope_shear = true
+[basal]
+friction = "constant"
+friction_angle = 20.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+)";
+
+TEST(AngleSweep, SticksBelowAndSlidesAboveTheFrictionAngle) {
+  Record record("Slopes about the friction angle", "A block at rest on slopes about its friction angle of 20 degrees.",
+                "a = g (sin - mu cos) above it, none below", "Coulomb friction");
+  const double degree = pi<double> / 180.0;
+  Curve curve{"slope [degrees]", "acceleration [m/s2]", {}, {}, {}};
+  for (const double slope : {15.0, 18.0, 19.0, 19.9, 20.1, 21.0, 22.0, 25.0, 30.0}) {
+    Simulation<2, double> simulation(case_from_text(sweep, {fmt::format("case.gravity_tilt={}", slope)}));
+    run_until(simulation, 1.0);  // by then the block's elastic start is over
+    const double before = value_of(history_row(simulation), "mean_velocity_m_s");
+    run_until(simulation, 2.0);
+    const double acceleration = value_of(history_row(simulation), "mean_velocity_m_s") - before;
+    const double exact = physics::exact::acceleration_on_plane(slope * degree, std::tan(20.0 * degree), 9.81);
+    curve.x.push_back(slope);
+    curve.computed.push_back(acceleration);
+    curve.exact.push_back(exact);
+    record.expect_near(fmt::format("acceleration on {} degrees [m/s2]", slope), acceleration, exact,
+                       1e-3 * exact + 1e-6);
+  }
+  record.draw(curve);
+}
+
+}  // namespace
+}  // namespace thawslide::verification
