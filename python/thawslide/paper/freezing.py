@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, letters, styled
-from thawslide.paper.mixture import FREEZING_BAR, HeatTable, linear_saturation
+from thawslide.paper.mixture import FREEZING_BAR, HeatTable, Mixture, linear_saturation
 from thawslide.run import Numbers, Run
 
 COLD_END = -3.0  # C
@@ -18,22 +18,24 @@ CELLS = 800
 
 
 @lru_cache(maxsize=16)
-def reference(slope: float, latent: bool, time: float, cells: int = CELLS) -> tuple[Numbers, Numbers]:
-    """Return (x [m], T [C]) of the bar at a time [s]: explicit finite volumes for the heat content, insulated far end."""
+def reference(
+    slope: float, latent: bool, time: float, cells: int = CELLS, mixture: Mixture = FREEZING_BAR
+) -> tuple[Numbers, Numbers]:
+    """Return (x [m], T [C]) of the bar at a time [s]: explicit finite volumes for its heat, far end insulated."""
     saturation = linear_saturation(slope)
-    table = HeatTable(FREEZING_BAR, saturation, COLD_END, 0.0, latent)
+    table = HeatTable(mixture, saturation, COLD_END, latent)
     size = LENGTH / cells
-    x = (np.arange(cells) + 0.5) * size
+    x: Numbers = np.asarray((np.arange(cells) + 0.5) * size, dtype=np.float64)
     ones = np.ones(1)
-    largest_diffusivity = float(FREEZING_BAR.conductivity(0 * ones)[0] / FREEZING_BAR.capacity(0 * ones)[0])
+    largest_diffusivity = float(mixture.conductivity(0 * ones)[0] / mixture.capacity(0 * ones)[0])
     steps = int(np.ceil(time / (0.4 * size**2 / largest_diffusivity)))
     step = time / steps
-    temperature = np.zeros(cells)
+    temperature: Numbers = np.zeros(cells)
     content = table.content(temperature)
     flow = np.zeros(cells + 1)
-    cold = float(FREEZING_BAR.conductivity(saturation(COLD_END * ones))[0])
+    cold = float(mixture.conductivity(saturation(COLD_END * ones))[0])
     for _ in range(steps):
-        conductivity = FREEZING_BAR.conductivity(saturation(temperature))
+        conductivity = mixture.conductivity(saturation(temperature))
         flow[1:-1] = -0.5 * (conductivity[1:] + conductivity[:-1]) * np.diff(temperature) / size
         flow[0] = -0.5 * (cold + conductivity[0]) * (temperature[0] - COLD_END) / (0.5 * size)
         content -= step / size * np.diff(flow)
@@ -97,27 +99,35 @@ _DRAWN = (
 )
 
 
+NEAR = 0.16  # m: what the lower panels show
+
+
 @styled
 def figure_4(runs: dict[str, Run]) -> Figure:
-    """Draw temperature and saturation along the bar: particles as points, the reference as lines."""
-    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
-    panels = figure.subplots(1, 2)
+    """Draw temperature and saturation along the bar and near its end: particles as points, the reference as lines."""
+    figure = Figure(figsize=(10.0, 7.2), layout="constrained")
+    panels = list(figure.subplots(2, 2).flat)
     for name, words, colour in _DRAWN:
         run = runs[name]
         slope, latent = slope_and_latent(run)
         share = linear_saturation(slope)
         x, temperature = profile(run)
         fine_x, fine = reference(slope, latent, float(run.times[-1]))
-        for axes, points, line in ((panels[0], temperature, fine), (panels[1], share(temperature), share(fine))):
+        for number, axes in enumerate(panels):
+            points, line = (temperature, fine) if number % 2 == 0 else (share(temperature), share(fine))
+            every = 6 if number < 2 else 1
             axes.plot(fine_x, line, color=BLACK, linewidth=0.9, zorder=3)
-            axes.plot(x[::6], points[::6], "o", color=colour, markersize=3.4, label=words, zorder=2)
+            axes.plot(x[::every], points[::every], "o", color=colour, markersize=3.4, label=words, zorder=2)
     panels[0].plot([], [], color=BLACK, linewidth=0.9, label="finite volumes, 2.5 mm")
-    for axes, words in zip(panels, ("temperature (°C)", "liquid saturation"), strict=True):
-        axes.set_xlim(0.0, 1.0)
-        axes.set_xlabel("distance from the cold end (m)")
-        axes.set_ylabel(words)
+    for number, axes in enumerate(panels):
+        axes.set_xlim(0.0, 1.0 if number < 2 else NEAR)
+        axes.set_ylabel("liquid saturation" if number % 2 else "temperature (°C)")
         axes.grid(True)
-    panels[1].set_ylim(0.0, 1.02)
+        if number % 2:
+            axes.set_ylim(-0.01, 1.02)
+        if number > 1:
+            axes.set_xlabel("distance from the cold end (m)")
     panels[0].legend(loc="lower right")
-    letters(list(panels), ("temperature after one day", "liquid saturation after one day"))
+    titles = ("temperature after one day", "liquid saturation after one day")
+    letters(panels, (*titles, "the same, near the end", "the same, near the end"))
     return figure

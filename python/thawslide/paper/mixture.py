@@ -69,6 +69,7 @@ FREEZING_BAR = Mixture(
     rock_conductivity=2.9, ice_conductivity=2.14, water_conductivity=0.58,
 )  # fmt: skip
 TABLE_1 = Mixture()
+_KNOTS = 30001
 
 
 def linear_saturation(slope: float) -> Callable[[Numbers], Numbers]:
@@ -85,10 +86,11 @@ class HeatTable:
     """Heat content H [J/m3] over temperature by quadrature on a fine table, and its inverse."""
 
     def __init__(
-        self, mixture: Mixture, saturation: Callable[[Numbers], Numbers], low: float, high: float, latent: bool
+        self, mixture: Mixture, saturation: Callable[[Numbers], Numbers], low: float, latent: bool, high: float = 0.0
     ) -> None:
-        """Tabulate from `low` to `high` [C]."""
-        self.temperatures: Numbers = np.linspace(low, high, 40001)
+        """Tabulate from `low` to 0 C finely, and to `high` [C], above which H is a straight line, by its end."""
+        above = [high] if high > 0.0 else []
+        self.temperatures: Numbers = np.concatenate((np.linspace(low, 0.0, _KNOTS), above))
         share = saturation(self.temperatures)
         middle = mixture.capacity(saturation(0.5 * (self.temperatures[1:] + self.temperatures[:-1])))
         sensible = np.concatenate(([0.0], np.cumsum(middle * np.diff(self.temperatures))))
