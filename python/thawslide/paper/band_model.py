@@ -109,8 +109,8 @@ class _State:
         mixture = self.mixture
         below = np.minimum(self.temperature, 0.0)
         cold = mixture.water_density * mixture.latent_heat * np.log((below + KELVIN) / KELVIN)
-        melting: Numbers = self.ice_pressure * mixture.water_density / mixture.ice_density
-        return melting + cold
+        melting = self.ice_pressure * mixture.water_density / mixture.ice_density
+        return np.asarray(melting + cold, dtype=np.float64)
 
     def _mean_pressure(self) -> Numbers:
         return self.saturation * self.liquid_pressure + (1.0 - self.saturation) * self.ice_pressure

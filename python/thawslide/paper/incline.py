@@ -117,7 +117,9 @@ def figure_10(runs: dict[str, Run]) -> Figure:
         ("band_friction_coefficient", "friction coefficient", 1.0, 0.5),
         ("band_pore_pressure_Pa", "pore pressure (MPa)", 1e6, 0.0),
     )
-    return _draw(runs, panels, ("friction coefficient, mean over 0.5 s", "band pore pressure"))
+    figure = _draw(runs, panels, ("friction coefficient, mean over 0.5 s", "band pore pressure"))
+    figure.axes[1].set_yscale("log")  # where it does not act on the base (D, D-L) it rises without bound
+    return figure
 
 
 def figure_11(runs: dict[str, Run]) -> Figure:

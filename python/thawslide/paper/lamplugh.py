@@ -117,9 +117,9 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
     thick.bar(x / 1e3, thickness, width=BIN / 1e3, color=BLUE, edgecolor="white", linewidth=0.3)
     thick.set_ylabel("thickness (m)")
     thick.set_xlabel("distance (km)")
-    for place, words in zip(breaks(run), ("foot of the slope", "foot of the ramp"), strict=True):
+    for height, place, words in zip((0.97, 0.87), breaks(run), ("foot of the slope", "foot of the ramp"), strict=True):
         thick.axvline(place / 1e3, color=GREEN, linewidth=1.0, linestyle="--")
-        thick.annotate(words, (place / 1e3, 0.97), xycoords=("data", "axes fraction"), xytext=(4, 0),
+        thick.annotate(words, (place / 1e3, height), xycoords=("data", "axes fraction"), xytext=(4, 0),
                        textcoords="offset points", va="top", size=8, color=GREEN)  # fmt: skip
     for axes in (section, thick):
         axes.grid(True)
