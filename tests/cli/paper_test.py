@@ -37,7 +37,8 @@ def test_paper_shortened(binary: Path, report_environment: dict[str, str], tmp_p
 def test_paper_tells_of_a_program_that_computes_nothing(tmp_path: Path) -> None:
     words = [sys.executable, "-m", "thawslide.paper", "--program", "false", "--cases", str(tmp_path), "--output"]
     environment = dict(os.environ) | {"PYTHONPATH": str(ROOT / "python")}
-    done = subprocess.run([*words, str(tmp_path / "paper")], env=environment, capture_output=True, text=True, timeout=60,
-                          check=False)  # fmt: skip
+    done = subprocess.run(
+        [*words, str(tmp_path / "paper")], env=environment, capture_output=True, text=True, timeout=60, check=False
+    )
     assert done.returncode == 2
     assert "./run paper: error: " in done.stderr
