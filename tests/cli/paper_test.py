@@ -28,8 +28,8 @@ def test_paper_shortened(binary: Path, report_environment: dict[str, str], tmp_p
     assert "Shortened runs" in page
     assert len(re.findall(r"<td><b>(?:true|false|undetermined)</b></td>", page)) > 50
     rows = dict(line.split(",") for line in (output / "measures.csv").read_text().splitlines()[1:])
-    # What is known even after 864 s: the bar follows its reference.
-    assert float(rows["freezing_max_error"]) < 0.5
+    # After 864 s the fronts stand in the first cell, but without latent heat the cold has gone through several.
+    assert float(rows["freezing_m050_no_latent_rms_error"]) < 0.01
     # The block starts with its frozen band under the ice's pressure, rho_I g H.
     assert math.isclose(float(rows["block_e050_pressure_start"]), 917 * 9.81 * 50 / 1e3, rel_tol=1e-3)
 
