@@ -84,7 +84,12 @@ def _page(run: Run, report: Report) -> str:
     parts += ["<h2>The run</h2>", *_facts(run.facts)]
     links = " · ".join(f'<a href="#{name}">{html.escape(FIGURES[name].heading)}</a>' for name in report.figures)
     parts.insert(2, f"<nav>{links}</nav>")
-    return _FRAME.replace("TITLE", title).replace("BODY", "\n".join(parts))
+    return page_frame(title, "\n".join(parts))
+
+
+def page_frame(title: str, body: str) -> str:
+    """Return a whole HTML page in the style of all reports; title and body are HTML already."""
+    return _FRAME.replace("TITLE", title).replace("BODY", body)
 
 
 def _status_note(facts: dict[str, Any]) -> str:

@@ -152,7 +152,7 @@ std::vector<Parameter<Body>> body_parameters() {
                                      .range = {.low = -273.15, .high = 100, .low_open = true},
                                      .text = "temperature at t = 0; depth is vertical, below the body's surface [m]"}),
       parameter(&Body::porosity, {.key = "porosity",
-                                  .range = inside(0, 0.95),
+                                  .range = {.low = 0, .high = 0.95, .low_open = true},
                                   .text = "porosity n at t = 0: share of ice and water in the volume",
                                   .source = "Eq. 1, Table 2"}),
       parameter(&Body::velocity, {.key = "velocity", .unit = "m/s", .text = "velocity at t = 0"}),

@@ -16,7 +16,7 @@ struct Range {
   bool infinity_allowed = false;
 
   [[nodiscard]] bool holds(double value) const;
-  // "> 0", ">= 0", "between 0 and 0.95, ends excluded", "any number"
+  // "> 0", ">= 0", "between 0 and 1, ends excluded", "any number"
   [[nodiscard]] std::string text() const;
 };
 

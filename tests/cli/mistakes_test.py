@@ -81,7 +81,7 @@ def test_every_problem_is_told_at_once(thawslide: Program, small_case: Path) -> 
     ("key", "value", "words"),
     [
         ("phases__rock_density", -5, "phases.rock_density is -5; allowed: > 0 kg/m3"),
-        ("body__block__porosity", 1, "body.block.porosity is 1; allowed: between 0 and 0.95, ends excluded"),
+        ("body__block__porosity", 1, "body.block.porosity is 1; allowed: > 0 and <= 0.95"),
         ("body__block__temperature", -300, "-300; allowed: > -273.15"),
         ("body__block__material", '"ice"', "body.block.material is 'ice', and there is no [material.ice]"),
         ("material__rock__poisson_ratio", 0.5, "material.rock.poisson_ratio is 0.5; allowed: "),

@@ -108,10 +108,10 @@ TEST(Mistakes, TablesOverDepth) {
                 remedy);
   EXPECT_EQ(with_porosity("{ deep = [0.0, 5.0], value = [0.3, 0.4] }"),
             "FOLDER/case.toml:18:12: body.block.porosity is a table with the keys deep, value; allowed: a number, { "
-            "depth = [...], value = [...] } or { x = [...], value = [...] }, between 0 and 0.95, ends excluded." +
+            "depth = [...], value = [...] } or { x = [...], value = [...] }, > 0 and <= 0.95." +
                 remedy);
   EXPECT_EQ(with_porosity("{ depth = [0.0, 5.0], value = [0.3, 1.0] }"),
-            "FOLDER/case.toml:18:48: body.block.porosity is 1; allowed: between 0 and 0.95, ends excluded (porosity n "
+            "FOLDER/case.toml:18:48: body.block.porosity is 1; allowed: > 0 and <= 0.95 (porosity n "
             "at t = 0: share of ice and water in the volume)." +
                 remedy);
 }
@@ -127,7 +127,7 @@ TEST(Mistakes, OutOfRange) {
     EXPECT_EQ(error_of_text(sound, {"phases.rock_density=" + density}), "--set phases.rock_density=" + density + found);
   }
   EXPECT_EQ(error_of_changed({{"shape = \"box\"", "shape = \"box\"\nporosity = 1.0"}}),
-            "FOLDER/case.toml:18:12: body.block.porosity is 1; allowed: between 0 and 0.95, ends excluded (porosity n "
+            "FOLDER/case.toml:18:12: body.block.porosity is 1; allowed: > 0 and <= 0.95 (porosity n "
             "at t = 0: share of ice and water in the volume). Correct it, or leave it out for the default 0.375.");
 }
 

@@ -104,7 +104,7 @@ TEST(Reference, TellsUnitRangeDefaultWordsAndNeed) {
       "  youngs_modulus            Young's modulus [Pa]\n"
       "                            a number, > 0 [Pa]; required when mechanics.enabled is true; Tables 2, 3\n");
   expect("a number, > 0 [s]; required when time.stepping is \"fixed\"; otherwise time.end, that is no cap\n");
-  expect("{ x = [...], value = [...] }, between 0 and 0.95, ends excluded; default: 0.375; Eq. 1, Table 2\n");
+  expect("{ x = [...], value = [...] }, > 0 and <= 0.95; default: 0.375; Eq. 1, Table 2\n");
   expect("\"keep_cohesion\": mu_e max(0, N - P) + c_S: cohesion is kept\n");
   const Json all = Json::parse(describe_json());
   EXPECT_EQ(all[1]["keys"][0]["key"], "end");

@@ -1,0 +1,133 @@
+"""Sec. 3.1: the freezing bar against an enthalpy finite-volume solution of the same equation (Fig. 4)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, letters, styled
+from thawslide.paper.mixture import FREEZING_BAR, HeatTable, Mixture, linear_saturation
+from thawslide.run import Numbers, Run
+
+COLD_END = -3.0  # C
+LENGTH = 2.0  # m
+COMPARED = 0.95  # m: the stretch over which errors are taken
+CELLS = 800
+
+
+@lru_cache(maxsize=16)
+def reference(
+    slope: float, latent: bool, time: float, cells: int = CELLS, mixture: Mixture = FREEZING_BAR
+) -> tuple[Numbers, Numbers]:
+    """Return (x [m], T [C]) of the bar at a time [s]: explicit finite volumes for its heat, far end insulated."""
+    saturation = linear_saturation(slope)
+    table = HeatTable(mixture, saturation, COLD_END, latent)
+    size = LENGTH / cells
+    x: Numbers = np.asarray((np.arange(cells) + 0.5) * size, dtype=np.float64)
+    ones = np.ones(1)
+    largest_diffusivity = float(mixture.conductivity(0 * ones)[0] / mixture.capacity(0 * ones)[0])
+    steps = int(np.ceil(time / (0.4 * size**2 / largest_diffusivity)))
+    step = time / steps
+    temperature: Numbers = np.zeros(cells)
+    content = table.content(temperature)
+    flow = np.zeros(cells + 1)
+    cold = float(mixture.conductivity(saturation(COLD_END * ones))[0])
+    for _ in range(steps):
+        conductivity = mixture.conductivity(saturation(temperature))
+        flow[1:-1] = -0.5 * (conductivity[1:] + conductivity[:-1]) * np.diff(temperature) / size
+        flow[0] = -0.5 * (cold + conductivity[0]) * (temperature[0] - COLD_END) / (0.5 * size)
+        content -= step / size * np.diff(flow)
+        temperature = table.temperature(content)
+    return x, temperature
+
+
+def slope_and_latent(run: Run) -> tuple[float, bool]:
+    """Return m [1/K] and whether latent heat counts, from the resolved case."""
+    return float(run.section("freezing")["slope"]), bool(run.section("heat").get("latent", True))
+
+
+def profile(run: Run) -> tuple[Numbers, Numbers]:
+    """Return (x, T) of the particles at the end of the run, in order of x."""
+    shot = run.snapshot(-1)
+    order = np.argsort(shot.points[:, 0], kind="stable")
+    return shot.points[order, 0], np.asarray(shot["temperature"], dtype=np.float64)[order]
+
+
+def errors(run: Run) -> tuple[float, float]:
+    """Return the largest and the root mean square error [K] over 0 < x < 0.95 m."""
+    x, temperature = profile(run)
+    exact_x, exact = reference(*slope_and_latent(run), float(run.times[-1]))
+    # The wall's temperature belongs to the curve: the first particles stand between it and the first volume.
+    wrong = temperature - np.interp(x, np.concatenate(([0.0], exact_x)), np.concatenate(([COLD_END], exact)))
+    wrong = wrong[x < COMPARED]
+    return float(np.max(np.abs(wrong))), float(np.sqrt(np.mean(wrong**2)))
+
+
+def place_of_saturation(run: Run, saturation: float) -> float:
+    """Return x [m] at which the particles' saturation passes a value; nan where it does not."""
+    x, temperature = profile(run)
+    share = linear_saturation(slope_and_latent(run)[0])(temperature)
+    if not share[0] < saturation <= share[-1]:
+        return float("nan")
+    return float(np.interp(saturation, share, x))
+
+
+def measures(runs: dict[str, Run]) -> dict[str, float]:
+    """Return the numbers of Sec. 3.1, by the name of the run and of the quantity."""
+    found = {}
+    for name, run in runs.items():
+        key = "freezing_" + name.removeprefix("freezing-bar-").replace("-", "_")
+        found[f"{key}_max_error"], found[f"{key}_rms_error"] = errors(run)
+        found[f"{key}_half"] = place_of_saturation(run, 0.5)
+        frozen, thawed = place_of_saturation(run, 0.05), place_of_saturation(run, 0.95)
+        found[f"{key}_width"] = thawed - frozen
+        slope, _ = slope_and_latent(run)
+        found[f"{key}_gradient"] = 0.9 / slope / (thawed - frozen)
+    parts = [value for name, value in found.items() if name.endswith("_max_error")]
+    found["freezing_max_error"] = max(parts)
+    found["freezing_rms_error"] = max(value for name, value in found.items() if name.endswith("_rms_error"))
+    return found
+
+
+_DRAWN = (
+    ("freezing-bar-m025", "m = 0.25", BLUE),
+    ("freezing-bar-m050", "m = 0.5", GREEN),
+    ("freezing-bar-m100", "m = 1", ORANGE),
+    ("freezing-bar-m050-no-latent", "m = 0.5, no latent heat", RED),
+)
+
+
+NEAR = 0.16  # m: what the lower panels show
+
+
+@styled
+def figure_4(runs: dict[str, Run]) -> Figure:
+    """Draw temperature and saturation along the bar and near its end: particles as points, the reference as lines."""
+    figure = Figure(figsize=(10.0, 7.2), layout="constrained")
+    panels = list(figure.subplots(2, 2).flat)
+    for name, words, colour in _DRAWN:
+        run = runs[name]
+        slope, latent = slope_and_latent(run)
+        share = linear_saturation(slope)
+        x, temperature = profile(run)
+        fine_x, fine = reference(slope, latent, float(run.times[-1]))
+        for number, axes in enumerate(panels):
+            points, line = (temperature, fine) if number % 2 == 0 else (share(temperature), share(fine))
+            every = 6 if number < 2 else 1
+            axes.plot(fine_x, line, color=BLACK, linewidth=0.9, zorder=3)
+            axes.plot(x[::every], points[::every], "o", color=colour, markersize=3.4, label=words, zorder=2)
+    panels[0].plot([], [], color=BLACK, linewidth=0.9, label="finite volumes, 2.5 mm")
+    for number, axes in enumerate(panels):
+        axes.set_xlim(0.0, 1.0 if number < 2 else NEAR)
+        axes.set_ylabel("liquid saturation" if number % 2 else "temperature (°C)")
+        axes.grid(True)
+        if number % 2:
+            axes.set_ylim(-0.01, 1.02)
+        if number > 1:
+            axes.set_xlabel("distance from the cold end (m)")
+    panels[0].legend(loc="lower right")
+    titles = ("temperature after one day", "liquid saturation after one day")
+    letters(panels, (*titles, "the same, near the end", "the same, near the end"))
+    return figure

@@ -1,0 +1,134 @@
+"""Sec. 3.3: the block on an incline of 40 degrees, four combinations of mechanisms (Figs. 9, 10 and 11)."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from thawslide.figures.style import BLUE, GREEN, ORANGE, RED, letters, styled, time_line
+from thawslide.paper.block import at, first_time
+from thawslide.paper.mixture import TABLE_1
+from thawslide.paper.runs import INCLINES
+from thawslide.run import Numbers, Run
+
+GRAVITY, SLOPE, HEIGHT = 9.81, np.radians(40.0), 50.0
+NAMES = {"D": "D", "DL": "D-L", "DLP": "D-L-P", "PL": "P-L"}
+COLOURS = {"D": BLUE, "DL": GREEN, "DLP": RED, "PL": ORANGE}
+TIMES = (2.5, 5.0, 10.0, 15.0, 25.0)  # s
+_QUANTITIES = {
+    "velocity": ("mean_velocity_m_s", 1.0),
+    "displacement": ("mean_displacement_m", 1.0),
+    "temperature": ("band_temperature_C", 1.0),
+    "saturation": ("band_saturation", 1.0),
+    "pressure": ("band_pore_pressure_Pa", 1e3),
+    "friction": ("band_friction_coefficient", 1.0),
+    "strain": ("mean_plastic_strain", 1.0),
+}
+
+
+def smooth(run: Run, column: str, span: float = 0.5) -> Numbers:
+    """Return a column's running mean over `span` seconds: contact quantities ring with the body's elastic waves."""
+    values, time = run.history[column], run.history["time_s"]
+    rows = max(1, round(span / (time[1] - time[0]))) if len(time) > 1 else 1
+    rows = min(rows, len(time))
+    filled = np.where(np.isfinite(values), values, 0.0)
+    weight = np.isfinite(values).astype(float)
+    window = np.ones(rows)
+    count = np.convolve(weight, window, mode="same")
+    return np.where(count > 0, np.convolve(filled, window, mode="same") / np.maximum(count, 1e-300), np.nan)
+
+
+def flow_height(run: Run, time: float) -> float:
+    """Return the mean height [m] of the slide over its base: volume over the length that holds it."""
+    if time > run.times[-1] + 1e-9:
+        return float("nan")
+    shot = run.snapshot(time=time)
+    x = shot.points[:, 0]
+    low, high = np.quantile(x, [0.005, 0.995])
+    return float(np.sum(shot["volume"]) / (high - low))
+
+
+def measures(runs: dict[str, Run]) -> dict[str, float]:
+    """Return the numbers of Sec. 3.3, by case, quantity and time."""
+    free = float(GRAVITY * np.sin(SLOPE))
+    found = {
+        "incline_free_acceleration": free,
+        "incline_free_velocity": 25.0 * free,
+        "incline_normal_pressure": TABLE_1.density() * GRAVITY * HEIGHT * float(np.cos(SLOPE)) / 1e3,
+        "incline_DLP_start_pressure": float(runs["incline-DLP"].history["band_pore_pressure_Pa"][0]) / 1e3,
+    }
+    for name in INCLINES:
+        run, key = runs[f"incline-{name}"], f"incline_{name}"
+        for quantity, (column, scale) in _QUANTITIES.items():
+            for time in TIMES:
+                found[f"{key}_{quantity}_{time:g}s".replace(".", "_")] = at(run, column, time) / scale
+        found[f"{key}_melted"] = first_time(run, "band_saturation", 0.99)
+        found[f"{key}_half_melted"] = first_time(run, "band_saturation", 0.495)
+        history = run.history
+        work = np.abs(history["potential_J"] - history["potential_J"][0]) + np.abs(history["friction_work_J"])
+        residual = np.abs(history["mechanical_residual_J"][-1]) / max(work[-1], 1e-300)
+        found[f"{key}_residual"] = 100.0 * float(residual)
+        found[f"{key}_height"] = flow_height(run, 25.0)
+        velocity, times = history["mean_velocity_m_s"], history["time_s"]
+        late = times > 10.0
+        found[f"{key}_late_acceleration"] = (
+            float(np.polyfit(times[late], velocity[late], 1)[0]) if late.sum() > 2 else float("nan")
+        )
+        found[f"{key}_warming"] = found[f"{key}_temperature_25s"] - found[f"{key}_temperature_15s"]
+    found["incline_gain_L"] = found["incline_DL_velocity_25s"] - found["incline_D_velocity_25s"]
+    found["incline_gain_P"] = found["incline_DLP_velocity_25s"] - found["incline_DL_velocity_25s"]
+    for name in ("D", "PL"):
+        run, key = runs[f"incline-{name}-no-viscosity"], f"incline_{name}_undamped"
+        found[f"{key}_displacement"] = at(run, "mean_displacement_m", min(20.0, run.history["time_s"][-1]))
+        found[f"{key}_end"] = float(run.history["time_s"][-1])
+        found[f"{key}_displacement_end"] = float(run.history["mean_displacement_m"][-1])
+    found["incline_D_displacement_20s"] = at(runs["incline-D"], "mean_displacement_m", 20.0)
+    return found
+
+
+@styled
+def _draw(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...], titles: tuple[str, ...]) -> Figure:
+    """Draw columns over time: (column, words, divisor, running mean [s])."""
+    figure = Figure(figsize=(10.0, 4.0 if len(panels) == 2 else 7.4), layout="constrained")
+    axes = list(np.ravel(figure.subplots(-(-len(panels) // 2), 2)))
+    for panel, (column, words, divisor, span) in zip(axes, panels, strict=False):
+        for name in INCLINES:
+            run = runs[f"incline-{name}"]
+            values = (smooth(run, column, span) if span else run.history[column]) / divisor
+            time_line(panel, run.history["time_s"], values, color=COLOURS[name], label=NAMES[name])
+        panel.set_ylabel(words)
+        panel.set_xlabel("time (s)")
+        panel.set_xlim(0.0, runs["incline-DLP"].history["time_s"][-1])
+        panel.grid(True)
+    axes[0].legend(loc="best")
+    letters(axes[: len(panels)], titles)
+    return figure
+
+
+def figure_9(runs: dict[str, Run]) -> Figure:
+    """Draw temperature and saturation of the band."""
+    panels = (("band_temperature_C", "temperature (°C)", 1.0, 0.0), ("band_saturation", "liquid saturation", 1.0, 0.0))
+    return _draw(runs, panels, ("band temperature", "band saturation"))
+
+
+def figure_10(runs: dict[str, Run]) -> Figure:
+    """Draw friction coefficient and pore pressure along the base."""
+    panels = (
+        ("band_friction_coefficient", "friction coefficient", 1.0, 0.5),
+        ("band_pore_pressure_Pa", "pore pressure (MPa)", 1e6, 0.0),
+    )
+    figure = _draw(runs, panels, ("friction coefficient, mean over 0.5 s", "band pore pressure"))
+    figure.axes[1].set_yscale("log")  # where it does not act on the base (D, D-L) it rises without bound
+    return figure
+
+
+def figure_11(runs: dict[str, Run]) -> Figure:
+    """Draw plastic strain, velocity and displacement of the mixture."""
+    panels = (
+        ("mean_plastic_strain", "equivalent plastic strain", 1.0, 0.0),
+        ("mean_velocity_m_s", "mean velocity (m/s)", 1.0, 0.0),
+        ("mean_displacement_m", "mean displacement (m)", 1.0, 0.0),
+    )
+    figure = _draw(runs, panels, ("plastic strain, mean of mass", "velocity", "displacement"))
+    figure.axes[3].set_visible(False)
+    return figure

@@ -1,0 +1,88 @@
+"""Every run the paper's figures need: which case, what is set, how it is shortened, and how all are run."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from thawslide.errors import ReportError
+from thawslide.run import Run
+
+NOTHING_COMPUTED = 2  # exit code of a user's mistake
+
+
+@dataclass(frozen=True)
+class PaperRun:
+    """One run: its name, case file below cases/, what --set changes, and its end [s] when shortened."""
+
+    name: str
+    case: str
+    sets: tuple[str, ...] = ()
+    short_end: float = 0.2
+    cost: float = 1.0  # about how long it takes, against the others: the longest start first
+
+    def command(self, program: Path, cases: Path, output: Path, quick: bool) -> list[str]:
+        """Return the words that start it."""
+        words = [str(program), "run", str(cases / self.case), "--output", str(output), "--overwrite", "--threads", "1"]
+        sets = (*self.sets, f"time.end={self.short_end}") if quick else self.sets
+        return words + [word for key in sets for word in ("--set", key)]
+
+
+BARS = ("m025", "m050", "m100", "m050-no-latent")
+BLOCKS = ("e050", "e100", "e200", "e100-L5", "e100-L20", "k0", "k10", "k9", "k8")
+INCLINES = ("D", "DL", "DLP", "PL")
+NO_LATENT = "-no-latent"
+NO_VISCOSITY = ("material.rock_ice.viscosity_time=0.0",)
+_COSTS = {"block-e200": 8.0, "block-e100-L5": 12.0, "block-e100": 4.0, "block-e100-L20": 3.0}
+
+
+def all_runs() -> list[PaperRun]:
+    """Return every run, in the order of the paper."""
+    runs = [PaperRun(f"freezing-bar-{name}", f"freezing-bar/{name}.toml", (), 864.0, 0.5) for name in BARS]
+    for name in BLOCKS:
+        cost = _COSTS.get(f"block-{name}", 2.0)
+        runs.append(PaperRun(f"block-{name}", f"block/{name}.toml", (), 0.2, cost))
+        without = ("heat.latent=false",)
+        runs.append(PaperRun(f"block-{name}{NO_LATENT}", f"block/{name}.toml", without, 0.2, cost))
+    runs.append(PaperRun("block-e050-no-viscosity", "block/e050.toml", NO_VISCOSITY, 0.2, 2.0))
+    runs += [PaperRun(f"incline-{name}", f"incline/{name}.toml", (), 0.1, 6.0) for name in INCLINES]
+    runs += [
+        PaperRun(f"incline-{name}-no-viscosity", f"incline/{name}.toml", NO_VISCOSITY, 0.1, 6.0) for name in ("D", "PL")
+    ]
+    runs.append(PaperRun("lamplugh", "lamplugh/case.toml", (), 1.0, 20.0))
+    runs.append(PaperRun("lamplugh-no-pressurization", "lamplugh/no-pressurization.toml", (), 1.0, 15.0))
+    return runs
+
+
+def run_all(
+    runs: Iterable[PaperRun], program: Path, cases: Path, folder: Path, quick: bool, progress: Callable[[str], None]
+) -> None:
+    """Run all, two at a time on one thread each; ReportError for one that computed nothing."""
+    waiting = sorted(runs, key=lambda run: -run.cost)
+    environment = os.environ | {"OMP_NUM_THREADS": "1"}
+
+    def start(run: PaperRun) -> None:
+        words = run.command(program, cases, folder / run.name, quick)
+        done = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
+        if done.returncode == NOTHING_COMPUTED or not (folder / run.name / "history.csv").is_file():
+            raise ReportError(f"{run.name}: {(done.stderr or done.stdout).strip()}")
+        progress(f"{run.name}: done" if done.returncode == 0 else f"{run.name}: {done.stderr.strip()}")
+
+    folder.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(max_workers=2) as pool:
+        list(pool.map(start, waiting))
+
+
+def read_runs(runs: Iterable[PaperRun], folder: Path) -> dict[str, Run]:
+    """Return the run folders by name; a run that broke off is named on standard error and kept."""
+    found = {}
+    for run in runs:
+        found[run.name] = Run(folder / run.name)
+        if found[run.name].facts.get("status") != "done":
+            print(f"note: {run.name} did not come to its end", file=sys.stderr)
+    return found

@@ -1,0 +1,81 @@
+"""The table of the paper's sentences: each with what the runs give, and whether it holds in them."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import Any
+
+VERDICTS = {True: "true", False: "false", None: "undetermined"}
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """One row: where, what the paper says, what it claims, what the runs give, and the verdict (None: undetermined)."""
+
+    section: str
+    text: str
+    reported: str
+    ours: str
+    verdict: bool | None
+
+
+class _Number(float):
+    """A measure as texts show it: a missing one as "none", a minus as such."""
+
+    def __format__(self, form: str) -> str:
+        return "none" if math.isnan(self) else super().__format__(form).replace("-", "−")
+
+
+def filled(text: str, measures: Mapping[str, float]) -> str:
+    """Return a text with its {measures} put in; KeyError for one that is not there."""
+    return text.format_map({name: _Number(value) for name, value in measures.items()})
+
+
+def _value(side: str | float, measures: Mapping[str, float]) -> float:
+    return measures[side] if isinstance(side, str) else float(side)
+
+
+def holds(test: list[Any], measures: Mapping[str, float]) -> bool | None:
+    """Return whether one comparison holds, None where a measure is missing (nan)."""
+    left, right = _value(test[0], measures), _value(test[2], measures)
+    if math.isnan(left) or math.isnan(right):
+        return None
+    if test[1] == "within":
+        return abs(left - right) <= float(test[3])
+    right *= float(test[3]) if len(test) > 3 else 1.0
+    if test[1] not in ("<", ">"):
+        raise ValueError(f"unknown comparison {test[1]}")
+    return left < right if test[1] == "<" else left > right
+
+
+def verdict(tests: list[list[Any]], measures: Mapping[str, float]) -> bool | None:
+    """Return False where any comparison fails, else None where any is undetermined or there is none, else True."""
+    results = [holds(test, measures) for test in tests]
+    if False in results:
+        return False
+    return True if results and None not in results else None
+
+
+def table(name: str) -> list[dict[str, Any]]:
+    """Return the rows of one of the data files beside this module."""
+    text = files("thawslide.paper").joinpath(f"{name}.toml").read_text(encoding="utf-8")
+    (rows,) = tomllib.loads(text).values()
+    return list(rows)
+
+
+def sentences(measures: Mapping[str, float]) -> list[Sentence]:
+    """Return every sentence with its verdict."""
+    return [
+        Sentence(
+            row["section"],
+            row["text"],
+            row["reported"],
+            filled(row["ours"], measures),
+            verdict(row.get("tests", []), measures),
+        )
+        for row in table("sentences")
+    ]

@@ -1,0 +1,44 @@
+"""`./run paper` as a whole, on the first moments of each case."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from conftest import ROOT
+
+
+def test_paper_shortened(binary: Path, report_environment: dict[str, str], tmp_path: Path) -> None:
+    output = tmp_path / "paper"
+    words = [sys.executable, "-m", "thawslide.paper", "--quick", "--program", str(binary), "--cases"]
+    environment = report_environment | {"PYTHONPATH": str(ROOT / "python"), "HOME": os.environ.get("HOME", "")}
+    done = subprocess.run(
+        [*words, str(ROOT / "cases"), "--output", str(output)],
+        env=environment, capture_output=True, text=True, timeout=180, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    page = (output / "report.html").read_text(encoding="utf-8")
+    links = re.findall(r'<img src="([^"]+)"', page)
+    assert len(links) == 14
+    assert all((output / link).read_bytes().startswith(b"\x89PNG") for link in links)
+    assert "Shortened runs" in page
+    assert len(re.findall(r"<td><b>(?:true|false|undetermined)</b></td>", page)) > 50
+    rows = dict(line.split(",") for line in (output / "measures.csv").read_text().splitlines()[1:])
+    # After 864 s the fronts stand in the first cell, but without latent heat the cold has gone through several.
+    assert float(rows["freezing_m050_no_latent_rms_error"]) < 0.01
+    # The block starts with its frozen band under the ice's pressure, rho_I g H.
+    assert math.isclose(float(rows["block_e050_pressure_start"]), 917 * 9.81 * 50 / 1e3, rel_tol=1e-3)
+
+
+def test_paper_tells_of_a_program_that_computes_nothing(tmp_path: Path) -> None:
+    words = [sys.executable, "-m", "thawslide.paper", "--program", "false", "--cases", str(tmp_path), "--output"]
+    environment = dict(os.environ) | {"PYTHONPATH": str(ROOT / "python")}
+    done = subprocess.run(
+        [*words, str(tmp_path / "paper")], env=environment, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == 2
+    assert "./run paper: error: " in done.stderr

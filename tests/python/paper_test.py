@@ -1,0 +1,142 @@
+"""The references the paper's figures are held against, and the table of sentences."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+
+import numpy as np
+import pytest
+
+from thawslide.paper.band_model import GRAVITY, Column, Drive, solve
+from thawslide.paper.freezing import COLD_END, reference
+from thawslide.paper.mixture import FREEZING_BAR, TABLE_1, HeatTable, Mixture, linear_saturation, power_saturation
+from thawslide.paper.page import NAMES
+from thawslide.paper.runs import all_runs
+from thawslide.paper.sentences import filled, holds, table, verdict
+
+
+def test_heat_table_is_the_closed_form_and_inverts() -> None:
+    found = HeatTable(FREEZING_BAR, linear_saturation(0.5), COLD_END, True)
+    # H(0) - H(-2): frozen capacity and half of its rise over 2 K, and all latent heat.
+    frozen, thawed = FREEZING_BAR.capacity(np.array([0.0, 1.0]))
+    exact = (frozen + 0.5 * (thawed - frozen)) * 2.0 + 920.0 * 0.95 * 333.5e3
+    ends = found.content(np.array([-2.0, 0.0]))
+    assert (ends[1] - ends[0]) / exact == pytest.approx(1.0, abs=1e-8)
+    some = np.linspace(-3.0, 0.0, 57)
+    assert np.allclose(found.temperature(found.content(some)), some, atol=1e-9)
+
+
+def neumann(x: np.ndarray, time: float, mixture: Mixture, slope: float) -> np.ndarray:
+    """Return T [C] of a half space at 0 C whose end is held at COLD_END, capacity and conductivity the same throughout.
+
+    Frozen below -1/m, freezing above it with the constant apparent capacity C + rho_I n L_f m: two zones of Neumann's
+    solution (Lunardini 1985), the far one without end.
+    """
+    capacity = float(mixture.capacity(np.zeros(1))[0])
+    conductivity = float(mixture.conductivity(np.zeros(1))[0])
+    near, far = conductivity / capacity, conductivity / (capacity + mixture.melting_heat() * slope)
+    ratio, front = math.sqrt(near / far), -1.0 / slope
+
+    def excess(psi: float) -> float:
+        inner = (front - COLD_END) * math.exp(-(psi**2)) / math.erf(psi)
+        return inner + front * ratio * math.exp(-((psi * ratio) ** 2)) / math.erfc(psi * ratio)
+
+    low, high = 1e-6, 2.0
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if excess(middle) > 0.0 else (low, middle)
+    erf, erfc = np.vectorize(math.erf), np.vectorize(math.erfc)
+    frozen = COLD_END + (front - COLD_END) * erf(x / math.sqrt(4.0 * near * time)) / math.erf(low)
+    freezing = front * erfc(x / math.sqrt(4.0 * far * time)) / math.erfc(low * ratio)
+    return np.where(x < low * math.sqrt(4.0 * near * time), frozen, freezing)
+
+
+@pytest.mark.parametrize("slope", [0.5, 1.0])
+def test_freezing_reference_converges_to_neumann(slope: float) -> None:
+    alike = {"water_density": 920.0, "water_heat": 2108.0, "water_conductivity": 2.14}
+    mixture = dataclasses.replace(FREEZING_BAR, **alike)
+    time = 86400.0
+    rms = []
+    for cells in (100, 800):
+        x, found = reference(slope, True, time, cells, mixture)
+        wrong = found - neumann(x, time, mixture, slope)
+        rms.append(float(np.sqrt(np.mean(wrong**2))))
+    assert np.max(np.abs(wrong)) < 0.003  # K, on the mesh the figure uses
+    # First order on average: one mesh after the other it wavers with the front's place within its cell.
+    assert rms[1] < rms[0] / 8.0
+
+
+def test_hats_of_two_rows_a_cell_weigh_three_quarters_and_one() -> None:
+    column = Column(3, 0.1)
+    assert np.allclose(column.weights.sum(axis=0), 1.0)
+    assert column.weights[0, :3].tolist() == [0.75, 0.25, 0.0]
+    assert np.allclose(column.slopes.T @ np.array([0.0, 0.1, 0.2, 0.3]), 1.0)
+
+
+def test_melted_band_weakens_exponentially_with_the_factor_of_two_rows() -> None:
+    drive = Drive(0.05, 1.5, temperature=1e-9)
+    found = solve(drive, 0.0005)
+    normal = TABLE_1.density() * GRAVITY * drive.height
+    start = TABLE_1.water_density * GRAVITY * drive.height
+    capacity = float(TABLE_1.capacity(np.ones(1))[0])
+    rate = 1.25 * drive.friction * TABLE_1.pressurization() / (capacity * drive.thickness)
+    # Mean pressure of the band: the rows rise as 3/4 and 1/4, the base as (9 + 1)/16 of their sum.
+    base_rise = (normal - start) * (1.0 - np.exp(-rate * found.time))
+    assert np.allclose(found.pressure - start, base_rise / 1.25, rtol=2e-3, atol=50.0)
+    assert base_rise[-1] / (normal - start) > 0.5
+
+
+def test_band_keeps_all_the_heat_of_friction() -> None:
+    # So thick a band stays far from melting: pressure and with it friction hardly change.
+    drive = Drive(2.0, 4.0, conduction=True)
+    found = solve(drive, 0.01)
+    normal = TABLE_1.density() * GRAVITY * drive.height
+    ice = TABLE_1.ice_density * GRAVITY * drive.height
+    content = HeatTable(TABLE_1, power_saturation, -11.0, True)
+    # With conduction off all heat is in the two rows; with it next to all, over so short a time.
+    rows = content.content(found.temperature[-1:])[0] - content.content(np.array([-10.0]))[0]
+    assert rows * drive.thickness == pytest.approx(0.2 * (normal - ice) * found.time[-1], rel=2e-3)
+
+
+def test_seepage_lowers_pressure_and_keeps_heating() -> None:
+    tight = solve(Drive(0.05, 45.0), 0.02)
+    loose = solve(Drive(0.05, 45.0, hydraulic_conductivity=1e-8), 0.02)
+    assert loose.pressure[-1] < 0.8 * tight.pressure[-1]
+    assert loose.temperature[-1] > tight.temperature[-1] + 2.0
+
+
+def test_comparisons_and_verdicts() -> None:
+    measures = {"a": 1.0, "b": 2.0, "none": math.nan}
+    assert holds(["a", "<", "b"], measures) is True
+    assert holds(["a", ">", "b"], measures) is False
+    assert holds(["a", ">", "b", 0.4], measures) is True
+    assert holds(["a", "within", 1.5, 0.4], measures) is False
+    assert holds(["a", "within", 1.5, 0.5], measures) is True
+    assert holds(["a", "<", "none"], measures) is None
+    with pytest.raises(ValueError, match="unknown comparison"):
+        holds(["a", "=", "b"], measures)
+    assert verdict([["a", "<", "b"]], measures) is True
+    assert verdict([["a", "<", "b"], ["none", "<", 1.0]], measures) is None
+    assert verdict([["a", ">", "b"], ["none", "<", 1.0]], measures) is False
+    assert verdict([], measures) is None
+    assert filled("{a:.1f}, {none:.2f}", measures) == "1.0, none"
+    assert filled("{x:.1f}", {"x": -2.0}) == "−2.0"
+
+
+def test_figures_and_sentences_are_whole() -> None:
+    assert tuple(row["name"] for row in table("figures")) == NAMES
+    for row in table("figures"):
+        assert all(row[key].strip() for key in ("heading", "paper", "ours", "why"))
+    for row in table("sentences"):
+        assert re.fullmatch(r"Abstract|3\.[123]|4\.[12]", row["section"])
+        assert row["text"] and row["reported"] and row["ours"]
+        for test in row.get("tests", []):
+            assert test[1] in ("<", ">", "within") and len(test) in (3, 4)
+            assert (test[1] == "within") <= (len(test) == 4)
+
+
+def test_runs_have_names_of_their_own() -> None:
+    names = [run.name for run in all_runs()]
+    assert len(set(names)) == len(names) == 31
