@@ -1,0 +1,49 @@
+// What heat starts from: the content at t = 0, and the scaling by the band that is in force.
+#include "band/heat.hpp"
+
+namespace thawslide::band {
+
+template <int Dim, class Real>
+void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+  model.with_heat_content([&](const auto& content) {
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.heat_content(p) = content.content(particles.temperature(p), particles.initial_porosity(p));
+      particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
+      particles.initial_saturation(p) = particles.liquid_saturation(p);
+      particles.previous_temperature(p) = particles.temperature(p);
+    }
+  });
+}
+
+template <int Dim, class Real>
+Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
+                  const std::function<Real(Real)>& layer_thickness, mpm::Particles<Dim, Real>& particles) {
+  const bool by_place = thickness > Real(0) && layer_thickness;
+  const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
+  const auto scaling_at = [&](std::uint32_t p) {
+    if (model.region != ScaledRegion::all && particles.in_band(p) == 0) {
+      return Real(1);
+    }
+    return by_place ? layer_thickness(particles.position(p, 0)) / thickness : of_a_cell;
+  };
+  Real added = 0;
+  for (const std::uint32_t p : grid.order()) {
+    const Real scaling = scaling_at(p);
+    const Real old = particles.thermal_scaling(p);
+    if (scaling != old) {
+      added += particles.initial_volume(p) * particles.heat_content(p) * (Real(1) / scaling - Real(1) / old);
+      particles.thermal_scaling(p) = scaling;
+    }
+  }
+  return added;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                      \
+  template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);         \
+  template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real, \
+                                        const std::function<Real(Real)>&, mpm::Particles<Dim, Real>&);
+THAWSLIDE_INSTANTIATE(2, double)
+THAWSLIDE_INSTANTIATE(3, double)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::band
