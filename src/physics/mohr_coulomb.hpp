@@ -43,6 +43,7 @@ class MohrCoulomb {
                           Real residual_cohesion, Real tension_cutoff) {
     MohrCoulomb law;
     law.ratio_ = pressure_ratio(friction_angle);
+    law.root_of_ratio_ = std::sqrt(law.ratio_);
     const Real flow_ratio = pressure_ratio(dilation_angle);
     law.cohesion_ = cohesion;
     law.residual_cohesion_ = residual_cohesion;
@@ -64,7 +65,7 @@ class MohrCoulomb {
 
   // c [Pa] after an equivalent plastic strain.
   [[nodiscard]] THAWSLIDE_HD Real cohesion(Real plastic_strain) const {
-    return residual_cohesion_ == cohesion_
+    return residual_cohesion_ == cohesion_ || plastic_strain == Real(0)
                ? cohesion_
                : residual_cohesion_ + (cohesion_ - residual_cohesion_) * std::exp(-plastic_strain);
   }
@@ -73,13 +74,15 @@ class MohrCoulomb {
   [[nodiscard]] THAWSLIDE_HD ReturnResult<Real> update(const SymmetricTensor<Real>& trial, Real plastic_strain) const {
     const bool plane = trial[4] == Real(0) && trial[5] == Real(0);
     const Vector<Real, 3> trial_values = plane ? plane_principal_values(trial) : principal(trial).values;
-    Vector<Real, planes> limits;
-    limits << Vector<Real, 3>::Constant(Real(2) * cohesion(plastic_strain) * std::sqrt(ratio_)),
-        Vector<Real, 3>::Constant(tension_cutoff_);
-    const Real tolerance = round_off * (ratio_ * trial_values.cwiseAbs().maxCoeff() + limits[0]);
-    if (admissible(trial_values, limits, tolerance)) {
+    const Real shear_limit = Real(2) * cohesion(plastic_strain) * root_of_ratio_;
+    const Real tolerance = round_off * (ratio_ * trial_values.cwiseAbs().maxCoeff() + shear_limit);
+    // Of ordered values, (s1, s3) is the first plane to be reached, and s1 the first to pass the cut-off.
+    if (ratio_ * trial_values[0] - trial_values[2] - shear_limit <= tolerance &&
+        trial_values[0] - tension_cutoff_ <= tolerance) {
       return {trial, Real(0), Real(0), false};
     }
+    Vector<Real, planes> limits;
+    limits << Vector<Real, 3>::Constant(shear_limit), Vector<Real, 3>::Constant(tension_cutoff_);
     Principal<Real> state = principal(trial);
     state.values = returned(trial_values, limits, tolerance);
     const Vector<Real, 3> plastic = elastic_strain(trial_values - state.values);
@@ -174,7 +177,8 @@ class MohrCoulomb {
     return (stress - Vector<Real, 3>::Constant(share * stress.sum())) / two_shear;
   }
 
-  Real ratio_ = 1;  // k
+  Real ratio_ = 1;          // k
+  Real root_of_ratio_ = 1;  // of k
   Real cohesion_ = 0, residual_cohesion_ = 0, tension_cutoff_ = 0;
   Elastic<Real> elastic_;
   Vector<Real, 3> normal_[planes];
