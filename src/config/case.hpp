@@ -19,6 +19,7 @@ using Point = std::array<double, 3>;  // x, y in 2D (third 0); x, y, z in 3D
 enum class Stepping { fixed, adaptive };
 enum class BoundaryKind { open, roller, fixed };
 enum class TerrainKind { none, flat, plane, profile };
+enum class TerrainForm { signed_distance, rigid_points };
 enum class LawKind { elastic, mohr_coulomb };
 enum class CurveKind { power_law, linear };
 enum class BodyShape { box, polygon, surface };
@@ -70,6 +71,8 @@ struct Terrain {
   double slope = 0.0;      // degrees, the plane falls towards +x
   std::string file;        // CSV with columns distance_m,terrain_elevation_m[,surface_elevation_m]; absolute once read
   bool extend = false;
+  TerrainForm form = TerrainForm::signed_distance;
+  int layers = 2;  // of rigid points, two to a cell
 };
 
 struct Phases {

@@ -80,6 +80,11 @@ std::vector<Parameter<Terrain>> terrain_parameters() {
                        [](const Case& whole, const Terrain&) { return has_profile(whole); }),
       parameter(&Terrain::extend,
                 {.key = "extend", .text = "continue the last gradient of the profile where the domain is longer"}),
+      parameter(&Terrain::form, {.key = "description", .text = "how the nodes of the grid learn of the ground"}),
+      parameter(&Terrain::layers, {.key = "layers",
+                                   .range = between(1, 1000),
+                                   .text = "layers of rigid points, two to a cell",
+                                   .source = "Secs. 3.3, 4"}),
   };
 }
 

@@ -31,6 +31,10 @@ inline std::vector<Choice<TerrainKind>> choices(TerrainKind) {
           {TerrainKind::plane, "plane", "a plane that falls towards +x by terrain.slope"},
           {TerrainKind::profile, "profile", "a polyline read from terrain.file; in 3D the same at every y"}};
 }
+inline std::vector<Choice<TerrainForm>> choices(TerrainForm) {
+  return {{TerrainForm::signed_distance, "signed_distance", "normal, area and reach from the line itself"},
+          {TerrainForm::rigid_points, "rigid_points", "from rigid material points in layers (Secs. 3.3 and 4)"}};
+}
 inline std::vector<Choice<LawKind>> choices(LawKind) {
   return {{LawKind::elastic, "elastic", "linear isotropic elasticity, objective stress rate"},
           {LawKind::mohr_coulomb, "mohr_coulomb", "elastic, with Mohr-Coulomb plasticity (Eq. 11)"}};

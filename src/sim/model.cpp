@@ -205,6 +205,11 @@ template <int Dim>
 std::optional<terrain::Ground<Dim>> make_ground(const config::Case& parameters, const Vector<double, Dim>& origin) {
   const config::Terrain& terrain = parameters.terrain;
   const double base = origin[Dim - 1];
+  const auto with_line = [&](terrain::Polyline line) {
+    return terrain.form == config::TerrainForm::rigid_points
+               ? terrain::Ground<Dim>(std::move(line), 0.5 * parameters.grid.cell, terrain.layers)
+               : terrain::Ground<Dim>(std::move(line));
+  };
   switch (terrain.kind) {
     case config::TerrainKind::none:
       return std::nullopt;
@@ -213,7 +218,7 @@ std::optional<terrain::Ground<Dim>> make_ground(const config::Case& parameters, 
       // Two points a kilometre apart; the line goes on with its gradient.
       const double fall = terrain.kind == config::TerrainKind::plane ? std::tan(radians(terrain.slope)) : 0.0;
       const double left = terrain.elevation - fall * origin[0] - base;
-      return terrain::Ground<Dim>(terrain::Polyline({0.0, 1000.0}, {left, left - fall * 1000.0}));
+      return with_line(terrain::Polyline({0.0, 1000.0}, {left, left - fall * 1000.0}));
     }
     case config::TerrainKind::profile:
       break;
@@ -225,7 +230,7 @@ std::optional<terrain::Ground<Dim>> make_ground(const config::Case& parameters, 
     x[k] -= origin[0];
     height[k] -= base;
   }
-  return terrain::Ground<Dim>(terrain::Polyline(std::move(x), std::move(height)));
+  return with_line(terrain::Polyline(std::move(x), std::move(height)));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "terrain/rigid_points.hpp"
 
 namespace thawslide::terrain {
 
@@ -121,23 +122,44 @@ Polyline::HatShare Polyline::hat_share(double x, double z, double cell) const {
 }
 
 template <int Dim>
+void Ground<Dim>::learn_from_points(double x, double z, double cell, GroundAtNode<Dim, double>& node) const {
+  const RigidPoints::AtNode rock = RigidPoints(line_, spacing_, layers_).at_node(x, z, cell);
+  const double across = Dim == 2 ? 1.0 : cell;
+  const double slide = std::max(0.0, cell * cell - rock.volume);
+  node.candidate = rock.volume > 0.0;
+  node.normal[0] = rock.normal[0];
+  node.normal[Dim - 1] = rock.normal[1];
+  node.area = across * nairn_area(slide, rock.volume, cell);
+  node.space = across * slide;
+}
+
+template <int Dim>
 template <class Real>
 GroundAtNode<Dim, Real> Ground<Dim>::at_node(const Vector<Real, Dim>& position, Real cell) const {
   constexpr double round_off = 1e-9;
   const double x = static_cast<double>(position[0]);
   const double z = static_cast<double>(position[Dim - 1]);
   const double h = static_cast<double>(cell);
-  const Polyline::Nearest nearest = line_.nearest(x, z);
-  GroundAtNode<Dim, Real> node;
-  node.candidate = line_.highest(x - h, x + h) > z - h + round_off * h;
-  const Polyline::HatShare share = line_.hat_share(x, z, h);
-  const double across = Dim == 2 ? 1.0 : h;  // the hat's integral along y
-  node.area = static_cast<Real>(across * share.length);
-  node.space = static_cast<Real>(across * share.above);
+  GroundAtNode<Dim, double> node;
   node.normal.setZero();
-  node.normal[0] = static_cast<Real>(nearest.normal[0]);
-  node.normal[Dim - 1] = static_cast<Real>(nearest.normal[1]);
-  return node;
+  if (spacing_ > 0.0) {
+    learn_from_points(x, z, h, node);
+  } else {
+    const Polyline::Nearest nearest = line_.nearest(x, z);
+    const Polyline::HatShare share = line_.hat_share(x, z, h);
+    const double across = Dim == 2 ? 1.0 : h;  // the hat's integral along y
+    node.candidate = line_.highest(x - h, x + h) > z - h + round_off * h;
+    node.normal[0] = nearest.normal[0];
+    node.normal[Dim - 1] = nearest.normal[1];
+    node.area = across * share.length;
+    node.space = across * share.above;
+  }
+  GroundAtNode<Dim, Real> known;
+  known.candidate = node.candidate;
+  known.normal = node.normal.template cast<Real>();
+  known.area = static_cast<Real>(node.area);
+  known.space = static_cast<Real>(node.space);
+  return known;
 }
 
 template <int Dim>

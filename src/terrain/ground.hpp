@@ -56,6 +56,8 @@ template <int Dim>
 class Ground {
  public:
   explicit Ground(Polyline line) : line_(std::move(line)) {}
+  // Nodes learn of the ground from rigid points in `layers` layers, `spacing` [m] apart.
+  Ground(Polyline line, double spacing, int layers) : line_(std::move(line)), spacing_(spacing), layers_(layers) {}
 
   [[nodiscard]] const Polyline& line() const { return line_; }
 
@@ -68,7 +70,11 @@ class Ground {
   [[nodiscard]] Vector<double, Dim> normal_below(double x) const;
 
  private:
+  void learn_from_points(double x, double height, double cell, GroundAtNode<Dim, double>& node) const;
+
   Polyline line_;
+  double spacing_ = 0;  // of the rigid points; 0: none, the line itself is the ground
+  int layers_ = 0;
 };
 
 }  // namespace thawslide::terrain

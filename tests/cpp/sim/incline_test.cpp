@@ -183,6 +183,12 @@ TEST(Incline, SticksOnATiltedPlaneInThreeDimensions) {
   EXPECT_LT(seen.velocity, 0.05 * sliding.velocity);
 }
 
+// The ground of rigid points, as in the paper: the same on turned gravity; on a plane through the grid it is rough.
+TEST(Incline, SlidesOnRigidPoints) {
+  expect_slide(slide<2>(turned_2d, {"terrain.description=rigid_points"}), 15.0, 2e-3);
+  expect_slide(slide<3>(turned_3d, {"terrain.description=rigid_points"}), 15.0, 5e-3);
+}
+
 TEST(FreeFall, KeepsMomentumToRoundOff) {
   const std::string text = R"(
 [time]

@@ -84,5 +84,44 @@ TEST(HatShare, OnAGridLineIsTheCellsFace) {
   EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 2.0, 2.0).above, 0.0);
 }
 
+TEST(RigidPoints, AlongAGridLineAreTheSignedDistance) {
+  const Polyline line({0.0, 100.0}, {4.0, 4.0});
+  const Ground<2> smooth(line), points(line, 1.0, 2);
+  for (const double z : {4.0, 6.0}) {
+    const auto known = smooth.at_node(Vector<double, 2>(10.0, z), 2.0);
+    const auto seen = points.at_node(Vector<double, 2>(10.0, z), 2.0);
+    EXPECT_EQ(seen.candidate, known.candidate);
+    EXPECT_DOUBLE_EQ(seen.area, known.area);
+    EXPECT_DOUBLE_EQ(seen.space, known.space);
+    EXPECT_NEAR((seen.normal - known.normal).norm(), 0.0, 1e-12);
+  }
+}
+
+// On a slope the points know the surface to within their spacing: Nairn's area sums to some percent too much, and
+// the normals of nodes that see as much rock as space are within 0.2 rad.
+TEST(RigidPoints, OnASlopeAreNearIt) {
+  const double slope = std::tan(0.5);
+  const Polyline line({0.0, 400.0}, {200.0, 200.0 - 400.0 * slope});
+  const Ground<2> points(line, 1.0, 20);
+  const double h = 2.0;
+  double area = 0.0;
+  for (int i = 20; i < 120; ++i) {
+    for (int j = 0; j < 120; ++j) {
+      const Vector<double, 2> place(i * h, j * h);
+      const double above = place[1] - line.height(place[0]);
+      if (above < -2.0 * h) {
+        continue;  // below the layers, where no slide comes
+      }
+      const auto seen = points.at_node(place, h);
+      area += seen.area;
+      if (seen.candidate && seen.space > 0.3 * h * h && seen.space < 0.7 * h * h) {
+        EXPECT_LT(std::acos(std::min(1.0, -seen.normal.dot(Vector<double, 2>(std::sin(0.5), std::cos(0.5))))), 0.15);
+      }
+    }
+  }
+  EXPECT_GT(area / (200.0 / std::cos(0.5)), 1.0);
+  EXPECT_LT(area / (200.0 / std::cos(0.5)), 1.12);
+}
+
 }  // namespace
 }  // namespace thawslide::terrain
