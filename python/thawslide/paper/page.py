@@ -62,7 +62,7 @@ def make_page(runs: Runs, output: Path, quick: bool, progress: Callable[[str], N
             except NotInRunError as error:
                 progress(f"{name}: left out, {error}")
         measures = measure(runs)
-        rows = "".join(f"{name},{value!r}\n" for name, value in measures.items())
+        rows = "".join(f"{name},{float(value)!r}\n" for name, value in measures.items())
         (output / "measures.csv").write_text("measure,value\n" + rows, encoding="utf-8")
         page = output / "report.html"
         page.write_text(_page(runs, measures, output, quick), encoding="utf-8")
