@@ -99,6 +99,7 @@ struct Material {
   double friction_angle = 0, dilation_angle = 0;
   double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps); equal: none
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
+  bool gaps_close_first = false;                                    // torn matter bears nothing until its gap is closed
   double viscosity_time = 0;                                        // s, Kelvin-Voigt
   double hydraulic_conductivity = 0;                                // m/s
 };

@@ -117,6 +117,10 @@ std::vector<Parameter<Material>> material_parameters() {
                  .unit = "Pa",
                  .range = {.low = 0, .infinity_allowed = true},
                  .text = "largest tension in any direction; inf: limited by cohesion and friction angle alone"}),
+      parameter(&Material::gaps_close_first,
+                {.key = "gaps_close_first",
+                 .text = "true: what tension has torn apart bears no compression until its gap is closed (advised "
+                         "where cohesion is small); false: it bears at once, as classical plasticity has it"}),
       parameter(&Material::viscosity_time,
                 {.key = "viscosity_time",
                  .unit = "s",

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "physics/kinematics.hpp"
+#include "physics/tension_gap.hpp"
 
 namespace thawslide::mpm {
 
@@ -251,7 +252,10 @@ THAWSLIDE_ALWAYS_INLINE StressWork<Real> deform(Particles<Dim, Real>& particles,
                                                 const physics::Phases<Real>& phases, Real dt) {
   const auto increment = physics::strain_increment<Real, Dim>(displacement_gradient);
   const SymmetricTensor<Real> old_stress = full_tensor<Dim, Real>(particles.stress, p);
-  const SymmetricTensor<Real> elastic = physics::stress_increment(material.elastic, increment.strain);
+  const Real volume_strain = increment.strain[0] + increment.strain[1] + increment.strain[2];
+  const Real closing = physics::closing_strain(particles.gap(p), volume_strain);
+  const SymmetricTensor<Real> elastic =
+      physics::stress_increment(material.elastic, physics::borne_strain(increment.strain, closing));
   const SymmetricTensor<Real> trial = physics::rotate<Real, Dim>(old_stress, increment.rotation) + elastic;
   const auto result = law.update(trial, particles.plastic_strain(p));
   SymmetricTensor<Real> viscous = SymmetricTensor<Real>::Zero();
@@ -261,7 +265,7 @@ THAWSLIDE_ALWAYS_INLINE StressWork<Real> deform(Particles<Dim, Real>& particles,
   const Real volume = particles.volume(p);
   StressWork<Real> work;
   work.total = volume * Real(0.5) * double_contraction<Real>(old_stress + result.stress, increment.strain);
-  work.plastic = volume * result.plastic_work_density;
+  work.plastic = volume * (result.plastic_work_density - closing * result.stress.template head<3>().mean());
   work.viscous = volume * double_contraction<Real>(viscous, increment.strain);
   for (int c = 0; c < Particles<Dim, Real>::tensor_components; ++c) {
     particles.stress(p, c) = result.stress[c];
@@ -269,7 +273,9 @@ THAWSLIDE_ALWAYS_INLINE StressWork<Real> deform(Particles<Dim, Real>& particles,
   }
   particles.plastic_strain(p) += result.equivalent_plastic_strain_increment;
   particles.volume(p) = volume * increment.volume_ratio;
-  const Real volume_strain = increment.strain[0] + increment.strain[1] + increment.strain[2];
+  if (material.gaps_close_first) {
+    particles.gap(p) += result.opening - closing;
+  }
   particles.volume_strain(p) = volume_strain;
   particles.porosity(p) = physics::updated_porosity(phases, particles.porosity(p), volume_strain, Real(0));
   work.pore = -volume * particles.pore_pressure(p) * volume_strain;

@@ -34,6 +34,7 @@ class Particles {
   TensorField stress{fields, {"stress", "Pa", FieldShape::tensor, true}};
   TensorField viscous_stress{fields, {"viscous_stress", "Pa", FieldShape::tensor}};
   Scalar plastic_strain{fields, {"plastic_strain", "1", FieldShape::scalar, true}};
+  Scalar gap{fields, {"gap", "1", FieldShape::scalar, true}};  // volumetric strain torn open, to close again
   Scalar temperature{fields, {"temperature", "C", FieldShape::scalar, true}};
   Scalar heat_content{fields, {"heat_content", "J/m3"}};        // per initial volume, 0 for frozen matter at Tref
   Scalar liquid_saturation{fields, {"liquid_saturation", "1", FieldShape::scalar, true}};

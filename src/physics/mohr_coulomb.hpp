@@ -24,6 +24,7 @@ struct ReturnResult {
   SymmetricTensor<Real> stress;              // [Pa]
   Real equivalent_plastic_strain_increment;  // sqrt(2/3 de_p:de_p)
   Real plastic_work_density;                 // stress : de_p [J/m3]
+  Real opening;                              // volumetric plastic strain at the apex or the cut-off: a gap torn open
   bool yielded;
 };
 
@@ -31,7 +32,7 @@ template <class Real>
 struct LinearElastic {
   [[nodiscard]] THAWSLIDE_HD ReturnResult<Real> update(const SymmetricTensor<Real>& trial,
                                                        Real /*plastic_strain*/) const {
-    return {trial, Real(0), Real(0), false};
+    return {trial, Real(0), Real(0), Real(0), false};
   }
 };
 
@@ -79,15 +80,16 @@ class MohrCoulomb {
     // Of ordered values, (s1, s3) is the first plane to be reached, and s1 the first to pass the cut-off.
     if (ratio_ * trial_values[0] - trial_values[2] - shear_limit <= tolerance &&
         trial_values[0] - tension_cutoff_ <= tolerance) {
-      return {trial, Real(0), Real(0), false};
+      return {trial, Real(0), Real(0), Real(0), false};
     }
     Vector<Real, planes> limits;
     limits << Vector<Real, 3>::Constant(shear_limit), Vector<Real, 3>::Constant(tension_cutoff_);
     Principal<Real> state = principal(trial);
-    state.values = returned(trial_values, limits, tolerance);
+    bool torn = false;
+    state.values = returned(trial_values, limits, tolerance, torn);
     const Vector<Real, 3> plastic = elastic_strain(trial_values - state.values);
     return {from_principal(state), std::sqrt(Real(2) / Real(3) * plastic.squaredNorm()), state.values.dot(plastic),
-            true};
+            torn ? plastic.sum() : Real(0), true};
   }
 
  private:
@@ -129,9 +131,9 @@ class MohrCoulomb {
     return true;
   }
 
-  // Principal stresses on the yield surface.
+  // Principal stresses on the yield surface; torn: at the apex or on the cut-off.
   [[nodiscard]] THAWSLIDE_HD Vector<Real, 3> returned(const Vector<Real, 3>& trial, const Vector<Real, planes>& limits,
-                                                      Real tolerance) const {
+                                                      Real tolerance, bool& torn) const {
     // Face, cut-off face, edges, corners: from the likely to the rare.
     constexpr ActiveSet sets[] = {{1, {0, 0, 0}}, {1, {3, 0, 0}}, {2, {0, 1, 0}}, {2, {0, 2, 0}},
                                   {2, {0, 3, 0}}, {2, {3, 4, 0}}, {3, {3, 4, 5}}, {3, {0, 1, 3}},
@@ -141,9 +143,11 @@ class MohrCoulomb {
       Vector<Real, 3> values = trial;
       if (set.plane[set.count - 1] < with_cutoff && relax(set, limits, values) &&
           admissible(values, limits, tolerance)) {
+        torn = set.plane[set.count - 1] >= 3 || set.plane[0] >= 3;
         return values;
       }
     }
+    torn = true;
     // k s - s = limit on the hydrostatic axis.
     const Real apex = ratio_ > Real(1) ? limits[0] / (ratio_ - Real(1)) : trial.mean();
     return Vector<Real, 3>::Constant(apex < tension_cutoff_ ? apex : tension_cutoff_);

@@ -39,6 +39,7 @@ mpm::MaterialModel<Real> make_material(const config::Material& material, bool de
   mpm::MaterialModel<Real> model;
   model.elastic = physics::Elastic<Real>::from_young_poisson(static_cast<Real>(material.youngs_modulus),
                                                              static_cast<Real>(material.poisson_ratio));
+  model.gaps_close_first = material.gaps_close_first;
   model.viscosity_time = static_cast<Real>(material.viscosity_time);
   model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
   if (material.law == config::LawKind::mohr_coulomb && deformation) {

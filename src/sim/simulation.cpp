@@ -306,8 +306,9 @@ constexpr double runaway = 5.0;
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   const std::string too_long =
-      "Likely cause: the step is too long for what the material does, or the material is softer than its load; try "
-      "half of time.step, or viscosity_time in the material.";
+      "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
+      "is torn apart; try "
+      "half of time.step, or viscosity_time or gaps_close_first in the material.";
   if (bad_.fault != mpm::Fault::left_domain) {
     return too_long;
   }

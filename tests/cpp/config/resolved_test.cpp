@@ -80,6 +80,7 @@ dilation_angle = 4.0
 cohesion = 200000.0
 residual_cohesion = 100000.0
 tension_cutoff = 10000.0
+gaps_close_first = true
 viscosity_time = 0.03
 hydraulic_conductivity = 0.0001
 [body.block]

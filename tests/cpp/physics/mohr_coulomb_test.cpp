@@ -5,6 +5,8 @@
 #include <array>
 #include <random>
 
+#include "physics/tension_gap.hpp"
+
 namespace thawslide::physics {
 namespace {
 
@@ -173,6 +175,27 @@ TEST(MohrCoulomb, HydrostaticTensionGoesToTheApexOrTheCutoff) {
   const double apex = 1e6 / std::tan(35.0 * pi<double> / 180.0);
   EXPECT_NEAR(law_of({35, 0, 1e6, infinity}).update(trial, 0.0).stress[1], apex, 1e-3);
   EXPECT_NEAR(law_of({35, 0, 1e6, 2e5}).update(trial, 0.0).stress[1], 2e5, 1e-3);
+}
+
+TEST(MohrCoulomb, OpensGapsAtTheApexAndTheCutoffAlone) {
+  Tensor tension;
+  tension << 9e6, 9e6, 9e6, 0, 0, 0;
+  const double bulk_modulus = 5e8 / (3.0 * (1.0 - 2.0 * 0.2));
+  EXPECT_NEAR(law_of({35, 0, 1e6, 2e5}).update(tension, 0.0).opening, (9e6 - 2e5) / bulk_modulus, 1e-12);
+  Tensor shear;
+  shear << 1e6, -20e6, -3e6, 5e6, 0, 0;
+  EXPECT_EQ(law_of({35, 20, 1e6, infinity}).update(shear, 0.0).opening, 0.0) << "dilation opens none";
+}
+
+TEST(TensionGap, ClosesBeforeStressIsBorne) {
+  EXPECT_EQ(closing_strain(0.3, 0.1), 0.0) << "no closing while it opens further";
+  EXPECT_EQ(closing_strain(0.3, -0.1), 0.1);
+  EXPECT_EQ(closing_strain(0.3, -0.4), 0.3) << "no more than the gap";
+  Tensor strain;
+  strain << -0.2, 0.1, 0.0, 0.05, 0.01, 0.02;
+  const Tensor borne = borne_strain(strain, 0.1);
+  EXPECT_NEAR(borne.head<3>().sum(), 0.0, 1e-15);
+  EXPECT_EQ(borne.tail<3>(), strain.tail<3>());
 }
 
 TEST(MohrCoulomb, CohesionSoftensWithPlasticStrain) {

@@ -1,0 +1,163 @@
+// Collapse of granular columns: how far they run and what height is left, against the laws fitted to experiments. And
+// the dry dam break, whose thin flow is known exactly.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "../support/case_from_text.hpp"
+#include "record.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+// A column against a smooth wall, of dry sand, 10 m wide. Sand whose angle of repose is 31 degrees slides along planes
+// at tau = tan(31) sigma; without dilation such planes bear sin(phi) sigma (Davis 1968): phi = asin(tan(31)) = 36.9
+// degrees.
+const std::string column = R"(
+[time]
+end = 6.0
+step = 0.0035
+[grid]
+cell = 0.625
+min = [0.0, -2.5]
+max = [140.0, 60.0]
+[grid.boundary]
+x_min = "roller"
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.sand]
+law = "mohr_coulomb"
+youngs_modulus = 2e7
+poisson_ratio = 0.3
+friction_angle = 36.93
+cohesion = 0.0
+gaps_close_first = true
+[body.column]
+material = "sand"
+min = [0.0, 0.0]
+max = [10.0, 10.0]
+[basal]
+friction = "constant"
+friction_angle = 31.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+struct Deposit {
+  double runout;  // (final length - initial) over initial
+  double height;  // at the wall, over the initial width
+};
+
+Deposit collapse(double aspect, std::vector<std::string> settings = {}) {
+  settings.push_back(fmt::format("body.column.max=[10.0,{}]", 10.0 * aspect));
+  settings.push_back(fmt::format("time.end={}", 5.0 * std::sqrt(aspect)));
+  Simulation<2, double> simulation(case_from_text(column, settings));
+  run_until(simulation, simulation.parameters().time.end);
+  const auto row = history_row(simulation);
+  EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.1) << "the column has come to rest";
+  const auto& particles = simulation.particles();
+  double height = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (particles.position(p, 0) < 1.25) {
+      height = std::max(height, particles.position(p, 1) - 2.5);
+    }
+  }
+  return {value_of(row, "front_position_m") / 10.0 - 1.0, height / 10.0};
+}
+
+// Lube et al. 2005, quasi-two-dimensional columns.
+double runout_of_lube(double aspect) { return aspect < 1.8 ? 1.2 * aspect : 1.9 * std::pow(aspect, 2.0 / 3.0); }
+double height_of_lube(double aspect) { return aspect < 1.15 ? aspect : std::pow(aspect, 0.4); }
+
+TEST(GranularColumn, RunsOutAsExperimentsDo) {
+  Record record("Collapse of granular columns",
+                "Columns 10 m wide and of aspect ratio 0.5 to 6 fall apart; along the ground the friction angle is 31 "
+                "degrees, within 36.9, which on planes of sliding without dilation is the same. Tall columns leave "
+                "less height than sand: their fall has no other loss here than friction.",
+                "runout over width 1.2 a, above a = 1.8 1.9 a^(2/3); height over width a, above a = 1.15 a^0.4",
+                "fits to experiments, Lube et al. 2005");
+  Curve curve{"aspect ratio", "runout over width", {}, {}, {}};
+  for (const double aspect : {0.5, 1.0, 1.5, 3.0, 6.0}) {
+    const Deposit deposit = collapse(aspect);
+    curve.x.push_back(aspect);
+    curve.computed.push_back(deposit.runout);
+    curve.exact.push_back(runout_of_lube(aspect));
+    record.expect_near(fmt::format("runout over width, aspect ratio {}", aspect), deposit.runout,
+                       runout_of_lube(aspect), 0.2 * runout_of_lube(aspect));
+    record.expect_near(fmt::format("height over width, aspect ratio {}", aspect), deposit.height,
+                       height_of_lube(aspect), (aspect < 2.0 ? 0.1 : 0.3) * height_of_lube(aspect));
+  }
+  record.draw(curve);
+}
+
+// Without closing the gaps first, torn matter swells, and FLIP throws it about.
+TEST(GranularColumn, LosesGrainsWhereGapsBearAtOnce) {
+  const double closing = collapse(1.0).runout;
+  const double bearing = collapse(1.0, {"material.sand.gaps_close_first=false"}).runout;
+  EXPECT_GT(bearing, 1.1 * closing);
+  const double affine = collapse(1.0, {"mechanics.transfer=\"apic\""}).runout;
+  EXPECT_NEAR(closing, affine, 0.15 * affine) << "with the gaps closing, the transfer matters little";
+}
+
+// Ritter (1892), on a slope Mangeney et al. (2000): behind the front at x = L + a t^2/2 + 2 c t, c = sqrt(g cos h), the
+// depth is (front - x)^2/(9 g cos t^2), so that the volume beyond x is (front - x)^3/(27 g cos t^2).
+void expect_thin_flow_of_a_dam_break(Record& record, double slope) {
+  constexpr double length = 60.0;
+  constexpr double depth = 5.0;
+  const double radians = slope * std::acos(-1.0) / 180.0;
+  const double gravity = 9.81 * std::cos(radians);
+  const double acceleration = 9.81 * std::sin(radians);
+  Simulation<2, double> simulation(case_from_text(
+      column, {"material.sand.friction_angle=0", "material.sand.tension_cutoff=0", "grid.cell=0.5",
+               fmt::format("body.column.max=[{},{}]", length, depth), "grid.max=[180,20]", "time.step=0.0025",
+               "time.end=4", fmt::format("case.gravity_tilt={}", slope), "basal.friction_angle=0"}));
+  Curve curve{"volume beyond (share of all)", "place (m)", {}, {}, {}};
+  for (const double time : {2.0, 4.0}) {
+    run_until(simulation, time);
+    const auto& particles = simulation.particles();
+    std::vector<double> places;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      places.push_back(particles.position(p, 0));
+    }
+    std::sort(places.begin(), places.end());
+    const double front = length + 0.5 * acceleration * time * time + 2.0 * std::sqrt(gravity * depth) * time;
+    for (const double share : {0.005, 0.02, 0.05, 0.1}) {
+      const double behind = std::cbrt(27.0 * gravity * time * time * share * length * depth);
+      const double place = places[static_cast<std::size_t>((1.0 - share) * static_cast<double>(places.size()))];
+      if (time > 3.0) {
+        curve.x.push_back(share);
+        curve.computed.push_back(place);
+        curve.exact.push_back(front - behind);
+      }
+      record.expect_near(
+          fmt::format("place with {} of the volume beyond, less the dam's, {} degrees, {} s", share, slope, time),
+          place - length, front - behind - length, 0.06 * (front - length));
+    }
+  }
+  record.draw(curve);
+}
+
+TEST(DamBreak, RunsAsTheThinFlowOfRitter) {
+  Record record("Dry dam break",
+                "Matter without strength, 5 m deep and 60 m long, let go at its front over smooth ground: level, and "
+                "sloping by 20 degrees, where all of it slides as it spreads.",
+                "front at 2 c t + g sin t^2/2, c = sqrt(g cos h); depth (front - x)^2/(9 g cos t^2)",
+                "Ritter 1892; Mangeney et al. 2000");
+  expect_thin_flow_of_a_dam_break(record, 0.0);
+  expect_thin_flow_of_a_dam_break(record, 20.0);
+}
+
+}  // namespace
+}  // namespace thawslide::verification
