@@ -1,0 +1,19 @@
+// What the machine can do at best: the roofline that docs/performance.md holds the step against.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace thawslide::speed {
+
+struct MachineLimits {
+  double multiply_add;   // fused multiply-adds counted as two, one core [GFLOP/s]
+  double triad_cache;    // a[k] = b[k] + s c[k] over 96 KiB, one core [GB/s]
+  double triad_memory;   // the same over 192 MiB, one core [GB/s]
+  double triad_threads;  // the same on all cores [GB/s]
+};
+
+MachineLimits measure_machine(int threads);
+
+nlohmann::ordered_json to_json(const MachineLimits& limits);
+
+}  // namespace thawslide::speed

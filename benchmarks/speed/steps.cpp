@@ -1,0 +1,162 @@
+#include "steps.hpp"
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "base/parallel.hpp"
+#include "config/read_case.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::speed {
+
+namespace {
+
+// Every mechanism of the paper; cells of 1 m with 2 particles an axis.
+constexpr const char* full_model = R"(
+[case]
+dimension = {dimension}
+gravity_tilt = 40.0
+[time]
+end = 1e6
+step = 0.002
+[grid]
+cell = 1.0
+min = {min}
+max = {max}
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.debris]
+law = "mohr_coulomb"
+youngs_modulus = 2e8
+poisson_ratio = 0.3
+friction_angle = {friction_angle}
+cohesion = 2e4
+hydraulic_conductivity = 1e-9
+[body.slab]
+material = "debris"
+min = {low}
+max = {high}
+temperature = -1.0
+porosity = 0.375
+[basal]
+friction = "lubricated"
+friction_angle = 30.0
+[band]
+thickness = 0.1
+)";
+
+std::string point(const StepCase& which, double x, double y, double z) {
+  return which.dimension == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
+}
+
+config::Case make_case(const StepCase& which) {
+  constexpr double margin = 8;
+  const double end = (which.length + 10 * margin) * which.box;
+  const std::string text = fmt::format(
+      fmt::runtime(full_model), fmt::arg("dimension", which.dimension),
+      fmt::arg("min", point(which, -margin, -margin, -margin)),
+      fmt::arg("max", point(which, end, which.width + margin, which.height + 2 * margin)),
+      fmt::arg("low", point(which, 0, 0, 0)), fmt::arg("high", point(which, which.length, which.width, which.height)),
+      fmt::arg("friction_angle", which.friction_angle));
+  const auto folder = std::filesystem::temp_directory_path() / fmt::format("thawslide-speed-{}", getpid());
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "case.toml") << text;
+  config::Case parameters = config::read_case(folder);
+  std::filesystem::remove_all(folder);
+  return parameters;
+}
+
+double heap_in_use() {
+  const auto heap = mallinfo2();
+  return static_cast<double>(heap.uordblks + heap.hblkhd);
+}
+
+template <int Dim>
+StepTiming time_simulation(const StepCase& which, int threads, int repeats, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const double heap_before = heap_in_use();
+  sim::Simulation<Dim, double> simulation(make_case(which));
+  const auto& particles = simulation.particles();
+  const double dt = simulation.parameters().time.step;
+  const auto step = [&] { simulation.step(dt); };
+  constexpr int warm_up = 4;
+  for (int k = 0; k < warm_up; ++k) {
+    step();
+  }
+  const auto stages_before = simulation.stopwatch().seconds();
+  std::vector<double> rates;
+  std::int64_t steps = 0;
+  for (int r = 0; r < repeats; ++r) {
+    const auto start = Clock::now();
+    double passed = 0.0;
+    std::int64_t batch = 0;
+    while (passed < seconds) {
+      step();
+      ++batch;
+      passed = std::chrono::duration<double>(Clock::now() - start).count();
+    }
+    rates.push_back(static_cast<double>(particles.size()) * static_cast<double>(batch) / passed);
+    steps += batch;
+  }
+  StepTiming timing{which.name, particles.size(), threads, 0, 0, 0, 0, 0, {}};
+  for (const auto& [stage, total] : simulation.stopwatch().seconds()) {
+    const double spent = total - stages_before.at(stage);
+    timing.stages.emplace_back(stage, 1e9 * spent / static_cast<double>(steps) / static_cast<double>(particles.size()));
+  }
+  std::sort(rates.begin(), rates.end());
+  timing.particle_steps_per_second = rates[rates.size() / 2];
+  timing.lowest = rates.front();
+  timing.highest = rates.back();
+  std::vector<double> strain(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    strain[static_cast<std::size_t>(particles.id(p))] = particles.plastic_strain(p);
+  }
+  timing.bytes_per_particle = (heap_in_use() - heap_before) / static_cast<double>(particles.size());
+  step();
+  std::size_t yielded = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    yielded += particles.plastic_strain(p) > strain[static_cast<std::size_t>(particles.id(p))] ? 1 : 0;
+  }
+  timing.yielding = static_cast<double>(yielded) / static_cast<double>(particles.size());
+  return timing;
+}
+
+}  // namespace
+
+std::vector<StepCase> step_cases() {
+  return {{"2D 8,400", 2, 210, 1, 10},
+          {"2D 100,000", 2, 2500, 1, 10},
+          {"2D 1,000,000", 2, 12500, 1, 20},
+          {"3D 8,000", 3, 20, 10, 5},
+          {"3D 100,000", 3, 50, 25, 10},
+          {"3D 1,000,000", 3, 125, 100, 10},
+          {"3D 100,000 yielding", 3, 50, 25, 10, 1, 20},
+          {"2D 100,000 in a box 10 times as long", 2, 2500, 1, 10, 10},
+          {"2D 100,000 in a box 100 times as long", 2, 2500, 1, 10, 100}};
+}
+
+StepTiming time_steps(const StepCase& which, int threads, int repeats, double seconds) {
+  set_thread_count(threads);
+  return which.dimension == 2 ? time_simulation<2>(which, threads, repeats, seconds)
+                              : time_simulation<3>(which, threads, repeats, seconds);
+}
+
+nlohmann::ordered_json to_json(const StepTiming& timing) {
+  nlohmann::ordered_json json{{"case", timing.name},         {"particles", timing.particles},
+                              {"threads", timing.threads},   {"particle_steps_per_s", timing.particle_steps_per_second},
+                              {"lowest", timing.lowest},     {"highest", timing.highest},
+                              {"yielding", timing.yielding}, {"bytes_per_particle", timing.bytes_per_particle}};
+  for (const auto& [stage, nanoseconds] : timing.stages) {
+    json["stages_ns"][stage] = nanoseconds;
+  }
+  return json;
+}
+
+}  // namespace thawslide::speed

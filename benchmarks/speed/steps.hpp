@@ -1,0 +1,37 @@
+// Whole steps of the full model, timed.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace thawslide::speed {
+
+// A slab that slides down 40 degrees with every mechanism on.
+struct StepCase {
+  std::string name;
+  int dimension;
+  double length, width, height;  // of the slab, in cells of 1 m
+  double box = 1;                // the domain is this many times as long as the slab's needs it to be
+  double friction_angle = 35;    // inside the slab [degrees]: the smaller, the more of it yields
+};
+
+struct StepTiming {
+  std::string name;
+  std::size_t particles;
+  int threads;
+  double particle_steps_per_second;                    // median over repeats
+  double lowest, highest;                              // over repeats
+  double yielding;                                     // share of particles that yielded in the last step
+  double bytes_per_particle;                           // heap in use after the run over particles
+  std::vector<std::pair<std::string, double>> stages;  // [ns per particle and step]
+};
+
+std::vector<StepCase> step_cases();
+
+// Times `repeats` batches of steps, each of at least `seconds`.
+StepTiming time_steps(const StepCase& which, int threads, int repeats, double seconds);
+
+nlohmann::ordered_json to_json(const StepTiming& timing);
+
+}  // namespace thawslide::speed
