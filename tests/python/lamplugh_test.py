@@ -14,7 +14,7 @@ import pytest
 from conftest import MakeRun, history_columns, write_history
 
 from thawslide.paper.lamplugh import FRONT, base_traction, block_measures, read_block, zone_shares, zones
-from thawslide.paper.one_at_a_time import Outcome, Row, at_rest, is_current, outcome, run_rows, table_row
+from thawslide.paper.one_at_a_time import Outcome, Row, at_rest, is_current, outcome, run_rows, table, table_row
 from thawslide.paper.runs import LAMPLUGH_BLOCKS
 from thawslide.run import Run
 
@@ -96,13 +96,15 @@ def test_outcome_of_a_run(make_run: MakeRun) -> None:
 
 
 def test_rows_say_plainly_what_failed() -> None:
-    assert table_row("x", Outcome(failure="not run")) == "| x | not run | | | | | | | |"
-    still = table_row("x", Outcome(peak=0.4, peak_time=1.0, displacement=0.0, runout=1000.0, length=1000.0, end_time=100.0))
-    assert "does not start" in still and "never" in still
-    broken = table_row("x", Outcome("bad", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 7.0, 8.0, 33.0, 9.0))
-    assert "broke off at 33" in broken
-    going = table_row("x", Outcome("", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 7.0, 8.0, 200.0, 9.0))
-    assert "not: 9 m/s at 200" in going
+    row = Row("x", "x", ("a=1", "b=2"), "other.toml")
+    assert table_row(row, Outcome("not run")) == "| x | not run | | | | | | | | [other.toml](other.toml) `a=1` `b=2` |"
+    still = Outcome(peak=0.4, peak_time=1.0, displacement=0.0, runout=1000.0, length=1000.0, end_time=100.0)
+    assert "| never | does not start |" in table_row(row, still)
+    broken = Outcome("bad\nnews", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 7.0, 8.0, 33.0, 9.0)
+    assert "broke off at 33" in table_row(row, broken)
+    assert table([row], {"x": broken}, ["a=1"]).endswith("[other.toml](other.toml) `b=2` |\n\n- x: bad news\n")
+    going = Outcome("", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 7.0, 8.0, 200.0, 9.0)
+    assert "not: 9 m/s at 200" in table_row(row, going)
 
 
 PROGRAM = """import sys, json, pathlib

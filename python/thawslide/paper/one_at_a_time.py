@@ -5,10 +5,12 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
+import textwrap
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,13 +30,12 @@ STARTED = 8.0  # m/s
 
 @dataclass(frozen=True)
 class Row:
-    """One run: key (its folder), words for the table, what --set changes, its case file and the group it stands in."""
+    """One run: key (its folder), words for the table, what --set changes, its case file."""
 
     key: str
     words: str
     sets: tuple[str, ...] = ()
     case: str = "case.toml"
-    group: str = ""
 
 
 @dataclass(frozen=True)
@@ -168,21 +169,26 @@ def outcome(folder: Path) -> Outcome:
 
 HEADER = (
     "| run | peak [m/s] | at [s] | 8 m/s at [s] | stops at [s] | mean displacement [m] | runout [m] | deposit [m] "
-    "| band at most [C] |\n|---|---|---|---|---|---|---|---|---|\n"
+    "| band at most [C] | set |\n|---|---|---|---|---|---|---|---|---|---|\n"
 )
 
 
-def table_row(words: str, found: Outcome) -> str:
-    """Return a line of the table under HEADER."""
+def table_row(row: Row, found: Outcome, hidden: Sequence[str] = ()) -> str:
+    """Return a line of the table under HEADER; `hidden` settings are those of every line."""
+    shown = [f"`{key}`" for key in row.sets if key not in hidden]
+    if row.case != "case.toml":
+        shown.insert(0, f"[{row.case}]({row.case})")
     if np.isnan(found.peak):
-        return f"| {words} | {found.failure or 'no numbers'} | | | | | | | |"
-    stop = f"{found.stop_time:.0f}" if np.isfinite(found.stop_time) else f"not: {found.end_speed:.0f} m/s at {found.end_time:.0f}"
-    if found.peak < 1.0:
-        stop = "does not start"
+        return f"| {row.words} | {found.failure or 'no numbers'} | | | | | | | | {' '.join(shown)} |"
+    stop = f"{found.stop_time:.0f}"
     if found.failure:
         stop = f"broke off at {found.end_time:.0f}"
+    elif found.peak < 1.0:
+        stop = "does not start"
+    elif np.isnan(found.stop_time):
+        stop = f"not: {found.end_speed:.0f} m/s at {found.end_time:.0f}"
     cells = (
-        words,
+        row.words,
         f"{found.peak:.1f}",
         f"{found.peak_time:.0f}",
         f"{found.start_time:.0f}" if np.isfinite(found.start_time) else "never",
@@ -191,5 +197,40 @@ def table_row(words: str, found: Outcome) -> str:
         f"{found.runout:.0f}",
         f"{found.length:.0f}",
         f"{found.temperature:.0f}" if np.isfinite(found.temperature) else "no band",
+        " ".join(shown),
     )
     return "| " + " | ".join(cells) + " |"
+
+
+def table(rows: Sequence[Row], found: Mapping[str, Outcome], hidden: Sequence[str] = ()) -> str:
+    """Return the whole table of some rows; what made a run break off stands below."""
+    lines = [table_row(row, found[row.key], hidden) for row in rows]
+    broken = [
+        textwrap.fill(f"- {row.words}: {' '.join(found[row.key].failure.split())}", 120, subsequent_indent="  ")
+        for row in rows
+        if found[row.key].failure and not np.isnan(found[row.key].peak)
+    ]
+    return HEADER + "\n".join(lines) + "\n" + ("\n" + "\n".join(broken) + "\n" if broken else "")
+
+
+def rewrapped(text: str) -> str:
+    """Return a document with its paragraphs and list items wrapped at 120 columns; tables and headings stay."""
+    blocks = []
+    for block in text.strip().split("\n\n"):
+        if block.lstrip().startswith(("|", "#", "!", "```")):
+            blocks.append(block.rstrip())
+            continue
+        items = re.split(r"\n(?=- )", block)
+        blocks.append(
+            "\n".join(
+                textwrap.fill(
+                    " ".join(item.split()),
+                    120,
+                    subsequent_indent="  " if item.startswith("- ") else "",
+                    break_long_words=False,
+                    break_on_hyphens=False,
+                )
+                for item in items
+            )
+        )
+    return "\n\n".join(blocks) + "\n"
