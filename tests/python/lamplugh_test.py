@@ -20,7 +20,7 @@ from thawslide.run import Run
 
 
 def write_ground(folder: Path) -> None:
-    """A slope of 48 degrees to 1 km, a ramp of 8 to 2 km, a floor of 1.3 beyond."""
+    """Write a slope of 48 degrees to 1 km, a ramp of 8 to 2 km, a floor of 1.3 beyond."""
     x = np.arange(0.0, 12000.0, 10.0)
     slope = np.where(x < 1000.0, 48.0, np.where(x < 2000.0, 8.0, 1.3))
     z = 2150.0 - np.concatenate(([0.0], np.cumsum(10.0 * np.tan(np.radians(slope[:-1])))))
@@ -65,7 +65,8 @@ def test_blocks_are_measured(make_run: MakeRun) -> None:
     folder = make_run()
     header = "time_s,velocity_m_s,displacement_m,sliding_strength_Pa,driving_traction_Pa\n"
     for block in LAMPLUGH_BLOCKS:
-        (folder.parent / f"{block.name}.csv").write_text(header + "0,0,0,90,100\n1,4,2,50,100\n2,0,4,50,100\n3,0,4,50,9\n")
+        rows = "0,0,0,90,100\n1,4,2,50,100\n2,0,4,50,100\n3,0,4,50,9\n"
+        (folder.parent / f"{block.name}.csv").write_text(header + rows)
     found = block_measures(Run(folder))
     assert found["lamplugh_block_561_peak"] == 4.0
     assert found["lamplugh_block_561_stop"] == 2.0
@@ -132,7 +133,8 @@ def test_runs_that_are_there_are_kept(tmp_path: Path) -> None:
     assert said[0] == "3 runs, 0 of them there already"
     assert any("min left: c: error: no such key bad" in line for line in said)
     assert said[4] == "3 runs, 2 of them there already"
-    assert outcome(tmp_path / "runs" / "c").failure == "not run"
+    assert outcome(tmp_path / "runs" / "c").failure == "error: no such key bad"
+    assert outcome(tmp_path / "runs" / "d").failure == "not run"
     words = json.loads((tmp_path / "runs" / "b" / "run.json").read_text())["command"].split(" ")
     assert words[-4:] == ["--set", "y=2", "--set", "x=1"]
     assert is_current(tmp_path / "runs" / "b", words, [program])

@@ -31,7 +31,7 @@ _COLOURS = (RED, ORANGE, GREEN)
 
 @dataclass(frozen=True)
 class Zone:
-    """A zone of Fig. 12b: letter, what the text says of it, and where we take it to lie [m]; the text gives no place."""
+    """A zone of Fig. 12b: letter, what the text says of it, where we take it to lie [m] (the text gives no place)."""
 
     letter: str
     text: str
@@ -116,7 +116,7 @@ def block_measures(run: Run) -> dict[str, float]:
 
 
 def base_traction(run: Run, start: float = 100.0, end: float = 140.0) -> float:
-    """Return the mean traction [kPa] along the base on the valley floor, from what slows the slide from start to end [s].
+    """Return the mean traction [kPa] of the base on the valley floor, from what slows the slide from start to end [s].
 
     Mass and length of the slide as they are half way; gravity along the mean slope of the ground under it.
     """
@@ -225,8 +225,8 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
         thick.axvspan(zone.start / 1e3, zone.end / 1e3, color=GREEN, alpha=0.14 if number % 2 else 0.06, linewidth=0)
         middle = 0.5 * (zone.start + zone.end) / 1e3
         words = "accumulation" if zone.accumulates else "none" if zone.letter == "C" else "both"
-        thick.annotate(f"{zone.letter}\n{words}", (middle, 0.97), xycoords=("data", "axes fraction"), ha="center", va="top",
-                       size=8, color=NOTE)  # fmt: skip
+        thick.annotate(f"{zone.letter}\n{words}", (middle, 0.97), xycoords=("data", "axes fraction"), ha="center",
+                       va="top", size=8, color=NOTE)  # fmt: skip
     thick.axvline(FRONT / 1e3, color=RED, linewidth=1.0, linestyle="--")
     thick.annotate("reported front", (FRONT / 1e3, 0.6), xycoords=("data", "axes fraction"), xytext=(4, 0),
                    textcoords="offset points", va="top", size=8, color=RED)  # fmt: skip
@@ -234,7 +234,10 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
     for axes in (section, thick):
         axes.grid(True)
         axes.set_xlim(ground_x[0] / 1e3, ground_x[-1] / 1e3)
-    letters([section, thick], ("profile", "thickness of the deposit, means over 100 m; what the text says of each zone, at places of ours"))
+    letters(
+        [section, thick],
+        ("profile", "thickness of the deposit, means over 100 m; zones with the words of the text, at places of ours"),
+    )
     return figure
 
 
@@ -249,9 +252,9 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     time_line(way, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
     beside = blocks(run)
     for block, colour, dashes in zip(LAMPLUGH_BLOCKS, _COLOURS, ("--", "-.", ":"), strict=True):
-        history = beside[block.name]
+        history, look = beside[block.name], {"color": colour, "linestyle": dashes}
         for axes, column, divisor in ((speed, "velocity_m_s", 1.0), (way, "displacement_m", 1e3)):
-            time_line(axes, history["time_s"], history[column] / divisor, color=colour, linestyle=dashes, label=block.words)
+            time_line(axes, history["time_s"], history[column] / divisor, **look, label=block.words)
     draw_targets(speed, run, ("mean_velocity",), 1.0, NOTE)
     draw_targets(way, run, ("mean_displacement",), 1e3, NOTE)
     speed.set_ylabel("mean velocity (m/s)")

@@ -26,6 +26,7 @@ REST = 10.0  # s: a slide that has stood still for so long is at rest
 REST_SHARE, REST_SPEED = 0.002, 0.02  # of the peak; m/s
 NEVER_MOVED = 100.0  # s: one that has not reached 1 m/s by then will not
 STARTED = 8.0  # m/s
+ENDED = ("done", "stopped")  # in run.json; stopped by us, at rest
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,11 @@ def is_current(folder: Path, words: Sequence[str], inputs: Iterable[Path]) -> bo
     return all(path.stat().st_mtime < written for path in inputs)
 
 
+def refusal(folder: Path) -> Path:
+    """Return the file beside a run folder that says why the program would not begin the run."""
+    return folder.parent / f"{folder.name}.refused.txt"
+
+
 def run_one(words: Sequence[str], folder: Path) -> str:
     """Run to the end, or until the slide is at rest; return "" or the program's error."""
     environment = os.environ | {"OMP_NUM_THREADS": "1"}
@@ -129,18 +135,20 @@ def run_rows(
         futures = {pool.submit(run_one, words, output / row.key): row for row, words in waiting}
         for done, future in enumerate(as_completed(futures), 1):
             row, failure = futures[future], future.result()
-            if (output / row.key).is_dir():
-                (output / row.key / "failure.txt").write_text(failure, encoding="utf-8")
+            if not (output / row.key / "history.csv").is_file():
+                refusal(output / row.key).write_text(failure, encoding="utf-8")
             left = (time.monotonic() - started) / done * (len(waiting) - done)
-            tell(f"{done} of {len(waiting)}, about {left / 60:.0f} min left: {row.key}" + (f": {failure}" if failure else ""))
+            why = f": {failure}" if failure else ""
+            tell(f"{done} of {len(waiting)}, about {left / 60:.0f} min left: {row.key}{why}")
 
 
 def outcome(folder: Path) -> Outcome:
     """Return the numbers of a run folder; one that is not there or broke off says so."""
     if not (folder / "history.csv").is_file():
-        return Outcome(failure="not run")
-    note = folder / "failure.txt"
-    failure = note.read_text(encoding="utf-8") if note.is_file() else ""
+        note = refusal(folder)
+        return Outcome(failure=note.read_text(encoding="utf-8") if note.is_file() else "not run")
+    facts = _facts(folder)
+    failure = "" if facts.get("status") in ENDED else str(facts.get("message") or "still running")
     run = Run(folder)
     time_s, speed = run.history["time_s"], run.history["mean_velocity_m_s"]
     peak = int(np.nanargmax(speed))
