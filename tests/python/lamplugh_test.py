@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from conftest import MakeRun, history_columns, write_history
 
-from thawslide.paper.lamplugh import FRONT, base_traction, block_measures, read_block, zone_shares, zones
+from thawslide.paper.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_shares, zones
 from thawslide.paper.one_at_a_time import Outcome, Row, at_rest, is_current, outcome, run_rows, table, table_row
 from thawslide.paper.runs import LAMPLUGH_BLOCKS
 from thawslide.run import Run
@@ -59,6 +59,13 @@ def test_base_traction_is_what_slows_a_slide_on_level_ground(make_run: MakeRun) 
     # 80 particles of 2,000 kg on 20 m in rows of 4: 0.5 % and 99.5 % of the mass are the first and the last of them.
     assert base_traction(run, 2.0, 8.0) == pytest.approx(80 * 2000.0 * 0.8 / (x[-1] - x[0]) / 1e3)
     assert math.isnan(base_traction(run))
+
+
+def test_particles_near_the_ground_are_counted_across_it(make_run: MakeRun) -> None:
+    # Rows 0.5, 1.5, 2.5 and 3.5 m up a slope of one half: 0.447, 1.342, 2.236, 3.130 m across it, two a column of 2 m.
+    run = Run(make_run())
+    assert near_ground(run, 0.0, height=1.3, column=2.0) == 2.0
+    assert near_ground(run, 0.0, height=1.4, column=2.0) == 4.0
 
 
 def test_blocks_are_measured(make_run: MakeRun) -> None:

@@ -135,6 +135,17 @@ def base_traction(run: Run, start: float = 100.0, end: float = 140.0) -> float:
     return float(share[-1] * (slowing + gravity * np.sin(slope)) / (front - rear) * np.cos(slope) / 1e3)
 
 
+def near_ground(run: Run, time: float, height: float = 5.0, column: float = 10.0) -> float:
+    """Return the mean number of particles within `height` [m] of the ground, across it, in each `column` [m] of x."""
+    shot = run.snapshot(time=time)
+    assert run.terrain is not None
+    x, z = run.terrain
+    across = np.cos(np.interp(shot.points[:, 0], x, np.arctan(np.gradient(z, x))))
+    above = (shot.points[:, 1] - np.interp(shot.points[:, 0], x, z)) * across
+    columns = np.unique(np.floor(shot.points[:, 0] / column))
+    return float(np.count_nonzero(above < height) / len(columns))
+
+
 def measures(runs: dict[str, Run]) -> dict[str, float]:
     """Return the numbers of Sec. 4."""
     run, other = runs["lamplugh"], runs["lamplugh-no-pressurization"]
