@@ -26,7 +26,6 @@ REST = 10.0  # s: a slide that has stood still for so long is at rest
 REST_SHARE, REST_SPEED = 0.002, 0.02  # of the peak; m/s
 NEVER_MOVED = 100.0  # s: one that has not reached 1 m/s by then will not
 STARTED = 8.0  # m/s
-ENDED = ("done", "stopped")  # in run.json; stopped by us, at rest
 
 
 @dataclass(frozen=True)
@@ -89,10 +88,15 @@ def _facts(folder: Path) -> dict[str, Any]:
         return {}
 
 
+def _stopped_at_rest(folder: Path, facts: Mapping[str, Any]) -> bool:
+    return facts.get("status") == "stopped" and at_rest(*_speeds(folder / "history.csv"))
+
+
 def is_current(folder: Path, words: Sequence[str], inputs: Iterable[Path]) -> bool:
     """Return whether a folder holds an ended run of these words that is newer than the program and its inputs."""
     facts = _facts(folder)
-    if facts.get("command") != " ".join(words) or facts.get("status") in (None, "running"):
+    ended = facts.get("status") in ("done", "failed") or _stopped_at_rest(folder, facts)
+    if facts.get("command") != " ".join(words) or not ended:
         return False
     written = (folder / "run.json").stat().st_mtime
     return all(path.stat().st_mtime < written for path in inputs)
@@ -148,7 +152,8 @@ def outcome(folder: Path) -> Outcome:
         note = refusal(folder)
         return Outcome(failure=note.read_text(encoding="utf-8") if note.is_file() else "not run")
     facts = _facts(folder)
-    failure = "" if facts.get("status") in ENDED else str(facts.get("message") or "still running")
+    whole = facts.get("status") == "done" or _stopped_at_rest(folder, facts)
+    failure = "" if whole else str(facts.get("message") or "not at its end yet")
     run = Run(folder)
     time_s, speed = run.history["time_s"], run.history["mean_velocity_m_s"]
     peak = int(np.nanargmax(speed))
