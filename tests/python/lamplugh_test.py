@@ -145,5 +145,11 @@ def test_runs_that_are_there_are_kept(tmp_path: Path) -> None:
     words = json.loads((tmp_path / "runs" / "b" / "run.json").read_text())["command"].split(" ")
     assert words[-4:] == ["--set", "y=2", "--set", "x=1"]
     assert is_current(tmp_path / "runs" / "b", words, [program])
+    # One stopped on its way is no result, one stopped at rest is.
+    facts = {"command": " ".join(words), "status": "stopped", "message": "signal 15"}
+    (tmp_path / "runs" / "b" / "run.json").write_text(json.dumps(facts))
+    assert not is_current(tmp_path / "runs" / "b", words, [program])
+    (tmp_path / "runs" / "b" / "history.csv").write_text("time_s,mean_velocity_m_s\n100,0\n")
+    assert is_current(tmp_path / "runs" / "b", words, [program])
     program.touch()
     assert not is_current(tmp_path / "runs" / "b", words, [program])
