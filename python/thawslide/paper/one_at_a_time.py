@@ -174,7 +174,7 @@ def outcome(folder: Path) -> Outcome:
         displacement=float(run.history["mean_displacement_m"][-1]),
         runout=float(run.history["runout_m"][-1]),
         length=float(x[high] - x[low]),
-        temperature=float(np.nanmax(band)) if np.isfinite(band).any() else float("nan"),
+        temperature=float(np.nanmax(band)) if np.isfinite(band).any() and not failure else float("nan"),
         end_time=float(time_s[-1]),
         end_speed=float(speed[-1]),
     )
@@ -209,7 +209,7 @@ def table_row(row: Row, found: Outcome, hidden: Sequence[str] = ()) -> str:
         f"{found.displacement:.0f}",
         f"{found.runout:.0f}",
         f"{found.length:.0f}",
-        f"{found.temperature:.0f}" if np.isfinite(found.temperature) else "no band",
+        f"{found.temperature:.0f}" if np.isfinite(found.temperature) else "",
         " ".join(shown),
     )
     return "| " + " | ".join(cells) + " |"
