@@ -226,6 +226,7 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
     for index, colour, words in ((0, NOTE, "start"), (-1, RED, f"t = {run.times[-1]:g} s")):
         points = run.snapshot(index).points
         section.plot(points[:, 0] / 1e3, points[:, 1], ".", color=colour, markersize=1.5, label=words)
+    section.set_ylim(0.8 * float(run.snapshot(-1).points[:, 1].min()), None)
     section.set_ylabel("elevation (m)")
     section.legend(loc="upper right", markerscale=6)
     x, thickness = deposit(run)
@@ -244,7 +245,7 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
     thick.set_ylim(0.0, 1.35 * float(thickness.max()))
     for axes in (section, thick):
         axes.grid(True)
-        axes.set_xlim(ground_x[0] / 1e3, ground_x[-1] / 1e3)
+        axes.set_xlim(ground_x[0] / 1e3, max(FRONT + 1500.0, float(x.max()) + BIN) / 1e3)
     letters(
         [section, thick],
         ("profile", "thickness of the deposit, means over 100 m; zones with the words of the text, at places of ours"),

@@ -154,6 +154,8 @@ def outcome(folder: Path) -> Outcome:
     facts = _facts(folder)
     whole = facts.get("status") == "done" or _stopped_at_rest(folder, facts)
     failure = "" if whole else str(facts.get("message") or "not at its end yet")
+    if not whole and facts.get("status") == "stopped":
+        failure = "stopped before its end"
     run = Run(folder)
     time_s, speed = run.history["time_s"], run.history["mean_velocity_m_s"]
     peak = int(np.nanargmax(speed))
