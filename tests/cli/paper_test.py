@@ -23,7 +23,7 @@ def test_paper_shortened(binary: Path, report_environment: dict[str, str], tmp_p
     assert done.returncode == 0, done.stderr
     page = (output / "report.html").read_text(encoding="utf-8")
     links = re.findall(r'<img src="([^"]+)"', page)
-    assert len(links) == 14
+    assert len(links) == 15
     assert all((output / link).read_bytes().startswith(b"\x89PNG") for link in links)
     assert "Shortened runs" in page
     assert len(re.findall(r"<td><b>(?:true|false|undetermined)</b></td>", page)) > 50

@@ -1,20 +1,43 @@
-"""Sec. 4: the Lamplugh avalanche. Figs. 14 to 20 are those of any report; the deposit is drawn here."""
+"""Sec. 4: the Lamplugh avalanche. Figs. 14 to 20 are those of any report; deposit and rigid block are drawn here."""
 
 from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from thawslide.errors import NotInRunError
 from thawslide.figures.force import seismic_force
-from thawslide.figures.style import BLUE, GREEN, NOTE, RED, letters, styled
-from thawslide.key_numbers import stop_time
+from thawslide.figures.motion import draw_targets
+from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_axis, time_line
+from thawslide.key_numbers import STOPPED_SHARE, stop_time
 from thawslide.paper.block import at
+from thawslide.paper.runs import LAMPLUGH_BLOCKS
 from thawslide.run import Numbers, Run
 
 # Gradients the text gives for the way down: source slope, ramp, valley floor.
 SLOPE, RAMP = 48.0, 8.0
 BIN = 100.0  # m
 PHASE = 75.0  # s: the time of the peak in the paper
+FRONT = 10500.0  # m: the reported front
+MARGIN = 1000.0  # m: what counts as the distal margin before it
+
+History = dict[str, Numbers]
+_COLOURS = (RED, ORANGE, GREEN)
+
+
+@dataclass(frozen=True)
+class Zone:
+    """A zone of Fig. 12b: letter, what the text says of it, where we take it to lie [m] (the text gives no place)."""
+
+    letter: str
+    text: str
+    start: float
+    end: float
+    accumulates: bool
 
 
 def deposit(run: Run) -> tuple[Numbers, Numbers]:
@@ -34,6 +57,93 @@ def breaks(run: Run) -> tuple[float, float]:
     steep = x[slope > 0.5 * (SLOPE + RAMP)]
     ramp = x[slope > 0.5 * RAMP]
     return float(steep.max()), float(ramp.max())
+
+
+def zones(run: Run) -> list[Zone]:
+    """Return the zones downhill: B ends with the ramp, F is the last km before the front, C to E share the rest."""
+    foot, valley = breaks(run)
+    first, second = valley + (FRONT - MARGIN - valley) * np.array([1.0, 2.0]) / 3.0
+    return [
+        Zone("B", "accumulation just below the source", foot, valley, True),
+        Zone("C", "none simulated; eroded in the field", valley, float(first), False),
+        Zone("D", "accumulation, a toe in the middle of the deposit", float(first), float(second), True),
+        Zone("E", "transport: both accumulation and depletion", float(second), FRONT - MARGIN, False),
+        Zone("F", "accumulation along the distal margin", FRONT - MARGIN, FRONT, True),
+    ]
+
+
+def zone_shares(run: Run) -> dict[str, tuple[float, float]]:
+    """Return by letter the share of the volume [%] and the mean thickness [m] in each zone at the end of the run."""
+    shot = run.snapshot(-1)
+    x, volume = shot.points[:, 0], np.asarray(shot["volume"], dtype=np.float64)
+    found = {}
+    for zone in zones(run):
+        inside = float(volume[(x >= zone.start) & (x < zone.end)].sum())
+        found[zone.letter] = (100.0 * inside / float(volume.sum()), inside / (zone.end - zone.start))
+    return found
+
+
+def read_block(path: Path) -> History:
+    """Return the columns of what `thawslide block` wrote; NotInRunError where there is nothing."""
+    if not path.is_file():
+        raise NotInRunError(f"{path}: not there")
+    with path.open(newline="", encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    table = np.array(rows, dtype=np.float64)
+    return {name: table[:, place] for place, name in enumerate(header)}
+
+
+def blocks(run: Run) -> dict[str, History]:
+    """Return the histories of the rigid blocks that lie beside a run, by name."""
+    return {each.name: read_block(run.folder.parent / f"{each.name}.csv") for each in LAMPLUGH_BLOCKS}
+
+
+def block_measures(run: Run) -> dict[str, float]:
+    """Return peak [m/s], its time [s], displacement [m] and stop [s] of each rigid block."""
+    found = {}
+    for name, history in blocks(run).items():
+        time, speed = history["time_s"], history["velocity_m_s"]
+        peak = int(np.argmax(speed))
+        moving = np.flatnonzero(speed > STOPPED_SHARE * max(float(speed[peak]), 1e-300))
+        stopped = moving.size > 0 and int(moving[-1]) + 1 < len(time)
+        key = name.replace("-", "_")
+        found[f"{key}_peak"] = float(speed[peak])
+        found[f"{key}_peak_time"] = float(time[peak])
+        found[f"{key}_displacement"] = float(history["displacement_m"][-1])
+        found[f"{key}_stop"] = float(time[int(moving[-1]) + 1]) if stopped else float("nan")
+        found[f"{key}_safety"] = float(history["sliding_strength_Pa"][0] / history["driving_traction_Pa"][0])
+    return found
+
+
+def base_traction(run: Run, start: float = 100.0, end: float = 140.0) -> float:
+    """Return the mean traction [kPa] of the base on the valley floor, from what slows the slide from start to end [s].
+
+    Mass and length of the slide as they are half way; gravity along the mean slope of the ground under it.
+    """
+    history = run.history
+    if float(history["time_s"][-1]) < end:
+        return float("nan")
+    assert run.terrain is not None
+    slowing = (at(run, "mean_velocity_m_s", start) - at(run, "mean_velocity_m_s", end)) / (end - start)
+    shot = run.snapshot(time=0.5 * (start + end))
+    order = np.argsort(shot.points[:, 0])
+    share = np.cumsum(np.asarray(shot["mass"], dtype=np.float64)[order])
+    rear, front = shot.points[order, 0][np.searchsorted(share, (0.005 * share[-1], 0.995 * share[-1]))]
+    low, high = np.interp((rear, front), *run.terrain)
+    slope = np.arctan2(low - high, front - rear)
+    gravity = 9.81
+    return float(share[-1] * (slowing + gravity * np.sin(slope)) / (front - rear) * np.cos(slope) / 1e3)
+
+
+def near_ground(run: Run, time: float, height: float = 5.0, column: float = 10.0) -> float:
+    """Return the mean number of particles within `height` [m] of the ground, across it, in each `column` [m] of x."""
+    shot = run.snapshot(time=time)
+    assert run.terrain is not None
+    x, z = run.terrain
+    across = np.cos(np.interp(shot.points[:, 0], x, np.arctan(np.gradient(z, x))))
+    above = (shot.points[:, 1] - np.interp(shot.points[:, 0], x, z)) * across
+    columns = np.unique(np.floor(shot.points[:, 0] / column))
+    return float(np.count_nonzero(above < height) / len(columns))
 
 
 def measures(runs: dict[str, Run]) -> dict[str, float]:
@@ -95,6 +205,11 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         "lamplugh_dry_stop": other_stopped if other_stopped is not None else float("nan"),
         "lamplugh_particles": float(len(run.snapshot(0).points)),
     }
+    for letter, (share, mean) in zone_shares(run).items():
+        found[f"lamplugh_zone_{letter}"] = share
+        found[f"lamplugh_zone_{letter}_thickness"] = mean
+    found["lamplugh_base_traction"] = base_traction(run)
+    found |= block_measures(run)
     found["lamplugh_rise_time"] = found["lamplugh_peak_time"] - found["lamplugh_8_time"]
     return found
 
@@ -111,18 +226,54 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
     for index, colour, words in ((0, NOTE, "start"), (-1, RED, f"t = {run.times[-1]:g} s")):
         points = run.snapshot(index).points
         section.plot(points[:, 0] / 1e3, points[:, 1], ".", color=colour, markersize=1.5, label=words)
+    section.set_ylim(0.8 * float(run.snapshot(-1).points[:, 1].min()), None)
     section.set_ylabel("elevation (m)")
     section.legend(loc="upper right", markerscale=6)
     x, thickness = deposit(run)
     thick.bar(x / 1e3, thickness, width=BIN / 1e3, color=BLUE, edgecolor="white", linewidth=0.3)
     thick.set_ylabel("thickness (m)")
     thick.set_xlabel("distance (km)")
-    for height, place, words in zip((0.97, 0.87), breaks(run), ("foot of the slope", "foot of the ramp"), strict=True):
-        thick.axvline(place / 1e3, color=GREEN, linewidth=1.0, linestyle="--")
-        thick.annotate(words, (place / 1e3, height), xycoords=("data", "axes fraction"), xytext=(4, 0),
-                       textcoords="offset points", va="top", size=8, color=GREEN)  # fmt: skip
+    for number, zone in enumerate(zones(run)):
+        thick.axvspan(zone.start / 1e3, zone.end / 1e3, color=GREEN, alpha=0.14 if number % 2 else 0.06, linewidth=0)
+        middle = 0.5 * (zone.start + zone.end) / 1e3
+        words = "accumulation" if zone.accumulates else "none" if zone.letter == "C" else "both"
+        thick.annotate(f"{zone.letter}\n{words}", (middle, 0.97), xycoords=("data", "axes fraction"), ha="center",
+                       va="top", size=8, color=NOTE)  # fmt: skip
+    thick.axvline(FRONT / 1e3, color=RED, linewidth=1.0, linestyle="--")
+    thick.annotate("reported front", (FRONT / 1e3, 0.6), xycoords=("data", "axes fraction"), xytext=(4, 0),
+                   textcoords="offset points", va="top", size=8, color=RED)  # fmt: skip
+    thick.set_ylim(0.0, 1.35 * float(thickness.max()))
     for axes in (section, thick):
         axes.grid(True)
-        axes.set_xlim(ground_x[0] / 1e3, ground_x[-1] / 1e3)
-    letters([section, thick], ("profile", "thickness of the deposit, means over 100 m"))
+        axes.set_xlim(ground_x[0] / 1e3, max(FRONT + 1500.0, float(x.max()) + BIN) / 1e3)
+    letters(
+        [section, thick],
+        ("profile", "thickness of the deposit, means over 100 m; zones with the words of the text, at places of ours"),
+    )
+    return figure
+
+
+@styled
+def figure_blocks(runs: dict[str, Run]) -> Figure:
+    """Draw velocity and displacement of the deforming slide and of the rigid blocks, with the reported values."""
+    run = runs["lamplugh"]
+    time = run.history["time_s"]
+    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
+    speed, way = figure.subplots(1, 2)
+    time_line(speed, time, run.history["mean_velocity_m_s"], color=BLUE, label="deforming (MPM)")
+    time_line(way, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
+    beside = blocks(run)
+    for block, colour, dashes in zip(LAMPLUGH_BLOCKS, _COLOURS, ("--", "-.", ":"), strict=True):
+        history, look = beside[block.name], {"color": colour, "linestyle": dashes}
+        for axes, column, divisor in ((speed, "velocity_m_s", 1.0), (way, "displacement_m", 1e3)):
+            time_line(axes, history["time_s"], history[column] / divisor, **look, label=block.words)
+    draw_targets(speed, run, ("mean_velocity",), 1.0, NOTE)
+    draw_targets(way, run, ("mean_displacement",), 1e3, NOTE)
+    speed.set_ylabel("mean velocity (m/s)")
+    way.set_ylabel("mean displacement (km)")
+    for axes in (speed, way):
+        time_axis(axes, time)
+        axes.set_ylim(bottom=0.0)
+        axes.legend(loc="best")
+    letters((speed, way), ("velocity", "displacement"))
     return figure

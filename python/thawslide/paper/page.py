@@ -25,6 +25,7 @@ _OWN: dict[str, Callable[[Runs], Figure]] = {
     "figure-9": incline.figure_9,
     "figure-10": incline.figure_10,
     "figure-11": incline.figure_11,
+    "lamplugh-block": lamplugh.figure_blocks,
     "deposit": lamplugh.figure_deposit,
 }
 # Those of any report, drawn of the Lamplugh run.
@@ -37,7 +38,8 @@ _SHARED = {
     "figure-19": "pore_pressure",
     "figure-20": "band",
 }
-NAMES = (*(name for name in _OWN if name != "deposit"), *_SHARED, "deposit")
+_LAST = ("lamplugh-block", "deposit")
+NAMES = (*(name for name in _OWN if name not in _LAST), *_SHARED, *_LAST)
 
 
 def draw(name: str, runs: Runs) -> Figure:

@@ -1,0 +1,155 @@
+"""What Sec. 4 is measured by, and the rows of the one-at-a-time table, on run folders made by hand."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from conftest import MakeRun, history_columns, write_history
+
+from thawslide.paper.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_shares, zones
+from thawslide.paper.one_at_a_time import Outcome, Row, at_rest, is_current, outcome, run_rows, table, table_row
+from thawslide.paper.runs import LAMPLUGH_BLOCKS
+from thawslide.run import Run
+
+
+def write_ground(folder: Path) -> None:
+    """Write a slope of 48 degrees to 1 km, a ramp of 8 to 2 km, a floor of 1.3 beyond."""
+    x = np.arange(0.0, 12000.0, 10.0)
+    slope = np.where(x < 1000.0, 48.0, np.where(x < 2000.0, 8.0, 1.3))
+    z = 2150.0 - np.concatenate(([0.0], np.cumsum(10.0 * np.tan(np.radians(slope[:-1])))))
+    rows = "".join(f"{a!r},{b!r}\n" for a, b in zip(x.tolist(), z.tolist(), strict=True))
+    (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n" + rows)
+
+
+def test_zones_follow_one_another_and_hold_what_lies_in_them(make_run: MakeRun) -> None:
+    folder = make_run()
+    write_ground(folder)
+    found = zones(Run(folder))
+    assert "".join(zone.letter for zone in found) == "BCDEF"
+    assert [zone.end for zone in found[:-1]] == [zone.start for zone in found[1:]]
+    assert found[0].start == pytest.approx(1000.0, abs=20.0)
+    assert found[0].end == pytest.approx(2000.0, abs=20.0)
+    assert found[-1].end == FRONT
+    # A quarter of the particles into each of B, D and F, another beyond the front.
+    with h5py.File(folder / "snapshots" / "000010.vtkhdf", "r+") as file:
+        points = file["VTKHDF/Points"]
+        x = np.repeat([1500.0, 0.5 * (found[2].start + found[2].end), 10000.0, 11000.0], len(points) // 4)
+        points[:, 0] = x
+        volume = float(np.sum(file["VTKHDF/PointData/volume"]))
+    shares = zone_shares(Run(folder))
+    assert {letter: share for letter, (share, _) in shares.items()} == {"B": 25, "C": 0, "D": 25, "E": 0, "F": 25}
+    assert shares["F"][1] == pytest.approx(0.25 * volume / 1000.0)
+
+
+def test_base_traction_is_what_slows_a_slide_on_level_ground(make_run: MakeRun) -> None:
+    folder = make_run(rows=201)
+    (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n-1e4,0.0\n1e4,0.0\n")
+    columns = history_columns(201, 2)
+    columns["mean_velocity_m_s"] = 50.0 - 0.8 * columns["time_s"]
+    write_history(folder / "history.csv", columns)
+    run = Run(folder)
+    x = np.sort(run.snapshot(0).points[:, 0])
+    # 80 particles of 2,000 kg on 20 m in rows of 4: 0.5 % and 99.5 % of the mass are the first and the last of them.
+    assert base_traction(run, 2.0, 8.0) == pytest.approx(80 * 2000.0 * 0.8 / (x[-1] - x[0]) / 1e3)
+    assert math.isnan(base_traction(run))
+
+
+def test_particles_near_the_ground_are_counted_across_it(make_run: MakeRun) -> None:
+    # Rows 0.5, 1.5, 2.5 and 3.5 m up a slope of one half: 0.447, 1.342, 2.236, 3.130 m across it, two a column of 2 m.
+    run = Run(make_run())
+    assert near_ground(run, 0.0, height=1.3, column=2.0) == 2.0
+    assert near_ground(run, 0.0, height=1.4, column=2.0) == 4.0
+
+
+def test_blocks_are_measured(make_run: MakeRun) -> None:
+    folder = make_run()
+    header = "time_s,velocity_m_s,displacement_m,sliding_strength_Pa,driving_traction_Pa\n"
+    for block in LAMPLUGH_BLOCKS:
+        rows = "0,0,0,90,100\n1,4,2,50,100\n2,0,4,50,100\n3,0,4,50,9\n"
+        (folder.parent / f"{block.name}.csv").write_text(header + rows)
+    found = block_measures(Run(folder))
+    assert found["lamplugh_block_561_peak"] == 4.0
+    assert found["lamplugh_block_561_stop"] == 2.0
+    assert found["lamplugh_block_561_safety"] == 0.9
+    assert found["lamplugh_block_displacement"] == 4.0
+    assert read_block(folder.parent / "lamplugh-block.csv")["time_s"].tolist() == [0, 1, 2, 3]
+
+
+def test_rest_is_told_from_a_pause_at_the_start() -> None:
+    times = [float(t) for t in range(121)]
+    moving = [max(0.0, 10.0 - abs(t - 50.0)) for t in times]
+    assert not at_rest(times[:30], moving[:30])
+    assert not at_rest(times[:66], moving[:66])
+    assert at_rest(times[:72], moving[:72])
+    assert at_rest(times, [0.3] * 121)
+    assert not at_rest([], [])
+
+
+def test_outcome_of_a_run(make_run: MakeRun) -> None:
+    found = outcome(make_run())
+    assert found.failure == ""
+    assert found.peak == pytest.approx(12.0)
+    assert found.peak_time == pytest.approx(5.0)
+    assert found.start_time == pytest.approx(3.1, abs=0.06)  # 12 sin2 = 8
+    assert found.stop_time == pytest.approx(9.7, abs=0.1)
+    assert found.displacement == pytest.approx(80.0)
+    assert found.length == pytest.approx(19.0)
+
+
+def test_rows_say_plainly_what_failed() -> None:
+    row = Row("x", "x", ("a=1", "b=2"), "other.toml")
+    assert table_row(row, Outcome("not run")) == "| x | not run | | | | | | | | [other.toml](other.toml) `a=1` `b=2` |"
+    still = Outcome(peak=0.4, peak_time=1.0, displacement=0.0, runout=1000.0, length=1000.0, end_time=100.0)
+    assert "| never | does not start |" in table_row(row, still)
+    broken = Outcome("bad\nnews", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 7.0, 8.0, 33.0, 9.0)
+    assert "broke off at 33" in table_row(row, broken)
+    assert table([row], {"x": broken}, ["a=1"]).endswith("[other.toml](other.toml) `b=2` |\n\n- x: bad news\n")
+    going = Outcome("", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 7.0, 8.0, 200.0, 9.0)
+    assert "not: 9 m/s at 200" in table_row(row, going)
+
+
+PROGRAM = """import sys, json, pathlib
+words = sys.argv[1:]
+folder = pathlib.Path(words[words.index("--output") + 1])
+if "bad=1" in words:
+    print("error: no such key bad", file=sys.stderr)
+    sys.exit(2)
+folder.mkdir(parents=True, exist_ok=True)
+(folder / "history.csv").write_text("time_s,mean_velocity_m_s\\n0,0\\n")
+(folder / "run.json").write_text(json.dumps({"status": "done", "command": " ".join([sys.argv[0], *words])}))
+"""
+
+
+def test_runs_that_are_there_are_kept(tmp_path: Path) -> None:
+    program = tmp_path / "program"
+    program.write_text(f"#!{sys.executable}\n{PROGRAM}")
+    program.chmod(0o755)
+    (tmp_path / "case.toml").write_text("")
+    rows = (Row("a", "a"), Row("b", "b", ("x=1",)), Row("c", "c", ("bad=1",)))
+    time.sleep(0.02)
+    said: list[str] = []
+    for _ in range(2):
+        run_rows(rows, program, tmp_path, tmp_path / "runs", ("y=2",), 2, said.append)
+    assert said[0] == "3 runs, 0 of them there already"
+    assert any("min left: c: error: no such key bad" in line for line in said)
+    assert said[4] == "3 runs, 2 of them there already"
+    assert outcome(tmp_path / "runs" / "c").failure == "error: no such key bad"
+    assert outcome(tmp_path / "runs" / "d").failure == "not run"
+    words = json.loads((tmp_path / "runs" / "b" / "run.json").read_text())["command"].split(" ")
+    assert words[-4:] == ["--set", "y=2", "--set", "x=1"]
+    assert is_current(tmp_path / "runs" / "b", words, [program])
+    # One stopped on its way is no result, one stopped at rest is.
+    facts = {"command": " ".join(words), "status": "stopped", "message": "signal 15"}
+    (tmp_path / "runs" / "b" / "run.json").write_text(json.dumps(facts))
+    assert not is_current(tmp_path / "runs" / "b", words, [program])
+    (tmp_path / "runs" / "b" / "history.csv").write_text("time_s,mean_velocity_m_s\n100,0\n")
+    assert is_current(tmp_path / "runs" / "b", words, [program])
+    program.touch()
+    assert not is_current(tmp_path / "runs" / "b", words, [program])
