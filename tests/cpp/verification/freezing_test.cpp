@@ -106,11 +106,10 @@ void expect_convergence(Record& record, double frozen, double k_ice, double k_wa
 }
 
 const std::string few_cells =
-    "Conductivity and temperature gradient are continuous, so theory gives 2. Frozen at -1 C the zone that freezes is "
-    "one "
-    "to four of these cells thick, and where fronts stand in them shows: 1.7 and 2.1 here, 1.9 and 1.4 from 0.05 to "
-    "0.025 "
-    "m, 1.6 and 1.7 over all from 0.2 to 0.025 m.";
+    "Conductivity and temperature gradient are continuous, so theory gives 2. The zone that freezes is one to four of "
+    "these cells thick, and where fronts stand in them shows: 1.7 and 2.1 here (of one conductivity and of the "
+    "mixture's), "
+    "1.9 and 1.4 from 0.05 to 0.025 m, 1.7 over all from 0.2 to 0.025 m.";
 
 TEST(Freezing, FrontsOfLunardini) {
   Record record("Fronts of the three-zone solution", "InterFrost T1, wholly frozen at -1 C or at -4 C.",
@@ -134,7 +133,9 @@ TEST(Freezing, ThreeZonesOfLunardini) {
     }
     expect_convergence(record, frozen, k_between, k_between, physics::exact::ThreeZones(problem), 2.0,
                        frozen < -2.0 ? 0.15 : 0.35);
-    record.explain(few_cells);
+    if (frozen > -2.0) {
+      record.explain(few_cells);
+    }
   }
 }
 
@@ -149,7 +150,9 @@ TEST(Freezing, ConductivityThatFollowsTheSaturation) {
         -6.0, 4.0, 0.025, [&](double t) { return k_frozen + (k_thawed - k_frozen) * saturation(t); },
         [&](double t) { return capacity + (t > frozen && t < 0.0 ? latent_heat * slope : 0.0); });
     expect_convergence(record, frozen, k_frozen, k_thawed, exact, 2.0, frozen < -2.0 ? 0.15 : 0.35);
-    record.explain(few_cells);
+    if (frozen > -2.0) {
+      record.explain(few_cells);
+    }
   }
 }
 
