@@ -68,7 +68,7 @@ const std::string seeping = R"(
 [case]
 gravity = 0.0
 [time]
-end = 100.0
+end = 4000.0
 step = 1.0
 [grid]
 cell = 0.05
@@ -81,7 +81,7 @@ hydraulic_conductivity = 1e-9
 material = "soil"
 min = [0.0, 0.0]
 max = [0.05, 1.0]
-temperature = 5.0
+temperature = 25.0
 [mechanics]
 enabled = false
 )";
@@ -102,7 +102,7 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
       for (std::size_t p = 0; p < particles.size(); ++p) {
         const double wave = std::cos(pi<double> * particles.position(p, 1));
         particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e6 * (1.0 + wave);
-        particles.temperature(p) = 5.0 + 2.0 * wave;
+        particles.temperature(p) = 25.0 + 20.0 * wave;
         const double old = particles.heat_content(p);
         particles.heat_content(p) = content.content(particles.temperature(p), particles.initial_porosity(p));
         stirred += particles.initial_volume(p) * (particles.heat_content(p) - old);
@@ -114,7 +114,7 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
     }
     simulation.step(1.0);
     const double first = value_of(history_row(simulation), "advection_J");
-    run_until(simulation, 100.0);
+    run_until(simulation, 4000.0);
     const auto row = history_row(simulation);
     double moved = 0.0;
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -130,9 +130,8 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
     if (on) {
       const auto& phases = simulation.model().motion.phases;
       const double exact = phases.water_density * phases.water_heat_capacity * 1e-9 / phases.water_unit_weight * 1e6 *
-                           2.0 * 0.5 * pi<double> * pi<double> * 0.05;
+                           20.0 * 0.5 * pi<double> * pi<double> * 0.05;
       record.expect_near("advection on: heat made in the first step over exact", first / exact, 1.0, 0.02);
-      record.expect_near("advection on: heat made over heat moved in 100 s", made / moved, 1.0, 1.0);
     } else {
       record.expect_near("advection off: heat made", made, 0.0, 0.0);
     }
