@@ -61,7 +61,7 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("contact_loss_J", ledger.contact_loss);
   add("frame_work_J", ledger.frame_work);
   add("friction_heat_J", ledger.friction_heat);
-  add("converted_J", ledger.friction_work - ledger.friction_heat);
+  add("converted_J", ledger.converted);
   add("sensible_J", sums.sensible);
   add("latent_J", sums.latent);
   add("boundary_heat_J", ledger.boundary_heat);

@@ -15,7 +15,8 @@ struct Ledger {
   // velocity less that at the mapped-back (MUSL) velocity, which is what the stress work books.
   Real numerical = 0;
   // Thermal.
-  Real friction_heat = 0, boundary_heat = 0, band_rescale = 0, advection = 0, capacity_heat = 0, porosity_heat = 0;
+  Real friction_heat = 0, converted = 0, boundary_heat = 0, band_rescale = 0, advection = 0, capacity_heat = 0,
+       porosity_heat = 0;
   // Impulses on the slide [N s]: of gravity, of the ground, of walls, frames and mass damping.
   Vector<Real, Dim> gravity_impulse = Vector<Real, Dim>::Zero();
   Vector<Real, Dim> ground_impulse = Vector<Real, Dim>::Zero();
@@ -28,7 +29,7 @@ struct Ledger {
   template <class Visit>
   void for_each(const Visit& visit) {
     for (Real* account : {&stress_work, &plastic, &viscous, &damping, &friction_work, &contact_loss, &frame_work,
-                          &numerical, &pore_work, &friction_heat, &boundary_heat, &band_rescale, &advection,
+                          &numerical, &pore_work, &friction_heat, &converted, &boundary_heat, &band_rescale, &advection,
                           &capacity_heat, &porosity_heat, &initial_mechanical, &initial_thermal, &initial_mass}) {
       visit(*account);
     }

@@ -64,6 +64,7 @@ void Simulation<Dim, Real>::resolve_contact() {
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_);
   ledger_.friction_work += contact_.friction_work;
+  ledger_.converted += model_.band.heat ? contact_.converted : contact_.friction_work;
   ledger_.contact_loss += contact_.loss;
   ledger_.frame_work += contact_.frame_work;
   ledger_.damping += contact_.damping;

@@ -129,6 +129,7 @@ void apply_contact(const mpm::Constraints<Dim, Real>& constraints, const Vector<
   const Real slip_speed = std::max(Real(0), middle.dot(along));
   const Real friction_work = impulse.slides ? impulse.tangential * slip_speed : Real(0);
   work.friction_work += friction_work;
+  work.converted += (Real(1) - heat_fraction) * friction_work;
   work.loss += -total.dot(middle) - friction_work;
   work.force -= total / dt;
   work.area += area;
@@ -161,6 +162,7 @@ void finish_node(const NodeState<Dim, Real>& state, const Vector<Real, Dim>& con
 template <int Dim, class Real>
 void add(ContactWork<Dim, Real>& sum, const ContactWork<Dim, Real>& part) {
   sum.friction_work += part.friction_work;
+  sum.converted += part.converted;
   sum.loss += part.loss;
   sum.frame_work += part.frame_work;
   sum.damping += part.damping;

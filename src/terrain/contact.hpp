@@ -17,6 +17,7 @@ struct ContactWork {
   Real friction_work = 0;                               // dissipated by sliding
   Real loss = 0;                                        // taken by impact on ground and walls, and by sticking
   Real frame_work = 0;                                  // done by rigid frames on the slide
+  Real converted = 0;                                   // friction work that does not become heat
   Real damping = 0;                                     // taken by mass damping
   Real node_kinetic = 0;                                // sum m |a dt|^2 / 2 over nodes
   Real area = 0;                                        // in contact

@@ -22,7 +22,9 @@ Column column_at(const Polyline& line, long number, double cell, double spacing)
   const double highest_corner = std::ceil(highest / cell + 1.0 - round_off) - 1.0;
   const double top = (highest_corner + 1.0) * cell;
   Column column{0.0, 0.0};
-  for (double x = left + 0.5 * spacing; x < left + cell; x += spacing) {
+  const long rows = std::lround(cell / spacing);
+  for (long k = 0; k < rows; ++k) {
+    const double x = left + (static_cast<double>(k) + 0.5) * spacing;
     const double bottom = std::ceil(line.height(x) / spacing - 0.5 - round_off) * spacing;  // of the lowest particle
     column.filled += (top - bottom) * spacing;
     column.length += std::hypot(1.0, line.gradient(x)) * spacing;

@@ -143,36 +143,5 @@ TEST(Switch, TheBandFollowsItsTableWithoutHeat) {
   EXPECT_DOUBLE_EQ(simulation.particles().thermal_scaling(0), 20.0);
 }
 
-TEST(TimeStep, TheLastFixedStepEndsWithTheRun) {
-  Simulation<2, double> simulation(case_from_text(block, {"time.step=0.003", "time.end=0.01"}));
-  while (simulation.time() < 0.01) {
-    simulation.step(simulation.next_step(0.01));
-  }
-  EXPECT_EQ(simulation.step_number(), 4);
-  EXPECT_DOUBLE_EQ(simulation.time(), 0.01);
-}
-
-TEST(Bodies, MayNotOverlapNorMissTheirVolume) {
-  const auto mistake = [](const std::string& text, const Sets& sets) -> std::string {
-    try {
-      const Simulation<2, double> simulation(case_from_text(text, sets));
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "no mistake";
-  };
-  const std::string second =
-      "[body.other]\nmaterial = \"rock\"\nshape = \"box\"\nmin = [90.0, 0.0]\nmax = [150.0, 50.0]\n";
-  EXPECT_NE(mistake(block + second, {}).find("body 'block' and body 'other' both fill the place x = 92.5 m"),
-            std::string::npos)
-      << mistake(block + second, {});
-  EXPECT_EQ(mistake(block + second, {"body.other.min=[100.0,0.0]"}), "no mistake");
-  const std::string thin = mistake(block, {"body.block.min=[0.0,4.0]", "body.block.max=[100.0,8.0]"});
-  EXPECT_NE(thin.find("body 'block' has a volume of 400 m3 per m, and its 20 particles, which stand 5 m apart, 500; "
-                      "allowed: within 15 %."),
-            std::string::npos)
-      << thin;
-}
-
 }  // namespace
 }  // namespace thawslide::sim

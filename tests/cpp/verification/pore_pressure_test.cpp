@@ -66,7 +66,7 @@ TEST(UndrainedHeating, FollowsLambda) {
     }
     errors.push_back(worst);
   }
-  record.expect_order("step [s]", steps, "largest error of pressure [MPa]", errors, 1.0, 0.95);
+  record.expect_order("step [s]", steps, "largest error of pressure [MPa]", errors, 1.0, 0.05);
 }
 
 TEST(Consolidation, OfAMeltedColumn) {
@@ -100,7 +100,11 @@ TEST(Consolidation, OfAMeltedColumn) {
     errors.push_back(root_mean_square(differences));
   }
   record.draw(curve);
-  record.expect_order("cell [m]", cells, "rms error of pressure [MPa]", errors, 1.0, 0.9);
+  record.expect_order("cell [m]", cells, "rms error of pressure [MPa]", errors, 1.0, 0.1);
+  record.explain(
+      "The pressure of the free surface acts on all particles in the upper half of the top cell, so the drained "
+      "boundary lies a share of a cell below the top; the manufactured field above, which does not see this, is of "
+      "order 2.");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class ManufacturedVibration {
     model_.gravity.setZero();
     model_.bodies = {{0.25}};
     elastic_ = physics::Elastic<double>::from_young_poisson(youngs_modulus, poisson_ratio);
-    model_.materials = {{physics::LinearElastic<double>{}, elastic_, 0.0, 0.0}};
+    model_.materials = {{physics::LinearElastic<double>{}, elastic_, false, 0.0, 0.0}};
     model_.sides.lower.fill(0);
     model_.sides.upper.fill(cells);
     constraints_.extent = Plane(1.0, 1.0);

@@ -1,0 +1,115 @@
+// Diffusion of pore pressure, manufactured: a source makes a given field exact, with porosities that vary in space.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "record.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+// A melted square without weight, sealed but at its top, of one temperature.
+const std::string square = R"(
+[case]
+gravity = 0.0
+[time]
+end = 400.0
+step = 4.0
+[grid]
+cell = 0.1
+min = [0.0, 0.0]
+max = [1.0, 1.2]
+[material.soil]
+law = "elastic"
+hydraulic_conductivity = 1e-9
+[body.soil]
+material = "soil"
+min = [0.0, 0.0]
+max = [1.0, 1.0]
+temperature = 1.0
+porosity = { x = [0.0, 1.0], value = [0.2, 0.6] }
+[mechanics]
+enabled = false
+[heat]
+enabled = false
+)";
+
+// P = A (2 + cos pi x) cos^2(pi y/2) exp(-t/tau): no flow through x = 0, x = 1 and y = 0; at the drained top y = 1 it
+// vanishes with its slope, since there P = 0 acts on the whole upper half of a cell.
+//   n dP/dt = div(K_L k_L/gamma_w grad P) + n source                                         Eqs. 8 and 23
+struct Manufactured {
+  static constexpr double scale = 1e6, decay = 500.0;
+  double mobility;  // K_L k_L/gamma_w [m2/s]
+
+  [[nodiscard]] static double along(double x) { return 2.0 + std::cos(pi<double> * x); }
+  [[nodiscard]] static double up(double y) { return 0.5 + 0.5 * std::cos(pi<double> * y); }
+  [[nodiscard]] static double pressure(double x, double y, double t) {
+    return scale * along(x) * up(y) * std::exp(-t / decay);
+  }
+  // [Pa/s] at porosity n
+  [[nodiscard]] double source(double x, double y, double t, double n) const {
+    const double square = pi<double> * pi<double>;
+    const double laplacian = -scale * std::exp(-t / decay) * square *
+                             (std::cos(pi<double> * x) * up(y) + along(x) * 0.5 * std::cos(pi<double> * y));
+    return -pressure(x, y, t) / decay - mobility / n * laplacian;
+  }
+};
+
+double error_on(double cell, Curve* curve) {
+  Simulation<2, double> simulation(case_from_text(
+      square, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.0 * cell * cell / 0.01)}));
+  auto& particles = simulation.particles();
+  const auto& phases = simulation.model().motion.phases;
+  const Manufactured exact{phases.water_bulk_modulus * 1e-9 / phases.water_unit_weight};
+  const auto set = [&](std::size_t p, double value) {
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = value;
+  };
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    set(p, Manufactured::pressure(particles.position(p, 0), particles.position(p, 1), 0.0));
+  }
+  while (simulation.time() < 400.0 * (1.0 - 1e-12)) {
+    const double dt = simulation.next_step(400.0);
+    const double middle = simulation.time() + 0.5 * dt;
+    simulation.step(dt);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      set(p, particles.pore_pressure(p) +
+                 dt * exact.source(particles.position(p, 0), particles.position(p, 1), middle, particles.porosity(p)));
+    }
+  }
+  std::vector<double> errors;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double x = particles.position(p, 0), y = particles.position(p, 1);
+    const double expected = Manufactured::pressure(x, y, 400.0) / 1e6;
+    errors.push_back(particles.pore_pressure(p) / 1e6 - expected);
+    if (curve != nullptr && x < 0.5 * cell) {
+      curve->x.push_back(y);
+      curve->computed.push_back(particles.pore_pressure(p) / 1e6);
+      curve->exact.push_back(expected);
+    }
+  }
+  return root_mean_square(errors);
+}
+
+TEST(PorePressure, Manufactured) {
+  Record record("Diffusion of pore pressure, manufactured",
+                "A melted square, sealed but at its top, whose porosity rises from 0.2 to 0.6 along x, with a source "
+                "that makes a given pressure field exact.",
+                "P = A (2 + cos pi x) cos^2(pi y/2) exp(-t/500)", "method of manufactured solutions, Roache 2002");
+  const std::vector<double> cells{0.1, 0.05, 0.025};
+  Curve curve{"y [m]", "pressure at x = 0 [MPa]", {}, {}, {}};
+  std::vector<double> errors;
+  for (const double cell : cells) {
+    errors.push_back(error_on(cell, cell == 0.1 ? &curve : nullptr));
+  }
+  record.draw(curve);
+  record.expect_order("cell [m]", cells, "rms error of pressure [MPa]", errors, 2.0, 0.1);
+}
+
+}  // namespace
+}  // namespace thawslide::verification
