@@ -160,6 +160,13 @@ FIGURE_7: Drawn = (
 )
 
 
+def mark(axes: Axes, time: float, value: float, words: str, colour: str = BLACK) -> None:
+    """Draw what the paper reports as a circle with words beside it, where the axes reach so far."""
+    if time <= axes.get_xlim()[1]:
+        axes.plot(time, value, "o", color=colour, fillstyle="none", clip_on=False)
+        axes.annotate(words, (time, value), xytext=(7, -9), textcoords="offset points", color=NOTE, size=8)
+
+
 def _panel(axes: Axes, time: Numbers, values: Numbers, colour: str, words: str, model: tuple[Numbers, Numbers]) -> None:
     axes.plot(time, values, color=colour, linewidth=1.6, alpha=0.75, label=words)
     axes.plot(*model, color=colour, linewidth=0.9, linestyle=(0, (4, 2)))
@@ -183,9 +190,7 @@ def _draw(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
             axes.set_xlim(0.0, min(end, max(runs[f"block-{name}"].history["time_s"][-1] for name, *_ in drawn)))
         panels[2][side].set_xlabel("time (s)")
         panels[1][side].set_ylim(-0.02, 1.02)
-        panels[1][side].plot(EARLY, 1.0, "o", color=BLACK, fillstyle="none", clip_on=False)
-        panels[1][side].annotate("the paper: e 0.05 m has melted", (EARLY, 1.0), xytext=(7, -9),
-                                 textcoords="offset points", color=NOTE, size=8)  # fmt: skip
+        mark(panels[1][side], EARLY, 1.0, "the paper: e 0.05 m has melted")
         panels[0][side].plot([], [], color=BLACK, linewidth=0.9, linestyle=(0, (4, 2)), label="the same as ODEs")
     panels[0][0].legend(loc="best")
     titles = [f"{words}, {heat}" for words in ("temperature", "saturation", "pore pressure")

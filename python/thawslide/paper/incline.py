@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_line
-from thawslide.paper.block import at, first_time
+from thawslide.figures.style import BLUE, GREEN, ORANGE, RED, letters, styled, time_line
+from thawslide.paper.block import at, first_time, mark
 from thawslide.paper.mixture import TABLE_1
 from thawslide.paper.runs import INCLINES
 from thawslide.run import Numbers, Run
@@ -138,9 +138,7 @@ def figure_9(runs: dict[str, Run]) -> Figure:
     panels = (("band_temperature_C", "temperature (°C)", 1.0, 0.0), ("band_saturation", "liquid saturation", 1.0, 0.0))
     figure = _draw(runs, panels, ("band temperature", "band saturation"))
     figure.axes[1].set_ylim(-0.02, 1.02)
-    figure.axes[1].plot(10.0, 1.0, "o", color=COLOURS["PL"], fillstyle="none")
-    figure.axes[1].annotate("the paper: P-L has melted", (10.0, 1.0), xytext=(7, -3), textcoords="offset points",
-                            color=NOTE, size=8)  # fmt: skip
+    mark(figure.axes[1], 10.0, 1.0, "the paper: P-L has melted", COLOURS["PL"])
     return figure
 
 
