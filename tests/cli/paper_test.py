@@ -30,6 +30,8 @@ def test_paper_shortened(binary: Path, report_environment: dict[str, str], tmp_p
     rows = dict(line.split(",") for line in (output / "measures.csv").read_text().splitlines()[1:])
     # After 864 s the fronts stand in the first cell, but without latent heat the cold has gone through several.
     assert float(rows["freezing_m050_no_latent_rms_error"]) < 0.01
+    # The printed update makes heat out of nothing as soon as the bar freezes.
+    assert float(rows["freezing_m100_printed_heat"]) > 1.0
     # The block starts with its frozen band under the ice's pressure, rho_I g H.
     assert math.isclose(float(rows["block_e050_pressure_start"]), 917 * 9.81 * 50 / 1e3, rel_tol=1e-3)
 

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from thawslide.paper.band_model import GRAVITY, Column, Drive, solve
+from thawslide.paper.block import clapeyron, differences
 from thawslide.paper.freezing import COLD_END, reference
+from thawslide.paper.incline import drag, falls_below
 from thawslide.paper.mixture import FREEZING_BAR, TABLE_1, HeatTable, Mixture, linear_saturation, power_saturation
 from thawslide.paper.page import NAMES
 from thawslide.paper.runs import all_runs
 from thawslide.paper.sentences import filled, holds, table, verdict
+from thawslide.run import Run
 
 
 def test_heat_table_is_the_closed_form_and_inverts() -> None:
@@ -36,7 +41,10 @@ def neumann(x: np.ndarray, time: float, mixture: Mixture, slope: float) -> np.nd
     """
     capacity = float(mixture.capacity(np.zeros(1))[0])
     conductivity = float(mixture.conductivity(np.zeros(1))[0])
-    near, far = conductivity / capacity, conductivity / (capacity + mixture.melting_heat() * slope)
+    near, far = (
+        conductivity / capacity,
+        conductivity / (capacity + mixture.melting_heat() * slope),
+    )
     ratio, front = math.sqrt(near / far), -1.0 / slope
 
     def excess(psi: float) -> float:
@@ -139,4 +147,47 @@ def test_figures_and_sentences_are_whole() -> None:
 
 def test_runs_have_names_of_their_own() -> None:
     names = [run.name for run in all_runs()]
-    assert len(set(names)) == len(names) == 31
+    assert len(set(names)) == len(names) == 39
+
+
+def test_numbers_in_sentences_are_held_to_a_tenth() -> None:
+    # The page says so for all rows alike; saturations are held to 0.1.
+    for row in table("sentences"):
+        for left, kind, right, *width in row.get("tests", []):
+            if kind == "within" and isinstance(right, float) and right > 1.0:
+                assert width[0] == pytest.approx(0.1 * right, rel=0.01), (
+                    row["text"],
+                    left,
+                )
+
+
+def test_band_frozen_in_equilibrium_has_less_pressure_in_its_water() -> None:
+    # Eq. 4 with the usual sign: rho_L L_f ln(263.15/273.15) at -10 C, nothing at 0 C.
+    assert clapeyron(-10.0) == pytest.approx(-12.4387, abs=1e-3)
+    assert clapeyron(0.0) == 0.0
+
+
+def short_run(folder: Path, columns: dict[str, list[float]]) -> Run:
+    """Return a run folder with a history of these columns."""
+    folder.mkdir()
+    (folder / "run.json").write_text(json.dumps({"status": "done"}))
+    (folder / "case.toml").write_text("")
+    rows = zip(*columns.values(), strict=True)
+    lines = [",".join(columns), *(",".join(map(repr, row)) for row in rows)]
+    (folder / "history.csv").write_text("\n".join(lines) + "\n")
+    return Run(folder)
+
+
+def test_differences_crossing_and_drag_by_hand(tmp_path: Path) -> None:
+    time = [0.0, 10.0, 20.0, 30.0]
+    one = short_run(tmp_path / "one", {
+        "time_s": time, "band_saturation": [0.0, 0.3, 0.5, 0.5], "mass_kg": [2.0] * 4,
+        "basal_force_x_N": [9.0, 9.0, -1.0, 3.0],
+    })  # fmt: skip
+    other = short_run(tmp_path / "other", {"time_s": time, "band_saturation": [0.0, 0.2, 0.4, 0.8]})
+    assert falls_below(one, other, "band_saturation", 2.0) == 30.0
+    assert math.isnan(falls_below(other, one, "band_saturation", 25.0))
+    largest, rms = differences(one, other, "band_saturation")
+    assert largest == pytest.approx(0.3, abs=1e-9)
+    assert 0.0 < rms < largest
+    assert drag(one) == pytest.approx(2.0 / (2.0 * 9.81 * math.cos(math.radians(40.0))))

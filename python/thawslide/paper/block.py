@@ -8,8 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, letters, styled
+from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, PURPLE, RED, letters, styled
 from thawslide.paper.band_model import BandHistory, Drive, solve
+from thawslide.paper.mixture import TABLE_1
 from thawslide.paper.runs import BLOCKS, NO_LATENT
 from thawslide.run import Numbers, Run
 
@@ -19,7 +20,7 @@ COLUMNS = (
     ("band_pore_pressure_Pa", "pressure", "pore pressure (kPa)", 1e3),
 )
 MELTED = 0.99  # mean saturation from which on the band counts as melted
-EARLY = 5.0  # s
+EARLY = 5.0  # s: the time at which, in the paper, the band of 0.05 m has melted
 
 
 def drive_of(run: Run) -> Drive:
@@ -58,12 +59,18 @@ def first_time(run: Run, column: str, value: float) -> float:
     return float(run.history["time_s"][reached[0]]) if reached.size else float("nan")
 
 
-def largest_difference(one: Run, other: Run, column: str) -> float:
-    """Return the largest difference of a column between two runs over the time both have."""
+def differences(one: Run, other: Run, column: str) -> tuple[float, float]:
+    """Return the largest and the root mean square difference of a column between two runs over the time both have."""
     end = min(one.history["time_s"][-1], other.history["time_s"][-1])
     times = np.linspace(0.1, end, 600)
     first, second = (np.interp(times, run.history["time_s"], run.history[column]) for run in (one, other))
-    return float(np.max(np.abs(first - second)))
+    return float(np.max(np.abs(first - second))), float(np.sqrt(np.mean((first - second) ** 2)))
+
+
+def clapeyron(temperature: float) -> float:
+    """Return P_L - P_I/r [MPa] of ice and water in equilibrium (Eq. 4 with the usual sign) at a temperature [C]."""
+    zero = 273.15
+    return TABLE_1.water_density * TABLE_1.latent_heat * float(np.log((temperature + zero) / zero)) / 1e6
 
 
 def surge_saturation(run: Run) -> float:
@@ -91,6 +98,8 @@ def _of_run(run: Run) -> dict[str, float]:
         "pressure_lowest_time": float(time[lowest]),
         "pressure_highest": float(pressure.max()) / 1e3,
         "pressure_end": float(pressure[-1]) / 1e3,
+        "pressure_drift": (float(pressure[-1]) - at(run, "band_pore_pressure_Pa", 0.9 * time[-1])) / 1e3,
+        "saturation_5_5s": at(run, "band_saturation", 1.1 * EARLY),
         "start_warming": (at(run, "band_temperature_C", 0.02 * time[-1]) - float(history["band_temperature_C"][0]))
         / (0.02 * time[-1]),
         "end_warming": (float(history["band_temperature_C"][-1]) - at(run, "band_temperature_C", 0.9 * time[-1]))
@@ -108,7 +117,7 @@ def _of_run(run: Run) -> dict[str, float]:
 
 def measures(runs: dict[str, Run]) -> dict[str, float]:
     """Return the numbers of Sec. 3.2, by the name of the run and of the quantity."""
-    found: dict[str, float] = {}
+    found = {"block_clapeyron_start": clapeyron(-10.0), "block_clapeyron_end": clapeyron(0.0)}
     for name in [each for base in BLOCKS for each in (base, base + NO_LATENT)] + ["e050-no-viscosity"]:
         key = "block_" + name.replace("-", "_")
         found |= {f"{key}_{quantity}": value for quantity, value in _of_run(runs[f"block-{name}"]).items()}
@@ -116,14 +125,14 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         suffix = ending.replace("-", "_")
         for column, name, _, scale in COLUMNS:
             pairs = (("e100", "e100-L5"), ("e100", "e100-L20"), ("e100-L5", "e100-L20"))
-            found[f"block_mesh_{name}{suffix}"] = max(
-                largest_difference(runs[f"block-{one}{ending}"], runs[f"block-{other}{ending}"], column) / scale
-                for one, other in pairs
-            )
-            conduction = largest_difference(runs[f"block-k0{ending}"], runs[f"block-e050{ending}"], column)
+            apart = [differences(runs[f"block-{one}{ending}"], runs[f"block-{other}{ending}"], column)
+                     for one, other in pairs]  # fmt: skip
+            found[f"block_mesh_{name}{suffix}"] = max(largest for largest, _ in apart) / scale
+            found[f"block_mesh_{name}_rms{suffix}"] = max(rms for _, rms in apart) / scale
+            conduction, _ = differences(runs[f"block-k0{ending}"], runs[f"block-e050{ending}"], column)
             found[f"block_conduction_{name}{suffix}"] = conduction / scale
         found[f"block_permeability_saturation{suffix}"] = max(
-            largest_difference(runs[f"block-{one}{ending}"], runs[f"block-e050{ending}"], "band_saturation")
+            differences(runs[f"block-{one}{ending}"], runs[f"block-e050{ending}"], "band_saturation")[0]
             for one in ("k0", "k10", "k9", "k8")
         )
     still = runs["block-e050-no-viscosity"].history
@@ -151,6 +160,13 @@ FIGURE_7: Drawn = (
 )
 
 
+def mark(axes: Axes, time: float, value: float, words: str, colour: str = BLACK) -> None:
+    """Draw what the paper reports as a circle with words beside it, where the axes reach so far."""
+    if time <= axes.get_xlim()[1]:
+        axes.plot(time, value, "o", color=colour, fillstyle="none", clip_on=False)
+        axes.annotate(words, (time, value), xytext=(7, -9), textcoords="offset points", color=NOTE, size=8)
+
+
 def _panel(axes: Axes, time: Numbers, values: Numbers, colour: str, words: str, model: tuple[Numbers, Numbers]) -> None:
     axes.plot(time, values, color=colour, linewidth=1.6, alpha=0.75, label=words)
     axes.plot(*model, color=colour, linewidth=0.9, linestyle=(0, (4, 2)))
@@ -174,6 +190,7 @@ def _draw(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
             axes.set_xlim(0.0, min(end, max(runs[f"block-{name}"].history["time_s"][-1] for name, *_ in drawn)))
         panels[2][side].set_xlabel("time (s)")
         panels[1][side].set_ylim(-0.02, 1.02)
+        mark(panels[1][side], EARLY, 1.0, "the paper: melted", drawn[0][2])  # of e = 0.05 m
         panels[0][side].plot([], [], color=BLACK, linewidth=0.9, linestyle=(0, (4, 2)), label="the same as ODEs")
     panels[0][0].legend(loc="best")
     titles = [f"{words}, {heat}" for words in ("temperature", "saturation", "pore pressure")

@@ -5,10 +5,12 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, letters, styled
 from thawslide.paper.mixture import FREEZING_BAR, HeatTable, Mixture, linear_saturation
+from thawslide.paper.runs import BARS, PRINTED
 from thawslide.run import Numbers, Run
 
 COLD_END = -3.0  # C
@@ -55,13 +57,18 @@ def profile(run: Run) -> tuple[Numbers, Numbers]:
     return shot.points[order, 0], np.asarray(shot["temperature"], dtype=np.float64)[order]
 
 
-def errors(run: Run) -> tuple[float, float]:
-    """Return the largest and the root mean square error [K] over 0 < x < 0.95 m."""
+def wrongs(run: Run) -> tuple[Numbers, Numbers]:
+    """Return (x [m], T less that of the reference [K]) of the particles over 0 < x < 0.95 m."""
     x, temperature = profile(run)
     exact_x, exact = reference(*slope_and_latent(run), float(run.times[-1]))
     # The wall's temperature belongs to the curve: the first particles stand between it and the first volume.
     wrong = temperature - np.interp(x, np.concatenate(([0.0], exact_x)), np.concatenate(([COLD_END], exact)))
-    wrong = wrong[x < COMPARED]
+    return x[x < COMPARED], wrong[x < COMPARED]
+
+
+def errors(run: Run) -> tuple[float, float]:
+    """Return the largest and the root mean square error [K] over 0 < x < 0.95 m."""
+    _, wrong = wrongs(run)
     return float(np.max(np.abs(wrong))), float(np.sqrt(np.mean(wrong**2)))
 
 
@@ -77,7 +84,7 @@ def place_of_saturation(run: Run, saturation: float) -> float:
 def measures(runs: dict[str, Run]) -> dict[str, float]:
     """Return the numbers of Sec. 3.1, by the name of the run and of the quantity."""
     found = {}
-    for name, run in runs.items():
+    for name, run in ((f"freezing-bar-{base}", runs[f"freezing-bar-{base}"]) for base in BARS):
         key = "freezing_" + name.removeprefix("freezing-bar-").replace("-", "_")
         found[f"{key}_max_error"], found[f"{key}_rms_error"] = errors(run)
         found[f"{key}_half"] = place_of_saturation(run, 0.5)
@@ -85,8 +92,11 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         found[f"{key}_width"] = thawed - frozen
         slope, _ = slope_and_latent(run)
         found[f"{key}_gradient"] = 0.9 / slope / (thawed - frozen)
-    parts = [value for name, value in found.items() if name.endswith("_max_error")]
-    found["freezing_max_error"] = max(parts)
+        printed = runs[name + PRINTED]
+        made, drawn = (abs(float(printed.history[c][-1])) for c in ("capacity_heat_J", "boundary_heat_J"))
+        found[f"{key}_printed_error"] = errors(printed)[0]
+        found[f"{key}_printed_heat"] = 100.0 * made / max(drawn, 1e-300)
+    found["freezing_max_error"] = max(value for name, value in found.items() if name.endswith("_max_error"))
     found["freezing_rms_error"] = max(value for name, value in found.items() if name.endswith("_rms_error"))
     return found
 
@@ -102,32 +112,48 @@ _DRAWN = (
 NEAR = 0.16  # m: what the lower panels show
 
 
+def _draw_errors(axes: Axes, runs: dict[str, Run], ending: str) -> None:
+    """Draw how far the particles near the cold end are off the reference."""
+    for name, _, colour in _DRAWN:
+        x, wrong = wrongs(runs[name + ending])
+        axes.plot(x, 1e3 * wrong, "o-", color=colour, markersize=3.0, linewidth=0.7)
+    axes.set_ylabel("error (mK)")
+    axes.set_ylim(-45.0, 45.0)
+
+
 @styled
 def figure_4(runs: dict[str, Run]) -> Figure:
-    """Draw temperature and saturation along the bar and near its end: particles as points, the reference as lines."""
-    figure = Figure(figsize=(10.0, 7.2), layout="constrained")
-    panels = list(figure.subplots(2, 2).flat)
+    """Draw temperature and saturation along the bar and near its end: particles as points, the reference as lines.
+
+    Below, how far the points are off the lines, here and with the update that the paper prints.
+    """
+    figure = Figure(figsize=(10.0, 10.4), layout="constrained")
+    panels = list(figure.subplots(3, 2).flat)
     for name, words, colour in _DRAWN:
         run = runs[name]
         slope, latent = slope_and_latent(run)
         share = linear_saturation(slope)
         x, temperature = profile(run)
         fine_x, fine = reference(slope, latent, float(run.times[-1]))
-        for number, axes in enumerate(panels):
+        for number, axes in enumerate(panels[:4]):
             points, line = (temperature, fine) if number % 2 == 0 else (share(temperature), share(fine))
             every = 6 if number < 2 else 1
             axes.plot(fine_x, line, color=BLACK, linewidth=0.9, zorder=3)
             axes.plot(x[::every], points[::every], "o", color=colour, markersize=3.4, label=words, zorder=2)
     panels[0].plot([], [], color=BLACK, linewidth=0.9, label="finite volumes, 2.5 mm")
+    _draw_errors(panels[4], runs, "")
+    _draw_errors(panels[5], runs, PRINTED)
     for number, axes in enumerate(panels):
         axes.set_xlim(0.0, 1.0 if number < 2 else NEAR)
-        axes.set_ylabel("liquid saturation" if number % 2 else "temperature (°C)")
+        if number < 4:
+            axes.set_ylabel("liquid saturation" if number % 2 else "temperature (°C)")
         axes.grid(True)
-        if number % 2:
+        if number in (1, 3):
             axes.set_ylim(-0.01, 1.02)
-        if number > 1:
-            axes.set_xlabel("distance from the cold end (m)")
+    for axes in panels[4:]:
+        axes.set_xlabel("distance from the cold end (m)")
     panels[0].legend(loc="lower right")
-    titles = ("temperature after one day", "liquid saturation after one day")
-    letters(panels, (*titles, "the same, near the end", "the same, near the end"))
+    after = ("temperature after one day", "liquid saturation after one day")
+    near = ("temperature near the cold end", "saturation near the cold end")
+    letters(panels, (*after, *near, "error of temperature", "error with the printed update (Eqs. 18, 19)"))
     return figure

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from thawslide.figures.style import BLUE, GREEN, ORANGE, RED, letters, styled, time_line
-from thawslide.paper.block import at, first_time
+from thawslide.paper.block import at, first_time, mark
 from thawslide.paper.mixture import TABLE_1
 from thawslide.paper.runs import INCLINES
 from thawslide.run import Numbers, Run
@@ -15,6 +15,7 @@ GRAVITY, SLOPE, HEIGHT = 9.81, np.radians(40.0), 50.0
 NAMES = {"D": "D", "DL": "D-L", "DLP": "D-L-P", "PL": "P-L"}
 COLOURS = {"D": BLUE, "DL": GREEN, "DLP": RED, "PL": ORANGE}
 TIMES = (2.5, 5.0, 10.0, 15.0, 25.0)  # s
+LATE = 15.0  # s: what the paper calls "later"
 _QUANTITIES = {
     "velocity": ("mean_velocity_m_s", 1.0),
     "displacement": ("mean_displacement_m", 1.0),
@@ -48,6 +49,21 @@ def flow_height(run: Run, time: float) -> float:
     return float(np.sum(shot["volume"]) / (high - low))
 
 
+def drag(run: Run) -> float:
+    """Return the mean force along the base from 15 to 25 s over the weight into the slope; nan in a shorter run."""
+    history = run.history
+    late = history["time_s"] >= LATE
+    weight = float(history["mass_kg"][0]) * GRAVITY * float(np.cos(SLOPE))
+    return float(np.mean(np.abs(history["basal_force_x_N"][late]))) / weight if late.any() else float("nan")
+
+
+def falls_below(run: Run, other: Run, column: str, after: float) -> float:
+    """Return the first time [s] after a given one at which a column is below that of another run; nan for never."""
+    time = run.history["time_s"]
+    below = (run.history[column] < np.interp(time, other.history["time_s"], other.history[column])) & (time > after)
+    return float(time[np.argmax(below)]) if below.any() else float("nan")
+
+
 def measures(runs: dict[str, Run]) -> dict[str, float]:
     """Return the numbers of Sec. 3.3, by case, quantity and time."""
     free = float(GRAVITY * np.sin(SLOPE))
@@ -69,12 +85,24 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         residual = np.abs(history["mechanical_residual_J"][-1]) / max(work[-1], 1e-300)
         found[f"{key}_residual"] = 100.0 * float(residual)
         found[f"{key}_height"] = flow_height(run, 25.0)
+        found[f"{key}_drag"] = drag(run)
+        found[f"{key}_friction_work"] = float(history["friction_work_J"][-1]) / 1e9
         velocity, times = history["mean_velocity_m_s"], history["time_s"]
         late = times > 10.0
         found[f"{key}_late_acceleration"] = (
             float(np.polyfit(times[late], velocity[late], 1)[0]) if late.sum() > 2 else float("nan")
         )
         found[f"{key}_warming"] = found[f"{key}_temperature_25s"] - found[f"{key}_temperature_15s"]
+    found["incline_melting_crossing"] = falls_below(runs["incline-DLP"], runs["incline-DL"], "band_saturation", 2.0)
+    ice = runs["incline-DLP-ice"]
+    found["incline_ice_velocity"] = at(ice, "mean_velocity_m_s", 25.0)
+    found["incline_ice_drag"] = drag(ice)
+    found["incline_gain_heat"] = found["incline_DLP_velocity_25s"] - found["incline_ice_velocity"]
+    found["incline_gain_all"] = found["incline_DLP_velocity_25s"] - found["incline_D_velocity_25s"]
+    points = runs["incline-DLP-points"]
+    found["incline_points_velocity"] = at(points, "mean_velocity_m_s", 25.0)
+    found["incline_points_displacement"] = at(points, "mean_displacement_m", 25.0)
+    found["incline_points_pressure"] = at(points, "band_pore_pressure_Pa", 25.0) / 1e3
     found["incline_gain_L"] = found["incline_DL_velocity_25s"] - found["incline_D_velocity_25s"]
     found["incline_gain_P"] = found["incline_DLP_velocity_25s"] - found["incline_DL_velocity_25s"]
     for name in ("D", "PL"):
@@ -108,7 +136,10 @@ def _draw(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...
 def figure_9(runs: dict[str, Run]) -> Figure:
     """Draw temperature and saturation of the band."""
     panels = (("band_temperature_C", "temperature (°C)", 1.0, 0.0), ("band_saturation", "liquid saturation", 1.0, 0.0))
-    return _draw(runs, panels, ("band temperature", "band saturation"))
+    figure = _draw(runs, panels, ("band temperature", "band saturation"))
+    figure.axes[1].set_ylim(-0.02, 1.02)
+    mark(figure.axes[1], 10.0, 1.0, "the paper: P-L has melted", COLOURS["PL"])
+    return figure
 
 
 def figure_10(runs: dict[str, Run]) -> Figure:

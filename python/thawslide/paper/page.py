@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures import FIGURES
-from thawslide.paper import block, freezing, incline, lamplugh
-from thawslide.paper.sentences import VERDICTS, filled, sentences, table
+from thawslide.paper import block, freezing, incline, lamplugh, stages
+from thawslide.paper.sentences import MEANINGS, VERDICTS, filled, sentences, table
 from thawslide.report import page_frame
 from thawslide.run import Run
 
@@ -50,7 +50,8 @@ def draw(name: str, runs: Runs) -> Figure:
 def measure(runs: Runs) -> dict[str, float]:
     """Return every number that texts and tests use, by name."""
     bars = {name: run for name, run in runs.items() if name.startswith("freezing-bar")}
-    return freezing.measures(bars) | block.measures(runs) | incline.measures(runs) | lamplugh.measures(runs)
+    of_sections = (freezing.measures(bars), block.measures(runs), incline.measures(runs), lamplugh.measures(runs))
+    return {name: value for part in (*of_sections, stages.measures(runs)) for name, value in part.items()}
 
 
 def make_page(runs: Runs, output: Path, quick: bool, progress: Callable[[str], None]) -> Path:
@@ -112,8 +113,9 @@ def _sentences(measures: dict[str, float]) -> list[str]:
     ]  # fmt: skip
     return [
         '<h2 id="sentences">Every sentence with a number or an ordering</h2>',
-        f"<p>Abstract and Sections 3.1 to 4.2: {len(found)} sentences, {tally}. Each verdict is computed from the runs "
-        "by the rule its row names.</p>",
+        f"<p>Abstract and Sections 3.1 to 4.2: {len(found)} sentences, {tally}. Each verdict is computed from the runs."
+        " What the paper's words mean in numbers was fixed for all sentences alike:</p>",
+        "<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in MEANINGS) + "</ul>",
         "<table><tr><th>Section</th><th>Sentence</th><th>Claimed</th><th>Here</th><th>Verdict</th></tr>",
         *lines,
         "</table>",

@@ -63,13 +63,19 @@ BARS = ("m025", "m050", "m100", "m050-no-latent")
 BLOCKS = ("e050", "e100", "e200", "e100-L5", "e100-L20", "k0", "k10", "k9", "k8")
 INCLINES = ("D", "DL", "DLP", "PL")
 NO_LATENT = "-no-latent"
+PRINTED = "-printed"
 NO_VISCOSITY = ("material.rock_ice.viscosity_time=0.0",)
+POINTS = 'terrain.description="rigid_points"'
 _COSTS = {"block-e200": 8.0, "block-e100-L5": 12.0, "block-e100": 4.0, "block-e100-L20": 3.0}
 
 
 def all_runs() -> list[PaperRun]:
     """Return every run, in the order of the paper."""
     runs = [PaperRun(f"freezing-bar-{name}", f"freezing-bar/{name}.toml", (), 864.0, 0.5) for name in BARS]
+    printed = ('heat.update="apparent_capacity"',)
+    runs += [
+        PaperRun(f"freezing-bar-{name}{PRINTED}", f"freezing-bar/{name}.toml", printed, 864.0, 0.5) for name in BARS
+    ]
     for name in BLOCKS:
         cost = _COSTS.get(f"block-{name}", 2.0)
         runs.append(PaperRun(f"block-{name}", f"block/{name}.toml", (), 0.2, cost))
@@ -80,6 +86,14 @@ def all_runs() -> list[PaperRun]:
     runs += [
         PaperRun(f"incline-{name}-no-viscosity", f"incline/{name}.toml", NO_VISCOSITY, 0.1, 6.0) for name in ("D", "PL")
     ]
+    ice_only = ("pressure.thermal_pressurization=false",)
+    runs.append(PaperRun("incline-DLP-ice", "incline/DLP.toml", ice_only, 0.1, 6.0))
+    # The ground as the paper has it: two layers of points in Sec. 3.3, three layers of cells with two each in Sec. 4.
+    runs.append(PaperRun("incline-DLP-points", "incline/DLP.toml", (POINTS, "terrain.layers=2"), 0.1, 6.0))
+    six = (POINTS, "terrain.layers=6", "time.end=60.0")
+    runs.append(PaperRun("lamplugh-points", "lamplugh/case.toml", six, 1.0, 5.0))
+    weaker = (*six, "basal.cohesion=5.4e5")
+    runs.append(PaperRun("lamplugh-points-540", "lamplugh/case.toml", weaker, 1.0, 5.0))
     runs.append(PaperRun("lamplugh", "lamplugh/case.toml", (), 1.0, 20.0))
     runs.append(PaperRun("lamplugh-no-pressurization", "lamplugh/no-pressurization.toml", (), 1.0, 15.0))
     return runs

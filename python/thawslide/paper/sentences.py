@@ -9,6 +9,17 @@ from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
+# What the paper's words mean in numbers, the same for every sentence and whatever the runs give.
+MEANINGS = (
+    "a number, about, approximately, around, accurately: within 10 % of it (a saturation: within 0.1)",
+    "higher, lower, faster, decreases, increases: the ordering, at the times the text names or at the end",
+    "slightly, marginally: the ordering, and less than 10 % of the value compared with",
+    "much, significant, substantial, sharp, dominant: by a factor of two at least, or more than half of the whole",
+    "comparable: within a factor of two",
+    "close match, good agreement, negligible, constant, parallel, equilibrium: within 5 % of the range (10 K from the "
+    "start to melting, 1 in saturation, the normal stress of 1,012 kPa in pressure)",
+    "melted, complete: saturation above 0.99; at rest: below 1 % of the peak speed",
+)
 VERDICTS = {True: "true", False: "false", None: "undetermined"}
 
 

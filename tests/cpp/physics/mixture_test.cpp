@@ -5,6 +5,7 @@
 #include <random>
 
 #include "physics/clapeyron.hpp"
+#include "physics/freezing.hpp"
 #include "physics/pressurization.hpp"
 #include "table1.hpp"
 
@@ -79,6 +80,35 @@ TEST(Pressurization, CoefficientsByHand) {
   EXPECT_NEAR(undrained_pressure_coefficient(phases, 0.375, 1.0), 325000.0, 1e-6);
   // 1e9 x 2e-8/(0.375 x 9810)
   EXPECT_NEAR(hydraulic_diffusivity(phases, 0.375, 1.0, 2e-8), 20.0 / (0.375 * 9810.0), 1e-15);
+}
+
+// Eq. 8 with Eqs. 3 and 6 keeps the mass of ice and water in a closed volume of rock, ice and water (Eq. 7): what is
+// lost in a step falls with its square.
+TEST(Pressurization, KeepsIceAndWaterOfAClosedVolume) {
+  const auto phases = table1();
+  const PowerLawCurve<double> curve{0.0, 5.0};
+  const double n = 0.375, r = phases.ice_density / phases.water_density;
+  for (const double temperature : {-1.0, -0.2, 3.0}) {
+    const auto start = curve.at(temperature);
+    const auto lost = [&](double step) {
+      const double warming = 2.0 * step, volume_strain = -1e-3 * step;
+      const double melting = n * (1.0 - r) * start.derivative;
+      const double pressure = (undrained_pressure_coefficient(phases, n, start.saturation) -
+                               phases.water_bulk_modulus * melting / (n * start.saturation)) *
+                                  warming -
+                              pore_stiffness(phases, n, start.saturation) * volume_strain;
+      const double water =
+          phases.water_density * std::exp(pressure / phases.water_bulk_modulus - phases.water_expansion * warming);
+      const double ice = phases.ice_density * std::exp(-phases.ice_expansion * warming);
+      const double s = curve.saturation(temperature + warming);
+      const double pore = updated_porosity(phases, n, volume_strain, warming) * std::exp(volume_strain);
+      const double before =
+          n * (start.saturation * phases.water_density + (1.0 - start.saturation) * phases.ice_density);
+      return std::abs(pore * (s * water + (1.0 - s) * ice) - before) / before;
+    };
+    EXPECT_LT(lost(1e-3), 1e-4);
+    EXPECT_NEAR(lost(1e-3) / lost(5e-4), 4.0, 0.05) << temperature;
+  }
 }
 
 // The levelled share is what a step of pure decay takes: two half steps make a whole one, none a none.
