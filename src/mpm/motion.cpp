@@ -115,28 +115,26 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
             stress[c] -= volume * particles.pore_pressure(p);
           }
         }
-        const Real pore_pressure = particles.pore_pressure(p);
-        const Real saturation = particles.liquid_saturation(p);
-        const Real temperature = particles.temperature(p);
-        const Real solid_fraction = basal_solid_fraction(particles, model.phases, model.lubrication, p);
-        const Real slip = particles.slip(p);
+        typename Patch<Dim, Real, Layout::size>::Record carried;
+        carried[Layout::mass] = mass;
+        for (std::size_t a = 0; a < Dim; ++a) {
+          carried[Layout::momentum + a] = mass * velocity[static_cast<int>(a)];
+          carried[Layout::force + a] = mass * model.gravity[static_cast<int>(a)];
+        }
+        carried[Layout::volume] = volume;
+        carried[Layout::pore_pressure] = mass * particles.pore_pressure(p);
+        carried[Layout::saturation] = mass * particles.liquid_saturation(p);
+        carried[Layout::temperature] = mass * particles.temperature(p);
+        carried[Layout::solid_fraction] = mass * basal_solid_fraction(particles, model.phases, model.lubrication, p);
+        carried[Layout::slip] = mass * particles.slip(p);
         const MomentumStencil<decltype(shape), Dim, Real> stencil(grid, tile.key, p, particles, model);
         stencil.nodes.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& gradient) {
           auto& node = patch.records[place];
-          const Real m = weight * mass;
+          add_weighted(node, weight, carried);
           const Vector<Real, Dim> internal = traction<Dim, Real>(stress, gradient);
-          node[Layout::mass] += m;
           for (std::size_t a = 0; a < Dim; ++a) {
-            const int i = static_cast<int>(a);
-            node[Layout::momentum + a] += m * velocity[i];
-            node[Layout::force + a] += m * model.gravity[i] - internal[i];
+            node[Layout::force + a] -= internal[static_cast<int>(a)];
           }
-          node[Layout::volume] += weight * volume;
-          node[Layout::pore_pressure] += m * pore_pressure;
-          node[Layout::saturation] += m * saturation;
-          node[Layout::temperature] += m * temperature;
-          node[Layout::solid_fraction] += m * solid_fraction;
-          node[Layout::slip] += m * slip;
         });
         if constexpr (decltype(transfer)::affine) {
           add_affine_momentum(make_affine<decltype(shape)>(grid, stencil.nodes, stencil.place, model.sides), mass,
@@ -211,11 +209,12 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
       for (std::uint32_t k = tile.first; k < tile.last; ++k) {
         const std::uint32_t p = grid.order()[k];
         const MomentumStencil<decltype(shape), Dim, Real> stencil(grid, tile.key, p, particles, model);
+        const auto read = read_nodes<2 * Dim>(stencil.nodes, motion);
         NodeMotion<Dim, Real> seen;
-        stencil.nodes.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
-          seen.acceleration += weight * vector_at<Dim, Real>(motion.records[place], Layout::acceleration);
-          seen.middle_velocity += weight * vector_at<Dim, Real>(motion.records[place], Layout::middle_velocity);
-        });
+        for (std::size_t a = 0; a < Dim; ++a) {
+          seen.acceleration[static_cast<int>(a)] = read.value[Layout::acceleration + a];
+          seen.middle_velocity[static_cast<int>(a)] = read.value[Layout::middle_velocity + a];
+        }
         particles.step_displacement.set(p, Vector<Real, Dim>(dt * seen.middle_velocity));
         works[t].particle_kinetic += take_velocity(seen, transfer.pic_share, dt, particles, p);
         const Real mass = particles.mass(p);
@@ -305,10 +304,7 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
               for (; k < tile.last && particles.material(grid.order()[k]) == material; ++k) {
                 const std::uint32_t p = grid.order()[k];
                 const MomentumStencil<decltype(shape), Dim, Real> stencil(grid, tile.key, p, particles, model);
-                Matrix<Real, Dim> gradient = Matrix<Real, Dim>::Zero();
-                stencil.nodes.for_each_node([&](std::size_t place, Real /*weight*/, const Vector<Real, Dim>& slope) {
-                  gradient += vector_at<Dim, Real>(velocity.records[place], 0) * slope.transpose();
-                });
+                const Matrix<Real, Dim> gradient = gradient_of(read_nodes<Dim>(stencil.nodes, velocity));
                 const StressWork<Real> work =
                     deform<Dim, Real>(particles, p, dt * gradient, law, chosen, model.phases, dt);
                 sum.total += work.total;

@@ -29,7 +29,7 @@ THAWSLIDE_HD AxisWeights<Real> linear_weights(Real offset, Real inverse_cell) {
 
 // uGIMP (Bardenhagen and Kober 2004): the hat averaged over the undeformed particle of half size `half` (in cells).
 template <class Real>
-THAWSLIDE_HD AxisWeights<Real> ugimp_weights(Real offset, Real half, Real inverse_cell) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Real> ugimp_weights(Real offset, Real half, Real inverse_cell) {
   const Real d = offset;
   if (d >= half) {
     return {{Real(0), Real(1) - d, d}, {Real(0), -inverse_cell, inverse_cell}};

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 
 #include "base/aligned.hpp"
 #include "base/parallel.hpp"
@@ -127,7 +128,7 @@ struct Stencil {
 
   // Calls visit(place, weight, gradient) for each of the Width^Dim nodes.
   template <class Visit>
-  void for_each_node(const Visit& visit) const {
+  THAWSLIDE_ALWAYS_INLINE void for_each_node(const Visit& visit) const {
     constexpr auto row = static_cast<std::size_t>(Tile<Dim>::patch_edge);
     if constexpr (Dim == 2) {
       for (std::size_t j = 0; j < Width; ++j) {
@@ -150,6 +151,81 @@ struct Stencil {
     }
   }
 };
+
+// Adds weight * carried to a record.
+template <class Record, class Real>
+THAWSLIDE_ALWAYS_INLINE void add_weighted(Record& record, Real weight, const Record& carried) {
+  for (std::size_t c = 0; c < std::tuple_size_v<Record>; ++c) {
+    record[c] += weight * carried[c];
+  }
+}
+
+// What a particle reads of `Count` numbers of the records about it: their values at its place and their gradients
+// [per m]. Axis by axis, rows first: fewer products than node by node.
+template <int Dim, class Real, std::size_t Count>
+struct Reading {
+  std::array<Real, Count> value{};
+  std::array<std::array<Real, Count>, Dim> gradient{};
+};
+
+template <std::size_t Count, int Dim, class Real, std::size_t Width, int Components>
+THAWSLIDE_ALWAYS_INLINE Reading<Dim, Real, Count> read_nodes(const Stencil<Dim, Real, Width>& stencil,
+                                                             const Patch<Dim, Real, Components>& patch,
+                                                             std::size_t first_component = 0) {
+  constexpr auto edge = static_cast<std::size_t>(Tile<Dim>::patch_edge);
+  constexpr std::size_t layers = Dim == 3 ? Width : 1;
+  Reading<Dim, Real, Count> reading;
+  for (std::size_t k = 0; k < layers; ++k) {
+    Reading<Dim, Real, Count> layer;
+    for (std::size_t j = 0; j < Width; ++j) {
+      std::array<Real, Count> along{};
+      std::array<Real, Count> slope{};
+      for (std::size_t i = 0; i < Width; ++i) {
+        const Real* record = &patch.records[stencil.first + (k * edge + j) * edge + i][first_component];
+        for (std::size_t c = 0; c < Count; ++c) {
+          along[c] += stencil.axis[0].weight[i] * record[c];
+          slope[c] += stencil.axis[0].slope[i] * record[c];
+        }
+      }
+      for (std::size_t c = 0; c < Count; ++c) {
+        layer.value[c] += stencil.axis[1].weight[j] * along[c];
+        layer.gradient[0][c] += stencil.axis[1].weight[j] * slope[c];
+        layer.gradient[1][c] += stencil.axis[1].slope[j] * along[c];
+      }
+    }
+    if constexpr (Dim == 2) {
+      return layer;
+    } else {
+      for (std::size_t c = 0; c < Count; ++c) {
+        reading.value[c] += stencil.axis[2].weight[k] * layer.value[c];
+        reading.gradient[0][c] += stencil.axis[2].weight[k] * layer.gradient[0][c];
+        reading.gradient[1][c] += stencil.axis[2].weight[k] * layer.gradient[1][c];
+        reading.gradient[2][c] += stencil.axis[2].slope[k] * layer.value[c];
+      }
+    }
+  }
+  return reading;
+}
+
+// The gradient of component c, and that of the vector of the first Dim components: d v_a / d x_b.
+template <int Dim, class Real, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> gradient_of(const Reading<Dim, Real, Count>& reading, std::size_t c) {
+  Vector<Real, Dim> gradient;
+  for (int b = 0; b < Dim; ++b) {
+    gradient[b] = reading.gradient[static_cast<std::size_t>(b)][c];
+  }
+  return gradient;
+}
+template <int Dim, class Real, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE Matrix<Real, Dim> gradient_of(const Reading<Dim, Real, Count>& reading) {
+  Matrix<Real, Dim> gradient;
+  for (int a = 0; a < Dim; ++a) {
+    for (int b = 0; b < Dim; ++b) {
+      gradient(a, b) = reading.gradient[static_cast<std::size_t>(b)][static_cast<std::size_t>(a)];
+    }
+  }
+  return gradient;
+}
 
 // Node numbers along each axis of the sides of the domain that prescribe velocity.
 template <int Dim>

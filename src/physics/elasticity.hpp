@@ -25,7 +25,8 @@ struct Elastic {
 
 // Stress increment [Pa] of a strain increment.
 template <class Real>
-THAWSLIDE_HD SymmetricTensor<Real> stress_increment(const Elastic<Real>& elastic, const SymmetricTensor<Real>& strain) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Real> stress_increment(const Elastic<Real>& elastic,
+                                                                            const SymmetricTensor<Real>& strain) {
   SymmetricTensor<Real> stress = Real(2) * elastic.shear_modulus * strain;
   const Real pressure = elastic.lame_lambda * (strain[0] + strain[1] + strain[2]);
   for (int k = 0; k < 3; ++k) {

@@ -35,7 +35,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE StrainIncrement<Real, Dim> strain_increment
     increment.strain[4] = strain(1, 2);
     increment.strain[5] = strain(0, 2);
   }
-  increment.rotation = (identity - half_spin).inverse() * (identity + half_spin);
+  // (I - S)^-1 (I + S) of a skew S in closed form (Cayley): |s|^2 = S:S/2
+  const Real turn = Real(2) / (Real(1) + Real(0.5) * half_spin.squaredNorm());
+  increment.rotation = identity + turn * (half_spin + half_spin * half_spin);
   increment.volume_ratio = (identity + displacement_gradient).determinant();
   return increment;
 }

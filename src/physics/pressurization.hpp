@@ -42,7 +42,7 @@ THAWSLIDE_HD Real hydraulic_diffusivity(const Phases<Real>& phases, Real porosit
 // Nodes do not see differences within a cell, and diffusion between nodes would leave them standing for ever.
 template <class Real>
 THAWSLIDE_HD Real share_levelled_within_cell(Real diffusivity, Real mesh_size, int dimension, Real dt) {
-  return -std::expm1(-dt * diffusivity * Real(2 * dimension) / (mesh_size * mesh_size));
+  return -exponential_minus_one(-dt * diffusivity * Real(2 * dimension) / (mesh_size * mesh_size));
 }
 
 }  // namespace thawslide::physics

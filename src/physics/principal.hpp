@@ -1,6 +1,9 @@
-// Principal values and axes of a symmetric tensor: closed in the plane, else by rotations (Jacobi 1846).
+// Principal values and axes of a symmetric tensor, without iteration. In space the value that lies furthest from the
+// other two comes from the cubic; its axis leaves a plane problem for the others (Eberly 2014), which keeps all digits
+// where values meet.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -30,39 +33,59 @@ THAWSLIDE_HD void sort_descending(Principal<Real>& principal) {
   order(0, 1);
 }
 
-// One of Jacobi's rotations: makes component (p, q) of `full` zero.
+// The cosine and sine of the axis of the larger value of [xx xy; xy yy], and how far the values lie from their mean.
 template <class Real>
-THAWSLIDE_HD void jacobi_rotation(int p, int q, Matrix<Real, 3>& full, Matrix<Real, 3>& axes) {
-  if (full(p, q) == Real(0)) {
-    return;
+struct PlaneAxis {
+  Real cosine = 1, sine = 0, radius;
+
+  THAWSLIDE_HD PlaneAxis(Real xx, Real yy, Real xy) {
+    const Real half_difference = Real(0.5) * (xx - yy);
+    radius = std::sqrt(half_difference * half_difference + xy * xy);
+    if (!(radius > Real(0))) {
+      return;
+    }
+    // The larger of the two half-angle forms keeps its digits.
+    const Real cosine2 = half_difference / radius;
+    const Real larger = std::sqrt(Real(0.5) * (Real(1) + std::abs(cosine2)));
+    const Real smaller = Real(0.5) * xy / (radius * larger);
+    cosine = cosine2 < Real(0) ? std::abs(smaller) : larger;
+    sine = cosine2 < Real(0) ? (xy < Real(0) ? -larger : larger) : smaller;
   }
-  const Real theta = (full(q, q) - full(p, p)) / (Real(2) * full(p, q));
-  const Real t = (theta >= Real(0) ? Real(1) : Real(-1)) / (std::abs(theta) + std::sqrt(theta * theta + Real(1)));
-  const Real c = Real(1) / std::sqrt(t * t + Real(1));
-  const Real s = t * c;
-  for (int k = 0; k < 3; ++k) {
-    const Real kp = full(k, p);
-    const Real kq = full(k, q);
-    full(k, p) = c * kp - s * kq;
-    full(k, q) = s * kp + c * kq;
+};
+
+// The axis of the value that lies furthest from the other two, of a deviator that is not zero.
+template <class Real>
+THAWSLIDE_HD Vector<Real, 3> isolated_axis(const Matrix<Real, 3>& deviator) {
+  const Matrix<Real, 3> scaled = deviator / std::sqrt(deviator.squaredNorm() / Real(6));
+  const Real half_determinant = std::clamp(Real(0.5) * scaled.determinant(), Real(-1), Real(1));
+  const Real angle = std::acos(half_determinant) / Real(3);
+  const Real value = Real(2) * std::cos(half_determinant >= Real(0) ? angle : angle + Real(2) * pi<Real> / Real(3));
+  // Of the rows (or columns) of scaled - value I, which span the plane across the axis, the two that say most.
+  const Matrix<Real, 3> rows = scaled - value * Matrix<Real, 3>::Identity();
+  Vector<Real, 3> axis = rows.col(0).cross(rows.col(1));
+  for (const Vector<Real, 3>& other :
+       {Vector<Real, 3>(rows.col(1).cross(rows.col(2))), Vector<Real, 3>(rows.col(2).cross(rows.col(0)))}) {
+    if (other.squaredNorm() > axis.squaredNorm()) {
+      axis = other;
+    }
   }
-  for (int k = 0; k < 3; ++k) {
-    const Real pk = full(p, k);
-    const Real qk = full(q, k);
-    full(p, k) = c * pk - s * qk;
-    full(q, k) = s * pk + c * qk;
-    const Real kp = axes(k, p);
-    const Real kq = axes(k, q);
-    axes(k, p) = c * kp - s * kq;
-    axes(k, q) = s * kp + c * kq;
-  }
+  return axis.normalized();
+}
+
+// A unit vector across an axis.
+template <class Real>
+THAWSLIDE_HD Vector<Real, 3> across(const Vector<Real, 3>& axis) {
+  const bool mostly_x = std::abs(axis[0]) > std::abs(axis[1]);
+  const Vector<Real, 3> other =
+      mostly_x ? Vector<Real, 3>(-axis[2], Real(0), axis[0]) : Vector<Real, 3>(Real(0), axis[2], -axis[1]);
+  return other.normalized();
 }
 
 }  // namespace detail
 
 // Principal values alone, largest first, where yz = xz = 0 (plane strain).
 template <class Real>
-THAWSLIDE_HD Vector<Real, 3> plane_principal_values(const SymmetricTensor<Real>& tensor) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Real, 3> plane_principal_values(const SymmetricTensor<Real>& tensor) {
   const Real centre = Real(0.5) * (tensor[0] + tensor[1]);
   const Real half_difference = Real(0.5) * (tensor[0] - tensor[1]);
   const Real radius = std::sqrt(half_difference * half_difference + tensor[3] * tensor[3]);
@@ -74,44 +97,31 @@ THAWSLIDE_HD Vector<Real, 3> plane_principal_values(const SymmetricTensor<Real>&
                       : Vector<Real, 3>(high, out, low);
 }
 
-// Of a tensor xx yy zz xy yz xz: closed where yz = xz = 0 (plane strain), else by Jacobi's rotations to round-off.
+// Of a tensor xx yy zz xy yz xz.
 template <class Real>
 THAWSLIDE_HD Principal<Real> principal(const SymmetricTensor<Real>& tensor) {
   Principal<Real> result;
   result.axes.setIdentity();
+  const Real mean = (tensor[0] + tensor[1] + tensor[2]) / Real(3);
+  Matrix<Real, 3> full;
+  full << tensor[0] - mean, tensor[3], tensor[5], tensor[3], tensor[1] - mean, tensor[4], tensor[5], tensor[4],
+      tensor[2] - mean;
   if (tensor[4] == Real(0) && tensor[5] == Real(0)) {
+    const detail::PlaneAxis<Real> plane(tensor[0], tensor[1], tensor[3]);
     const Real centre = Real(0.5) * (tensor[0] + tensor[1]);
-    const Real half_difference = Real(0.5) * (tensor[0] - tensor[1]);
-    const Real radius = std::sqrt(half_difference * half_difference + tensor[3] * tensor[3]);
-    result.values << centre + radius, centre - radius, tensor[2];
-    if (radius > Real(0)) {
-      // The larger of the two half-angle forms keeps its digits.
-      const Real cosine2 = half_difference / radius;
-      Real c = std::sqrt(Real(0.5) * (Real(1) + std::abs(cosine2)));
-      Real s = Real(0.5) * tensor[3] / (radius * c);
-      if (cosine2 < Real(0)) {
-        const Real magnitude = c;
-        c = std::abs(s);
-        s = tensor[3] < Real(0) ? -magnitude : magnitude;
-      }
-      result.axes << c, -s, Real(0), s, c, Real(0), Real(0), Real(0), Real(1);
-    }
+    result.values << centre + plane.radius, centre - plane.radius, tensor[2];
+    result.axes.col(0) << plane.cosine, plane.sine, Real(0);
+    result.axes.col(1) << -plane.sine, plane.cosine, Real(0);
   } else {
-    Matrix<Real, 3> full;
-    full << tensor[0], tensor[3], tensor[5], tensor[3], tensor[1], tensor[4], tensor[5], tensor[4], tensor[2];
-    constexpr int most_sweeps = 30;
-    constexpr Real round_off = static_cast<Real>(1e-32);
-    const Real size = full.squaredNorm();
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-      const Real off = full(0, 1) * full(0, 1) + full(0, 2) * full(0, 2) + full(1, 2) * full(1, 2);
-      if (off <= round_off * size) {
-        break;
-      }
-      detail::jacobi_rotation(0, 1, full, result.axes);
-      detail::jacobi_rotation(0, 2, full, result.axes);
-      detail::jacobi_rotation(1, 2, full, result.axes);
-    }
-    result.values = full.diagonal();
+    const Vector<Real, 3> isolated = detail::isolated_axis(full);
+    const Vector<Real, 3> first = detail::across(isolated);
+    const Vector<Real, 3> second = isolated.cross(first);
+    const Real xx = first.dot(full * first);
+    const Real yy = second.dot(full * second);
+    const detail::PlaneAxis<Real> plane(xx, yy, first.dot(full * second));
+    const Real centre = mean + Real(0.5) * (xx + yy);
+    result.values << centre + plane.radius, centre - plane.radius, mean + isolated.dot(full * isolated);
+    result.axes << plane.cosine * first + plane.sine * second, plane.cosine * second - plane.sine * first, isolated;
   }
   detail::sort_descending(result);
   return result;

@@ -92,17 +92,25 @@ double error_on(double cell, double frozen, double k_ice, double k_water, const 
   return root_mean_square(errors);
 }
 
+const std::vector<double> cells{0.2, 0.1, 0.05};
+
+// The errors on these cells; draws the middle one.
 template <class Exact>
-void expect_convergence(Record& record, double frozen, double k_ice, double k_water, const Exact& exact,
-                        double expected, double allowed) {
-  const std::vector<double> cells{0.2, 0.1, 0.05};
+std::vector<double> errors_on_cells(Record& record, double frozen, double k_ice, double k_water, const Exact& exact) {
   Curve curve{"x [m]", "temperature [C]", {}, {}, {}};
   std::vector<double> errors;
   for (const double cell : cells) {
     errors.push_back(error_on(cell, frozen, k_ice, k_water, exact, cell == 0.1 ? &curve : nullptr));
   }
   record.draw(curve);
-  record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, expected, allowed);
+  return errors;
+}
+
+template <class Exact>
+void expect_convergence(Record& record, double frozen, double k_ice, double k_water, const Exact& exact,
+                        double expected, double allowed) {
+  record.expect_order("cell [m]", cells, "rms error of temperature [K]",
+                      errors_on_cells(record, frozen, k_ice, k_water, exact), expected, allowed);
 }
 
 const std::string few_cells =
@@ -160,12 +168,12 @@ TEST(Freezing, SharpFrontOfNeumann) {
   Record record("Freezing at a sharp front", "InterFrost T1, wholly frozen 0.01 K below the freezing point.",
                 "erf on both sides of a front at 2 psi sqrt(a1 t)", "Neumann; Carslaw and Jaeger 1959, ch. 11");
   const physics::exact::SharpFront exact(interfrost(-0.01));
-  expect_convergence(record, -0.01, k_frozen, k_thawed, exact, 1.0, 0.5);
+  record.expect_order_at_least("cell [m]", cells, "rms error of temperature [K]",
+                               errors_on_cells(record, -0.01, k_frozen, k_thawed, exact), 1.0, 0.1);
   record.explain(
-      "The front stands anywhere in its cell, which makes an error of first order that jumps as it moves on: at 10 "
-      "days "
-      "alone the orders are between 0 and 1.8. Over many of its places most of that cancels: 1.4, and 1.5 from 0.05 to "
-      "0.025 m.");
+      "The front stands anywhere in its cell, which bounds the error by the cell's size. How much of that cancels over "
+      "the front's many places is chance: round-off alone moves the order between 1.4 and 1.6. On cells of 0.2 m the "
+      "front is lost.");
 }
 
 }  // namespace
