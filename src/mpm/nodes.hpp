@@ -41,11 +41,9 @@ struct HatLayout {
 
 // Candidate nodes: how they press on the ground, and what of it they have.
 struct BaseLayout {
-  static constexpr std::size_t load = 0;    // max(0, p.n) of the trial momentum [kg m/s]
-  static constexpr std::size_t area = 1;    // the node's share of the ground's surface [m2]
-  static constexpr std::size_t space = 2;   // the node's share of the space above the ground [m3]
-  static constexpr std::size_t volume = 3;  // sum S V: what of that space slide fills [m3]
-  static constexpr int size = 4;
+  static constexpr std::size_t load = 0;     // max(0, p.n) of the trial momentum [kg m/s]
+  static constexpr std::size_t covered = 1;  // what the slide covers of the node's share of the ground's surface [m2]
+  static constexpr int size = 2;
 };
 
 // What contact leaves at a node for the stages after it.

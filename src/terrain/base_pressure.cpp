@@ -24,7 +24,7 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
   std::array<Real, static_cast<std::size_t>(T::nodes)> pressure;
   for (int k = 0; k < T::nodes; ++k) {
     const typename T::Index here = T::node({}, k);
-    Real load = 0, area = 0, space = 0, volume = 0;
+    Real load = 0, covered = 0;
     for (int d = 0; d < T::stencil; ++d) {
       typename T::Index there = here;
       Real weight = 1;
@@ -37,11 +37,8 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
       }
       const auto& record = patch.records[static_cast<std::size_t>(T::in_patch(there))];
       load += weight * record[BaseLayout::load];
-      area += weight * record[BaseLayout::area];
-      space += weight * record[BaseLayout::space];
-      volume += weight * record[BaseLayout::volume];
+      covered += weight * record[BaseLayout::covered];
     }
-    const Real covered = volume < space ? area * volume / space : area;
     pressure[static_cast<std::size_t>(k)] = load / (dt * std::max(covered, smallest_area));
   }
   return pressure;

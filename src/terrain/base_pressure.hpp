@@ -9,9 +9,9 @@ namespace thawslide::terrain {
 
 // Normal pressure [Pa] at the nodes of block b from nodes.base: load over dt and covered area, summed over a node and
 // its neighbours with the weights 1/4, 1/2, 1/4 along each axis. Where a slope cuts through cells, a node's own load
-// and its own area have little to do with each other; their local sums do. The covered area is that of the ground's
-// surface times the filled part of the space above it: exact where a deep slide ends on a grid line, too small where it
-// is thinner than a cell. Nodes no ground is near get a pressure as if `smallest_area` [m2] carried them.
+// and its own area have little to do with each other; their local sums do. Exact where a deep slide ends on a grid
+// line; the covered area is too small where it is thinner than a cell. Nodes no ground is near get a pressure as if
+// `smallest_area` [m2] carried them.
 template <int Dim, class Real>
 std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(const mpm::SparseGrid<Dim, Real>& grid,
                                                                                 const mpm::Nodes<Dim, Real>& nodes,

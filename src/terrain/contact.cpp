@@ -84,6 +84,45 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   basal.speed[c] = (state.momentum - approach * normal).norm() / state.mass;
 }
 
+// How much of the space that belongs to a node slide fills, 0 to 1.
+template <int Dim, class Real>
+Real filled_share(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                  const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k) {
+  const bool near_ground = ground.any_candidate(b) && ground.block(b)[k].candidate;
+  const Real space = near_ground ? ground.block(b)[k].space : std::pow(grid.cell(), Real(Dim));
+  const Real volume = nodes.momentum(b, k)[MomentumLayout<Dim>::volume];
+  return volume < space ? volume / space : Real(1);
+}
+
+// The share of its ground that a slide over a node covers: as much as it fills of the node's space or of those of the
+// two nodes further from the ground, since contact is felt before the gap below the slide is closed.
+template <int Dim, class Real>
+Real covered_share(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                   const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k) {
+  using T = mpm::Tile<Dim>;
+  const Vector<Real, Dim>& into_ground = ground.block(b)[k].normal;
+  int axis = 0;
+  into_ground.cwiseAbs().maxCoeff(&axis);
+  typename T::Index further = T::node({}, static_cast<int>(k));
+  Real share = filled_share(grid, ground, nodes, b, k);
+  for (int step = 0; step < 2; ++step) {
+    further[static_cast<std::size_t>(axis)] += into_ground[axis] > Real(0) ? -1 : 1;
+    typename T::Index tile{};
+    int place = 0;
+    T::split(further, tile, place);
+    int direction = 0;
+    for (int a = Dim - 1; a >= 0; --a) {
+      direction = 3 * direction + tile[static_cast<std::size_t>(a)] + 1;
+    }
+    const std::int32_t block = grid.blocks_about_block(b)[direction];
+    if (block != KeyIndex::absent) {
+      share = std::max(
+          share, filled_share(grid, ground, nodes, static_cast<std::size_t>(block), static_cast<std::size_t>(place)));
+    }
+  }
+  return share;
+}
+
 // Fills nodes.base: how every candidate node presses on the ground, and the area it covers.
 template <int Dim, class Real>
 void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
@@ -101,9 +140,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
       const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
       const auto state = trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping, record);
       base[BaseLayout::load] = std::max(Real(0), state.momentum.dot(known.normal));
-      base[BaseLayout::area] = known.area;
-      base[BaseLayout::space] = known.space;
-      base[BaseLayout::volume] = record[MomentumLayout<Dim>::volume];
+      base[BaseLayout::covered] = known.area * covered_share(grid, ground, nodes, b, k);
     }
   });
 }

@@ -52,11 +52,6 @@ class BlockRun:
 LAMPLUGH_BLOCKS = (
     BlockRun("lamplugh-block", (), "rigid block, 0.6 MPa"),
     BlockRun("lamplugh-block-561", ("basal.cohesion=5.61e5",), "rigid block, 0.561 MPa"),
-    BlockRun(
-        "lamplugh-block-561-110",
-        ("basal.cohesion=5.61e5", "basal.residual_cohesion=1.1e5"),
-        "rigid block, 0.561 MPa, 0.11 MPa left",
-    ),
 )
 
 BARS = ("m025", "m050", "m100", "m050-no-latent")
