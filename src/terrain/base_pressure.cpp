@@ -6,6 +6,7 @@ namespace thawslide::terrain {
 
 template <int Dim, class Real>
 std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                                const GroundOnGrid<Dim, Real>& ground,
                                                                                 const mpm::Nodes<Dim, Real>& nodes,
                                                                                 std::size_t b, Real dt,
                                                                                 Real smallest_area) {
@@ -24,6 +25,8 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
   std::array<Real, static_cast<std::size_t>(T::nodes)> pressure;
   for (int k = 0; k < T::nodes; ++k) {
     const typename T::Index here = T::node({}, k);
+    int across = 0;  // the axis that is most nearly normal to the ground
+    ground.block(b)[static_cast<std::size_t>(k)].normal.cwiseAbs().maxCoeff(&across);
     Real load = 0, covered = 0;
     for (int d = 0; d < T::stencil; ++d) {
       typename T::Index there = here;
@@ -33,7 +36,7 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
         const int shift = direction % 3 - 1;
         direction /= 3;
         there[a] += shift;
-        weight *= shift == 0 ? Real(0.5) : Real(0.25);
+        weight *= static_cast<int>(a) == across ? Real(1) : shift == 0 ? Real(0.5) : Real(0.25);
       }
       const auto& record = patch.records[static_cast<std::size_t>(T::in_patch(there))];
       load += weight * record[BaseLayout::load];
@@ -44,9 +47,10 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
   return pressure;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                    \
-  template std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure( \
-      const mpm::SparseGrid<Dim, Real>&, const mpm::Nodes<Dim, Real>&, std::size_t, Real, Real);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                            \
+  template std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(                         \
+      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, const mpm::Nodes<Dim, Real>&, std::size_t, \
+      Real, Real);
 THAWSLIDE_INSTANTIATE(2, double)
 THAWSLIDE_INSTANTIATE(3, double)
 #undef THAWSLIDE_INSTANTIATE

@@ -133,13 +133,17 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       auto& base = nodes.base(b, k);
       base.fill(Real(0));
-      const auto& record = nodes.momentum(b, k);
-      if (!ground.any_candidate(b) || !ground.block(b)[k].candidate || !(record[MomentumLayout<Dim>::mass] > Real(0))) {
+      if (!ground.any_candidate(b) || !ground.block(b)[k].candidate) {
         continue;
       }
       const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
-      const auto state = trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping, record);
-      base[BaseLayout::load] = std::max(Real(0), state.momentum.dot(known.normal));
+      const auto& record = nodes.momentum(b, k);
+      if (record[MomentumLayout<Dim>::mass] > Real(0)) {
+        const auto state =
+            trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping, record);
+        base[BaseLayout::load] = std::max(Real(0), state.momentum.dot(known.normal));
+      }
+      // A node that a hovering slide does not reach has its share of the ground below it all the same.
       base[BaseLayout::covered] = known.area * covered_share(grid, ground, nodes, b, k);
     }
   });
@@ -231,7 +235,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
     const auto* known = ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
     std::array<Real, block_nodes> pressure{};
     if (known != nullptr) {
-      pressure = base_pressure(grid, nodes, b, dt, smallest);
+      pressure = base_pressure(grid, *ground, nodes, b, dt, smallest);
     }
     for (std::size_t k = 0; k < block_nodes; ++k) {
       nodes.contact(b, k).fill(Real(0));
