@@ -44,6 +44,8 @@ class Simulation {
   [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const { return particles_; }
   [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const { return grid_; }
   [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const { return nodes_; }
+  // Null without terrain.
+  [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
   [[nodiscard]] const Ledger<Dim, Real>& ledger() const { return ledger_; }
   [[nodiscard]] const terrain::ContactWork<Dim, Real>& contact() const { return contact_; }
   [[nodiscard]] const Stopwatch& stopwatch() const { return stopwatch_; }
@@ -78,7 +80,6 @@ class Simulation {
   void start_ledger();
   void stop_if_bad();
   [[nodiscard]] double band_thickness() const;
-  [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
 
   config::Case parameters_;
   Model<Dim, Real> model_;

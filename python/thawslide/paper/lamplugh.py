@@ -263,7 +263,7 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     time_line(speed, time, run.history["mean_velocity_m_s"], color=BLUE, label="deforming (MPM)")
     time_line(way, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
     beside = blocks(run)
-    for block, colour, dashes in zip(LAMPLUGH_BLOCKS, _COLOURS, ("--", "-.", ":"), strict=True):
+    for block, colour, dashes in zip(LAMPLUGH_BLOCKS, _COLOURS[:2], ("--", "-."), strict=True):
         history, look = beside[block.name], {"color": colour, "linestyle": dashes}
         for axes, column, divisor in ((speed, "velocity_m_s", 1.0), (way, "displacement_m", 1e3)):
             time_line(axes, history["time_s"], history[column] / divisor, **look, label=block.words)

@@ -90,7 +90,7 @@ TYPED_TEST(FreezingCurve, HeatContentRisesWithTheApparentCapacity) {
   }
 }
 
-TEST(HeatContent, MeltingTakesWhatTheIssueOfSection32Says) {
+TEST(HeatContent, MeltingTakesTheHeatThatSection32LeavesOut) {
   // From -10 C to wholly melted at 0 C at a porosity of 0.375: 136.7 MJ/m3 (sensible heat and latent heat).
   const HeatContent<double, PowerLawCurve<double>> content{table1(), {0.0, 5.0}, true};
   EXPECT_NEAR(content.content(0.0, 0.375) - content.content(-10.0, 0.375), 136.7e6, 0.2e6);

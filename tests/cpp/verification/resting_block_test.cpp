@@ -65,7 +65,10 @@ Pressing press(const std::vector<std::string>& sets) {
     seen.ringing = std::max(seen.ringing, std::abs(-simulation.contact().force[1] / weight - 1.0));
     const auto& grid = simulation.grid();
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-      const auto pressure = terrain::base_pressure(grid, simulation.nodes(), b, dt, 1e-6);
+      if (!simulation.ground()->any_candidate(b)) {
+        continue;
+      }
+      const auto pressure = terrain::base_pressure(grid, *simulation.ground(), simulation.nodes(), b, dt, 1e-6);
       for (std::size_t k = 0; k < pressure.size(); ++k) {
         if (simulation.nodes().base(b, k)[mpm::BaseLayout::load] > 0.0) {
           seen.unevenness = std::max(seen.unevenness, std::abs(pressure[k] / mean - 1.0));
