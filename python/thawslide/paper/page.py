@@ -113,8 +113,8 @@ def _sentences(measures: dict[str, float]) -> list[str]:
     ]  # fmt: skip
     return [
         '<h2 id="sentences">Every sentence with a number or an ordering</h2>',
-        f"<p>Abstract and Sections 3.1 to 4.2: {len(found)} sentences, {tally}. Each verdict is computed, from the runs "
-        "or a closed form. What the paper's words mean in numbers was fixed for all sentences alike:</p>",
+        f"<p>Abstract and Sections 3.1 to 4.2: {len(found)} sentences, {tally}. Each verdict is computed, from the "
+        "runs or a closed form. What the paper's words mean in numbers was fixed for all sentences alike:</p>",
         "<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in MEANINGS) + "</ul>",
         "<table><tr><th>Section</th><th>Sentence</th><th>Claimed</th><th>Here</th><th>Verdict</th></tr>",
         *lines,
