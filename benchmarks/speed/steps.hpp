@@ -13,7 +13,7 @@ struct StepCase {
   int dimension;
   double length, width, height;  // of the slab, in cells of 1 m
   double box = 1;                // the domain is this many times as long as the slab's needs it to be
-  double friction_angle = 35;    // inside the slab [degrees]: the smaller, the more of it yields
+  double cohesion = 5e5;         // inside the slab [Pa]: the smaller, the more of it yields
 };
 
 struct StepTiming {
