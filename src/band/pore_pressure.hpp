@@ -1,7 +1,7 @@
 // Pore pressure (Eqs. 4, 8, 21-23): Clapeyron while ice and water coexist, then thermal pressurization and seepage.
 #pragma once
 
-#include "band/averages.hpp"
+#include "band/flow_depth.hpp"
 #include "band/model.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/particles.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "band/averages.hpp"
 #include "base/error.hpp"
 #include "sim/bodies.hpp"
 

@@ -1,0 +1,78 @@
+// The thickness of the slide does not depend on where the grid's lines cut it.
+#include "band/flow_depth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace thawslide::band {
+namespace {
+
+constexpr double cell = 10.0;
+constexpr double spacing = 5.0;  // of particles
+
+// A box of `length` particles along each horizontal axis and `layers` up, its lower corner at `from` [m]; the lowest
+// layer, ahead of the others by `bulge` [m], is the band.
+template <int Dim>
+void fill_box(std::size_t length, std::size_t layers, double from, double bulge, mpm::Particles<Dim, double>& box) {
+  std::size_t columns = 1;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    columns *= length;
+  }
+  box.resize(columns * layers);
+  for (std::size_t p = 0; p < box.size(); ++p) {
+    std::size_t place = p % columns;
+    const std::size_t layer = p / columns;
+    box.id(p) = static_cast<std::int64_t>(p);
+    box.volume(p) = std::pow(spacing, Dim);
+    box.in_band(p) = layer == 0 ? 1 : 0;
+    for (int a = 0; a + 1 < Dim; ++a) {
+      box.position(p, a) =
+          from + (static_cast<double>(place % length) + 0.5) * spacing + (a == 0 && layer == 0 ? bulge : 0.0);
+      place /= length;
+    }
+    box.position(p, Dim - 1) = (static_cast<double>(layer) + 0.5) * spacing;
+  }
+}
+
+template <int Dim>
+void expect_thickness(double from, double bulge, double allowed) {
+  constexpr std::size_t layers = 6;
+  mpm::Particles<Dim, double> box;
+  fill_box<Dim>(7, layers, from, bulge, box);
+  mpm::SparseGrid<Dim, double> grid(cell);
+  grid.update(box, 1);
+  BandModel<Dim, double> model;
+  model.half_size = {0.5 * spacing / cell};
+  FlowDepth<Dim, double> depth;
+  depth.update(grid, model, {}, box);
+  depth.depth_to_particles(grid, box);
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      const double below_top = layers * spacing - box.position(p, Dim - 1);
+      EXPECT_NEAR(depth.depth_below_top(grid, box, t, p), below_top, 1e-9) << "box from " << from << ", particle " << p;
+      EXPECT_NEAR(box.flow_depth(p), box.in_band(p) != 0 ? layers * spacing : below_top, allowed)
+          << "box from " << from << ", particle " << p;
+    }
+  }
+}
+
+TEST(FlowDepth, IsThatOfTheBoxWhereverItStands) {
+  for (const double from : {-3.0, 0.0, 1e-12, 0.7, 2.5, 3.6, 5.0 - 1e-12, 5.0, 7.5, 9.999}) {
+    expect_thickness<2>(from, 0.0, 1e-9);
+    expect_thickness<3>(from, 0.0, 1e-9);
+  }
+}
+
+// The foremost particle of the band alone stands in a column of its own when the front passes a line of the grid: it
+// must not take its own top for the surface.
+TEST(FlowDepth, SeesTheBodyAboveABandThatIsAhead) {
+  for (double from = 0.0; from < 10.0; from += 0.1) {
+    expect_thickness<2>(from, 0.02, 0.3);
+    expect_thickness<3>(from, 0.02, 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::band
