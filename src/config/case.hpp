@@ -148,6 +148,7 @@ struct Basal {
   FrictionClamp clamp = FrictionClamp::keep_cohesion;
   bool cap_pressure = false;   // P <= N
   double heat_fraction = 1.0;  // energy conversion coefficient
+  bool distance_check = true;
 };
 
 struct Mechanisms {  // Sec. 3.3

@@ -96,6 +96,11 @@ std::vector<Parameter<Basal>> friction_parameters() {
                  .range = between(0, 1),
                  .text = "energy conversion coefficient: share of the friction work that heats the slide",
                  .source = "Eq. 20, Secs. 3.3, 4"}),
+      parameter(&Basal::distance_check,
+                {.key = "distance_check",
+                 .text = "contact waits until the particles' own edges reach the ground; off: it acts as soon as nodes "
+                         "feel the slide approach, up to a cell early",
+                 .source = "Nairn 2013"}),
   };
 }
 

@@ -62,6 +62,7 @@ struct Nodes {
   NodeRecords<Dim, Real, HatLayout::size> hats;
   NodeRecords<Dim, Real, BaseLayout::size> base;
   NodeRecords<Dim, Real, ContactLayout::size> contact;
+  NodeRecords<Dim, Real, 1> gap;  // between slide and ground [m]; filled with the distance check alone
 };
 
 // Position [m, relative to the domain's lower corner] of a node of a block.

@@ -262,6 +262,7 @@ Model<Dim, Real> make_model(const config::Case& parameters) {
   model.contact.law = make_basal_law<Real>(parameters);
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
+  model.contact.distance_check = parameters.basal.distance_check;
   model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
   model.ground = make_ground<Dim>(parameters, model.origin);
   model.largest_layer = static_cast<Real>(parameters.grid.cell);

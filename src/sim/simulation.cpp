@@ -6,6 +6,7 @@
 #include "band/averages.hpp"
 #include "base/error.hpp"
 #include "sim/bodies.hpp"
+#include "terrain/gap.hpp"
 
 namespace thawslide::sim {
 
@@ -62,6 +63,10 @@ void Simulation<Dim, Real>::momentum_to_grid() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::resolve_contact() {
+  if (model_.ground && model_.contact.distance_check) {
+    terrain::gaps_to_grid(grid_, ground_, model_.band.shape, model_.band.half_size, model_.band.sides, particles_,
+                          nodes_);
+  }
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_);
   ledger_.friction_work += contact_.friction_work;
@@ -81,8 +86,8 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::move_particles() {
   const auto work = mpm::move_particles(grid_, particles_, model_.motion, dt_, nodes_);
   ledger_.numerical += work.particle_kinetic - contact_.node_kinetic;
-  ledger_.numerical += terrain::constrain_mapped_back(grid_, ground(), model_.constraints, model_.motion.gravity,
-                                                      static_cast<Real>(time_), dt_, nodes_);
+  ledger_.numerical += terrain::constrain_mapped_back(grid_, ground(), model_.constraints, model_.contact,
+                                                      model_.motion.gravity, static_cast<Real>(time_), dt_, nodes_);
 }
 
 template <int Dim, class Real>
@@ -167,6 +172,9 @@ void Simulation<Dim, Real>::begin() {
   step_number_ = 0;
   contact_ = {};
   find_particles_cells();
+  if (model_.ground) {
+    terrain::set_reach(grid_, ground_, model_.band.half_size, particles_);
+  }
   mark_band();
   band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);
   update_columns();

@@ -27,6 +27,13 @@ struct NodeState {
   bool in_frame = false;
 };
 
+// Momentum with which a node runs into the ground in this step, less what closes the gap before it.
+template <int Dim, class Real>
+Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, bool distance_check, Real dt,
+                 Real mass, Real inward_momentum) {
+  return std::max(Real(0), distance_check ? inward_momentum - mass * (nodes.gap(b, k)[0] / dt) : inward_momentum);
+}
+
 template <int Dim, class Real>
 NodeState<Dim, Real> trial_state(
     const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& position, Real time, Real dt, Real damping,
@@ -70,8 +77,8 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   const auto& record = nodes.momentum(b, k);
   BasalNodes<Real>& basal = contact.basal;
   const std::size_t c = basal.count++;
-  const Real approach = state.momentum.dot(normal);
-  const Real area = approach / (pressure * dt);  // the base is shared among nodes by the load they carry
+  const Real load = nodes.base(b, k)[BaseLayout::load];
+  const Real area = load / (pressure * dt);  // the base is shared among nodes by the load they carry
   contact.node[c] = k;
   contact.area[c] = area;
   basal.normal_pressure[c] = pressure;
@@ -81,7 +88,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   basal.solid_fraction[c] = at_base<Dim, Real>(nodes, b, k, HatLayout::solid_fraction, Layout::solid_fraction);
   basal.temperature[c] = at_base<Dim, Real>(nodes, b, k, HatLayout::temperature, Layout::temperature);
   basal.slip[c] = record[Layout::slip] / record[Layout::mass];
-  basal.speed[c] = (state.momentum - approach * normal).norm() / state.mass;
+  basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
 }
 
 // How much of the space that belongs to a node slide fills, 0 to 1.
@@ -141,7 +148,8 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
       if (record[MomentumLayout<Dim>::mass] > Real(0)) {
         const auto state =
             trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping, record);
-        base[BaseLayout::load] = std::max(Real(0), state.momentum.dot(known.normal));
+        base[BaseLayout::load] =
+            approach_of(nodes, b, k, model.distance_check, dt, state.mass, state.momentum.dot(known.normal));
       }
       // A node that a hovering slide does not reach has its share of the ground below it all the same.
       base[BaseLayout::covered] = known.area * covered_share(grid, ground, nodes, b, k);
@@ -152,13 +160,12 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
 // Applies the contact impulse of one node; returns its work. state.momentum goes from trial to final.
 template <int Dim, class Real>
 void apply_contact(const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& position,
-                   const Vector<Real, Dim>& normal, Real area, Real strength, Real friction, Real heat_fraction,
-                   Real time, Real dt, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
+                   const Vector<Real, Dim>& normal, Real load, Real area, Real strength, Real friction,
+                   Real heat_fraction, Real time, Real dt, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
                    typename mpm::NodeRecords<Dim, Real, ContactLayout::size>::Record& left) {
-  const Real approach = state.momentum.dot(normal);
-  const Vector<Real, Dim> tangential = state.momentum - approach * normal;
+  const Vector<Real, Dim> tangential = state.momentum - state.momentum.dot(normal) * normal;
   const Real tangential_size = tangential.norm();
-  const auto impulse = physics::contact_impulse(approach, tangential_size, area, dt, strength);
+  const auto impulse = physics::contact_impulse(load, tangential_size, area, dt, strength);
   Vector<Real, Dim> along = Vector<Real, Dim>::Zero();
   if (tangential_size > Real(0)) {
     along = tangential / tangential_size;
@@ -257,9 +264,9 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       const std::size_t k = contact.node[c];
       const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
       const Vector<Real, Dim> force_before = works[b].force;
-      apply_contact(constraints, mpm::node_position(grid, b, k), (*known)[k].normal, contact.area[c], strength,
-                    contact.basal.friction[c], model.law.heat_fraction, time, dt, states[k], works[b],
-                    nodes.contact(b, k));
+      apply_contact(constraints, mpm::node_position(grid, b, k), (*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
+                    contact.area[c], strength, contact.basal.friction[c], model.law.heat_fraction, time, dt, states[k],
+                    works[b], nodes.contact(b, k));
       impulse[k] = dt * (force_before - works[b].force);
     }
     for (std::size_t k = 0; k < block_nodes; ++k) {
@@ -277,8 +284,8 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
 
 template <int Dim, class Real>
 Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                           const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& gravity, Real time,
-                           Real dt, mpm::Nodes<Dim, Real>& nodes) {
+                           const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model,
+                           const Vector<Real, Dim>& gravity, Real time, Real dt, mpm::Nodes<Dim, Real>& nodes) {
   using Layout = MomentumLayout<Dim>;
   std::vector<Real> works(grid.blocks().size(), Real(0));
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
@@ -291,7 +298,7 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
       Vector<Real, Dim> momentum = mpm::vector_at<Dim, Real>(nodes.velocity(b, k), 0);
       if (ground != nullptr && nodes.contact(b, k)[ContactLayout::touching] > Real(0)) {
         const Vector<Real, Dim>& normal = ground->block(b)[k].normal;
-        momentum -= std::max(Real(0), momentum.dot(normal)) * normal;
+        momentum -= approach_of(nodes, b, k, model.distance_check, dt, mass, momentum.dot(normal)) * normal;
       }
       constraints.apply(mpm::node_position(grid, b, k), mass, time, momentum);
       const Vector<Real, Dim> velocity = momentum / mass;
@@ -360,8 +367,8 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
       const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&,           \
       const ContactModel<Dim, Real>&, Real, Real, mpm::Nodes<Dim, Real>&);                                             \
   template Real constrain_mapped_back<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,    \
-                                                 const mpm::Constraints<Dim, Real>&, const Vector<Real, Dim>&, Real,   \
-                                                 Real, mpm::Nodes<Dim, Real>&);                                        \
+                                                 const mpm::Constraints<Dim, Real>&, const ContactModel<Dim, Real>&,   \
+                                                 const Vector<Real, Dim>&, Real, Real, mpm::Nodes<Dim, Real>&);        \
   template void mark_band_and_slip<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, Real, \
                                               const mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&);
 THAWSLIDE_INSTANTIATE(2, double)

@@ -155,6 +155,7 @@ GroundAtNode<Dim, Real> Ground<Dim>::at_node(const Vector<Real, Dim>& position, 
     node.space = across * share.above;
   }
   GroundAtNode<Dim, Real> known;
+  known.distance = static_cast<Real>(line_.nearest(x, z).distance);
   known.candidate = node.candidate;
   known.normal = node.normal.template cast<Real>();
   known.area = static_cast<Real>(node.area);

@@ -49,6 +49,7 @@ struct GroundAtNode {
   Vector<Real, Dim> normal;  // unit vector from the slide into the ground
   Real area = 0;             // integral of the hat over the ground's surface [m2]; sums to that surface
   Real space = 0;            // integral of the hat over the space above the ground [m3]
+  Real distance = 0;         // from the ground, positive above it [m]
 };
 
 // The ground a run uses; the vertical is the last axis.

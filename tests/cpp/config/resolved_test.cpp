@@ -118,6 +118,7 @@ max_solid_fraction = 0.9
 clamp = "joint"
 cap_pressure = true
 heat_fraction = 0.35
+distance_check = false
 cohesion = 300000.0
 cohesion_law = "time"
 residual_cohesion = 150000.0

@@ -136,7 +136,8 @@ class ManufacturedVibration {
     const terrain::GroundOnGrid<2, double>* no_ground = nullptr;
     terrain::resolve_contact(grid_, no_ground, constraints_, terrain::ContactModel<2, double>{}, time_, dt, nodes_);
     mpm::move_particles(grid_, particles_, model_, dt, nodes_);
-    terrain::constrain_mapped_back(grid_, no_ground, constraints_, model_.gravity, time_, dt, nodes_);
+    terrain::constrain_mapped_back(grid_, no_ground, constraints_, terrain::ContactModel<2, double>{}, model_.gravity,
+                                   time_, dt, nodes_);
     mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, bad);
     mpm::take_new_positions(particles_, constraints_.extent, bad);
     THAWSLIDE_ASSERT(bad.id < 0, "particle {} went bad at {} s", bad.id, time_);
