@@ -57,6 +57,28 @@ def drag(run: Run) -> float:
     return float(np.mean(np.abs(history["basal_force_x_N"][late]))) / weight if late.any() else float("nan")
 
 
+def friction_coefficient(porosity: float, saturation: float) -> float:
+    """Return mu_e of Eq. 25 with the limits 0.05 and 0.85, omega 2, phi_f 40 degrees and an ice weight of 1/3."""
+    solid = 1.0 - porosity + porosity * (1.0 - saturation) / 3.0
+    return float((1.0 - (1.0 - (solid - 0.05) / 0.8) ** 2) * np.tan(np.radians(40.0)))
+
+
+def falls_of_friction(run: Run) -> dict[str, float]:
+    """Return by how much the coefficient of P-L falls to 25 s, the band's porosity then, and the fall that makes."""
+    friction = run.history["band_friction_coefficient"]
+    band = run.snapshot(time=25.0)
+    inside = np.asarray(band["in_band"]) > 0
+    porosity = float(np.mean(np.asarray(band["porosity"], dtype=np.float64)[inside])) if inside.any() else float("nan")
+    start = friction[np.isfinite(friction)]
+    return {
+        "incline_PL_friction_fall": (float(start[0]) if start.size else np.nan)
+        - at(run, "band_friction_coefficient", 25.0),
+        "incline_PL_porosity": porosity,
+        "incline_PL_fall_by_porosity": friction_coefficient(TABLE_1.porosity, 0.0)
+        - friction_coefficient(porosity, 0.0),
+    }
+
+
 def falls_below(run: Run, other: Run, column: str, after: float) -> float:
     """Return the first time [s] after a given one at which a column is below that of another run; nan for never."""
     time = run.history["time_s"]
@@ -105,6 +127,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
     found["incline_points_pressure"] = at(points, "band_pore_pressure_Pa", 25.0) / 1e3
     found["incline_gain_L"] = found["incline_DL_velocity_25s"] - found["incline_D_velocity_25s"]
     found["incline_gain_P"] = found["incline_DLP_velocity_25s"] - found["incline_DL_velocity_25s"]
+    found |= falls_of_friction(runs["incline-PL"])
     for name in ("D", "PL"):
         run, key = runs[f"incline-{name}-no-viscosity"], f"incline_{name}_undamped"
         found[f"{key}_displacement"] = at(run, "mean_displacement_m", min(20.0, run.history["time_s"][-1]))

@@ -16,6 +16,7 @@ from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, sty
 from thawslide.key_numbers import STOPPED_SHARE, stop_time
 from thawslide.paper.block import at
 from thawslide.paper.runs import LAMPLUGH_BLOCKS
+from thawslide.paper.stages import balance
 from thawslide.run import Numbers, Run
 
 # Gradients the text gives for the way down: source slope, ramp, valley floor.
@@ -23,6 +24,7 @@ SLOPE, RAMP = 48.0, 8.0
 BIN = 100.0  # m
 PHASE = 75.0  # s: the time of the peak in the paper
 FRONT = 10500.0  # m: the reported front
+COHESION = 6.0e5  # Pa: along the base at the start
 MARGIN = 1000.0  # m: what counts as the distal margin before it
 
 History = dict[str, Numbers]
@@ -112,7 +114,8 @@ def block_measures(run: Run) -> dict[str, float]:
         found[f"{key}_displacement"] = float(history["displacement_m"][-1])
         found[f"{key}_stop"] = float(time[int(moving[-1]) + 1]) if stopped else float("nan")
         found[f"{key}_safety"] = float(history["sliding_strength_Pa"][0] / history["driving_traction_Pa"][0])
-    return found
+    first = LAMPLUGH_BLOCKS[0]
+    return found | balance(read_block(run.folder.parent / f"{first.name}.csv"), COHESION)
 
 
 def base_traction(run: Run, start: float = 100.0, end: float = 140.0) -> float:
