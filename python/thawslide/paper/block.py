@@ -139,8 +139,8 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         )
     for number, (one, other) in enumerate((("k0", "k10"), ("k10", "k9"), ("k9", "k8")), 1):
         for column, name, _, scale in COLUMNS:
-            apart, _ = differences(runs[f"block-{one}"], runs[f"block-{other}"], column)
-            found[f"block_apart_{name}_{number}"] = apart / scale
+            gap, _ = differences(runs[f"block-{one}"], runs[f"block-{other}"], column)
+            found[f"block_apart_{name}_{number}"] = gap / scale
     still = runs["block-e050-no-viscosity"].history
     found["block_ringing_speed"] = float(np.max(still["max_velocity_m_s"]))
     found["block_calm_speed"] = float(np.max(runs["block-e050"].history["max_velocity_m_s"]))
