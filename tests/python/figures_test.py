@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from conftest import MakeRun, ground, history_columns, write_history
@@ -13,8 +14,9 @@ from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, Run
 from thawslide.figures import FIGURES
+from thawslide.figures.colours import TEMPERATURE, colour_range, normalisation
 from thawslide.figures.energy import relative_residual
-from thawslide.figures.snapshots import chosen_snapshots, colour_range
+from thawslide.figures.snapshots import Stretch, chosen_snapshots, velocity
 from thawslide.figures.style import prefixed
 from thawslide.figures.window import fit
 
@@ -311,3 +313,32 @@ def test_prefixes() -> None:
     assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
     assert prefixed([999.0], "Pa") == (1.0, "Pa")
     assert prefixed([np.nan], "J") == (1.0, "J")
+
+
+def test_temperatures_far_past_boiling_go_by_decades_to_the_hottest_particle(make_run: MakeRun) -> None:
+    values = np.concatenate([np.full(600, -10.0), np.linspace(0.0, 900.0, 400), [5000.0]])
+    norm, extend = normalisation(values, TEMPERATURE)
+    assert (norm.vmin, norm.vmax, extend) == (-10.0, 5000.0, "neither")
+    # Each decade is as long as the next, and takes a good part of the bar.
+    ends = np.asarray(norm(np.array([10.0, 100.0, 1000.0])))
+    assert ends[2] - ends[1] == pytest.approx(ends[1] - ends[0])
+    assert ends[1] - ends[0] > 0.15
+    folder = make_run()
+    for path in Run(folder).snapshot_files:
+        with h5py.File(path, "r+") as file:
+            file["VTKHDF/PointData/temperature"][:3] = 4321.0
+    figure = FIGURES["temperature"].draw(Run(folder))
+    figure.canvas.draw()
+    (bar,) = [axes for axes in figure.axes if axes.get_xlabel() == "temperature (°C)"]
+    assert [label.get_text() for label in bar.get_xticklabels()][-2:] == ["1,000", "4,321 (highest)"]
+
+
+def test_stretches_stand_between_dotted_lines(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    left, right = titled(velocity(run), "whole profile").get_xlim()
+    ends = np.linspace(left, right, 5)
+    names = [Stretch("B", ends[1], ends[2]), Stretch("C", ends[2], ends[3]), Stretch("far", right, right + 10.0)]
+    profile = titled(velocity(run, names), "whole profile")
+    dotted = [line.get_xdata()[0] for line in profile.lines if line.get_linestyle() == ":"]
+    assert dotted == pytest.approx(ends[1:4])
+    assert texts(profile) == ["B", "C"]
