@@ -67,7 +67,11 @@ def key_numbers(run: Run) -> list[KeyNumber]:
                     KeyNumber("Stop time", "not reached", f"mean velocity at the end: {shown(float(speed[-1]), 'm/s')}")
                 )
     if "runout_m" in history:
-        rows.append(KeyNumber("Runout", _metres(history["runout_m"][-1]), "front at the end less rear at the start"))
+        own = f"front at the end less rear at the start, {_metres(history['runout_m'][0])} of it before anything moves"
+        rows.append(KeyNumber("Runout", _metres(history["runout_m"][-1]), own))
+    if "front_position_m" in history:
+        way = history["front_position_m"][-1] - history["front_position_m"][0]
+        rows.append(KeyNumber("Way of the front", _metres(way), "front at the end less front at the start"))
     if "mean_displacement_m" in history:
         rows.append(
             KeyNumber("Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mean of mass")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from thawslide.figures.style import BLUE, GREEN, ORANGE, RED, letters, styled, time_line
+from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_line
 from thawslide.paper.block import at, first_time, mark
 from thawslide.paper.mixture import TABLE_1
 from thawslide.paper.runs import INCLINES
@@ -140,19 +140,22 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
 @styled
 def _draw(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...], titles: tuple[str, ...]) -> Figure:
     """Draw columns over time: (column, words, divisor, running mean [s])."""
-    figure = Figure(figsize=(10.0, 4.0 if len(panels) == 2 else 7.4), layout="constrained")
-    axes = list(np.ravel(figure.subplots(-(-len(panels) // 2), 2)))
-    for panel, (column, words, divisor, span) in zip(axes, panels, strict=False):
+    figure = Figure(figsize=(10.0 if len(panels) == 2 else 12.0, 4.0), layout="constrained")
+    axes = list(figure.subplots(1, len(panels)))
+    for panel, (column, words, divisor, span) in zip(axes, panels, strict=True):
         for name in INCLINES:
             run = runs[f"incline-{name}"]
             values = (smooth(run, column, span) if span else run.history[column]) / divisor
-            time_line(panel, run.history["time_s"], values, color=COLOURS[name], label=NAMES[name])
+            dashes = "--" if name == "PL" else "-"  # it often lies on D-L-P
+            time_line(
+                panel, run.history["time_s"], values, color=COLOURS[name], linestyle=dashes, label=NAMES[name]
+            )
         panel.set_ylabel(words)
         panel.set_xlabel("time (s)")
         panel.set_xlim(0.0, runs["incline-DLP"].history["time_s"][-1])
         panel.grid(True)
     axes[0].legend(loc="best")
-    letters(axes[: len(panels)], titles)
+    letters(axes, titles)
     return figure
 
 
@@ -172,7 +175,20 @@ def figure_10(runs: dict[str, Run]) -> Figure:
         ("band_pore_pressure_Pa", "pore pressure (MPa)", 1e6, 0.0),
     )
     figure = _draw(runs, panels, ("friction coefficient, mean over 0.5 s", "band pore pressure"))
-    figure.axes[1].set_yscale("log")  # where it does not act on the base (D, D-L) it rises without bound
+    pressure = figure.axes[1]
+    # Where it does not act on the base (D, D-L) it rises without bound: such curves are thin and leave the panel.
+    for name, line in zip(INCLINES, list(pressure.lines), strict=True):
+        if name in ("D", "DL"):
+            line.set(linestyle=":", linewidth=1.1)
+    normal = TABLE_1.density() * GRAVITY * HEIGHT * float(np.cos(SLOPE)) / 1e6
+    pressure.set_ylim(0.0, 1.45 * normal)
+    pressure.axhline(normal, color=NOTE, linewidth=0.9, linestyle=(0, (5, 3)))
+    pressure.annotate("normal pressure", (0.99, normal), xycoords=("axes fraction", "data"), xytext=(0, 3), size=8,
+                      ha="right", textcoords="offset points", color=NOTE)  # fmt: skip
+    highest = {name: float(np.nanmax(runs[f"incline-{name}"].history["band_pore_pressure_Pa"])) / 1e6
+               for name in ("D", "DL")}  # fmt: skip
+    words = f"dotted: does not act on the base; up to {highest['D']:.0f} MPa (D), {highest['DL']:.0f} MPa (D-L)"
+    pressure.annotate(words, (0.015, 0.03), xycoords="axes fraction", size=8, color=NOTE)
     return figure
 
 
@@ -184,5 +200,4 @@ def figure_11(runs: dict[str, Run]) -> Figure:
         ("mean_displacement_m", "mean displacement (m)", 1.0, 0.0),
     )
     figure = _draw(runs, panels, ("plastic strain, mean of mass", "velocity", "displacement"))
-    figure.axes[3].set_visible(False)
     return figure

@@ -241,13 +241,14 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
         middle = 0.5 * (zone.start + zone.end) / 1e3
         words = "accumulation" if zone.accumulates else "none" if zone.letter == "C" else "both"
         thick.annotate(f"{zone.letter}\n{words}", (middle, 0.97), xycoords=("data", "axes fraction"), ha="center",
-                       va="top", size=8, color=NOTE)  # fmt: skip
+                       va="top", size=7, color=NOTE)  # fmt: skip
     thick.axvline(FRONT / 1e3, color=RED, linewidth=1.0, linestyle="--")
     thick.annotate("reported front", (FRONT / 1e3, 0.6), xycoords=("data", "axes fraction"), xytext=(4, 0),
                    textcoords="offset points", va="top", size=8, color=RED)  # fmt: skip
     thick.set_ylim(0.0, 1.35 * float(thickness.max()))
     for axes in (section, thick):
         axes.grid(True)
+        axes.set_axisbelow(True)
         axes.set_xlim(ground_x[0] / 1e3, max(FRONT + 1500.0, float(x.max()) + BIN) / 1e3)
     letters(
         [section, thick],
