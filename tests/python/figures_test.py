@@ -174,6 +174,8 @@ def test_motion_against_reported_values(make_run: MakeRun) -> None:
     )
     np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0, 6.0], [9.0, 11.0]])
     np.testing.assert_array_equal(line(distance, "mean path length (of mass)")[1], run.history["mean_displacement_m"])
+    front = run.history["front_position_m"]
+    np.testing.assert_array_equal(line(distance, "way of the front itself")[1], front - front[0])
     np.testing.assert_array_equal(line(distance, "reported mean: model"), [[10.0], [80.0]])
     np.testing.assert_array_equal(line(distance, "reported runout: field"), [[10.0], [160.0]])
     assert (speed.get_ylabel(), distance.get_ylabel()) == ("velocity (m/s)", "distance (m)")
@@ -197,7 +199,7 @@ def test_reported_values_after_the_end_are_counted_not_drawn(make_run: MakeRun) 
 def test_motion_without_targets(make_run: MakeRun) -> None:
     figure = FIGURES["motion"].draw(Run(make_run(targets=False)))
     labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
-    assert len(labels) == 4
+    assert len(labels) == 5
     assert not any("reported" in label for label in labels)
 
 
