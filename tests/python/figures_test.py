@@ -14,11 +14,13 @@ from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, Run
 from thawslide.figures import FIGURES
+from thawslide.figures.bars import bars
 from thawslide.figures.colours import TEMPERATURE, colour_range, normalisation
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.snapshots import Stretch, chosen_snapshots, velocity
 from thawslide.figures.style import prefixed
 from thawslide.figures.window import fit
+from thawslide.key_numbers import time_of_speed
 
 SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure")
 
@@ -344,3 +346,20 @@ def test_stretches_stand_between_dotted_lines(make_run: MakeRun) -> None:
     dotted = [line.get_xdata()[0] for line in profile.lines if line.get_linestyle() == ":"]
     assert dotted == pytest.approx(ends[1:4])
     assert texts(profile) == ["B", "C"]
+
+
+def test_bars_mark_how_runs_ended() -> None:
+    quantities = [("stop (s)", [100.0, np.nan, np.nan, 150.0]), ("runout (km)", [6.0, 20.0, np.nan, 7.0])]
+    figure = bars(["the case", "goes on", "bad", "longer"], quantities, ["stopped", "going", "broken", "stopped"])
+    marks = [{line.get_marker(): line.get_xydata().tolist() for line in axes.lines[1:]} for axes in figure.axes]
+    assert marks == [{">": [[100.0, -1.0]], "x": [[100.0, -2.0]]}, {">": [[20.0, -1.0]], "x": [[6.0, -2.0]]}]
+    (legend,) = figure.legends
+    words = [text.get_text() for text in legend.get_texts()]
+    assert words[1] == "the run broke off: no number"
+    assert len(words) == 4  # no word for what no run did
+
+
+def test_speed_is_reached_between_rows(make_run: MakeRun) -> None:
+    run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: 8 m/s at 3.0409 s
+    assert time_of_speed(run, 8.0) == pytest.approx(10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0)), abs=2e-3)
+    assert np.isnan(time_of_speed(run, 13.0))

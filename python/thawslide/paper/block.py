@@ -137,6 +137,12 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
             differences(runs[f"block-{one}{ending}"], runs[f"block-e050{ending}"], "band_saturation")[0]
             for one in ("k0", "k10", "k9", "k8")
         )
+    # The runs against their ordinary differential equations: the worst of each figure and side of it.
+    for figure, drawn in (("figure_6", FIGURE_6), ("figure_7", FIGURE_7)):
+        for ending in ("", "_no_latent"):
+            for _, name, _, _ in COLUMNS:
+                every = [found[f"block_{each.replace('-', '_')}{ending}_{name}_off"] for each, *_ in drawn]
+                found[f"block_{figure}_{name}_off{ending}"] = max(every)
     for number, (one, other) in enumerate((("k0", "k10"), ("k10", "k9"), ("k9", "k8")), 1):
         for column, name, _, scale in COLUMNS:
             gap, _ = differences(runs[f"block-{one}"], runs[f"block-{other}"], column)

@@ -13,7 +13,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.force import seismic_force
 from thawslide.figures.motion import draw_targets
 from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_axis, time_line
-from thawslide.key_numbers import STOPPED_SHARE, stop_time
+from thawslide.key_numbers import STOPPED_SHARE, stop_time, time_of_speed
 from thawslide.paper.block import at
 from thawslide.paper.runs import LAMPLUGH_BLOCKS
 from thawslide.paper.stages import balance
@@ -158,14 +158,13 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
     _, force = seismic_force(run)
     loudest = int(np.nanargmax(force))
     stopped, other_stopped = stop_time(run), stop_time(other)
-    start = np.flatnonzero(speed >= 8.0)
     x, thickness = deposit(run)
     foot, valley = breaks(run)
     whole = max(float(thickness.sum()), 1e-300)
     found = {
         "lamplugh_peak": float(speed[peak]),
         "lamplugh_peak_time": float(time[peak]),
-        "lamplugh_8_time": float(time[start[0]]) if start.size else float("nan"),
+        "lamplugh_8_time": time_of_speed(run, 8.0),
         "lamplugh_speed_40s": at(run, "mean_velocity_m_s", 40.0),
         "lamplugh_speed_200s": at(run, "mean_velocity_m_s", 200.0),
         "lamplugh_displacement": float(history["mean_displacement_m"][-1]),
