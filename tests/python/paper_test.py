@@ -16,6 +16,7 @@ from thawslide.paper.block import clapeyron, differences
 from thawslide.paper.freezing import COLD_END, reference
 from thawslide.paper.incline import drag, falls_below, friction_coefficient
 from thawslide.paper.mixture import FREEZING_BAR, TABLE_1, HeatTable, Mixture, linear_saturation, power_saturation
+from thawslide.paper.old_capacity import Bar, error
 from thawslide.paper.page import NAMES
 from thawslide.paper.runs import all_runs
 from thawslide.paper.sentences import claims, filled, holds, table, verdict
@@ -215,3 +216,21 @@ def test_rubbing_force_is_work_over_way(tmp_path: Path) -> None:
     columns = {"time_s": time, "friction_work_J": [0.0, 1e12, 4e12], "mean_displacement_m": [0.0, 10.0, 40.0]}
     assert rubbing(short_run(tmp_path / "run", columns)) == pytest.approx(100.0)
     assert math.isnan(rubbing(short_run(tmp_path / "still", columns | {"mean_displacement_m": [0.0] * 3})))
+
+
+def test_old_capacity_overshoots_where_the_jump_leaves_the_freezing_branch() -> None:
+    # The first particle falls by 3/4 of 3 K at C + m L_f rho_I n, of which only the part above -1/m freezes.
+    water = FREEZING_BAR.capacity(np.ones(1))[0]
+    for slope, frozen in ((0.25, False), (1.0, True)):
+        bar = Bar(slope, pulled=False)
+        bar.advance("carried")
+        taken = (water + slope * FREEZING_BAR.melting_heat()) * 2.25
+        assert bar.content[0] - bar.table.content(np.zeros(1))[0] == pytest.approx(-taken, rel=2e-3)  # and conduction
+        assert (bar.temperature[0] < -100.0) == frozen
+        bar = Bar(slope, pulled=False)
+        bar.advance("secant")
+        assert bar.temperature[0] == pytest.approx(-2.25, abs=0.01)
+    # An hour later the printed update and the secant agree; carried heat has not come back.
+    errors = {way: error(1.0, way, time=3600.0, cell=0.02) for way in ("printed", "secant", "carried")}
+    assert errors["carried"] > 100.0
+    assert errors["printed"] == pytest.approx(errors["secant"], rel=0.2)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures import FIGURES
-from thawslide.paper import block, freezing, incline, lamplugh, lamplugh_figures, stages
+from thawslide.paper import block, freezing, incline, lamplugh, lamplugh_figures, old_capacity, stages
 from thawslide.paper.sentences import MEANINGS, VERDICTS, filled, sentences, table
 from thawslide.report import page_frame
 from thawslide.run import Run
@@ -45,8 +45,10 @@ def draw(name: str, runs: Runs) -> Figure:
 def measure(runs: Runs) -> dict[str, float]:
     """Return every number that texts and tests use, by name."""
     bars = {name: run for name, run in runs.items() if name.startswith("freezing-bar")}
-    of_sections = (freezing.measures(bars), block.measures(runs), incline.measures(runs), lamplugh.measures(runs))
-    return {name: value for part in (*of_sections, stages.measures(runs)) for name, value in part.items()}
+    found = freezing.measures(bars) | old_capacity.measures()
+    for section in (block, incline, lamplugh, stages):
+        found |= section.measures(runs)
+    return found
 
 
 def make_page(runs: Runs, output: Path, quick: bool, progress: Callable[[str], None]) -> Path:
