@@ -30,7 +30,7 @@ class Bar:
         self.saturation = linear_saturation(slope)
         self.table = HeatTable(FREEZING_BAR, self.saturation, COLDEST, True)
         self.nodes = round(LENGTH / cell) + 1
-        self.x: Numbers = (np.arange(2 * (self.nodes - 1)) + 0.5) * 0.5 * cell
+        self.x: Numbers = np.asarray((np.arange(2 * (self.nodes - 1)) + 0.5) * 0.5 * cell, dtype=np.float64)
         self.left = (self.x / cell).astype(int)
         self.share = self.x / cell - self.left
         self.temperature: Numbers = np.zeros_like(self.x)
