@@ -14,6 +14,8 @@ from thawslide.figures.style import BLUE, NOTE, RED, letters, styled, time_axis,
 from thawslide.paper.lamplugh import PHASE, zones
 from thawslide.run import Numbers, Run
 
+INVERTED = 0.28  # TN: the largest force inverted from seismic waves
+
 
 def stretches(run: Run) -> list[Stretch]:
     """Return the zones of Fig. 12b, at places of ours, as figures name them."""
@@ -51,6 +53,14 @@ def _reported(axes: Axes, time: float, value: float, words: str, offset: tuple[f
     axes.annotate(words, (time, value), xytext=offset, textcoords="offset points", size=8, color=NOTE)
 
 
+def _at_the_peak(axes: Axes, words: str, height: float, alignment: str) -> None:
+    """Draw a dotted line at the time of the paper's peak, where the axes reach so far, with words beside it."""
+    if axes.get_xlim()[1] >= PHASE:
+        axes.axvline(PHASE, color="#8A8A8A", linestyle=":", linewidth=1.1)
+        axes.annotate(words, (PHASE, height), xycoords=("data", "axes fraction"), va=alignment, size=8,
+                      xytext=(4, 0), textcoords="offset points", color=NOTE)  # fmt: skip
+
+
 @styled
 def figure_17(runs: dict[str, Run]) -> Figure:
     """Draw the contact force with the ground (red) and the mean plastic strain (blue) in one panel."""
@@ -63,17 +73,15 @@ def figure_17(runs: dict[str, Run]) -> Figure:
     strain = run.history["mean_plastic_strain"]
     words = ("force on the ground less the static weight (TN)", "mean equivalent plastic strain")
     other = _pair(axes, time, (force, words[0]), (strain, words[1]))
-    axes.axhline(0.28, color=RED, linewidth=1.0, linestyle="--")
-    axes.annotate("largest force inverted from seismic waves, 0.28 TN", (0.99, 0.28), va="bottom", ha="right", size=8,
+    axes.axhline(INVERTED, color=RED, linewidth=1.0, linestyle="--")
+    axes.annotate("largest force inverted from seismic waves, 0.28 TN", (0.99, INVERTED), va="bottom", ha="right", size=8,
                   xycoords=("axes fraction", "data"), xytext=(0, 2), textcoords="offset points",
                   color=NOTE)  # fmt: skip
-    axes.axvline(PHASE, color="#8A8A8A", linestyle=":", linewidth=1.1)
-    axes.annotate("the paper: hits the glacier", (PHASE, 0.985), xycoords=("data", "axes fraction"), va="top", size=8,
-                  xytext=(4, 0), textcoords="offset points", color=NOTE)  # fmt: skip
+    _at_the_peak(axes, "the paper: hits the glacier", 0.985, "top")
     first = int(np.nanargmax(np.where(time <= 0.01 * time[-1], force, -np.inf)))
     axes.annotate("the stress of t = 0 adjusts", (time[first], force[first]), xytext=(8, 8), size=8, color=NOTE,
                   textcoords="offset points")  # fmt: skip
-    axes.set_ylim(0.0, 1.25 * float(np.nanmax(force)))
+    axes.set_ylim(0.0, 1.25 * max(float(np.nanmax(force)), INVERTED))
     other.set_ylim(0.0, 1.6 * max(float(np.nanmax(strain)), 1e-9))
     return figure
 
@@ -105,9 +113,7 @@ def figure_20(runs: dict[str, Run]) -> Figure:
     friction.set_ylim(0.0, 1.0)
     _reported(melt, 40.0, 0.3, "the paper: 0.3 at 40 s", (9, -3))
     _reported(melt, 75.0, 0.9, "the paper: 0.9 at 75 s", (9, -10))
-    for axes in (heat, melt):
-        axes.axvline(PHASE, color="#8A8A8A", linestyle=":", linewidth=1.1)
-    heat.annotate("the band widens to 0.5 m", (PHASE, 0.14), xycoords=("data", "axes fraction"), xytext=(4, 0), size=8,
-                  textcoords="offset points", color=NOTE)  # fmt: skip
+    _at_the_peak(heat, "the band widens to 0.5 m", 0.14, "bottom")
+    _at_the_peak(melt, "", 0.0, "bottom")
     letters((heat, melt), ("temperature and pore pressure of the band", "saturation and friction coefficient"))
     return figure
