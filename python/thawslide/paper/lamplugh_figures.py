@@ -74,8 +74,8 @@ def figure_17(runs: dict[str, Run]) -> Figure:
     words = ("force on the ground less the static weight (TN)", "mean equivalent plastic strain")
     other = _pair(axes, time, (force, words[0]), (strain, words[1]))
     axes.axhline(INVERTED, color=RED, linewidth=1.0, linestyle="--")
-    axes.annotate("largest force inverted from seismic waves, 0.28 TN", (0.99, INVERTED), va="bottom", ha="right", size=8,
-                  xycoords=("axes fraction", "data"), xytext=(0, 2), textcoords="offset points",
+    axes.annotate("largest force inverted from seismic waves, 0.28 TN", (0.99, INVERTED), va="bottom", ha="right",
+                  size=8, xycoords=("axes fraction", "data"), xytext=(0, 2), textcoords="offset points",
                   color=NOTE)  # fmt: skip
     _at_the_peak(axes, "the paper: hits the glacier", 0.985, "top")
     first = int(np.nanargmax(np.where(time <= 0.01 * time[-1], force, -np.inf)))
