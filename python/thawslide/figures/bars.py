@@ -45,7 +45,7 @@ def bars(names: Sequence[str], quantities: Sequence[Quantity], ends: Sequence[st
         for kind, (marker, colour, _) in LOOKS.items():
             if marker and (kinds == kind).any():
                 at = kinds == kind
-                axes.plot(base + change[at], places[at], marker, color=colour, markersize=4.5, linestyle="")
+                axes.plot(base + change[at], places[at], marker, color=colour, markersize=4.5, linestyle="", clip_on=False)
         axes.set_xlabel(label)
         axes.set_xlim(left=0.0)
         axes.grid(True, axis="x")
