@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -45,7 +46,8 @@ def bars(names: Sequence[str], quantities: Sequence[Quantity], ends: Sequence[st
         for kind, (marker, colour, _) in LOOKS.items():
             if marker and (kinds == kind).any():
                 at = kinds == kind
-                axes.plot(base + change[at], places[at], marker, color=colour, markersize=4.5, linestyle="", clip_on=False)
+                look: dict[str, Any] = {"color": colour, "markersize": 4.5, "linestyle": "", "clip_on": False}
+                axes.plot(base + change[at], places[at], marker, **look)
         axes.set_xlabel(label)
         axes.set_xlim(left=0.0)
         axes.grid(True, axis="x")
