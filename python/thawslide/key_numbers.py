@@ -45,6 +45,18 @@ def stop_time(run: Run) -> float | None:
     return float(run.history["time_s"][last + 1]) if last + 1 < len(speed) else None
 
 
+def time_of_speed(run: Run, speed: float) -> float:
+    """Return when [s] the mean velocity first reaches a speed [m/s], between the rows of the history; nan for never."""
+    time, found = run.history["time_s"], run.history["mean_velocity_m_s"]
+    reached = np.flatnonzero(found >= speed)
+    if not reached.size:
+        return float("nan")
+    at = int(reached[0])
+    if at == 0:
+        return float(time[0])
+    return float(np.interp(speed, found[at - 1 : at + 1], time[at - 1 : at + 1]))
+
+
 def key_numbers(run: Run) -> list[KeyNumber]:
     """Return the rows that this run has columns for."""
     history = run.history
@@ -67,7 +79,11 @@ def key_numbers(run: Run) -> list[KeyNumber]:
                     KeyNumber("Stop time", "not reached", f"mean velocity at the end: {shown(float(speed[-1]), 'm/s')}")
                 )
     if "runout_m" in history:
-        rows.append(KeyNumber("Runout", _metres(history["runout_m"][-1]), "front at the end less rear at the start"))
+        own = f"front at the end less rear at the start, {_metres(history['runout_m'][0])} of it before anything moves"
+        rows.append(KeyNumber("Runout", _metres(history["runout_m"][-1]), own))
+    if "front_position_m" in history:
+        way = history["front_position_m"][-1] - history["front_position_m"][0]
+        rows.append(KeyNumber("Way of the front", _metres(way), "front at the end less front at the start"))
     if "mean_displacement_m" in history:
         rows.append(
             KeyNumber("Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mean of mass")

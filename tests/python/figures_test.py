@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from conftest import MakeRun, ground, history_columns, write_history
@@ -13,10 +14,13 @@ from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, Run
 from thawslide.figures import FIGURES
+from thawslide.figures.bars import bars
+from thawslide.figures.colours import TEMPERATURE, colour_range, normalisation
 from thawslide.figures.energy import relative_residual
-from thawslide.figures.snapshots import chosen_snapshots, colour_range
+from thawslide.figures.snapshots import Stretch, chosen_snapshots, velocity
 from thawslide.figures.style import prefixed
 from thawslide.figures.window import fit
+from thawslide.key_numbers import time_of_speed
 
 SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure")
 
@@ -172,6 +176,8 @@ def test_motion_against_reported_values(make_run: MakeRun) -> None:
     )
     np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0, 6.0], [9.0, 11.0]])
     np.testing.assert_array_equal(line(distance, "mean path length (of mass)")[1], run.history["mean_displacement_m"])
+    front = run.history["front_position_m"]
+    np.testing.assert_array_equal(line(distance, "way of the front itself")[1], front - front[0])
     np.testing.assert_array_equal(line(distance, "reported mean: model"), [[10.0], [80.0]])
     np.testing.assert_array_equal(line(distance, "reported runout: field"), [[10.0], [160.0]])
     assert (speed.get_ylabel(), distance.get_ylabel()) == ("velocity (m/s)", "distance (m)")
@@ -195,7 +201,7 @@ def test_reported_values_after_the_end_are_counted_not_drawn(make_run: MakeRun) 
 def test_motion_without_targets(make_run: MakeRun) -> None:
     figure = FIGURES["motion"].draw(Run(make_run(targets=False)))
     labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
-    assert len(labels) == 4
+    assert len(labels) == 5
     assert not any("reported" in label for label in labels)
 
 
@@ -311,3 +317,49 @@ def test_prefixes() -> None:
     assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
     assert prefixed([999.0], "Pa") == (1.0, "Pa")
     assert prefixed([np.nan], "J") == (1.0, "J")
+
+
+def test_temperatures_far_past_boiling_go_by_decades_to_the_hottest_particle(make_run: MakeRun) -> None:
+    values = np.concatenate([np.full(600, -10.0), np.linspace(0.0, 900.0, 400), [5000.0]])
+    norm, extend = normalisation(values, TEMPERATURE)
+    assert (norm.vmin, norm.vmax, extend) == (-10.0, 5000.0, "neither")
+    # Each decade is as long as the next, and takes a good part of the bar.
+    ends = np.asarray(norm(np.array([10.0, 100.0, 1000.0])))
+    assert ends[2] - ends[1] == pytest.approx(ends[1] - ends[0])
+    assert ends[1] - ends[0] > 0.15
+    folder = make_run()
+    for path in Run(folder).snapshot_files:
+        with h5py.File(path, "r+") as file:
+            file["VTKHDF/PointData/temperature"][:3] = 4321.0
+    figure = FIGURES["temperature"].draw(Run(folder))
+    figure.canvas.draw()
+    (bar,) = [axes for axes in figure.axes if axes.get_xlabel() == "temperature (°C)"]
+    assert [label.get_text() for label in bar.get_xticklabels()][-2:] == ["1,000", "4,321 (highest)"]
+
+
+def test_stretches_stand_between_dotted_lines(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    left, right = titled(velocity(run), "whole profile").get_xlim()
+    ends = np.linspace(left, right, 5)
+    names = [Stretch("B", ends[1], ends[2]), Stretch("C", ends[2], ends[3]), Stretch("far", right, right + 10.0)]
+    profile = titled(velocity(run, names), "whole profile")
+    dotted = [line.get_xdata()[0] for line in profile.lines if line.get_linestyle() == ":"]
+    assert dotted == pytest.approx(ends[1:4])
+    assert texts(profile) == ["B", "C"]
+
+
+def test_bars_mark_how_runs_ended() -> None:
+    quantities = [("stop (s)", [100.0, np.nan, np.nan, 150.0]), ("runout (km)", [6.0, 20.0, np.nan, 7.0])]
+    figure = bars(["the case", "goes on", "bad", "longer"], quantities, ["stopped", "going", "broken", "stopped"])
+    marks = [{line.get_marker(): line.get_xydata().tolist() for line in axes.lines[1:]} for axes in figure.axes]
+    assert marks == [{">": [[100.0, -1.0]], "x": [[100.0, -2.0]]}, {">": [[20.0, -1.0]], "x": [[6.0, -2.0]]}]
+    (legend,) = figure.legends
+    words = [text.get_text() for text in legend.get_texts()]
+    assert words[1] == "the run broke off: no number"
+    assert len(words) == 4  # no word for what no run did
+
+
+def test_speed_is_reached_between_rows(make_run: MakeRun) -> None:
+    run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: 8 m/s at 3.0409 s
+    assert time_of_speed(run, 8.0) == pytest.approx(10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0)), abs=2e-3)
+    assert np.isnan(time_of_speed(run, 13.0))

@@ -14,7 +14,7 @@ import pytest
 from conftest import MakeRun, history_columns, write_history
 
 from thawslide.paper.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_shares, zones
-from thawslide.paper.one_at_a_time import Outcome, Row, at_rest, is_current, outcome, run_rows, table, table_row
+from thawslide.paper.one_at_a_time import Outcome, Row, at_rest, end_of, is_current, outcome, run_rows, table, table_row
 from thawslide.paper.runs import LAMPLUGH_BLOCKS
 from thawslide.run import Run
 
@@ -97,22 +97,26 @@ def test_outcome_of_a_run(make_run: MakeRun) -> None:
     assert found.failure == ""
     assert found.peak == pytest.approx(12.0)
     assert found.peak_time == pytest.approx(5.0)
-    assert found.start_time == pytest.approx(3.1, abs=0.06)  # 12 sin2 = 8
+    assert found.start_time == pytest.approx(3.0409, abs=2e-3)  # 12 sin2 = 8
     assert found.stop_time == pytest.approx(9.7, abs=0.1)
     assert found.displacement == pytest.approx(80.0)
+    assert (found.runout, found.front) == (pytest.approx(160.0), pytest.approx(120.0))
+    assert end_of(found) == "stopped"
     assert found.length == pytest.approx(19.0)
 
 
 def test_rows_say_plainly_what_failed() -> None:
     row = Row("x", "x", ("a=1", "b=2"), "other.toml")
-    assert table_row(row, Outcome("not run")) == "| x | not run | | | | | | | | [other.toml](other.toml) `a=1` `b=2` |"
+    empty = "| x | not run | | | | | | | | | [other.toml](other.toml) `a=1` `b=2` |"
+    assert table_row(row, Outcome("not run")) == empty
     still = Outcome(peak=0.4, peak_time=1.0, displacement=0.0, runout=1000.0, length=1000.0, end_time=100.0)
     assert "| never | does not start |" in table_row(row, still)
-    broken = Outcome("bad\nnews", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 7.0, 8.0, 33.0, 9.0)
+    broken = Outcome("bad\nnews", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 4.0, 7.0, 8.0, 33.0, 9.0)
     assert "broke off at 33" in table_row(row, broken)
     assert table([row], {"x": broken}, ["a=1"]).endswith("[other.toml](other.toml) `b=2` |\n\n- x: bad news\n")
-    going = Outcome("", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 7.0, 8.0, 200.0, 9.0)
+    going = Outcome("", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 4.0, 7.0, 8.0, 200.0, 9.0)
     assert "not: 9 m/s at 200" in table_row(row, going)
+    assert [end_of(each) for each in (Outcome(), still, broken, going)] == ["missing", "never", "broken", "going"]
 
 
 PROGRAM = """import sys, json, pathlib

@@ -14,11 +14,13 @@ import pytest
 from thawslide.paper.band_model import GRAVITY, Column, Drive, solve
 from thawslide.paper.block import clapeyron, differences
 from thawslide.paper.freezing import COLD_END, reference
-from thawslide.paper.incline import drag, falls_below
+from thawslide.paper.incline import drag, falls_below, friction_coefficient
 from thawslide.paper.mixture import FREEZING_BAR, TABLE_1, HeatTable, Mixture, linear_saturation, power_saturation
+from thawslide.paper.old_capacity import Bar, error
 from thawslide.paper.page import NAMES
 from thawslide.paper.runs import all_runs
-from thawslide.paper.sentences import filled, holds, table, verdict
+from thawslide.paper.sentences import claims, filled, holds, table, verdict
+from thawslide.paper.stages import balance, balance_cohesion, rubbing
 from thawslide.run import Run
 
 
@@ -134,10 +136,10 @@ def test_comparisons_and_verdicts() -> None:
 
 
 def test_figures_and_sentences_are_whole() -> None:
-    assert tuple(row["name"] for row in table("figures")) == NAMES
+    assert sorted(row["name"] for row in table("figures")) == sorted(NAMES)
     for row in table("figures"):
         assert all(row[key].strip() for key in ("heading", "paper", "ours", "why"))
-    for row in table("sentences"):
+    for row in claims():
         assert re.fullmatch(r"Abstract|3\.[123]|4\.[12]", row["section"])
         assert row["text"] and row["reported"] and row["ours"]
         for test in row.get("tests", []):
@@ -152,7 +154,7 @@ def test_runs_have_names_of_their_own() -> None:
 
 def test_numbers_in_sentences_are_held_to_a_tenth() -> None:
     # The page says so for all rows alike; saturations are held to 0.1.
-    for row in table("sentences"):
+    for row in claims():
         for left, kind, right, *width in row.get("tests", []):
             if kind == "within" and isinstance(right, float) and right > 1.0:
                 assert width[0] == pytest.approx(0.1 * right, rel=0.01), (
@@ -191,3 +193,44 @@ def test_differences_crossing_and_drag_by_hand(tmp_path: Path) -> None:
     assert largest == pytest.approx(0.3, abs=1e-9)
     assert 0.0 < rms < largest
     assert drag(one) == pytest.approx(2.0 / (2.0 * 9.81 * math.cos(math.radians(40.0))))
+
+
+def test_cohesion_of_he_et_al_is_that_of_a_slab_of_50_metres() -> None:
+    # 2062.625 kg/m3: 752.1 kPa down the slope, 677.2 kPa of load of which ice carries 449.8 kPa, tan 40 = 0.8391.
+    assert balance_cohesion(50.0) == pytest.approx(0.561, abs=5e-4)
+    assert balance_cohesion(100.0) == pytest.approx(2.0 * balance_cohesion(50.0))
+    block = {"driving_traction_Pa": np.array([8e5, 0.0]), "sliding_strength_Pa": np.array([7.9e5, 0.0])}
+    found = balance(block, 6e5)
+    assert found["lamplugh_balance"] == pytest.approx(0.61)
+    assert found["lamplugh_short"] == pytest.approx(100.0 * (1.0 - 0.751 / 0.8))
+
+
+def test_coefficient_of_eq_25_at_its_ends() -> None:
+    assert friction_coefficient(0.95, 1.0) == pytest.approx(0.0, abs=1e-12)
+    assert friction_coefficient(0.225, 0.0) == pytest.approx(math.tan(math.radians(40.0)))
+    assert friction_coefficient(0.375, 0.0) == pytest.approx(0.82599, abs=1e-5)  # what D starts with
+
+
+def test_rubbing_force_is_work_over_way(tmp_path: Path) -> None:
+    time = [0.0, 35.0, 40.0]
+    columns = {"time_s": time, "friction_work_J": [0.0, 1e12, 4e12], "mean_displacement_m": [0.0, 10.0, 40.0]}
+    assert rubbing(short_run(tmp_path / "run", columns)) == pytest.approx(100.0)
+    assert math.isnan(rubbing(short_run(tmp_path / "still", columns | {"mean_displacement_m": [0.0] * 3})))
+
+
+def test_old_capacity_overshoots_where_the_jump_leaves_the_freezing_branch() -> None:
+    # The first particle falls by 3/4 of 3 K at C + m L_f rho_I n, of which only the part above -1/m freezes.
+    water = FREEZING_BAR.capacity(np.ones(1))[0]
+    for slope, frozen in ((0.25, False), (1.0, True)):
+        bar = Bar(slope, pulled=False)
+        bar.advance("carried")
+        taken = (water + slope * FREEZING_BAR.melting_heat()) * 2.25
+        assert bar.content[0] - bar.table.content(np.zeros(1))[0] == pytest.approx(-taken, rel=2e-3)  # and conduction
+        assert (bar.temperature[0] < -100.0) == frozen
+        bar = Bar(slope, pulled=False)
+        bar.advance("secant")
+        assert bar.temperature[0] == pytest.approx(-2.25, abs=0.01)
+    # An hour later the printed update and the secant agree; carried heat has not come back.
+    errors = {way: error(1.0, way, time=3600.0, cell=0.02) for way in ("printed", "secant", "carried")}
+    assert errors["carried"] > 100.0
+    assert errors["printed"] == pytest.approx(errors["secant"], rel=0.2)

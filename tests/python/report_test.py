@@ -27,6 +27,8 @@ def test_key_numbers(make_run: MakeRun) -> None:
     found = numbers(Run(make_run()))
     assert found["Peak mean velocity"] == ("12 m/s", "at 5 s")
     assert found["Runout"][0] == "160 m"
+    assert "40 m of it before anything moves" in found["Runout"][1]
+    assert found["Way of the front"][0] == "120 m"
     assert found["Mean displacement"][0] == "80 m"
     assert found["Highest mean band temperature"] == ("110 °C", "at 10 s")
     assert found["Highest mean band pore pressure"] == ("1.5 MPa", "at 5 s")

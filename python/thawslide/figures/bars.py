@@ -3,21 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
-from thawslide.figures.style import BLUE, NOTE, ORANGE, styled
+from thawslide.figures.style import BLACK, BLUE, NOTE, ORANGE, RED, styled
 
 Quantity = tuple[str, Sequence[float]]  # axis label, one value a run, the first of them the run to compare with
 
 
+# Why a run has no number: its marker, colour and words.
+LOOKS = {
+    "stopped": ("", NOTE, ""),
+    "going": (">", BLACK, "did not stop by the end: the number is that of the end, a stop has none"),
+    "never": ("s", NOTE, "did not start"),
+    "broken": ("x", RED, "the run broke off: no number"),
+    "missing": ("+", NOTE, "not run"),
+}
+
+
 @styled
-def bars(names: Sequence[str], quantities: Sequence[Quantity]) -> Figure:
-    """Draw a panel a quantity: from the first run's value to each other's. A missing value leaves a cross."""
-    figure = Figure(figsize=(11.0, 1.0 + 0.21 * len(names)), layout="constrained")
+def bars(names: Sequence[str], quantities: Sequence[Quantity], ends: Sequence[str]) -> Figure:
+    """Draw a panel a quantity: from the first run's value to each other's; `ends` says how each run ended (LOOKS).
+
+    Every run that did not stop has its marker in each panel: at the end of its bar, or at the line where it has none.
+    """
+    figure = Figure(figsize=(11.0, 1.5 + 0.21 * len(names)), layout="constrained")
     panels = figure.subplots(1, len(quantities), sharey=True, squeeze=False)[0]
     places = -np.arange(len(names), dtype=np.float64)
+    kinds = np.asarray(ends)
     for axes, (label, values) in zip(panels, quantities, strict=True):
         numbers = np.asarray(values, dtype=np.float64)
         base = float(numbers[0]) if np.isfinite(numbers[0]) else 0.0
@@ -25,11 +43,19 @@ def bars(names: Sequence[str], quantities: Sequence[Quantity]) -> Figure:
         change = np.where(known, numbers - base, 0.0)
         axes.barh(places, change, left=base, height=0.7, color=np.where(change < 0.0, BLUE, ORANGE).tolist())
         axes.axvline(base, color=NOTE, linewidth=0.8)
-        axes.plot(np.full(int((~known).sum()), base), places[~known], "x", color=NOTE, markersize=4)
+        for kind, (marker, colour, _) in LOOKS.items():
+            if marker and (kinds == kind).any():
+                at = kinds == kind
+                look: dict[str, Any] = {"color": colour, "markersize": 4.5, "linestyle": "", "clip_on": False}
+                axes.plot(base + change[at], places[at], marker, **look)
         axes.set_xlabel(label)
         axes.set_xlim(left=0.0)
         axes.grid(True, axis="x")
         axes.set_axisbelow(True)
     panels[0].set_yticks(places, names)
     panels[0].set_ylim(places[-1] - 0.7, 0.7)
+    shown: list[Artist] = [Line2D([], [], marker=marker, color=colour, markersize=5, linestyle="", label=words)
+             for kind, (marker, colour, words) in LOOKS.items() if marker and (kinds == kind).any()]  # fmt: skip
+    shown += [Patch(color=colour, label=words) for colour, words in ((BLUE, "less than the case"), (ORANGE, "more"))]
+    figure.legend(handles=shown, loc="outside lower center", ncols=3)
     return figure

@@ -48,7 +48,7 @@ def draw_targets(
 
 @styled
 def motion(run: Run) -> Figure:
-    """Draw (a) mean and largest velocity, (b) mean displacement and runout."""
+    """Draw (a) mean and largest velocity, (b) mean displacement, runout and the way of the front."""
     history = run.history
     time = history["time_s"]
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
@@ -74,6 +74,9 @@ def motion(run: Run) -> Figure:
             linestyle="--",
             label="runout (front − rear at t = 0)",
         )
+        if "front_position_m" in history:
+            way = (history["front_position_m"] - history["front_position_m"][0]) / divisor
+            time_line(distance, time, way, color=RED, linestyle=":", label="way of the front itself")
         draw_targets(distance, run, ("front_distance",), divisor, RED, " runout")
     distance.set_ylabel(f"distance ({unit})")
 

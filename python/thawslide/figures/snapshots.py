@@ -2,37 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import Normalize, TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
+from thawslide.figures.colours import (
+    PLASTIC_STRAIN,
+    PORE_PRESSURE,
+    TEMPERATURE,
+    VELOCITY,
+    Painting,
+    label_bar,
+    normalisation,
+    number_text,
+    painted_values,
+)
 from thawslide.figures.style import GROUND_LINE, NOTE, prefixed, styled
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
 from thawslide.run import Numbers, Run, Snapshot
 
 
 @dataclass(frozen=True)
-class Painting:
-    """What a snapshot figure paints: the field's name in the file, words for it, its unit and colour map."""
+class Stretch:
+    """A named stretch of the way [m], which figures set off by dotted lines."""
 
-    field: str
-    words: str
-    unit: str
-    colours: str
+    name: str
+    start: float
+    end: float
 
-
-VELOCITY = Painting("velocity", "velocity", "m/s", "viridis")
-PLASTIC_STRAIN = Painting("plastic_strain", "equivalent plastic strain", "1", "cividis")
-TEMPERATURE = Painting("temperature", "temperature", "°C", "plasma")
-PORE_PRESSURE = Painting("pore_pressure", "pore pressure", "Pa", "viridis")
-
-BOILING = 100.0  # °C
 
 # The page, in inches.
 _WIDTH, _LEFT, _RIGHT, _GAP = 10.0, 0.75, 0.2, 0.75
@@ -50,37 +53,16 @@ def chosen_snapshots(run: Run) -> list[Snapshot]:
     return [run.snapshot(index) for index in indices[: len(_LETTERS)]]
 
 
-def painted_values(snapshot: Snapshot, field: str) -> Numbers:
-    """Return the field of each particle as one number, vectors by their magnitude."""
-    values = np.asarray(snapshot[field], dtype=np.float64)
-    return np.linalg.norm(values, axis=1) if values.ndim == 2 else values
-
-
-def colour_range(values: Numbers, from_zero: bool) -> tuple[float, float, str]:
-    """Return (low, high, colourbar extend) without the outermost 0.2 % of values, or from 0 where a magnitude."""
-    finite = values[np.isfinite(values)]
-    if not finite.size:
-        return 0.0, 1.0, "neither"
-    low, high = (float(value) for value in np.quantile(finite, [0.002, 0.998]))
-    if from_zero:
-        low = 0.0
-    if high - low <= 1e-9 * max(abs(low), abs(high), 1e-300):
-        pad = 0.05 * abs(high) or 0.5
-        return (0.0 if from_zero else low - pad), high + pad, "neither"
-    below, above = finite.min() < low - 0.01 * (high - low), finite.max() > high + 0.01 * (high - low)
-    return low, high, {(0, 0): "neither", (0, 1): "max", (1, 0): "min", (1, 1): "both"}[(int(below), int(above))]
-
-
 @styled
-def velocity(run: Run) -> Figure:
+def velocity(run: Run, stretches: Sequence[Stretch] = ()) -> Figure:
     """Draw the speed of the slide (Fig. 14)."""
-    return draw(run, VELOCITY)
+    return draw(run, VELOCITY, stretches)
 
 
 @styled
-def plastic_strain(run: Run) -> Figure:
+def plastic_strain(run: Run, stretches: Sequence[Stretch] = ()) -> Figure:
     """Draw the equivalent plastic strain (Fig. 15)."""
-    return draw(run, PLASTIC_STRAIN)
+    return draw(run, PLASTIC_STRAIN, stretches)
 
 
 @styled
@@ -95,26 +77,11 @@ def pore_pressure(run: Run) -> Figure:
     return draw(run, PORE_PRESSURE)
 
 
-def number_text(value: float) -> str:
-    """Return a number in three digits, large ones with a comma between thousands."""
-    return f"{value:,.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
+def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Figure:
+    """Draw an overview of the whole profile, a panel for each chosen time and one colourbar.
 
-
-def normalisation(values: Numbers, painting: Painting) -> tuple[Normalize, str]:
-    """Return how values become colours, and which ends of the colourbar are open.
-
-    Temperatures end at 100 °C, beyond which they are not to be believed, and change pace where ice melts.
+    Stretches stand between grey dotted lines, with their names in the overview and in the panels that show them.
     """
-    low, high, extend = colour_range(values, painting.field in ("velocity", "plastic_strain"))
-    if painting is not TEMPERATURE:
-        return Normalize(low, high), extend
-    if high > BOILING:
-        high, extend = BOILING, "both" if extend in ("min", "both") else "max"
-    return (TwoSlopeNorm(0.0, low, high) if low < 0.0 < high else Normalize(low, high)), extend
-
-
-def draw(run: Run, painting: Painting) -> Figure:
-    """Draw an overview of the whole profile, a panel for each chosen time and one colourbar."""
     shots = chosen_snapshots(run)
     values = [painted_values(shot, painting.field) for shot in shots]
     divisor, unit = prefixed(np.concatenate(values), "Pa") if painting.unit == "Pa" else (1.0, painting.unit)
@@ -129,12 +96,13 @@ def draw(run: Run, painting: Painting) -> Figure:
         f"{run.title}: {painting.words}", x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=12
     )
     windows = [_window(run, shot, page.panel_width / _PANEL_HEIGHT) for shot in shots]
-    _draw_overview(page, run, shots, windows)
+    _draw_stretches(_draw_overview(page, run, shots, windows), stretches)
     highest = max(extent(heights)[1] for heights in (above_ground(run, shot) for shot in shots))
     for number, (shot, value, window) in enumerate(zip(shots, values, windows, strict=True)):
         panel, strip = page.panel(number)
         _draw_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
         panel.set_title(f"({_LETTERS[number]}) t = {shot.time:g} s, {window.note()}", loc="left")
+        _draw_stretches(panel, stretches)
         largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
         panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
         if strip is not None:
@@ -142,9 +110,7 @@ def draw(run: Run, painting: Painting) -> Figure:
             panel.set_xlabel("")
             panel.tick_params(labelbottom=False)
     bar = figure.colorbar(painter, cax=page.colourbar(), orientation="horizontal", extend=extend)
-    if isinstance(norm, TwoSlopeNorm):  # both halves have their ticks
-        bar.set_ticks([norm.vmin, 0.5 * norm.vmin, *np.linspace(0.0, norm.vmax, 5)], labels=None)
-        bar.ax.xaxis.set_major_formatter("{x:.3g}")
+    label_bar(bar, norm)
     bar.set_label(painting.words + (f" ({unit})" if unit else ""), labelpad=1)
     return figure
 
@@ -275,6 +241,20 @@ def _draw_strip(
     axes.set_ylabel("above\nground (m)")
 
 
+def _draw_stretches(axes: Axes, stretches: Sequence[Stretch]) -> None:
+    """Draw a grey dotted line where a stretch begins and ends, and its name at the top of what is seen of it."""
+    left, right = axes.get_xlim()
+    for place in sorted({end for each in stretches for end in (each.start, each.end)}):
+        if left < place < right:
+            axes.axvline(place, color="#8A8A8A", linestyle=":", linewidth=1.1, zorder=2)
+    for each in stretches:
+        low, high = max(left, each.start), min(right, each.end)
+        if high - low > 0.03 * (right - left):
+            middle = 0.5 * (low + high)
+            axes.annotate(each.name, (middle, 0.97), xycoords=("data", "axes fraction"), ha="center", va="top",
+                          size=8, color=NOTE)  # fmt: skip
+
+
 def _whole(run: Run, shots: list[Snapshot]) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the stretch of x and of height [m] that the overview shows."""
     ends = [extent(shot.points[:, 0]) for shot in shots]
@@ -288,8 +268,8 @@ def _whole(run: Run, shots: list[Snapshot]) -> tuple[tuple[float, float], tuple[
     return (domain[0], max(domain[1], domain[0] + 1e-9)), (low, high)
 
 
-def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Window]) -> None:
-    """Draw the whole profile with the first and last state, and below it which stretch each panel shows."""
+def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Window]) -> Axes:
+    """Draw the whole profile with the first and last state, and below it what each panel shows; return the profile."""
     axes = page.place(_LEFT, 0.6, page.full, page.overview_height)
     bars = page.place(_LEFT, 0.6 + page.overview_height, page.full, page.bars_height)
     inches = (page.full, page.overview_height)
@@ -316,3 +296,4 @@ def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Win
     bars.tick_params(axis="y", length=0)
     bars.set_ylabel("")
     bars.xaxis.label.set_text(f"{bars.get_xlabel()}; bars: what each panel shows (light), where the slide is (dark)")
+    return axes

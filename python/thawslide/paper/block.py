@@ -109,6 +109,8 @@ def _of_run(run: Run) -> dict[str, float]:
     half = found["half_melted"]
     found["pressure_half"] = at(run, "band_pore_pressure_Pa", half) / 1e3 if np.isfinite(half) else float("nan")
     found["surge_saturation"] = surge_saturation(run)
+    found["heat"] = float(history["friction_heat_J"][-1]) / 1e9
+    found["ice_start"], found["ice_lowest"] = (1.0 - float(history["band_saturation"][k]) for k in (0, lowest))
     for column, name, _, scale in COLUMNS:
         ours = np.interp(model.time, time, history[column])
         found[f"{name}_off"] = float(np.max(np.abs(ours - getattr(model, name)))) / scale
@@ -135,6 +137,16 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
             differences(runs[f"block-{one}{ending}"], runs[f"block-e050{ending}"], "band_saturation")[0]
             for one in ("k0", "k10", "k9", "k8")
         )
+    # The runs against their ordinary differential equations: the worst of each figure and side of it.
+    for figure, drawn in (("figure_6", FIGURE_6), ("figure_7", FIGURE_7)):
+        for ending in ("", "_no_latent"):
+            for _, name, _, _ in COLUMNS:
+                every = [found[f"block_{each.replace('-', '_')}{ending}_{name}_off"] for each, *_ in drawn]
+                found[f"block_{figure}_{name}_off{ending}"] = max(every)
+    for number, (one, other) in enumerate((("k0", "k10"), ("k10", "k9"), ("k9", "k8")), 1):
+        for column, name, _, scale in COLUMNS:
+            gap, _ = differences(runs[f"block-{one}"], runs[f"block-{other}"], column)
+            found[f"block_apart_{name}_{number}"] = gap / scale
     still = runs["block-e050-no-viscosity"].history
     found["block_ringing_speed"] = float(np.max(still["max_velocity_m_s"]))
     found["block_calm_speed"] = float(np.max(runs["block-e050"].history["max_velocity_m_s"]))

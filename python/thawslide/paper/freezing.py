@@ -50,9 +50,9 @@ def slope_and_latent(run: Run) -> tuple[float, bool]:
     return float(run.section("freezing")["slope"]), bool(run.section("heat").get("latent", True))
 
 
-def profile(run: Run) -> tuple[Numbers, Numbers]:
-    """Return (x, T) of the particles at the end of the run, in order of x."""
-    shot = run.snapshot(-1)
+def profile(run: Run, time: float | None = None) -> tuple[Numbers, Numbers]:
+    """Return (x, T) of the particles at a time [s], or at the end of the run, in order of x."""
+    shot = run.snapshot(-1) if time is None else run.snapshot(time=time)
     order = np.argsort(shot.points[:, 0], kind="stable")
     return shot.points[order, 0], np.asarray(shot["temperature"], dtype=np.float64)[order]
 
@@ -72,9 +72,9 @@ def errors(run: Run) -> tuple[float, float]:
     return float(np.max(np.abs(wrong))), float(np.sqrt(np.mean(wrong**2)))
 
 
-def place_of_saturation(run: Run, saturation: float) -> float:
-    """Return x [m] at which the particles' saturation passes a value; nan where it does not."""
-    x, temperature = profile(run)
+def place_of_saturation(run: Run, saturation: float, time: float | None = None) -> float:
+    """Return x [m] at which the particles' saturation passes a value, at the end or a time; nan where it does not."""
+    x, temperature = profile(run, time)
     share = linear_saturation(slope_and_latent(run)[0])(temperature)
     if not share[0] < saturation <= share[-1]:
         return float("nan")
@@ -83,11 +83,15 @@ def place_of_saturation(run: Run, saturation: float) -> float:
 
 def measures(runs: dict[str, Run]) -> dict[str, float]:
     """Return the numbers of Sec. 3.1, by the name of the run and of the quantity."""
-    found = {}
+    found, backward = {}, 0.0
     for name, run in ((f"freezing-bar-{base}", runs[f"freezing-bar-{base}"]) for base in BARS):
         key = "freezing_" + name.removeprefix("freezing-bar-").replace("-", "_")
         found[f"{key}_max_error"], found[f"{key}_rms_error"] = errors(run)
         found[f"{key}_half"] = place_of_saturation(run, 0.5)
+        found[f"{key}_half_early"] = place_of_saturation(run, 0.5, 0.5 * float(run.times[-1]))
+        share = linear_saturation(slope_and_latent(run)[0])(profile(run)[1])
+        found[f"{key}_left"], found[f"{key}_right"] = float(share[0]), float(share[-1])
+        backward = max(backward, float(np.max(np.maximum.accumulate(share) - share)))
         frozen, thawed = place_of_saturation(run, 0.05), place_of_saturation(run, 0.95)
         found[f"{key}_width"] = thawed - frozen
         slope, _ = slope_and_latent(run)
@@ -96,6 +100,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         made, drawn = (abs(float(printed.history[c][-1])) for c in ("capacity_heat_J", "boundary_heat_J"))
         found[f"{key}_printed_error"] = errors(printed)[0]
         found[f"{key}_printed_heat"] = 100.0 * made / max(drawn, 1e-300)
+    found["freezing_backward"] = backward  # largest fall of saturation on the way from the cold end
     found["freezing_max_error"] = max(value for name, value in found.items() if name.endswith("_max_error"))
     found["freezing_rms_error"] = max(value for name, value in found.items() if name.endswith("_rms_error"))
     return found

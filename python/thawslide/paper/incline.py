@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from thawslide.figures.style import BLUE, GREEN, ORANGE, RED, letters, styled, time_line
+from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_line
 from thawslide.paper.block import at, first_time, mark
 from thawslide.paper.mixture import TABLE_1
 from thawslide.paper.runs import INCLINES
@@ -57,6 +57,28 @@ def drag(run: Run) -> float:
     return float(np.mean(np.abs(history["basal_force_x_N"][late]))) / weight if late.any() else float("nan")
 
 
+def friction_coefficient(porosity: float, saturation: float) -> float:
+    """Return mu_e of Eq. 25 with the limits 0.05 and 0.85, omega 2, phi_f 40 degrees and an ice weight of 1/3."""
+    solid = 1.0 - porosity + porosity * (1.0 - saturation) / 3.0
+    return float((1.0 - (1.0 - (solid - 0.05) / 0.8) ** 2) * np.tan(np.radians(40.0)))
+
+
+def falls_of_friction(run: Run) -> dict[str, float]:
+    """Return by how much the coefficient of P-L falls to 25 s, the band's porosity then, and the fall that makes."""
+    friction = run.history["band_friction_coefficient"]
+    band = run.snapshot(time=25.0)
+    inside = np.asarray(band["in_band"]) > 0
+    porosity = float(np.mean(np.asarray(band["porosity"], dtype=np.float64)[inside])) if inside.any() else float("nan")
+    start = friction[np.isfinite(friction)]
+    return {
+        "incline_PL_friction_fall": (float(start[0]) if start.size else np.nan)
+        - at(run, "band_friction_coefficient", 25.0),
+        "incline_PL_porosity": porosity,
+        "incline_PL_fall_by_porosity": friction_coefficient(TABLE_1.porosity, 0.0)
+        - friction_coefficient(porosity, 0.0),
+    }
+
+
 def falls_below(run: Run, other: Run, column: str, after: float) -> float:
     """Return the first time [s] after a given one at which a column is below that of another run; nan for never."""
     time = run.history["time_s"]
@@ -105,6 +127,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
     found["incline_points_pressure"] = at(points, "band_pore_pressure_Pa", 25.0) / 1e3
     found["incline_gain_L"] = found["incline_DL_velocity_25s"] - found["incline_D_velocity_25s"]
     found["incline_gain_P"] = found["incline_DLP_velocity_25s"] - found["incline_DL_velocity_25s"]
+    found |= falls_of_friction(runs["incline-PL"])
     for name in ("D", "PL"):
         run, key = runs[f"incline-{name}-no-viscosity"], f"incline_{name}_undamped"
         found[f"{key}_displacement"] = at(run, "mean_displacement_m", min(20.0, run.history["time_s"][-1]))
@@ -117,19 +140,22 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
 @styled
 def _draw(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...], titles: tuple[str, ...]) -> Figure:
     """Draw columns over time: (column, words, divisor, running mean [s])."""
-    figure = Figure(figsize=(10.0, 4.0 if len(panels) == 2 else 7.4), layout="constrained")
-    axes = list(np.ravel(figure.subplots(-(-len(panels) // 2), 2)))
-    for panel, (column, words, divisor, span) in zip(axes, panels, strict=False):
+    figure = Figure(figsize=(10.0 if len(panels) == 2 else 12.0, 4.0), layout="constrained")
+    axes = list(figure.subplots(1, len(panels)))
+    for panel, (column, words, divisor, span) in zip(axes, panels, strict=True):
         for name in INCLINES:
             run = runs[f"incline-{name}"]
             values = (smooth(run, column, span) if span else run.history[column]) / divisor
-            time_line(panel, run.history["time_s"], values, color=COLOURS[name], label=NAMES[name])
+            dashes = "--" if name == "PL" else "-"  # it often lies on D-L-P
+            time_line(
+                panel, run.history["time_s"], values, color=COLOURS[name], linestyle=dashes, label=NAMES[name]
+            )
         panel.set_ylabel(words)
         panel.set_xlabel("time (s)")
         panel.set_xlim(0.0, runs["incline-DLP"].history["time_s"][-1])
         panel.grid(True)
     axes[0].legend(loc="best")
-    letters(axes[: len(panels)], titles)
+    letters(axes, titles)
     return figure
 
 
@@ -149,7 +175,20 @@ def figure_10(runs: dict[str, Run]) -> Figure:
         ("band_pore_pressure_Pa", "pore pressure (MPa)", 1e6, 0.0),
     )
     figure = _draw(runs, panels, ("friction coefficient, mean over 0.5 s", "band pore pressure"))
-    figure.axes[1].set_yscale("log")  # where it does not act on the base (D, D-L) it rises without bound
+    pressure = figure.axes[1]
+    # Where it does not act on the base (D, D-L) it rises without bound: such curves are thin and leave the panel.
+    for name, line in zip(INCLINES, list(pressure.lines), strict=True):
+        if name in ("D", "DL"):
+            line.set(linestyle=":", linewidth=1.1)
+    normal = TABLE_1.density() * GRAVITY * HEIGHT * float(np.cos(SLOPE)) / 1e6
+    pressure.set_ylim(0.0, 1.45 * normal)
+    pressure.axhline(normal, color=NOTE, linewidth=0.9, linestyle=(0, (5, 3)))
+    pressure.annotate("normal pressure", (0.99, normal), xycoords=("axes fraction", "data"), xytext=(0, 3), size=8,
+                      ha="right", textcoords="offset points", color=NOTE)  # fmt: skip
+    highest = {name: float(np.nanmax(runs[f"incline-{name}"].history["band_pore_pressure_Pa"])) / 1e6
+               for name in ("D", "DL")}  # fmt: skip
+    words = f"dotted: does not act on the base; up to {highest['D']:.0f} MPa (D), {highest['DL']:.0f} MPa (D-L)"
+    pressure.annotate(words, (0.015, 0.03), xycoords="axes fraction", size=8, color=NOTE)
     return figure
 
 
@@ -161,5 +200,4 @@ def figure_11(runs: dict[str, Run]) -> Figure:
         ("mean_displacement_m", "mean displacement (m)", 1.0, 0.0),
     )
     figure = _draw(runs, panels, ("plastic strain, mean of mass", "velocity", "displacement"))
-    figure.axes[3].set_visible(False)
     return figure

@@ -13,9 +13,10 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.force import seismic_force
 from thawslide.figures.motion import draw_targets
 from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_axis, time_line
-from thawslide.key_numbers import STOPPED_SHARE, stop_time
+from thawslide.key_numbers import STOPPED_SHARE, stop_time, time_of_speed
 from thawslide.paper.block import at
 from thawslide.paper.runs import LAMPLUGH_BLOCKS
+from thawslide.paper.stages import balance
 from thawslide.run import Numbers, Run
 
 # Gradients the text gives for the way down: source slope, ramp, valley floor.
@@ -23,6 +24,7 @@ SLOPE, RAMP = 48.0, 8.0
 BIN = 100.0  # m
 PHASE = 75.0  # s: the time of the peak in the paper
 FRONT = 10500.0  # m: the reported front
+COHESION = 6.0e5  # Pa: along the base at the start
 MARGIN = 1000.0  # m: what counts as the distal margin before it
 
 History = dict[str, Numbers]
@@ -112,7 +114,8 @@ def block_measures(run: Run) -> dict[str, float]:
         found[f"{key}_displacement"] = float(history["displacement_m"][-1])
         found[f"{key}_stop"] = float(time[int(moving[-1]) + 1]) if stopped else float("nan")
         found[f"{key}_safety"] = float(history["sliding_strength_Pa"][0] / history["driving_traction_Pa"][0])
-    return found
+    first = LAMPLUGH_BLOCKS[0]
+    return found | balance(read_block(run.folder.parent / f"{first.name}.csv"), COHESION)
 
 
 def base_traction(run: Run, start: float = 100.0, end: float = 140.0) -> float:
@@ -155,14 +158,13 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
     _, force = seismic_force(run)
     loudest = int(np.nanargmax(force))
     stopped, other_stopped = stop_time(run), stop_time(other)
-    start = np.flatnonzero(speed >= 8.0)
     x, thickness = deposit(run)
     foot, valley = breaks(run)
     whole = max(float(thickness.sum()), 1e-300)
     found = {
         "lamplugh_peak": float(speed[peak]),
         "lamplugh_peak_time": float(time[peak]),
-        "lamplugh_8_time": float(time[start[0]]) if start.size else float("nan"),
+        "lamplugh_8_time": time_of_speed(run, 8.0),
         "lamplugh_speed_40s": at(run, "mean_velocity_m_s", 40.0),
         "lamplugh_speed_200s": at(run, "mean_velocity_m_s", 200.0),
         "lamplugh_displacement": float(history["mean_displacement_m"][-1]),
@@ -238,13 +240,14 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
         middle = 0.5 * (zone.start + zone.end) / 1e3
         words = "accumulation" if zone.accumulates else "none" if zone.letter == "C" else "both"
         thick.annotate(f"{zone.letter}\n{words}", (middle, 0.97), xycoords=("data", "axes fraction"), ha="center",
-                       va="top", size=8, color=NOTE)  # fmt: skip
+                       va="top", size=7, color=NOTE)  # fmt: skip
     thick.axvline(FRONT / 1e3, color=RED, linewidth=1.0, linestyle="--")
     thick.annotate("reported front", (FRONT / 1e3, 0.6), xycoords=("data", "axes fraction"), xytext=(4, 0),
                    textcoords="offset points", va="top", size=8, color=RED)  # fmt: skip
     thick.set_ylim(0.0, 1.35 * float(thickness.max()))
     for axes in (section, thick):
         axes.grid(True)
+        axes.set_axisbelow(True)
         axes.set_xlim(ground_x[0] / 1e3, max(FRONT + 1500.0, float(x.max()) + BIN) / 1e3)
     letters(
         [section, thick],

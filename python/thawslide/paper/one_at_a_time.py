@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from thawslide.key_numbers import stop_time
+from thawslide.key_numbers import stop_time, time_of_speed
 from thawslide.run import Run
 
 Tell = Callable[[str], None]
@@ -26,6 +26,7 @@ REST = 10.0  # s: a slide that has stood still for so long is at rest
 REST_SHARE, REST_SPEED = 0.002, 0.02  # of the peak; m/s
 NEVER_MOVED = 100.0  # s: one that has not reached 1 m/s by then will not
 STARTED = 8.0  # m/s
+MOVED = 1.0  # m/s: a slide that never was so fast has only settled
 
 
 @dataclass(frozen=True)
@@ -48,11 +49,23 @@ class Outcome:
     start_time: float = float("nan")  # first at STARTED
     stop_time: float = float("nan")
     displacement: float = float("nan")
-    runout: float = float("nan")
+    runout: float = float("nan")  # front less the rear at the start
+    front: float = float("nan")  # way of the front: less the front at the start
     length: float = float("nan")  # of the deposit: x between 0.5 % and 99.5 % of the volume
     temperature: float = float("nan")  # C, highest mean of the band
     end_time: float = float("nan")
     end_speed: float = float("nan")
+
+
+def end_of(found: Outcome) -> str:
+    """Return how a run ended, as figures tell it: stopped, going, never (started), broken, missing."""
+    if np.isnan(found.peak):
+        return "missing"
+    if found.failure:
+        return "broken"
+    if found.peak < MOVED:
+        return "never"
+    return "going" if np.isnan(found.stop_time) else "stopped"
 
 
 def words_to_start(program: Path, case: Path, folder: Path, sets: Iterable[str]) -> list[str]:
@@ -66,7 +79,7 @@ def at_rest(times: Sequence[float], speeds: Sequence[float]) -> bool:
     if not times or times[-1] <= REST:
         return False
     peak = max(speeds)
-    if peak < 1.0:
+    if peak < MOVED:
         return times[-1] >= NEVER_MOVED
     low = max(REST_SHARE * peak, REST_SPEED)
     return all(speed < low for when, speed in zip(times, speeds, strict=True) if when > times[-1] - REST)
@@ -159,8 +172,7 @@ def outcome(folder: Path) -> Outcome:
     run = Run(folder)
     time_s, speed = run.history["time_s"], run.history["mean_velocity_m_s"]
     peak = int(np.nanargmax(speed))
-    start = np.flatnonzero(speed >= STARTED)
-    stopped = stop_time(run) if speed[peak] >= 1.0 else None
+    stopped = stop_time(run) if speed[peak] >= MOVED else None
     band = run.history["band_temperature_C"]
     shot = run.snapshot(-1)
     order = np.argsort(shot.points[:, 0])
@@ -171,10 +183,11 @@ def outcome(folder: Path) -> Outcome:
         failure=failure,
         peak=float(speed[peak]),
         peak_time=float(time_s[peak]),
-        start_time=float(time_s[start[0]]) if start.size else float("nan"),
+        start_time=time_of_speed(run, STARTED),
         stop_time=stopped if stopped is not None else float("nan"),
         displacement=float(run.history["mean_displacement_m"][-1]),
         runout=float(run.history["runout_m"][-1]),
+        front=float(np.ptp(run.history["front_position_m"][[0, -1]])),
         length=float(x[high] - x[low]),
         temperature=float(np.nanmax(band)) if np.isfinite(band).any() and not failure else float("nan"),
         end_time=float(time_s[-1]),
@@ -183,8 +196,8 @@ def outcome(folder: Path) -> Outcome:
 
 
 HEADER = (
-    "| run | peak [m/s] | at [s] | 8 m/s at [s] | stops at [s] | mean displacement [m] | runout [m] | deposit [m] "
-    "| band at most [C] | set |\n|---|---|---|---|---|---|---|---|---|---|\n"
+    "| run | peak [m/s] | at [s] | 8 m/s at [s] | stops at [s] | mean displacement [m] | runout [m] "
+    "| way of the front [m] | deposit [m] | band at most [C] | set |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
 )
 
 
@@ -194,11 +207,11 @@ def table_row(row: Row, found: Outcome, hidden: Sequence[str] = ()) -> str:
     if row.case != "case.toml":
         shown.insert(0, f"[{row.case}]({row.case})")
     if np.isnan(found.peak):
-        return f"| {row.words} | {found.failure or 'no numbers'} | | | | | | | | {' '.join(shown)} |"
+        return f"| {row.words} | {found.failure or 'no numbers'} | | | | | | | | | {' '.join(shown)} |"
     stop = f"{found.stop_time:.0f}"
     if found.failure:
         stop = f"broke off at {found.end_time:.0f}"
-    elif found.peak < 1.0:
+    elif found.peak < MOVED:
         stop = "does not start"
     elif np.isnan(found.stop_time):
         stop = f"not: {found.end_speed:.0f} m/s at {found.end_time:.0f}"
@@ -210,6 +223,7 @@ def table_row(row: Row, found: Outcome, hidden: Sequence[str] = ()) -> str:
         stop,
         f"{found.displacement:.0f}",
         f"{found.runout:.0f}",
+        f"{found.front:.0f}",
         f"{found.length:.0f}",
         f"{found.temperature:.0f}" if np.isfinite(found.temperature) else "",
         " ".join(shown),

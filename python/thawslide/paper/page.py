@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures import FIGURES
-from thawslide.paper import block, freezing, incline, lamplugh, stages
+from thawslide.paper import block, freezing, incline, lamplugh, lamplugh_figures, old_capacity, stages
 from thawslide.paper.sentences import MEANINGS, VERDICTS, filled, sentences, table
 from thawslide.report import page_frame
 from thawslide.run import Run
@@ -25,21 +25,16 @@ _OWN: dict[str, Callable[[Runs], Figure]] = {
     "figure-9": incline.figure_9,
     "figure-10": incline.figure_10,
     "figure-11": incline.figure_11,
+    "figure-14": lamplugh_figures.figure_14,
+    "figure-15": lamplugh_figures.figure_15,
+    "figure-17": lamplugh_figures.figure_17,
+    "figure-20": lamplugh_figures.figure_20,
     "lamplugh-block": lamplugh.figure_blocks,
     "deposit": lamplugh.figure_deposit,
 }
 # Those of any report, drawn of the Lamplugh run.
-_SHARED = {
-    "figure-14": "velocity",
-    "figure-15": "plastic_strain",
-    "figure-16": "motion",
-    "figure-17": "force",
-    "figure-18": "temperature",
-    "figure-19": "pore_pressure",
-    "figure-20": "band",
-}
-_LAST = ("lamplugh-block", "deposit")
-NAMES = (*(name for name in _OWN if name not in _LAST), *_SHARED, *_LAST)
+_SHARED = {"figure-16": "motion", "figure-18": "temperature", "figure-19": "pore_pressure"}
+NAMES = (*_OWN, *_SHARED)
 
 
 def draw(name: str, runs: Runs) -> Figure:
@@ -50,8 +45,10 @@ def draw(name: str, runs: Runs) -> Figure:
 def measure(runs: Runs) -> dict[str, float]:
     """Return every number that texts and tests use, by name."""
     bars = {name: run for name, run in runs.items() if name.startswith("freezing-bar")}
-    of_sections = (freezing.measures(bars), block.measures(runs), incline.measures(runs), lamplugh.measures(runs))
-    return {name: value for part in (*of_sections, stages.measures(runs)) for name, value in part.items()}
+    found = freezing.measures(bars) | old_capacity.measures()
+    for section in (block, incline, lamplugh, stages):
+        found |= section.measures(runs)
+    return found
 
 
 def make_page(runs: Runs, output: Path, quick: bool, progress: Callable[[str], None]) -> Path:

@@ -1,4 +1,11 @@
-"""The table of the paper's sentences: each with what the runs give, and whether it holds in them."""
+"""The table of the paper's sentences: each with what the runs give, and whether it holds in them.
+
+claims/*.toml hold every sentence of the paper's abstract and Secs. 3.1 to 4.2 that claims a number or an ordering. What
+goes into a case (cells, steps, material data, gradients of the ground) is not repeated. reported: the number or
+ordering claimed. ours: what the runs give; {name} is a measure. tests: comparisons that must all hold for "true":
+[left, "<" or ">", right], [left, "<" or ">", right, factor on the right side], or [left, "within", right, tolerance].
+A row without tests, or with a measure that the runs do not give (nan), is undetermined.
+"""
 
 from __future__ import annotations
 
@@ -14,10 +21,11 @@ MEANINGS = (
     "a number, about, approximately, around, accurately: within 10 % of it (a saturation: within 0.1)",
     "higher, lower, faster, decreases, increases: the ordering, at the times the text names or at the end",
     "slightly, marginally: the ordering, and less than 10 % of the value compared with",
-    "much, significant, substantial, sharp, dominant: by a factor of two at least, or more than half of the whole",
+    "much, significant, substantial, sharp, rapid, dominant, largely: by a factor of two at least, or more than "
+    "half of the whole",
     "comparable: within a factor of two",
     "close match, good agreement, negligible, constant, parallel, equilibrium: within 5 % of the range (10 K from the "
-    "start to melting, 1 in saturation, the normal stress of 1,012 kPa in pressure)",
+    "start to melting, 1 in saturation, the normal stress of 1,012 kPa in pressure); distinct: more than that",
     "melted, complete: saturation above 0.99; at rest: below 1 % of the peak speed",
 )
 VERDICTS = {True: "true", False: "false", None: "undetermined"}
@@ -71,11 +79,21 @@ def verdict(tests: list[list[Any]], measures: Mapping[str, float]) -> bool | Non
     return True if results and None not in results else None
 
 
+CLAIMS = tuple(
+    f"claims/{name}" for name in ("abstract", *(f"section-{n}" for n in ("3.1", "3.2", "3.3", "4.1", "4.2")))
+)
+
+
 def table(name: str) -> list[dict[str, Any]]:
     """Return the rows of one of the data files beside this module."""
     text = files("thawslide.paper").joinpath(f"{name}.toml").read_text(encoding="utf-8")
     (rows,) = tomllib.loads(text).values()
     return list(rows)
+
+
+def claims() -> list[dict[str, Any]]:
+    """Return the rows of all sections, in the order of the paper."""
+    return [row for name in CLAIMS for row in table(name)]
 
 
 def sentences(measures: Mapping[str, float]) -> list[Sentence]:
@@ -88,5 +106,5 @@ def sentences(measures: Mapping[str, float]) -> list[Sentence]:
             filled(row["ours"], measures),
             verdict(row.get("tests", []), measures),
         )
-        for row in table("sentences")
+        for row in claims()
     ]
