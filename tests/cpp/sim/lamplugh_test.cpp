@@ -8,6 +8,7 @@
 #include "../support/case_from_text.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "physics/mixture.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 
@@ -125,6 +126,18 @@ TEST(Fault, NotANumberNamesParticlePlaceAndTime) {
   EXPECT_NE(message.find("of body 'slide' at ("), std::string::npos) << message;
   EXPECT_NE(message.find("is not a finite number"), std::string::npos) << message;
   EXPECT_NE(message.find("Likely cause: "), std::string::npos) << message;
+}
+
+TEST(Fault, ClosedPoresAreNamedAsTheCause) {
+  Simulation<2, double> simulation(lamplugh());
+  simulation.step(0.01);
+  simulation.particles().porosity(17) = simulation.particles().porosity(18) = physics::smallest_porosity<double>;
+  simulation.particles().temperature(18) = 14000.0;
+  simulation.particles().pore_pressure(17) = std::numeric_limits<double>::quiet_NaN();
+  const std::string message = failure_of(simulation, 2);
+  EXPECT_NE(message.find("the pores of "), std::string::npos) << message;
+  EXPECT_NE(message.find("hottest particle: 1.4e+04 C"), std::string::npos) << message;
+  EXPECT_NE(message.find("basal.heat_fraction"), std::string::npos) << message;
 }
 
 TEST(Fault, LeavingTheDomainNamesTheParticle) {

@@ -1,0 +1,100 @@
+// What is said of a run that went bad: which particle, where, when, and what likely caused it.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "physics/mixture.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+const char* fault_text(mpm::Fault fault) {
+  switch (fault) {
+    case mpm::Fault::volume_not_finite:
+      return "its volume is not a finite number";
+    case mpm::Fault::volume_not_positive:
+      return "its volume ratio is not positive";
+    case mpm::Fault::state_not_finite:
+      return "its position, stress, temperature or pore pressure is not a finite number";
+    case mpm::Fault::left_domain:
+      return "it left the domain";
+    case mpm::Fault::none:
+      break;
+  }
+  return "nothing is wrong with it";
+}
+
+// A particle this many times faster than the body's mean has come loose from it.
+constexpr double runaway = 5.0;
+
+// The cause that lies in closed pores, if some have: their water then has no room, and its pressure no bound.
+template <int Dim, class Real>
+std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
+  std::size_t closed = 0;
+  Real hottest = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    closed += particles.porosity(p) <= physics::smallest_porosity<Real> ? 1u : 0u;
+    hottest = std::max(hottest, std::max(particles.temperature(p), particles.previous_temperature(p)));
+  }
+  if (closed == 0) {
+    return "";
+  }
+  return fmt::format(
+      "Likely cause: the pores of {} particles have closed, and the pressure of their water has no bound (hottest "
+      "particle: {:.4g} C). Rock that expands with heat (Eq. 6) fills its pores at some thousand degrees; nothing "
+      "boils or melts in this model. A thicker band, less basal.heat_fraction or less cohesion keep it cooler.",
+      closed, static_cast<double>(hottest));
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
+  const std::string too_long =
+      "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
+      "is torn apart; try "
+      "half of time.step, or viscosity_time or gaps_close_first in the material.";
+  if (bad_.fault != mpm::Fault::left_domain) {
+    const std::string closed = closed_pores(particles_);
+    return closed.empty() ? too_long : closed;
+  }
+  const BodySums<Dim, Real> sums = sum_over_body(*this);
+  const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
+  const double own = static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(p).norm());
+  const std::string speeds = fmt::format("It moves at {:.4g} m/s, the slide at {:.4g} m/s in the mean. ", own, mean);
+  if (own > runaway * mean) {
+    return speeds +
+           "Likely cause: it came loose from the slide; try half of time.step, or viscosity_time in the material.";
+  }
+  return speeds + "Likely cause: the slide ran further than [grid] min and max allow; widen them in its direction.";
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_if_bad() {
+  if (bad_.id < 0) {
+    return;
+  }
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    if (particles_.id(p) == bad_.id) {
+      std::string place;
+      for (int a = 0; a < Dim; ++a) {
+        place += fmt::format("{}{:.6g}", a == 0 ? "" : ", ",
+                             static_cast<double>(particles_.position(p, a)) + model_.origin[a]);
+      }
+      throw RunError(
+          fmt::format("the run went bad at t = {:.6g} s (step {}): particle {} of body '{}' at ({}) m: {}. {}", time_,
+                      step_number_, bad_.id, model_.body_names[static_cast<std::size_t>(particles_.body(p))], place,
+                      fault_text(bad_.fault), likely_cause(p)));
+    }
+  }
+  THAWSLIDE_ASSERT(false, "bad particle {} is not among the particles", bad_.id);
+}
+
+template std::string Simulation<2, double>::likely_cause(std::size_t) const;
+template std::string Simulation<3, double>::likely_cause(std::size_t) const;
+template void Simulation<2, double>::stop_if_bad();
+template void Simulation<3, double>::stop_if_bad();
+
+}  // namespace thawslide::sim
