@@ -1,10 +1,13 @@
 #include "physics/mohr_coulomb.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <array>
 #include <random>
 
+#include "../support/record.hpp"
 #include "physics/tension_gap.hpp"
 
 namespace thawslide::physics {
@@ -84,60 +87,117 @@ TEST(MohrCoulomb, ReturnsAreAdmissibleOnTheSurfaceAndIdempotent) {
   }
 }
 
-// The closest admissible stress in the energy norm, by Hildreth's dual ascent over all orders of the principal
-// stresses: another algorithm, which knows neither faces nor edges.
-Vector<double, 3> closest_admissible(const Set& set, const Vector<double, 3>& trial) {
-  const double sine = std::sin(set.friction * pi<double> / 180.0);
-  const double k = (1 + sine) / (1 - sine);
-  std::vector<Vector<double, 3>> normals;
+// Every stress that solves the return, found by trying all sets of up to three active conditions, over all orders of
+// the principal stresses: trial - s = D sum lambda_c m_c, lambda_c >= 0, no condition violated, those active met. For
+// associated flow that is the closest admissible stress in the energy norm (one solution); without association it is a
+// complementarity problem. It knows neither faces nor edges.
+std::vector<Vector<double, 3>> solutions_of_return(const Set& set, const Vector<double, 3>& trial) {
+  const auto ratio = [](double degrees) {
+    const double sine = std::sin(degrees * pi<double> / 180.0);
+    return (1 + sine) / (1 - sine);
+  };
+  const double k = ratio(set.friction), m = ratio(set.dilation);
+  std::vector<Vector<double, 3>> normals, flows;
   std::vector<double> limits;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       if (i != j) {
         normals.push_back(k * Vector<double, 3>::Unit(i) - Vector<double, 3>::Unit(j));
+        flows.push_back(m * Vector<double, 3>::Unit(i) - Vector<double, 3>::Unit(j));
         limits.push_back(2.0 * set.cohesion * std::sqrt(k));
       }
     }
     if (std::isfinite(set.cutoff)) {
       normals.push_back(Vector<double, 3>::Unit(i));
+      flows.push_back(Vector<double, 3>::Unit(i));
       limits.push_back(set.cutoff);
     }
   }
   const Matrix<double, 3> stiffness =
       2.0 * elastic.shear_modulus * Matrix<double, 3>::Identity() + elastic.lame_lambda * Matrix<double, 3>::Ones();
-  std::vector<double> multipliers(normals.size(), 0.0);
-  Vector<double, 3> stress = trial;
-  for (int sweep = 0; sweep < 20000; ++sweep) {
-    double largest = 0.0;
+  const double allowed = 1e-9 * (trial.norm() + set.cohesion);
+  std::vector<Vector<double, 3>> found;
+  for (unsigned active = 1; active < 1u << normals.size(); ++active) {
+    std::vector<std::size_t> chosen;
     for (std::size_t c = 0; c < normals.size(); ++c) {
-      const Vector<double, 3> relaxation = stiffness * normals[c];
-      const double step = std::max((normals[c].dot(stress) - limits[c]) / normals[c].dot(relaxation), -multipliers[c]);
-      multipliers[c] += step;
-      stress -= step * relaxation;
-      largest = std::max(largest, std::abs(step) * relaxation.norm());
+      if ((active >> c & 1u) != 0) {
+        chosen.push_back(c);
+      }
     }
-    if (largest < 1e-10 * trial.norm()) {
-      break;
-    }
-  }
-  return stress;
-}
-
-TEST(MohrCoulomb, AssociatedReturnIsTheClosestAdmissibleStress) {
-  for (const Set& set : sets) {
-    if (set.dilation != set.friction) {
+    if (chosen.size() > 3) {
       continue;
     }
+    const auto count = static_cast<Eigen::Index>(chosen.size());
+    Eigen::MatrixXd system(count, count);
+    Eigen::VectorXd violation(count);
+    for (Eigen::Index r = 0; r < count; ++r) {
+      const auto& normal = normals[chosen[static_cast<std::size_t>(r)]];
+      violation[r] = normal.dot(trial) - limits[chosen[static_cast<std::size_t>(r)]];
+      for (Eigen::Index c = 0; c < count; ++c) {
+        system(r, c) = normal.dot(stiffness * flows[chosen[static_cast<std::size_t>(c)]]);
+      }
+    }
+    const Eigen::FullPivLU<Eigen::MatrixXd> solver(system);
+    if (!solver.isInvertible()) {
+      continue;
+    }
+    const Eigen::VectorXd multipliers = solver.solve(violation);
+    Vector<double, 3> stress = trial;
+    for (Eigen::Index c = 0; c < count; ++c) {
+      stress -= multipliers[c] * (stiffness * flows[chosen[static_cast<std::size_t>(c)]]);
+    }
+    bool solves = multipliers.minCoeff() >= -1e-12 * multipliers.cwiseAbs().maxCoeff();
+    for (std::size_t c = 0; c < normals.size(); ++c) {
+      solves = solves && normals[c].dot(stress) - limits[c] <= allowed;
+    }
+    if (solves) {
+      found.push_back(stress);
+    }
+  }
+  return found;
+}
+
+TEST(MohrCoulomb, ReturnSolvesTheConstrainedProgramme) {
+  verification::Record record(
+      "Mohr-Coulomb return mapping",
+      "Random trial stresses, returned by faces, edges, apex and cut-off, against all solutions of the return found by "
+      "trying every set of active conditions. Seven sets of friction, dilation, cohesion and cut-off, with and without "
+      "associated flow.",
+      "trial - s = D sum lambda m, lambda >= 0, s admissible", "Clausen et al. 2006; complementarity by enumeration");
+  for (const Set& set : sets) {
     const auto law = law_of(set);
     std::mt19937 random(17);
+    double largest = 0.0;
+    int yielded = 0;
     for (int k = 0; k < 300; ++k) {
       const Tensor trial = random_stress(random, k % 2 == 0);
       const auto values = principal(trial).values;
-      const auto expected = closest_admissible(set, values);
-      const auto returned = principal(law.update(trial, 0.0).stress).values;
-      EXPECT_LT((returned - expected).norm(), 1e-5 * (values.norm() + set.cohesion))
-          << "friction " << set.friction << " cutoff " << set.cutoff << " trial " << values.transpose();
+      const auto result = law.update(trial, 0.0);
+      if (!result.yielded) {
+        continue;
+      }
+      ++yielded;
+      const auto returned = principal(result.stress).values;
+      const double scale = values.norm() + set.cohesion;
+      const auto solutions = solutions_of_return(set, values);
+      if (solutions.empty()) {  // flow without dilation cannot lower the mean tension: the apex is what is left
+        EXPECT_EQ(set.dilation, 0.0);
+        EXPECT_NEAR(returned[0], set.cohesion / std::tan(set.friction * pi<double> / 180.0), 1e-9 * scale);
+        EXPECT_NEAR(returned[0], returned[2], 1e-9 * scale);
+        continue;
+      }
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& solution : solutions) {
+        nearest = std::min(nearest, (returned - solution).norm() / scale);
+      }
+      largest = std::max(largest, nearest);
     }
+    EXPECT_GT(yielded, 20);
+    record.expect_near(
+        fmt::format("largest difference over the trial stress; friction {}, dilation {} degrees, cohesion "
+                    "{} MPa, cut-off {} MPa",
+                    set.friction, set.dilation, set.cohesion / 1e6, set.cutoff / 1e6),
+        largest, 0.0, 1e-9);
   }
 }
 

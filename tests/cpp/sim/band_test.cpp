@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "physics/pressurization.hpp"
 #include "sim/block.hpp"
@@ -14,6 +15,7 @@ namespace thawslide::sim {
 namespace {
 
 using namespace testing_support;
+using verification::Record;
 
 const std::string slab = R"(
 [time]
@@ -61,6 +63,10 @@ const std::vector<std::string> base_free = {"frame.driver.min=[-50.0,5.0]"};
 
 // Friction coefficient the base shows: basal shear force over normal force, from two rows of particles a band.
 TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
+  Record record("Adiabatic, undrained band of two particle rows",
+                "A melted slab of 50 m driven at 1 m/s, band of 0.05 m in cells of 10 m, no conduction and no seepage.",
+                "tau = mu (N - P0) exp(-1.25 mu Lambda V t/(C e)), 1.25 = 2 (w1^2 + w2^2)/(w1 + w2), w = 3/4 and 1/4",
+                "Rice 2006, with the band's two rows");
   Simulation<2, double> simulation(case_from_text(slab, base_free));
   const auto& model = simulation.model();
   const auto& phases = model.motion.phases;
@@ -83,7 +89,7 @@ TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
     }
   }
   const double expected = mu * (normal - pressure) * std::exp(-rate * 1.45);
-  EXPECT_NEAR(shear / samples / expected, 1.0, 0.01);
+  record.expect_near("friction after 1.45 m over exact", shear / samples / expected, 1.0, 0.01);
   // Without the factor the answer would be another by far.
   EXPECT_GT(std::exp(-rate / 1.25 * 1.45) / std::exp(-rate * 1.45), 1.1);
 }
@@ -92,6 +98,8 @@ TEST(AdiabaticBand, BlockModelFollowsTheSameExponential) {
   // A block heavy enough to keep its speed: gravity turned so that it slides at constant speed while friction stays.
   const config::Case parameters = case_from_text(
       slab, {"time.end=0.5", "body.slab.velocity=[1.0,0.0]", "case.gravity_tilt=0.0", "time.step=0.0005"});
+  Record record("The same band in the rigid block", "The rigid-block model with its base as above.",
+                "ln(N - P) falls by 1.25 mu Lambda/(C e) per metre of slip", "docs/theory/block-model.md");
   const auto rows = run_block(parameters);
   const auto& first = rows.front();
   const auto& last = rows.back();
@@ -100,7 +108,8 @@ TEST(AdiabaticBand, BlockModelFollowsTheSameExponential) {
   const double slip = value_of(last, "displacement_m");
   const double decay = std::log((value_of(last, "normal_pressure_Pa") - value_of(last, "pore_pressure_Pa")) /
                                 (value_of(first, "normal_pressure_Pa") - value_of(first, "pore_pressure_Pa")));
-  EXPECT_NEAR(decay / slip, -1.25 * 0.2 * lambda / (capacity * 0.05), 0.005);
+  record.expect_near("fall of ln(N - P) per metre [1/m]", decay / slip, -1.25 * 0.2 * lambda / (capacity * 0.05),
+                     0.005);
   EXPECT_GT(slip, 0.2);
 }
 
@@ -148,9 +157,17 @@ TEST(BlockModel, AgreesWithTheMaterialPoints) {
   run_until(simulation, parameters.time.end);
   const auto row = history_row(simulation);
   const auto& block = rows.back();
-  EXPECT_NEAR(value_of(row, "mean_velocity_m_s") / value_of(block, "velocity_m_s"), 1.0, 0.02);
-  EXPECT_NEAR(value_of(row, "mean_displacement_m") / value_of(block, "displacement_m"), 1.0, 0.02);
-  EXPECT_NEAR(value_of(row, "friction_work_J") / 200.0 / value_of(block, "friction_work_J_m2"), 1.0, 0.02);
+  Record record(
+      "Deformable slab and rigid block",
+      "A slab of 200 m by 50 m at -1 C slides down 25 degrees for 6 s: its base melts and is pressurised. The "
+      "rigid block solves the same band as ordinary differential equations.",
+      "the same motion, heat and pressure", "docs/theory/block-model.md");
+  record.expect_near("velocity, slab over block", value_of(row, "mean_velocity_m_s") / value_of(block, "velocity_m_s"),
+                     1.0, 0.02);
+  record.expect_near("way, slab over block", value_of(row, "mean_displacement_m") / value_of(block, "displacement_m"),
+                     1.0, 0.02);
+  record.expect_near("friction work, slab over block",
+                     value_of(row, "friction_work_J") / 200.0 / value_of(block, "friction_work_J_m2"), 1.0, 0.02);
   // The slab's two ends, which rise from their cells' middle, are warmer than its long inside.
   EXPECT_NEAR(value_of(row, "band_temperature_C"), value_of(block, "band_temperature_C"), 0.25);
   EXPECT_NEAR(value_of(row, "band_saturation") / value_of(block, "band_saturation"), 1.0, 0.05);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -12,6 +13,7 @@ namespace thawslide::sim {
 namespace {
 
 using namespace testing_support;
+using verification::Record;
 constexpr double gravity = 9.81;
 double radians(double degrees) { return degrees * pi<double> / 180.0; }
 
@@ -103,24 +105,26 @@ Slide slide(const std::string& text, const std::vector<std::string>& sets = {}) 
           value_of(row, "mean_displacement_m") - value_of(middle, "mean_displacement_m")};
 }
 
-void expect_slide(const Slide& seen, double friction_angle, double tolerance) {
+void expect_slide(const std::string& title, const Slide& seen, double friction_angle, double tolerance) {
+  Record record("Block on an incline: " + title, "A block slides down 30 degrees, friction angle 15 degrees.",
+                "a = g (sin - mu cos), work of friction = mu m g cos times the way", "Coulomb friction");
   const double mu = std::tan(radians(friction_angle));
   const double expected = gravity * (std::sin(radians(30.0)) - mu * std::cos(radians(30.0)));
-  EXPECT_NEAR(seen.acceleration / expected, 1.0, tolerance);
+  record.expect_near("acceleration over exact", seen.acceleration / expected, 1.0, tolerance);
   // Heat = mu m g cos(theta) times the way.
   const double work = mu * seen.mass * gravity * std::cos(radians(30.0)) * seen.distance;
-  EXPECT_NEAR(seen.work / work, 1.0, tolerance);
+  record.expect_near("work over exact", seen.work / work, 1.0, tolerance);
 }
 
 TEST(Incline, SlidesAndHeatsOnTurnedGravity) {
   const Slide seen = slide<2>(turned_2d);
-  expect_slide(seen, 15.0, 2e-3);
+  expect_slide("gravity turned, 2D", seen, 15.0, 2e-3);
   EXPECT_NEAR(seen.heat / seen.work, 1.0, 1e-12);
 }
 
 TEST(Incline, PartOfTheWorkIsConverted) {
   const Slide seen = slide<2>(turned_2d, {"basal.heat_fraction=0.35"});
-  expect_slide(seen, 15.0, 2e-3);
+  expect_slide("a part of the work heats", seen, 15.0, 2e-3);
   EXPECT_NEAR(seen.heat / seen.work, 0.35, 1e-12);
 }
 
@@ -133,20 +137,24 @@ TEST(Incline, SticksAboveTheAngle) {
 TEST(Incline, CohesionHoldsOrBrakes) {
   // Driving stress rho g H sin: 2750 x 0.625 + 917 x 0.375 = 2062.6 kg/m3, 20 m: 202 kPa; friction at 15 degrees
   // takes 94.
-  EXPECT_LT(slide<2>(turned_2d, {"basal.cohesion=2e5", "basal.cohesion_law=constant"}).velocity, 2e-3);
+  Record record("Block on an incline: with cohesion",
+                "The same block of 20 m with a cohesion of 0.04 MPa, which brakes it, and of 0.2 MPa, which holds it.",
+                "a = g (sin - mu cos) - c A/m; at rest where that is not above 0", "Coulomb friction with cohesion");
+  record.expect_near("velocity with 0.2 MPa [m/s]",
+                     slide<2>(turned_2d, {"basal.cohesion=2e5", "basal.cohesion_law=constant"}).velocity, 0.0, 2e-3);
   const Slide slow = slide<2>(turned_2d, {"basal.cohesion=4e4", "basal.cohesion_law=constant"});
   const double mu = std::tan(radians(15.0));
   const double expected = gravity * (0.5 - mu * std::cos(radians(30.0))) - 4e4 * 40.0 / slow.mass;
-  EXPECT_NEAR(slow.acceleration / expected, 1.0, 2e-2);
+  record.expect_near("acceleration with 0.04 MPa over exact", slow.acceleration / expected, 1.0, 2e-2);
 }
 
 TEST(Incline, LinearShapeFunctionsSlideAsWell) {
-  expect_slide(slide<2>(turned_2d, {"mechanics.shape_function=linear"}), 15.0, 2e-2);
+  expect_slide("linear shape functions", slide<2>(turned_2d, {"mechanics.shape_function=linear"}), 15.0, 2e-2);
 }
 
 TEST(Incline, SlidesAndHeatsInThreeDimensions) {
   const Slide seen = slide<3>(turned_3d);
-  expect_slide(seen, 15.0, 5e-3);
+  expect_slide("gravity turned, 3D", seen, 15.0, 5e-3);
   EXPECT_NEAR(seen.heat / seen.work, 1.0, 1e-12);
 }
 
@@ -161,7 +169,7 @@ TEST(Incline, SlidesOnATiltedPlane) {
   text.replace(text.find(box), box.size(), polygon);
   const Slide seen =
       slide<2>(text, {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=30.0", "grid.min=[-20.0,-150.0]"});
-  expect_slide(seen, 15.0, 2e-2);
+  expect_slide("plane through the grid, 2D", seen, 15.0, 2e-2);
   const Slide stuck = slide<2>(text, {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=30.0",
                                       "grid.min=[-20.0,-150.0]", "basal.friction_angle=40.0", "time.end=4.0"});
   EXPECT_LT(stuck.velocity, 0.05);
@@ -184,7 +192,7 @@ const std::vector<std::string> plane_under_stairs = {"case.gravity_tilt=0.0", "t
                                                      "body.block.max=[2.5,20.0,10.0]"};
 
 TEST(Incline, SlidesOnATiltedPlaneInThreeDimensions) {
-  expect_slide(slide<3>(stairs(), plane_under_stairs), 15.0, 2e-2);
+  expect_slide("plane through the grid, 3D", slide<3>(stairs(), plane_under_stairs), 15.0, 2e-2);
 }
 
 TEST(Incline, SticksOnATiltedPlaneInThreeDimensions) {
@@ -195,8 +203,8 @@ TEST(Incline, SticksOnATiltedPlaneInThreeDimensions) {
 
 // The ground of rigid points, as in the paper: the same on turned gravity; on a plane through the grid it is rough.
 TEST(Incline, SlidesOnRigidPoints) {
-  expect_slide(slide<2>(turned_2d, {"terrain.description=rigid_points"}), 15.0, 2e-3);
-  expect_slide(slide<3>(turned_3d, {"terrain.description=rigid_points"}), 15.0, 5e-3);
+  expect_slide("rigid points, 2D", slide<2>(turned_2d, {"terrain.description=rigid_points"}), 15.0, 2e-3);
+  expect_slide("rigid points, 3D", slide<3>(turned_3d, {"terrain.description=rigid_points"}), 15.0, 5e-3);
 }
 
 TEST(FreeFall, KeepsMomentumToRoundOff) {
@@ -230,10 +238,13 @@ initial_stress = "none"
     vy += simulation.particles().velocity(p, 1);
   }
   const auto count = static_cast<double>(simulation.particles().size());
-  EXPECT_NEAR(vx / count, 3.0, 1e-10);
-  EXPECT_NEAR(vy / count, -gravity, 1e-10);
+  Record record("Free fall", "A body thrown at 3 m/s falls for 1 s.", "d(sum p)/dt = m g; its energy is kept",
+                "Newton's second law");
+  record.expect_near("horizontal velocity [m/s]", vx / count, 3.0, 1e-10);
+  record.expect_near("vertical velocity [m/s]", vy / count, -gravity, 1e-10);
   // Every position is the parabola: the step's midpoint rule is exact for it.
-  EXPECT_NEAR(value_of(row, "mechanical_residual_J") / value_of(row, "kinetic_J"), 0.0, 1e-11);
+  record.expect_near("energy that the ledger misses, over the kinetic energy",
+                     value_of(row, "mechanical_residual_J") / value_of(row, "kinetic_J"), 0.0, 1e-11);
 }
 
 }  // namespace

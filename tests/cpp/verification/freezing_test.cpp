@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
 #include "freezing_similarity.hpp"
 #include "physics/exact/freezing_front.hpp"
-#include "record.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::verification {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
 #include "base/error.hpp"
-#include "record.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../support/case_from_text.hpp"
-#include "record.hpp"
+#include "../support/record.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "record.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::verification {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "physics/exact/rigid_slide.hpp"
-#include "record.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 #include "terrain/base_pressure.hpp"

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "physics/exact/pore_water.hpp"
 #include "physics/pressurization.hpp"
-#include "record.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::verification {

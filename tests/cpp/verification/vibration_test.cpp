@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "../support/record.hpp"
 #include "manufactured_vibration.hpp"
-#include "record.hpp"
 
 namespace thawslide::verification {
 namespace {
