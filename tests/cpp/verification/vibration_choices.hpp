@@ -1,0 +1,38 @@
+// The shape functions and transfers that the manufactured vibration is run with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "manufactured_vibration.hpp"
+
+namespace thawslide::verification {
+
+struct Choice {
+  std::string name;
+  mpm::ShapeKind shape;
+  mpm::TransferKind transfer;
+};
+const Choice ugimp_flip{"uGIMP, FLIP", mpm::ShapeKind::ugimp, mpm::TransferKind::flip_pic};
+const Choice ugimp_apic{"uGIMP, APIC", mpm::ShapeKind::ugimp, mpm::TransferKind::apic};
+const Choice linear_flip{"linear, FLIP", mpm::ShapeKind::linear, mpm::TransferKind::flip_pic};
+const Choice quadratic_flip{"quadratic, FLIP", mpm::ShapeKind::quadratic, mpm::TransferKind::flip_pic};
+const Choice quadratic_apic{"quadratic, APIC", mpm::ShapeKind::quadratic, mpm::TransferKind::apic};
+
+// Errors of the largest displacements, at a quarter of the period, where u = A; over A. Eq. 14 leaves dt (v(0) - v)/2
+// in them, so the step falls with the square of the cell.
+inline std::vector<double> errors_of(const Choice& choice, double amplitude, const std::vector<int>& cells_per_side) {
+  std::vector<double> errors;
+  for (const int cells : cells_per_side) {
+    sim::ManufacturedVibration square(cells, amplitude, choice.shape, choice.transfer, 0.0);
+    square.run(sim::ManufacturedVibration::period() / 4.0, 0.8 / cells * square.wave_step());
+    errors.push_back(square.error() / amplitude);
+  }
+  return errors;
+}
+
+const std::string problem = "A unit square between rollers vibrates along its axes, 4 particles to a cell, ";
+const std::string solution = "u1 = A sin(2 pi X) sin(c pi t), u2 = -A sin(2 pi Y) sin(c pi t), body force to match";
+const std::string source = "Wallstedt and Guilkey 2008, for log-strain elasticity";
+
+}  // namespace thawslide::verification
