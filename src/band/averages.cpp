@@ -1,5 +1,6 @@
 #include "band/averages.hpp"
 
+#include "mpm/batch_transfer.hpp"
 #include "mpm/motion.hpp"
 
 namespace thawslide::band {
@@ -14,24 +15,17 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particle
     auto& patch = patches[t];
     patch.clear();
     const auto& tile = grid.tiles()[t];
-    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-      const std::uint32_t p = grid.order()[k];
-      const Real volume = particles.volume(p);
-      const Real temperature = particles.temperature(p);
-      const Real pore_pressure = particles.pore_pressure(p);
-      const Real saturation = particles.liquid_saturation(p);
-      const Real solid_fraction = mpm::basal_solid_fraction(particles, model.phases, model.lubrication, p);
-      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
-      stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
-        auto& node = patch.records[place];
-        const Real v = weight * volume;
-        node[HatLayout::volume] += v;
-        node[HatLayout::temperature] += v * temperature;
-        node[HatLayout::pore_pressure] += v * pore_pressure;
-        node[HatLayout::saturation] += v * saturation;
-        node[HatLayout::solid_fraction] += v * solid_fraction;
-      });
-    }
+    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+      const Lanes<Real> volume = particles.volume.load(batch);
+      mpm::Contribution<Dim, Real, HatLayout::size> carried;
+      carried.value[HatLayout::volume] = volume;
+      carried.value[HatLayout::temperature] = volume * particles.temperature.load(batch);
+      carried.value[HatLayout::pore_pressure] = volume * particles.pore_pressure.load(batch);
+      carried.value[HatLayout::saturation] = volume * particles.liquid_saturation.load(batch);
+      carried.value[HatLayout::solid_fraction] =
+          volume * mpm::basal_solid_fraction(particles, model.phases, model.lubrication, batch);
+      add_to_nodes<false>(hat_stencil(grid, tile.key, particles, batch), batch.count, carried, patch);
+    });
   });
   sum_patches(grid, nodes.hats);
 }

@@ -55,6 +55,15 @@ struct BandModel {
   mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
   mpm::HeldSides<Dim> sides;
 
+  // Hydraulic conductivities of a batch's particles [m/s].
+  [[nodiscard]] Lanes<Real> hydraulic(const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) const {
+    return hydraulic_conductivity.size() == 1
+               ? Lanes<Real>(hydraulic_conductivity[0])
+               : Lanes<Real>::of([&](std::size_t lane) {
+                   return hydraulic_conductivity[static_cast<std::size_t>(particles.material(batch.particle[lane]))];
+                 });
+  }
+
   // Calls work(content) with the heat content law of the run.
   template <class Work>
   decltype(auto) with_heat_content(const Work& work) const {

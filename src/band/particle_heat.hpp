@@ -10,11 +10,11 @@ namespace thawslide::band {
 // Rock, ice and water of t = 0.
 struct InitialMasses {
   template <int Dim, class Real>
-  static Real porosity(const mpm::Particles<Dim, Real>& particles, std::size_t p) {
-    return particles.initial_porosity(p);
+  static Lanes<Real> porosity(const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) {
+    return particles.initial_porosity.load(batch);
   }
   template <int Dim, class Real>
-  static Real volume_ratio(const mpm::Particles<Dim, Real>& /*particles*/, std::size_t /*p*/) {
+  static Lanes<Real> volume_ratio(const mpm::Particles<Dim, Real>& /*particles*/, const mpm::Batch<Real>& /*batch*/) {
     return Real(1);
   }
 };
@@ -22,40 +22,43 @@ struct InitialMasses {
 // All from the current porosity and volume, as printed.
 struct CurrentMasses {
   template <int Dim, class Real>
-  static Real porosity(const mpm::Particles<Dim, Real>& particles, std::size_t p) {
-    return particles.porosity(p);
+  static Lanes<Real> porosity(const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) {
+    return particles.porosity.load(batch);
   }
   template <int Dim, class Real>
-  static Real volume_ratio(const mpm::Particles<Dim, Real>& particles, std::size_t p) {
-    return particles.volume(p) / particles.initial_volume(p);
+  static Lanes<Real> volume_ratio(const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) {
+    return particles.volume.load(batch) / particles.initial_volume.load(batch);
   }
 };
 
+// Of the particles of a batch, by lane.
 template <int Dim, class Real, class Content, class Masses>
 struct ParticleHeat {
   const mpm::Particles<Dim, Real>& particles;
   const Content& content;
 
   // H [J/m3] at the particle's temperature.
-  [[nodiscard]] Real heat(std::size_t p) const {
-    return ratio(p) * content.content(particles.temperature(p), porosity(p));
+  [[nodiscard]] Lanes<Real> heat(const mpm::Batch<Real>& batch) const {
+    return ratio(batch) * content.content(particles.temperature.load(batch), porosity(batch));
   }
   // dH/dT [J/m3/K] there.
-  [[nodiscard]] Real tangent(std::size_t p) const {
-    return ratio(p) * content.apparent_capacity(particles.temperature(p), porosity(p));
+  [[nodiscard]] Lanes<Real> tangent(const mpm::Batch<Real>& batch) const {
+    return ratio(batch) * content.apparent_capacity(particles.temperature.load(batch), porosity(batch));
   }
   // (H(T + change) - H(T))/change [J/m3/K].
-  [[nodiscard]] Real secant(std::size_t p, Real change) const {
-    return ratio(p) * content.secant_capacity(particles.temperature(p), change, porosity(p));
+  [[nodiscard]] Lanes<Real> secant(const mpm::Batch<Real>& batch, Lanes<Real> change) const {
+    return ratio(batch) * content.secant_capacity(particles.temperature.load(batch), change, porosity(batch));
   }
   // Temperature [C] at which the particle holds `heat` [J/m3], from a guess near it.
-  [[nodiscard]] Real temperature(std::size_t p, Real heat, Real guess) const {
-    return content.temperature(heat / ratio(p), porosity(p), guess);
+  [[nodiscard]] Lanes<Real> temperature(const mpm::Batch<Real>& batch, Lanes<Real> heat, Lanes<Real> guess) const {
+    return content.temperature(heat / ratio(batch), porosity(batch), guess);
   }
 
  private:
-  [[nodiscard]] Real porosity(std::size_t p) const { return Masses::porosity(particles, p); }
-  [[nodiscard]] Real ratio(std::size_t p) const { return Masses::volume_ratio(particles, p); }
+  [[nodiscard]] Lanes<Real> porosity(const mpm::Batch<Real>& batch) const { return Masses::porosity(particles, batch); }
+  [[nodiscard]] Lanes<Real> ratio(const mpm::Batch<Real>& batch) const {
+    return Masses::volume_ratio(particles, batch);
+  }
 };
 
 // Calls work(law) with the ParticleHeat of the run.

@@ -1,5 +1,6 @@
 #include "band/pore_pressure.hpp"
 
+#include "mpm/batch_transfer.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/pressurization.hpp"
 
@@ -10,24 +11,65 @@ namespace {
 using mpm::HatLayout;
 
 template <int Dim, class Real>
-bool melted_before(const BandModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles, std::uint32_t p) {
-  return particles.previous_temperature(p) >= model.reference_temperature;
+LaneMask<Real> melted_before(const BandModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
+                             const mpm::Batch<Real>& batch) {
+  return particles.previous_temperature.load(batch) >= model.reference_temperature;
 }
 
+// Pressures of liquid and pore [Pa].
+template <class Value>
+struct Pressures {
+  Value liquid, pore;
+};
+
 // Frozen or partly frozen: the liquid follows the ice (Eq. 4).
-template <int Dim, class Real>
-void set_frozen_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t p) {
-  particles.liquid_pressure(p) =
-      physics::liquid_pressure_clapeyron(model.phases, particles.ice_pressure(p), particles.temperature(p),
-                                         model.reference_temperature, model.clapeyron_sign);
-  particles.pore_pressure(p) =
-      physics::pore_pressure(particles.liquid_saturation(p), particles.liquid_pressure(p), particles.ice_pressure(p));
+template <int Dim, class Real, class Value>
+Pressures<Value> frozen_pressures(const BandModel<Dim, Real>& model, Value ice_pressure, Value temperature,
+                                  Value saturation) {
+  const Value liquid = physics::liquid_pressure_clapeyron(model.phases, ice_pressure, temperature,
+                                                          model.reference_temperature, model.clapeyron_sign);
+  return {liquid, physics::pore_pressure(saturation, liquid, ice_pressure)};
 }
 
 // Pressure at which the liquid starts when the last ice melts, continuous with Eq. 4 at Tref.
-template <int Dim, class Real>
-Real melting_pressure(const BandModel<Dim, Real>& model, Real ice_pressure) {
+template <int Dim, class Real, class Value>
+Value melting_pressure(const BandModel<Dim, Real>& model, Value ice_pressure) {
   return ice_pressure * model.phases.water_density / model.phases.ice_density;
+}
+
+// What a batch adds to the records of SeepageNodes::flows. Particles without hydraulic conductivity count for nothing;
+// frozen ones count with their pores, as they do in the nodal pressure: the share that reaches them is lost to the
+// sink. Left out, a node with few melted particles would drive these to pressures without bound.
+template <int Dim, class Real, class Stencil>
+THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 3> seepage_flows(
+    const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt, const Stencil& stencil,
+    const mpm::Patch<Dim, Real, 1>& pressure, const Lanes<Real>& hydraulic, const mpm::Batch<Real>& batch,
+    mpm::Particles<Dim, Real>& particles) {
+  const Lanes<Real> zero = Real(0);
+  const Lanes<Real> scaling = particles.thermal_scaling.load(batch);
+  const Lanes<Real> pore_scaling = physics::pore_space_scaling(scaling, model.seepage_as_printed);
+  const Lanes<Real> porosity = particles.porosity.load(batch);
+  const Lanes<Real> volume = particles.volume.load(batch);
+  const auto flows = melted_before(model, particles, batch) & (hydraulic > Real(0));
+  Lanes<Real> in_cell = zero;
+  mpm::Contribution<Dim, Real, 3> carried;
+  if (any(flows)) {
+    const auto seen = mpm::read_nodes<1>(stencil, pressure);
+    const Lanes<Real> diffusivity =
+        scaling * pore_scaling *
+        physics::hydraulic_diffusivity(model.phases, porosity, Lanes<Real>(Real(1)), hydraulic);
+    const Lanes<Real> share = physics::share_levelled_within_cell(diffusivity, Lanes<Real>(grid.cell()), Dim, dt);
+    in_cell = select(flows, (seen.value[0] - particles.pore_pressure.load(batch)) * share, zero);
+    const Lanes<Real> mobility = hydraulic / model.phases.water_unit_weight;
+    const Lanes<Real> flow = select(flows, -volume * scaling * mobility * model.phases.water_bulk_modulus, zero);
+    for (std::size_t a = 0; a < Dim; ++a) {
+      carried.flux[a][0] = flow * seen.gradient[a][0];
+    }
+  }
+  particles.seepage_in_cell.store(batch, in_cell);
+  carried.value[1] = select(hydraulic > Real(0), volume / pore_scaling * porosity, zero);
+  carried.value[2] = carried.value[1] * in_cell;
+  return carried;
 }
 
 // Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or whole as printed); frozen particles
@@ -52,77 +94,81 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
     mpm::Patch<Dim, Real, 1> pressure;
     load_patch(grid, t, work.pressure, pressure);
     const auto& tile = grid.tiles()[t];
-    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-      const std::uint32_t p = grid.order()[k];
-      const Real hydraulic = model.hydraulic_conductivity[static_cast<std::size_t>(particles.material(p))];
-      if (!(hydraulic > Real(0))) {
-        continue;
+    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+      const Lanes<Real> hydraulic = model.hydraulic(particles, batch);
+      if (any(hydraulic > Real(0))) {
+        const auto stencil = hat_stencil(grid, tile.key, particles, batch);
+        auto carried = seepage_flows(grid, model, dt, stencil, pressure, hydraulic, batch, particles);
+        add_to_nodes<true>(stencil, batch.count, carried, patch);
       }
-      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
-      const Real scaling = particles.thermal_scaling(p);
-      const Real pore_scaling = physics::pore_space_scaling(scaling, model.seepage_as_printed);
-      const Real volume = particles.volume(p);
-      Vector<Real, Dim> flow = Vector<Real, Dim>::Zero();
-      particles.seepage_in_cell(p) = Real(0);
-      if (melted_before(model, particles, p)) {
-        Vector<Real, Dim> gradient = Vector<Real, Dim>::Zero();
-        Real seen = 0;
-        stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
-          gradient += pressure.records[place][0] * slope;
-          seen += pressure.records[place][0] * weight;
-        });
-        const Real diffusivity =
-            scaling * pore_scaling *
-            physics::hydraulic_diffusivity(model.phases, particles.porosity(p), Real(1), hydraulic);
-        particles.seepage_in_cell(p) = (seen - particles.pore_pressure(p)) *
-                                       physics::share_levelled_within_cell(diffusivity, grid.cell(), Dim, dt);
-        const Real mobility = hydraulic / model.phases.water_unit_weight;
-        flow = -volume * scaling * mobility * model.phases.water_bulk_modulus * gradient;
-      }
-      // Frozen particles count with their pores, as they do in the nodal pressure: the share that reaches them is lost
-      // to the sink. Left out, a node with few melted particles would drive these to pressures without bound.
-      const Real pore_space = volume / pore_scaling * particles.porosity(p);
-      stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& slope) {
-        patch.records[place][0] += flow.dot(slope);
-        patch.records[place][1] += weight * pore_space;
-        patch.records[place][2] += weight * pore_space * particles.seepage_in_cell(p);
-      });
-    }
+    });
   });
   sum_patches(grid, work.flows);
 }
 
-// Pressure that seepage between nodes brings to a particle's place in a step (Eq. 22).
+// The pressure that seepage brings to a node in a step [Pa] (Eq. 22), in place of its flows.
 template <int Dim, class Real>
-Real seepage_between_nodes(const mpm::Stencil<Dim, Real, 2>& stencil, const mpm::Patch<Dim, Real, 3>& flows, Real dt) {
-  Real change = 0;
-  stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
-    const auto& node = flows.records[place];
-    if (weight > Real(0) && node[1] > Real(0)) {
-      change += weight * (dt * node[0] - node[2]) / node[1];
-    }
-  });
-  return change;
+void load_pressure_changes(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, const SeepageNodes<Dim, Real>& work,
+                           Real dt, mpm::Patch<Dim, Real, 1>& changes) {
+  mpm::Patch<Dim, Real, 3> flows;
+  load_patch(grid, t, work.flows, flows);
+  for (std::size_t k = 0; k < flows.records.size(); ++k) {
+    const auto& node = flows.records[k];
+    changes.records[k][0] = node[1] > Real(0) ? (dt * node[0] - node[2]) / node[1] : Real(0);
+  }
 }
 
+// Pressure of melted particles: undrained heating and seepage; seepage_change [Pa].
 template <int Dim, class Real>
-void pressurize(const BandModel<Dim, Real>& model, bool was_melted, Real seepage_change,
-                mpm::Particles<Dim, Real>& particles, std::uint32_t p) {
-  const Real start = melting_pressure(model, particles.ice_pressure(p));
+Lanes<Real> pressurized(const BandModel<Dim, Real>& model, const LaneMask<Real>& was_melted,
+                        const Lanes<Real>& seepage_change, const mpm::Batch<Real>& batch,
+                        const mpm::Particles<Dim, Real>& particles) {
+  const Lanes<Real> start = melting_pressure(model, particles.ice_pressure.load(batch));
   if (!model.thermal_pressurization) {
-    particles.liquid_pressure(p) = start;
-  } else {
-    const Real from = was_melted ? particles.previous_temperature(p) : model.reference_temperature;
-    const Real coefficient =
-        physics::undrained_pressure_coefficient(model.phases, particles.porosity(p), particles.liquid_saturation(p));
-    particles.liquid_pressure(p) = (was_melted ? particles.liquid_pressure(p) : start) +
-                                   coefficient * (particles.temperature(p) - from) + seepage_change;
-    if (model.volumetric_term && was_melted) {
-      particles.liquid_pressure(p) -=
-          physics::pore_stiffness(model.phases, particles.porosity(p), Real(1)) * particles.volume_strain(p);
-    }
+    return start;
   }
-  particles.pore_pressure(p) = particles.liquid_pressure(p);
+  const Lanes<Real> porosity = particles.porosity.load(batch);
+  const Lanes<Real> from =
+      select(was_melted, particles.previous_temperature.load(batch), Lanes<Real>(model.reference_temperature));
+  const Lanes<Real> coefficient =
+      physics::undrained_pressure_coefficient(model.phases, porosity, particles.liquid_saturation.load(batch));
+  Lanes<Real> pressure = select(was_melted, particles.liquid_pressure.load(batch), start) +
+                         coefficient * (particles.temperature.load(batch) - from) + seepage_change;
+  if (model.volumetric_term) {
+    const Lanes<Real> stiffness = physics::pore_stiffness(model.phases, porosity, Lanes<Real>(Real(1)));
+    pressure = select(was_melted, pressure - stiffness * particles.volume_strain.load(batch), pressure);
+  }
+  return pressure;
+}
+
+// Particles near the free surface of a drained body: at atmospheric pressure.
+template <int Dim, class Real>
+LaneMask<Real> at_surface(const mpm::SparseGrid<Dim, Real>& grid, const FlowDepth<Dim, Real>& depth, std::size_t t,
+                          const mpm::Batch<Real>& batch, const mpm::Particles<Dim, Real>& particles) {
+  const auto below_top = Lanes<Real>::of(
+      [&](std::size_t lane) { return depth.depth_below_top(grid, particles, t, batch.particle[lane]); });
+  return below_top < Real(0.5) * grid.cell();
+}
+
+// The melted particles of a batch.
+template <int Dim, class Real>
+Pressures<Lanes<Real>> melted_pressures(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                                        const FlowDepth<Dim, Real>& depth, bool seepage, std::size_t t,
+                                        const mpm::Patch<Dim, Real, 1>& changes, const mpm::Batch<Real>& batch,
+                                        const mpm::Particles<Dim, Real>& particles) {
+  const Lanes<Real> zero = Real(0);
+  const auto was_melted = melted_before(model, particles, batch);
+  Lanes<Real> seepage_change = zero;
+  if (seepage && any(was_melted)) {
+    const auto stencil = hat_stencil(grid, grid.tiles()[t].key, particles, batch);
+    const Lanes<Real> change = particles.seepage_in_cell.load(batch) + mpm::read_nodes<1>(stencil, changes).value[0];
+    seepage_change = select(was_melted, change, zero);
+  }
+  Lanes<Real> pressure = pressurized(model, was_melted, seepage_change, batch, particles);
+  if (seepage) {
+    pressure = select(at_surface(grid, depth, t, batch, particles), zero, pressure);
+  }
+  return {pressure, pressure};
 }
 
 }  // namespace
@@ -136,30 +182,27 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
     seepage_to_grid(grid, model, nodes, dt, work, particles);
   }
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
-    mpm::Patch<Dim, Real, 3> flows;
+    mpm::Patch<Dim, Real, 1> changes;
     if (seepage) {
-      load_patch(grid, t, work.flows, flows);
+      load_pressure_changes(grid, t, work, dt, changes);
     }
     const auto& tile = grid.tiles()[t];
-    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-      const std::uint32_t p = grid.order()[k];
-      particles.ice_pressure(p) = physics::ice_pressure(model.phases, model.gravity, particles.flow_depth(p));
-      if (particles.temperature(p) < model.reference_temperature) {
-        set_frozen_pressure(model, particles, p);
-        continue;
+    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+      const Lanes<Real> ice = physics::ice_pressure(model.phases, model.gravity, particles.flow_depth.load(batch));
+      const Lanes<Real> temperature = particles.temperature.load(batch);
+      particles.ice_pressure.store(batch, ice);
+      const auto frozen = temperature < model.reference_temperature;
+      Pressures<Lanes<Real>> now{};
+      if (any(frozen)) {
+        now = frozen_pressures(model, ice, temperature, particles.liquid_saturation.load(batch));
       }
-      const bool was_melted = melted_before(model, particles, p);
-      Real seepage_change = 0;
-      if (seepage && was_melted) {
-        const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
-        seepage_change = particles.seepage_in_cell(p) + seepage_between_nodes(stencil, flows, dt);
+      if (any(!frozen)) {
+        const auto melted = melted_pressures(grid, model, depth, seepage, t, changes, batch, particles);
+        now = {select(frozen, now.liquid, melted.liquid), select(frozen, now.pore, melted.pore)};
       }
-      pressurize(model, was_melted, seepage_change, particles, p);
-      if (seepage && depth.depth_below_top(grid, particles, t, p) < Real(0.5) * grid.cell()) {
-        particles.liquid_pressure(p) = Real(0);  // the free surface is at atmospheric pressure
-        particles.pore_pressure(p) = Real(0);
-      }
-    }
+      particles.liquid_pressure.store(batch, now.liquid);
+      particles.pore_pressure.store(batch, now.pore);
+    });
   });
 }
 
@@ -172,7 +215,10 @@ void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Re
     }
     particles.ice_pressure(p) = physics::ice_pressure(model.phases, model.gravity, particles.flow_depth(p));
     if (particles.temperature(p) < model.reference_temperature) {
-      set_frozen_pressure(model, particles, p);
+      const auto frozen =
+          frozen_pressures(model, particles.ice_pressure(p), particles.temperature(p), particles.liquid_saturation(p));
+      particles.liquid_pressure(p) = frozen.liquid;
+      particles.pore_pressure(p) = frozen.pore;
     } else {
       particles.liquid_pressure(p) = melting_pressure(model, particles.ice_pressure(p));
       particles.pore_pressure(p) = particles.liquid_pressure(p);

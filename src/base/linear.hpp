@@ -1,6 +1,8 @@
 // Small fixed-size vectors and matrices (Eigen), named as the rest of the code uses them.
 #pragma once
 
+// g++ leaves some of Eigen's small functions out of line, at the price of passing matrices through memory.
+#define EIGEN_STRONG_INLINE inline __attribute__((always_inline))
 #include <Eigen/Dense>
 
 namespace thawslide {

@@ -12,6 +12,9 @@
 // through memory.
 #define THAWSLIDE_ALWAYS_INLINE [[gnu::always_inline]] inline
 
+// The same after a lambda's parameters.
+#define THAWSLIDE_INLINE_LAMBDA __attribute__((always_inline))
+
 namespace thawslide {
 
 // Absolute temperature of 0 degrees Celsius [K].

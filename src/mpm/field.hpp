@@ -2,6 +2,7 @@
 // walk the list of fields that FieldList keeps.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -11,6 +12,8 @@
 
 #include "base/aligned.hpp"
 #include "base/error.hpp"
+#include "base/linear.hpp"
+#include "mpm/batch.hpp"
 
 namespace thawslide::mpm {
 
@@ -37,8 +40,8 @@ class FieldBase {
   [[nodiscard]] virtual bool is_integer() const = 0;
   [[nodiscard]] virtual double value(std::size_t particle, int component) const = 0;
   virtual void resize(std::size_t particles) = 0;
-  // Particle k becomes the one that stood at order[k].
-  virtual void reorder(const std::vector<std::uint32_t>& order) = 0;
+  // Particle k becomes the one that stood at order[k]. scratch: room for the work, kept between calls.
+  virtual void reorder(const std::vector<std::uint32_t>& order, AlignedVector<std::byte>& scratch) = 0;
   [[nodiscard]] virtual std::vector<std::byte> bytes() const = 0;
   virtual void set_bytes(const std::vector<std::byte>& bytes) = 0;
 
@@ -84,30 +87,77 @@ class Field final : public FieldBase {
     }
   }
 
+  // The values of a batch, lane by lane.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<T> load(const Batch<T>& batch, int component = 0) const {
+    if (batch.whole) {
+      return Lanes<T>::load(&(*this)(batch.particle[0], component));
+    }
+    return Lanes<T>::of([&](std::size_t lane) { return (*this)(batch.particle[lane], component); });
+  }
+  THAWSLIDE_ALWAYS_INLINE void store(const Batch<T>& batch, const Lanes<T>& values, int component = 0) {
+    if (batch.whole) {
+      values.store(&(*this)(batch.particle[0], component));
+      return;
+    }
+    for (std::size_t lane = 0; lane < batch.count; ++lane) {
+      (*this)(batch.particle[lane], component) = values[lane];
+    }
+  }
+  // Whole vectors and tensors.
+  template <int Size>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Vector<Lanes<T>, Size> load_vector(const Batch<T>& batch) const {
+    Vector<Lanes<T>, Size> v;
+    unrolled<static_cast<std::size_t>(Size)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+      constexpr int c = static_cast<int>(k());
+      v[c] = c < Components ? load(batch, c) : Lanes<T>(T(0));
+    });
+    return v;
+  }
+  template <class Values>
+  THAWSLIDE_ALWAYS_INLINE void store_vector(const Batch<T>& batch, const Values& values) {
+    unrolled<static_cast<std::size_t>(Components)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+      constexpr int c = static_cast<int>(k());
+      store(batch, values[c], c);
+    });
+  }
+
   [[nodiscard]] int components() const override { return Components; }
   [[nodiscard]] bool is_integer() const override { return std::is_integral_v<T>; }
   [[nodiscard]] double value(std::size_t particle, int component) const override {
-    return static_cast<double>((*this)(particle, component));
+    return kept_ ? static_cast<double>((*this)(particle, component)) : 0.0;
   }
+
+  // Whether the field is stored at all, from the next resize on. One that is not must not be touched; to the list of
+  // fields it is 0.
+  void keep(bool kept) { kept_ = kept; }
 
   void resize(std::size_t particles) override {
     particles_ = particles;
-    data_.assign((particles + lanes - 1) / lanes * lanes * Components, T{});
+    data_.assign(kept_ ? (particles + lanes - 1) / lanes * lanes * Components : 0, T{});
+    data_.shrink_to_fit();
   }
 
-  void reorder(const std::vector<std::uint32_t>& order) override {
-    spare_.resize(data_.size());
+  void reorder(const std::vector<std::uint32_t>& order, AlignedVector<std::byte>& scratch) override {
+    if (!kept_) {
+      return;
+    }
+    scratch.resize(std::max(scratch.size(), data_.size() * sizeof(T)));
+    T* moved = reinterpret_cast<T*>(scratch.data());
     for (std::size_t k = 0; k < order.size(); ++k) {
       for (int c = 0; c < Components; ++c) {
-        spare_[position(k, c)] = data_[position(order[k], c)];
+        moved[position(k, c)] = data_[position(order[k], c)];
       }
     }
-    data_.swap(spare_);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      for (int c = 0; c < Components; ++c) {
+        data_[position(k, c)] = moved[position(k, c)];
+      }
+    }
   }
 
   [[nodiscard]] std::vector<std::byte> bytes() const override {
     std::vector<std::byte> all(particles_ * Components * sizeof(T));
-    for (std::size_t k = 0; k < particles_; ++k) {
+    for (std::size_t k = 0; kept_ && k < particles_; ++k) {
       for (int c = 0; c < Components; ++c) {
         std::memcpy(&all[(k * Components + static_cast<std::size_t>(c)) * sizeof(T)], &(*this)(k, c), sizeof(T));
       }
@@ -117,7 +167,7 @@ class Field final : public FieldBase {
   void set_bytes(const std::vector<std::byte>& all) override {
     THAWSLIDE_ASSERT(all.size() == particles_ * Components * sizeof(T), "field {}: {} bytes for {} particles",
                      info().name, all.size(), particles_);
-    for (std::size_t k = 0; k < particles_; ++k) {
+    for (std::size_t k = 0; kept_ && k < particles_; ++k) {
       for (int c = 0; c < Components; ++c) {
         std::memcpy(&(*this)(k, c), &all[(k * Components + static_cast<std::size_t>(c)) * sizeof(T)], sizeof(T));
       }
@@ -130,7 +180,8 @@ class Field final : public FieldBase {
   }
 
   std::size_t particles_ = 0;
-  AlignedVector<T> data_, spare_;
+  bool kept_ = true;
+  AlignedVector<T> data_;
 };
 
 }  // namespace thawslide::mpm

@@ -1,6 +1,7 @@
 // Momentum on the grid and the motion of particles (Eqs. 6, 10-14): the stages that need no terrain and no heat.
 #pragma once
 
+#include <algorithm>
 #include <variant>
 #include <vector>
 
@@ -35,6 +36,18 @@ struct MaterialModel {
 
 template <int Dim, class Real>
 struct MotionModel {
+  // Half sizes of a batch's particles, in cells.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<Real> half_sizes(const Particles<Dim, Real>& particles,
+                                                               const Batch<Real>& batch) const {
+    return bodies.size() == 1 ? Lanes<Real>(bodies[0].half_size) : Lanes<Real>::of([&](std::size_t lane) {
+      return bodies[static_cast<std::size_t>(particles.body(batch.particle[lane]))].half_size;
+    });
+  }
+  [[nodiscard]] bool viscous() const {
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const MaterialModel<Real>& material) { return material.viscosity_time > Real(0); });
+  }
+
   ShapeKind shape = ShapeKind::ugimp;
   HeldSides<Dim> sides;
   TransferKind transfer = TransferKind::flip_pic;
@@ -81,13 +94,13 @@ struct BadParticle {
   }
 };
 
-// n_e of Eq. 2 as the basal law sees it: of the particle's current or, without lubrication, initial state.
+// n_e of Eq. 2 as the basal law sees it: of the particles' current or, without lubrication, initial state.
 template <int Dim, class Real>
-Real basal_solid_fraction(const Particles<Dim, Real>& particles, const physics::Phases<Real>& phases, bool lubrication,
-                          std::uint32_t p) {
-  return lubrication ? physics::effective_solid_fraction(phases, particles.porosity(p), particles.liquid_saturation(p))
-                     : physics::effective_solid_fraction(phases, particles.initial_porosity(p),
-                                                         particles.initial_saturation(p));
+Lanes<Real> basal_solid_fraction(const Particles<Dim, Real>& particles, const physics::Phases<Real>& phases,
+                                 bool lubrication, const Batch<Real>& batch) {
+  const auto& porosity = lubrication ? particles.porosity : particles.initial_porosity;
+  const auto& saturation = lubrication ? particles.liquid_saturation : particles.initial_saturation;
+  return physics::effective_solid_fraction(phases, porosity.load(batch), saturation.load(batch));
 }
 
 // From total stress to effective stress, sigma + P I.

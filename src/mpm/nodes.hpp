@@ -8,9 +8,9 @@ namespace thawslide::mpm {
 // Sums over particles with the momentum shape functions S_ip and gradients G_ip.
 template <int Dim>
 struct MomentumLayout {
-  static constexpr std::size_t mass = 0;                     // sum S m [kg]
-  static constexpr std::size_t momentum = 1;                 // sum S m v [kg m/s]
-  static constexpr std::size_t force = 1 + Dim;              // sum S m b - V sigma.G [N], Eq. 12
+  static constexpr std::size_t force = 0;                    // sum S m b - V sigma.G [N], Eq. 12
+  static constexpr std::size_t momentum = Dim;               // sum S m v [kg m/s]
+  static constexpr std::size_t mass = 2 * Dim;               // sum S m [kg]
   static constexpr std::size_t volume = 1 + 2 * Dim;         // sum S V [m3]
   static constexpr std::size_t temperature = 2 + 2 * Dim;    // sum S m T [kg K]; with the three below for nodes
   static constexpr std::size_t pore_pressure = 3 + 2 * Dim;  // without hat weight

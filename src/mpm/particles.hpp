@@ -74,20 +74,21 @@ class Particles {
 
   void reorder(const std::vector<std::uint32_t>& order) {
     for (FieldBase* field : fields.all()) {
-      field->reorder(order);
+      field->reorder(order, scratch_);
     }
   }
 
  private:
   std::size_t size_ = 0;
+  AlignedVector<std::byte> scratch_;
 };
 
-// The particle's affine velocity C [1/s] as a matrix.
+// The affine velocities C [1/s] of a batch as matrices.
 template <int Dim, class Real>
-Matrix<Real, Dim> affine_velocity(const Particles<Dim, Real>& particles, std::size_t particle) {
-  Matrix<Real, Dim> matrix;
+Matrix<Lanes<Real>, Dim> affine_velocity(const Particles<Dim, Real>& particles, const Batch<Real>& batch) {
+  Matrix<Lanes<Real>, Dim> matrix;
   for (int c = 0; c < Dim * Dim; ++c) {
-    matrix(c % Dim, c / Dim) = particles.affine_velocity(particle, c);
+    matrix(c % Dim, c / Dim) = particles.affine_velocity.load(batch, c);
   }
   return matrix;
 }

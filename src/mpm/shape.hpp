@@ -4,74 +4,89 @@
 
 #include <cstddef>
 
+#include "base/lanes.hpp"
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 
 namespace thawslide::mpm {
 
 // Weights and their derivatives [1/m] of neighbouring nodes along one axis, lowest first: nearest-1, nearest,
-// nearest+1, or with a width of 2 the two ends of the particle's cell.
-template <class Real, std::size_t Width = 3>
+// nearest+1, or with a width of 2 the two ends of the particle's cell. Value: one number, or Lanes for a batch.
+template <class Value, std::size_t Width = 3>
 struct AxisWeights {
-  Real weight[Width];
-  Real slope[Width];
+  Value weight[Width];
+  Value slope[Width];
 };
 
 // Linear hat functions. offset: particle minus nearest node, in cells, within [-1/2, 1/2].
-template <class Real>
-THAWSLIDE_HD AxisWeights<Real> linear_weights(Real offset, Real inverse_cell) {
-  const bool right = offset >= Real(0);
-  const Real left_part = right ? Real(0) : -offset;
-  const Real right_part = right ? offset : Real(0);
+template <class Value, class Real>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> linear_weights(Value offset, Real inverse_cell) {
+  const auto right = offset >= Real(0);
+  const Value zero = Real(0), slope = inverse_cell;
+  const Value left_part = select(right, zero, -offset);
+  const Value right_part = select(right, offset, zero);
   return {{left_part, Real(1) - left_part - right_part, right_part},
-          {right ? Real(0) : -inverse_cell, right ? -inverse_cell : inverse_cell, right ? inverse_cell : Real(0)}};
+          {select(right, zero, -slope), select(right, -slope, slope), select(right, slope, zero)}};
 }
 
 // uGIMP (Bardenhagen and Kober 2004): the hat averaged over the undeformed particle of half size `half` (in cells).
-template <class Real>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Real> ugimp_weights(Real offset, Real half, Real inverse_cell) {
-  const Real d = offset;
-  if (d >= half) {
-    return {{Real(0), Real(1) - d, d}, {Real(0), -inverse_cell, inverse_cell}};
-  }
-  if (d <= -half) {
-    return {{-d, Real(1) + d, Real(0)}, {-inverse_cell, inverse_cell, Real(0)}};
-  }
-  const Real quarter = Real(1) / (Real(4) * half);
-  const Real left = (half - d) * (half - d) * quarter;
-  const Real right = (half + d) * (half + d) * quarter;
-  const Real slope_left = -Real(2) * (half - d) * quarter * inverse_cell;
-  const Real slope_right = Real(2) * (half + d) * quarter * inverse_cell;
+template <class Value, class Real>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> ugimp_weights(Value offset, Value half, Real inverse_cell) {
+  const auto in_right_cell = offset >= half;
+  const auto in_left_cell = offset <= -half;
+  const Value zero = Real(0), slope = inverse_cell;
+  const Value to_left = half - offset, to_right = half + offset;
+  const Value quarter = Real(1) / (Real(4) * half);
+  const Value half_slope = Real(2) * inverse_cell * quarter;
+  const Value left = select(in_right_cell, zero, select(in_left_cell, -offset, to_left * to_left * quarter));
+  const Value right = select(in_left_cell, zero, select(in_right_cell, offset, to_right * to_right * quarter));
+  const Value slope_left = select(in_right_cell, zero, select(in_left_cell, -slope, -to_left * half_slope));
+  const Value slope_right = select(in_left_cell, zero, select(in_right_cell, slope, to_right * half_slope));
   return {{left, Real(1) - left - right, right}, {slope_left, -slope_left - slope_right, slope_right}};
 }
 
 // Quadratic B-spline (Steffen, Kirby and Berzins 2008). offset as above.
-template <class Real>
-THAWSLIDE_HD AxisWeights<Real> quadratic_weights(Real offset, Real inverse_cell) {
+template <class Value, class Real>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> quadratic_weights(Value offset, Real inverse_cell) {
   const Real half = static_cast<Real>(0.5);
-  const Real left = half - offset;
-  const Real right = half + offset;
+  const Value left = half - offset;
+  const Value right = half + offset;
   return {{half * left * left, static_cast<Real>(0.75) - offset * offset, half * right * right},
           {-left * inverse_cell, -Real(2) * offset * inverse_cell, right * inverse_cell}};
 }
 
 // Second moment of the weights about the particle, in cells^2: sum w_k (x_k - x_p)^2.
-template <class Real>
-THAWSLIDE_HD Real second_moment(const AxisWeights<Real>& axis, Real offset) {
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value second_moment(const AxisWeights<Value>& axis, Value offset) {
   return axis.weight[0] + axis.weight[2] - offset * offset;
 }
 
 // The weights with which node velocities make the affine velocity of APIC, in place of the slopes:
 // w_k (x_k - x_p)/D with the second moment D. Linear hats have no such weights: their D is 0 at nodes, and a node
 // without weight, and without mass, would have a full say.
-template <class Real>
-THAWSLIDE_HD AxisWeights<Real> by_second_moment(const AxisWeights<Real>& axis, Real offset, Real inverse_cell) {
-  AxisWeights<Real> affine = axis;
-  const Real factor = inverse_cell / second_moment(axis, offset);
+template <class Value, class Real>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> by_second_moment(const AxisWeights<Value>& axis, Value offset,
+                                                                         Real inverse_cell) {
+  AxisWeights<Value> affine = axis;
+  const Value factor = inverse_cell / second_moment(axis, offset);
   for (std::size_t k = 0; k < 3; ++k) {
     affine.slope[k] = axis.weight[k] * (static_cast<Real>(k) - Real(1) - offset) * factor;
   }
   return affine;
+}
+
+// One or the other set of weights, lane by lane.
+template <class Condition, class Value, std::size_t Width>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value, Width> select(const Condition& condition,
+                                                                      const AxisWeights<Value, Width>& a,
+                                                                      const AxisWeights<Value, Width>& b) {
+  using thawslide::select;
+  AxisWeights<Value, Width> chosen;
+  for (std::size_t k = 0; k < Width; ++k) {
+    chosen.weight[k] = select(condition, a.weight[k], b.weight[k]);
+    chosen.slope[k] = select(condition, a.slope[k], b.slope[k]);
+  }
+  return chosen;
 }
 
 // The shape functions a run may use for momentum; heat and pore pressure always use the hats. half: half size of the
@@ -80,19 +95,24 @@ enum class ShapeKind { ugimp, linear, quadratic };
 
 template <class Real>
 struct Ugimp {
-  THAWSLIDE_HD static AxisWeights<Real> weights(Real offset, Real half, bool /*at_side*/, Real inverse_cell) {
+  template <class Value, class Condition>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(Value offset, Value half,
+                                                                         Condition /*at_side*/, Real inverse_cell) {
     return ugimp_weights(offset, half, inverse_cell);
   }
   // D is at least half the particle's half size.
-  THAWSLIDE_HD static AxisWeights<Real> affine(const AxisWeights<Real>& axis, Real offset, bool /*at_side*/,
-                                               Real inverse_cell) {
+  template <class Value, class Condition>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> affine(const AxisWeights<Value>& axis, Value offset,
+                                                                        Condition /*at_side*/, Real inverse_cell) {
     return by_second_moment(axis, offset, inverse_cell);
   }
 };
 
 template <class Real>
 struct Linear {
-  THAWSLIDE_HD static AxisWeights<Real> weights(Real offset, Real /*half*/, bool /*at_side*/, Real inverse_cell) {
+  template <class Value, class Condition>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(Value offset, Value /*half*/,
+                                                                         Condition /*at_side*/, Real inverse_cell) {
     return linear_weights(offset, inverse_cell);
   }
 };
@@ -101,13 +121,16 @@ struct Linear {
 // on in a straight line, leaves the hats, which join the spline with one slope.
 template <class Real>
 struct Quadratic {
-  THAWSLIDE_HD static AxisWeights<Real> weights(Real offset, Real /*half*/, bool at_side, Real inverse_cell) {
-    return at_side ? linear_weights(offset, inverse_cell) : quadratic_weights(offset, inverse_cell);
+  template <class Value, class Condition>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(Value offset, Value /*half*/,
+                                                                         Condition at_side, Real inverse_cell) {
+    return select(at_side, linear_weights(offset, inverse_cell), quadratic_weights(offset, inverse_cell));
   }
   // D is 1/4; by hats, w_k (x_k - x_p)/D is the slope.
-  THAWSLIDE_HD static AxisWeights<Real> affine(const AxisWeights<Real>& axis, Real offset, bool at_side,
-                                               Real inverse_cell) {
-    return at_side ? axis : by_second_moment(axis, offset, inverse_cell);
+  template <class Value, class Condition>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> affine(const AxisWeights<Value>& axis, Value offset,
+                                                                        Condition at_side, Real inverse_cell) {
+    return select(at_side, axis, by_second_moment(axis, offset, inverse_cell));
   }
 };
 

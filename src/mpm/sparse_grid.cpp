@@ -67,7 +67,7 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
       int local = 0;
       nearest_node(particles.position.template get<Vector<Real, Dim>>(p), node, offset);
       T::split(node, tile, local);
-      const std::uint64_t key = (T::key(tile) << (2 * Dim)) | static_cast<std::uint64_t>(local);
+      const std::uint64_t key = (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
       moved_[p] = key != keys_[p] ? 1 : 0;
       keys_[p] = key;
       task_moved[task] |= moved_[p];
@@ -97,7 +97,7 @@ void SparseGrid<Dim, Real>::find_tiles() {
   const std::vector<std::uint64_t> old_keys = std::move(tile_keys_);
   tile_keys_.clear();
   for (std::uint32_t k = 0; k < order_.size(); ++k) {
-    const std::uint64_t key = keys_[order_[k]] >> (2 * Dim);
+    const std::uint64_t key = keys_[order_[k]] >> T::node_bits;
     if (tiles_.empty() || tiles_.back().key != key) {
       tiles_.push_back({key, k, k});
       tile_keys_.push_back(key);

@@ -13,7 +13,9 @@ constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * 
 
 template <int Dim>
 struct Tile {
-  static constexpr int edge = 4;
+  static constexpr int edge_bits = 2;
+  static constexpr int edge = 1 << edge_bits;
+  static constexpr int node_bits = Dim * edge_bits;  // of a node's place in its tile
   static constexpr int nodes = power(edge, Dim);
   static constexpr int patch_edge = edge + 2;
   static constexpr int patch_nodes = power(patch_edge, Dim);
@@ -46,9 +48,8 @@ struct Tile {
     local = 0;
     for (int a = Dim - 1; a >= 0; --a) {
       const int i = node[static_cast<std::size_t>(a)];
-      const int t = i >= 0 ? i / edge : -((-i + edge - 1) / edge);
-      tile[static_cast<std::size_t>(a)] = t;
-      local = local * edge + (i - t * edge);
+      tile[static_cast<std::size_t>(a)] = i >> edge_bits;  // rounds down
+      local = local * edge + (i & (edge - 1));
     }
   }
   // Index of the local node of a tile.

@@ -9,26 +9,34 @@
 #include <tuple>
 
 #include "base/aligned.hpp"
+#include "base/lanes.hpp"
 #include "base/parallel.hpp"
 #include "mpm/shape.hpp"
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::mpm {
 
+// A record fills whole vector registers.
+template <class Real>
+constexpr std::size_t record_size(int components) {
+  const auto count = static_cast<std::size_t>(components);
+  return (count + lane_count<Real> - 1) / lane_count<Real> * lane_count<Real>;
+}
+
 // The records about one tile, with a margin of one node.
 template <int Dim, class Real, int Components>
 struct Patch {
-  using Record = std::array<Real, static_cast<std::size_t>(Components)>;
+  using Record = std::array<Real, record_size<Real>(Components)>;
   alignas(cache_line) std::array<Record, static_cast<std::size_t>(Tile<Dim>::patch_nodes)> records;
 
-  void clear() { records.fill(Record{}); }
+  void clear() { std::fill_n(records.front().data(), records.size() * records.front().size(), Real(0)); }
 };
 
 // One record a node of every active block, and the patches that are summed into it.
 template <int Dim, class Real, int Components>
 class NodeRecords {
  public:
-  using Record = std::array<Real, static_cast<std::size_t>(Components)>;
+  using Record = std::array<Real, record_size<Real>(Components)>;
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
   [[nodiscard]] Record& operator()(std::size_t block, std::size_t node) { return records_[block * nodes + node]; }
@@ -48,12 +56,12 @@ class NodeRecords {
   AlignedVector<Patch<Dim, Real, Components>> patches_;
 };
 
-// Calls visit(block_place, patch_place) for each node that block and patch share, the block lying in `direction` (0 ..
-// 3^Dim-1) from the patch's tile.
+// Calls visit(block_place, patch_place, count) for each row of nodes that block and patch share, the block lying in
+// `direction` (0 .. 3^Dim-1) from the patch's tile.
 template <int Dim, class Visit>
-void for_shared_nodes(int direction, const Visit& visit) {
+void for_shared_rows(int direction, const Visit& visit) {
   using T = Tile<Dim>;
-  std::array<int, Dim> first{}, last{}, shift{};
+  std::array<int, 3> first{}, last{1, 1, 1}, shift{};
   for (std::size_t a = 0; a < Dim; ++a) {
     const int d = direction % 3 - 1;
     direction /= 3;
@@ -61,35 +69,36 @@ void for_shared_nodes(int direction, const Visit& visit) {
     last[a] = d > 0 ? 1 : T::edge;
     shift[a] = d * T::edge + 1;  // patch coordinate of the block's node 0
   }
-  if constexpr (Dim == 2) {
+  for (int k = first[2]; k < last[2]; ++k) {
     for (int j = first[1]; j < last[1]; ++j) {
-      for (int i = first[0]; i < last[0]; ++i) {
-        visit(static_cast<std::size_t>(j * T::edge + i),
-              static_cast<std::size_t>((j + shift[1]) * T::patch_edge + i + shift[0]));
-      }
-    }
-  } else {
-    for (int k = first[2]; k < last[2]; ++k) {
-      for (int j = first[1]; j < last[1]; ++j) {
-        for (int i = first[0]; i < last[0]; ++i) {
-          visit(
-              static_cast<std::size_t>((k * T::edge + j) * T::edge + i),
-              static_cast<std::size_t>(((k + shift[2]) * T::patch_edge + j + shift[1]) * T::patch_edge + i + shift[0]));
-        }
-      }
+      visit(static_cast<std::size_t>((k * T::edge + j) * T::edge + first[0]),
+            static_cast<std::size_t>(((k + shift[2]) * T::patch_edge + j + shift[1]) * T::patch_edge + first[0] +
+                                     shift[0]),
+            static_cast<std::size_t>(last[0] - first[0]));
     }
   }
+}
+
+// Calls visit(block_place, patch_place) for each node of these rows.
+template <int Dim, class Visit>
+void for_shared_nodes(int direction, const Visit& visit) {
+  for_shared_rows<Dim>(direction, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      visit(in_block + i, in_patch + i);
+    }
+  });
 }
 
 // Node sums of what the patches of the tiles hold, always in the same order of tiles.
 template <int Dim, class Real, int Components>
 void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes) {
+  using Record = typename NodeRecords<Dim, Real, Components>::Record;
+  constexpr std::size_t size = std::tuple_size_v<Record>;
   nodes.resize(grid.blocks().size());
   const auto& patches = nodes.patches(grid.tiles().size());
   parallel_for(grid.blocks().size(), [&](std::size_t block) {
-    for (std::size_t node = 0; node < NodeRecords<Dim, Real, Components>::nodes; ++node) {
-      nodes(block, node).fill(Real(0));
-    }
+    Record* records = &nodes(block, 0);
+    std::fill_n(records->data(), size * NodeRecords<Dim, Real, Components>::nodes, Real(0));
     const std::int32_t* tiles = grid.tiles_about_block(block);
     for (int d = 0; d < Tile<Dim>::stencil; ++d) {
       if (tiles[d] == KeyIndex::absent) {
@@ -97,13 +106,14 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
       }
       const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
       // The tile lies in direction d from the block, so the block lies opposite from the tile.
-      for_shared_nodes<Dim>(Tile<Dim>::stencil - 1 - d, [&](std::size_t in_block, std::size_t in_patch) {
-        auto& sum = nodes(block, in_block);
-        const auto& part = patch.records[in_patch];
-        for (std::size_t c = 0; c < static_cast<std::size_t>(Components); ++c) {
-          sum[c] += part[c];
-        }
-      });
+      for_shared_rows<Dim>(Tile<Dim>::stencil - 1 - d,
+                           [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
+                             Real* sums = records[in_block].data();
+                             const Real* parts = patch.records[in_patch].data();
+                             for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
+                               (Lanes<Real>::load(sums + c) + Lanes<Real>::load(parts + c)).store(sums + c);
+                             }
+                           });
     }
   });
 }
@@ -112,11 +122,44 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
 template <int Dim, class Real, int Components>
 void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const NodeRecords<Dim, Real, Components>& nodes,
                 Patch<Dim, Real, Components>& patch) {
+  constexpr std::size_t size = std::tuple_size_v<typename NodeRecords<Dim, Real, Components>::Record>;
   const std::int32_t* blocks = grid.blocks_about_tile(t);
   for (int d = 0; d < Tile<Dim>::stencil; ++d) {
     const auto block = static_cast<std::size_t>(blocks[d]);
-    for_shared_nodes<Dim>(
-        d, [&](std::size_t in_block, std::size_t in_patch) { patch.records[in_patch] = nodes(block, in_block); });
+    for_shared_rows<Dim>(d, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
+      const Real* from = nodes(block, in_block).data();
+      Real* to = patch.records[in_patch].data();
+      for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
+        Lanes<Real>::load(from + c).store(to + c);
+      }
+    });
+  }
+}
+
+// Calls visit(place, weight, gradient) for each of the Width^Dim nodes, `first` being the place of the lowest.
+template <int Dim, class Value, std::size_t Width, class Visit>
+THAWSLIDE_ALWAYS_INLINE void for_each_node(
+    const std::array<AxisWeights<Value, Width>, static_cast<std::size_t>(Dim)>& axis, std::size_t first,
+    const Visit& visit) {
+  constexpr auto row = static_cast<std::size_t>(Tile<Dim>::patch_edge);
+  if constexpr (Dim == 2) {
+    for (std::size_t j = 0; j < Width; ++j) {
+      for (std::size_t i = 0; i < Width; ++i) {
+        visit(first + j * row + i, axis[0].weight[i] * axis[1].weight[j],
+              Vector<Value, 2>(axis[0].slope[i] * axis[1].weight[j], axis[0].weight[i] * axis[1].slope[j]));
+      }
+    }
+  } else {
+    for (std::size_t k = 0; k < Width; ++k) {
+      for (std::size_t j = 0; j < Width; ++j) {
+        for (std::size_t i = 0; i < Width; ++i) {
+          const Value wij = axis[0].weight[i] * axis[1].weight[j];
+          visit(first + (k * row + j) * row + i, wij * axis[2].weight[k],
+                Vector<Value, 3>(axis[0].slope[i] * axis[1].weight[j] * axis[2].weight[k],
+                                 axis[0].weight[i] * axis[1].slope[j] * axis[2].weight[k], wij * axis[2].slope[k]));
+        }
+      }
+    }
   }
 }
 
@@ -126,84 +169,58 @@ struct Stencil {
   std::size_t first;  // place in the patch of the lowest node
   std::array<AxisWeights<Real, Width>, Dim> axis;
 
-  // Calls visit(place, weight, gradient) for each of the Width^Dim nodes.
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each_node(const Visit& visit) const {
-    constexpr auto row = static_cast<std::size_t>(Tile<Dim>::patch_edge);
-    if constexpr (Dim == 2) {
-      for (std::size_t j = 0; j < Width; ++j) {
-        for (std::size_t i = 0; i < Width; ++i) {
-          visit(first + j * row + i, axis[0].weight[i] * axis[1].weight[j],
-                Vector<Real, 2>(axis[0].slope[i] * axis[1].weight[j], axis[0].weight[i] * axis[1].slope[j]));
-        }
-      }
-    } else {
-      for (std::size_t k = 0; k < Width; ++k) {
-        for (std::size_t j = 0; j < Width; ++j) {
-          for (std::size_t i = 0; i < Width; ++i) {
-            const Real wij = axis[0].weight[i] * axis[1].weight[j];
-            visit(first + (k * row + j) * row + i, wij * axis[2].weight[k],
-                  Vector<Real, 3>(axis[0].slope[i] * axis[1].weight[j] * axis[2].weight[k],
-                                  axis[0].weight[i] * axis[1].slope[j] * axis[2].weight[k], wij * axis[2].slope[k]));
-          }
-        }
-      }
-    }
+    mpm::for_each_node<Dim>(axis, first, visit);
   }
 };
-
-// Adds weight * carried to a record.
-template <class Record, class Real>
-THAWSLIDE_ALWAYS_INLINE void add_weighted(Record& record, Real weight, const Record& carried) {
-  for (std::size_t c = 0; c < std::tuple_size_v<Record>; ++c) {
-    record[c] += weight * carried[c];
-  }
-}
 
 // What a particle reads of `Count` numbers of the records about it: their values at its place and their gradients
 // [per m]. Axis by axis, rows first: fewer products than node by node.
-template <int Dim, class Real, std::size_t Count>
+template <int Dim, class Value, std::size_t Count>
 struct Reading {
-  std::array<Real, Count> value{};
-  std::array<std::array<Real, Count>, Dim> gradient{};
+  std::array<Value, Count> value;
+  std::array<std::array<Value, Count>, Dim> gradient;
 };
 
-template <std::size_t Count, int Dim, class Real, std::size_t Width, int Components>
-THAWSLIDE_ALWAYS_INLINE Reading<Dim, Real, Count> read_nodes(const Stencil<Dim, Real, Width>& stencil,
-                                                             const Patch<Dim, Real, Components>& patch,
-                                                             std::size_t first_component = 0) {
-  constexpr auto edge = static_cast<std::size_t>(Tile<Dim>::patch_edge);
+// fetch(place, component): the number at a place relative to the lowest node.
+template <std::size_t Count, std::size_t Dim, class Value, std::size_t Width, class Fetch>
+THAWSLIDE_ALWAYS_INLINE Reading<static_cast<int>(Dim), Value, Count> read_along_axes(
+    const std::array<AxisWeights<Value, Width>, Dim>& axis, const Fetch& fetch, std::size_t first_component) {
+  constexpr auto edge = static_cast<std::size_t>(Tile<static_cast<int>(Dim)>::patch_edge);
   constexpr std::size_t layers = Dim == 3 ? Width : 1;
-  Reading<Dim, Real, Count> reading;
-  for (std::size_t k = 0; k < layers; ++k) {
-    Reading<Dim, Real, Count> layer;
-    for (std::size_t j = 0; j < Width; ++j) {
-      std::array<Real, Count> along{};
-      std::array<Real, Count> slope{};
-      for (std::size_t i = 0; i < Width; ++i) {
-        const Real* record = &patch.records[stencil.first + (k * edge + j) * edge + i][first_component];
-        for (std::size_t c = 0; c < Count; ++c) {
-          along[c] += stencil.axis[0].weight[i] * record[c];
-          slope[c] += stencil.axis[0].slope[i] * record[c];
+  Reading<static_cast<int>(Dim), Value, Count> reading;
+  unrolled<Count>([&](auto c) THAWSLIDE_INLINE_LAMBDA {
+    Value value = 0, slopes[3] = {0, 0, 0};
+    for (std::size_t k = 0; k < layers; ++k) {
+      Value in_layer = 0, slope_0 = 0, slope_1 = 0;
+      for (std::size_t j = 0; j < Width; ++j) {
+        Value along = 0, slope = 0;
+        for (std::size_t i = 0; i < Width; ++i) {
+          const Value number = fetch((k * edge + j) * edge + i, first_component + c);
+          along += axis[0].weight[i] * number;
+          slope += axis[0].slope[i] * number;
         }
+        in_layer += axis[1].weight[j] * along;
+        slope_0 += axis[1].weight[j] * slope;
+        slope_1 += axis[1].slope[j] * along;
       }
-      for (std::size_t c = 0; c < Count; ++c) {
-        layer.value[c] += stencil.axis[1].weight[j] * along[c];
-        layer.gradient[0][c] += stencil.axis[1].weight[j] * slope[c];
-        layer.gradient[1][c] += stencil.axis[1].slope[j] * along[c];
-      }
-    }
-    if constexpr (Dim == 2) {
-      return layer;
-    } else {
-      for (std::size_t c = 0; c < Count; ++c) {
-        reading.value[c] += stencil.axis[2].weight[k] * layer.value[c];
-        reading.gradient[0][c] += stencil.axis[2].weight[k] * layer.gradient[0][c];
-        reading.gradient[1][c] += stencil.axis[2].weight[k] * layer.gradient[1][c];
-        reading.gradient[2][c] += stencil.axis[2].slope[k] * layer.value[c];
+      if constexpr (Dim == 2) {
+        value = in_layer;
+        slopes[0] = slope_0;
+        slopes[1] = slope_1;
+      } else {
+        value += axis[2].weight[k] * in_layer;
+        slopes[0] += axis[2].weight[k] * slope_0;
+        slopes[1] += axis[2].weight[k] * slope_1;
+        slopes[2] += axis[2].slope[k] * in_layer;
       }
     }
-  }
+    reading.value[c] = value;
+    for (std::size_t b = 0; b < Dim; ++b) {
+      reading.gradient[b][c] = slopes[b];
+    }
+  });
   return reading;
 }
 

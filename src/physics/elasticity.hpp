@@ -24,14 +24,14 @@ struct Elastic {
 };
 
 // Stress increment [Pa] of a strain increment.
-template <class Real>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Real> stress_increment(const Elastic<Real>& elastic,
-                                                                            const SymmetricTensor<Real>& strain) {
-  SymmetricTensor<Real> stress = Real(2) * elastic.shear_modulus * strain;
-  const Real pressure = elastic.lame_lambda * (strain[0] + strain[1] + strain[2]);
-  for (int k = 0; k < 3; ++k) {
-    stress[k] += pressure;
-  }
+template <class Real, class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(const Elastic<Real>& elastic,
+                                                                             const SymmetricTensor<Value>& strain) {
+  SymmetricTensor<Value> stress = Value(Real(2) * elastic.shear_modulus) * strain;
+  const Value pressure = elastic.lame_lambda * (strain[0] + strain[1] + strain[2]);
+  stress[0] += pressure;
+  stress[1] += pressure;
+  stress[2] += pressure;
   return stress;
 }
 

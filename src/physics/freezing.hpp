@@ -6,27 +6,31 @@
 // list of curves (band/model.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/lanes.hpp"
 #include "base/portability.hpp"
 
 namespace thawslide::physics {
 
-template <class Real>
+template <class Value>
 struct CurveValues {
-  Real saturation, derivative, integral;
+  Value saturation, derivative, integral;
 };
 
 // base^exponent; whole exponents up to 16, the usual ones, by multiplication.
-template <class Real>
-THAWSLIDE_HD Real power(Real base, Real exponent) {
+template <class Value, class Real>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent) {
   constexpr Real largest_whole = 16;
   if (!(exponent >= Real(0) && exponent <= largest_whole) || exponent != std::floor(exponent)) {
-    return std::pow(base, exponent);
+    return each_lane(base, [&](Real number) { return std::pow(number, exponent); });
   }
-  Real result = 1;
+  Value result = 1;
   for (int k = static_cast<int>(exponent); k > 0; k >>= 1) {
-    result *= (k & 1) != 0 ? base : Real(1);
+    if ((k & 1) != 0) {
+      result *= base;
+    }
     base *= base;
   }
   return result;
@@ -37,20 +41,22 @@ struct PowerLawCurve {
   Real reference_temperature;  // Tref [C]
   Real exponent;               // m
 
-  [[nodiscard]] THAWSLIDE_HD CurveValues<Real> at(Real temperature) const {
-    const Real above = temperature - reference_temperature;
-    if (above > Real(0)) {
-      return {Real(1), Real(0), above};
-    }
-    const Real base = Real(1) - above;
-    const Real inverse = Real(1) / base;
-    const Real s = power(inverse, exponent);
-    const Real integral = exponent == Real(1) ? -std::log(base) : (base * s - Real(1)) / (exponent - Real(1));
-    return {s, exponent * s * inverse, integral};
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CurveValues<Value> at(Value temperature) const {
+    using std::max, std::min;
+    const Value above = temperature - reference_temperature;
+    const Value base = Real(1) - min(above, Value(0));
+    const Value inverse = Real(1) / base;
+    const Value s = power(inverse, exponent);
+    const Value frozen_integral = exponent == Real(1) ? -each_lane(base, [](Real number) { return std::log(number); })
+                                                      : (base * s - Real(1)) / (exponent - Real(1));
+    return {s, select(above > Real(0), Value(0), exponent * s * inverse),
+            select(above > Real(0), above, frozen_integral)};
   }
-  [[nodiscard]] THAWSLIDE_HD Real saturation(Real temperature) const {
-    const Real above = temperature - reference_temperature;
-    return above >= Real(0) ? Real(1) : Real(1) / power(Real(1) - above, exponent);
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value saturation(Value temperature) const {
+    using std::min;
+    return Real(1) / power(Real(1) - min(temperature - reference_temperature, Value(0)), exponent);
   }
 };
 
@@ -59,18 +65,21 @@ struct LinearCurve {
   Real reference_temperature;  // Tref [C]
   Real slope;                  // m [1/K]
 
-  [[nodiscard]] THAWSLIDE_HD CurveValues<Real> at(Real temperature) const {
-    const Real above = temperature - reference_temperature;
-    if (above > Real(0)) {
-      return {Real(1), Real(0), above};
-    }
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CurveValues<Value> at(Value temperature) const {
+    const Value above = temperature - reference_temperature;
     const Real frozen_below = -Real(1) / slope;
-    if (above < frozen_below) {
-      return {Real(0), Real(0), Real(0.5) * frozen_below};
-    }
-    return {Real(1) + slope * above, slope, above * (Real(1) + Real(0.5) * slope * above)};
+    const auto melted = above > Real(0);
+    const auto frozen = above < frozen_below;
+    return {select(melted, Value(1), select(frozen, Value(0), Real(1) + slope * above)),
+            select(melted | frozen, Value(0), Value(slope)),
+            select(melted, above,
+                   select(frozen, Value(Real(0.5) * frozen_below), above * (Real(1) + Real(0.5) * slope * above)))};
   }
-  [[nodiscard]] THAWSLIDE_HD Real saturation(Real temperature) const { return at(temperature).saturation; }
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value saturation(Value temperature) const {
+    return at(temperature).saturation;
+  }
 };
 
 }  // namespace thawslide::physics

@@ -4,6 +4,7 @@
 // L_f is per kilogram (Table 1 prints J/m3). H rises strictly with T and is convex below Tref, linear above.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "physics/freezing.hpp"
@@ -18,67 +19,74 @@ struct HeatContent {
   bool latent;  // off: melting takes no heat (Sec. 3.2's 5 s need that)
 
   // H [J/m3] at temperature [C].
-  [[nodiscard]] THAWSLIDE_HD Real content(Real temperature, Real porosity) const {
-    const CurveValues<Real> values = curve.at(temperature);
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value content(Value temperature, Value porosity) const {
+    const CurveValues<Value> values = curve.at(temperature);
     return frozen_capacity(porosity) * (temperature - curve.reference_temperature) +
            capacity_rise(porosity) * values.integral + melting_heat(porosity) * values.saturation;
   }
 
   // dH/dT [J/m3/K], at Tref the one of the frozen side.
-  [[nodiscard]] THAWSLIDE_HD Real apparent_capacity(Real temperature, Real porosity) const {
-    const CurveValues<Real> values = curve.at(temperature);
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value apparent_capacity(Value temperature, Value porosity) const {
+    const CurveValues<Value> values = curve.at(temperature);
     return frozen_capacity(porosity) + capacity_rise(porosity) * values.saturation +
            melting_heat(porosity) * values.derivative;
   }
 
   // Whether a change of temperature [K] is too small to show in the content's digits.
-  [[nodiscard]] THAWSLIDE_HD bool drowns_in_round_off(Real change) const {
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto drowns_in_round_off(Value change) const {
+    using std::abs;
     constexpr Real smallest_change = static_cast<Real>(1e-7);
-    return std::abs(change) < smallest_change;
+    return abs(change) < smallest_change;
   }
 
   // (H(T + change) - H(T)) / change [J/m3/K]; the apparent capacity where the change drowns in round-off.
-  [[nodiscard]] THAWSLIDE_HD Real secant_capacity(Real temperature, Real change, Real porosity) const {
-    if (drowns_in_round_off(change)) {
-      return apparent_capacity(temperature, porosity);
-    }
-    return (content(temperature + change, porosity) - content(temperature, porosity)) / change;
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value secant_capacity(Value temperature, Value change,
+                                                                           Value porosity) const {
+    const auto drowns = drowns_in_round_off(change);
+    const Value rise = content(temperature + change, porosity) - content(temperature, porosity);
+    return select(drowns, apparent_capacity(temperature, porosity), rise / select(drowns, Value(1), change));
   }
 
   // The temperature [C] at which the content is H, from a guess near it: closed above Tref, Newton's iteration below,
   // where convexity makes it converge from any start.
-  [[nodiscard]] THAWSLIDE_HD Real temperature(Real heat, Real porosity, Real guess) const {
-    const Real frozen = frozen_capacity(porosity);
-    const Real rise = capacity_rise(porosity);
-    const Real melting = melting_heat(porosity);
-    if (heat >= melting) {
-      return curve.reference_temperature + (heat - melting) / (frozen + rise);
-    }
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD Value temperature(Value heat, Value porosity, Value guess) const {
+    using std::abs, std::min;
+    const Value frozen = frozen_capacity(porosity);
+    const Value rise = capacity_rise(porosity);
+    const Value melting = melting_heat(porosity);
+    const auto melted = heat >= melting;
     constexpr int most_iterations = 100;
     constexpr Real close = static_cast<Real>(1e-6);  // converges quadratically: the next change is round-off
-    Real below = guess < curve.reference_temperature ? guess - curve.reference_temperature : Real(0);
-    for (int k = 0; k < most_iterations; ++k) {
-      const CurveValues<Real> values = curve.at(curve.reference_temperature + below);
-      const Real excess = frozen * below + rise * values.integral + melting * values.saturation - heat;
-      const Real change = -excess / (frozen + rise * values.saturation + melting * values.derivative);
-      below = below + change < Real(0) ? below + change : Real(0);
-      if (std::abs(change) < close) {
-        break;
-      }
+    Value below = min(guess - curve.reference_temperature, Value(0));
+    auto open = !melted;
+    for (int k = 0; k < most_iterations && any(open); ++k) {
+      const CurveValues<Value> values = curve.at(curve.reference_temperature + below);
+      const Value excess = frozen * below + rise * values.integral + melting * values.saturation - heat;
+      const Value change = -excess / (frozen + rise * values.saturation + melting * values.derivative);
+      below = select(open, min(below + change, Value(0)), below);
+      open = open & (abs(change) >= close);
     }
-    return curve.reference_temperature + below;
+    return curve.reference_temperature + select(melted, (heat - melting) / (frozen + rise), below);
   }
 
   // rho_I n L_f: what melting takes [J/m3].
-  [[nodiscard]] THAWSLIDE_HD Real melting_heat(Real porosity) const {
-    return latent ? phases.ice_density * porosity * phases.latent_heat : Real(0);
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melting_heat(Value porosity) const {
+    return latent ? phases.ice_density * porosity * phases.latent_heat : Value(0);
   }
 
  private:
-  [[nodiscard]] THAWSLIDE_HD Real frozen_capacity(Real porosity) const {
-    return heat_capacity(phases, porosity, Real(0));
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value frozen_capacity(Value porosity) const {
+    return heat_capacity(phases, porosity, Value(0));
   }
-  [[nodiscard]] THAWSLIDE_HD Real capacity_rise(Real porosity) const {
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value capacity_rise(Value porosity) const {
     return porosity *
            (phases.water_density * phases.water_heat_capacity - phases.ice_density * phases.ice_heat_capacity);
   }

@@ -26,15 +26,12 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE StrainIncrement<Real, Dim> strain_increment
   const Square strain = (middle + middle.transpose()) / Real(2);
   const Square half_spin = (middle - middle.transpose()) / Real(4);
   StrainIncrement<Real, Dim> increment;
-  increment.strain.setZero();
   increment.strain[0] = strain(0, 0);
   increment.strain[1] = strain(1, 1);
+  increment.strain[2] = Dim == 3 ? strain(Dim - 1, Dim - 1) : Real(0);
   increment.strain[3] = strain(0, 1);
-  if constexpr (Dim == 3) {
-    increment.strain[2] = strain(2, 2);
-    increment.strain[4] = strain(1, 2);
-    increment.strain[5] = strain(0, 2);
-  }
+  increment.strain[4] = Dim == 3 ? strain(1, Dim - 1) : Real(0);
+  increment.strain[5] = Dim == 3 ? strain(0, Dim - 1) : Real(0);
   // (I - S)^-1 (I + S) of a skew S in closed form (Cayley): |s|^2 = S:S/2
   const Real turn = Real(2) / (Real(1) + Real(0.5) * half_spin.squaredNorm());
   increment.rotation = identity + turn * (half_spin + half_spin * half_spin);

@@ -7,8 +7,10 @@
 // Intrinsic densities stay at their reference: Eq. 3 acts only through the expansion coefficients and K_L.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/lanes.hpp"
 #include "base/portability.hpp"
 
 namespace thawslide::physics {
@@ -34,36 +36,36 @@ template <class Real>
 inline constexpr Real largest_porosity = static_cast<Real>(0.95);
 
 // n_e of Eq. 2.
-template <class Real>
-THAWSLIDE_HD Real effective_solid_fraction(const Phases<Real>& phases, Real porosity, Real saturation) {
+template <class Real, class Value>
+THAWSLIDE_HD Value effective_solid_fraction(const Phases<Real>& phases, Value porosity, Value saturation) {
   return Real(1) - porosity + porosity * (Real(1) - saturation) * phases.ice_to_rock_density_ratio;
 }
 
 // Density of the mixture [kg/m3].
-template <class Real>
-THAWSLIDE_HD Real mixture_density(const Phases<Real>& phases, Real porosity, Real saturation) {
+template <class Real, class Value>
+THAWSLIDE_HD Value mixture_density(const Phases<Real>& phases, Value porosity, Value saturation) {
   return (Real(1) - porosity) * phases.rock_density +
          porosity * (saturation * phases.water_density + (Real(1) - saturation) * phases.ice_density);
 }
 
 // C of Eq. 9 [J/m3/K]: follows the saturation.
-template <class Real>
-THAWSLIDE_HD Real heat_capacity(const Phases<Real>& phases, Real porosity, Real saturation) {
+template <class Real, class Value>
+THAWSLIDE_HD Value heat_capacity(const Phases<Real>& phases, Value porosity, Value saturation) {
   return (Real(1) - porosity) * phases.rock_density * phases.rock_heat_capacity +
          porosity * (saturation * phases.water_density * phases.water_heat_capacity +
                      (Real(1) - saturation) * phases.ice_density * phases.ice_heat_capacity);
 }
 
 // k of Eq. 9 [W/m/K]: follows the saturation.
-template <class Real>
-THAWSLIDE_HD Real conductivity(const Phases<Real>& phases, Real porosity, Real saturation) {
+template <class Real, class Value>
+THAWSLIDE_HD Value conductivity(const Phases<Real>& phases, Value porosity, Value saturation) {
   return (Real(1) - porosity) * phases.rock_conductivity +
          porosity * (saturation * phases.water_conductivity + (Real(1) - saturation) * phases.ice_conductivity);
 }
 
 // beta_m of Eq. 8 [1/K], with r = rho_I/rho_L (the paper prints rho_L/rho_L).
-template <class Real>
-THAWSLIDE_HD Real expansion(const Phases<Real>& phases, Real porosity, Real saturation) {
+template <class Real, class Value>
+THAWSLIDE_HD Value expansion(const Phases<Real>& phases, Value porosity, Value saturation) {
   const Real ratio = phases.ice_density / phases.water_density;
   return (Real(1) - porosity) * (saturation + (Real(1) - saturation) * ratio) * phases.rock_expansion +
          porosity * saturation * phases.water_expansion +
@@ -71,22 +73,27 @@ THAWSLIDE_HD Real expansion(const Phases<Real>& phases, Real porosity, Real satu
 }
 
 // exp(x) - 1; for the small arguments of a step by its series, which is exact to round-off there and much faster.
-template <class Real>
-THAWSLIDE_HD Real exponential_minus_one(Real x) {
-  constexpr Real small = static_cast<Real>(1e-4);
-  return std::abs(x) < small ? x * (Real(1) + x * (Real(1) / Real(2) + x / Real(6))) : std::expm1(x);
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {
+  using std::abs;
+  const auto is_small = abs(x) < Value(1e-2);
+  const Value tail = Value(1. / 6) + x * (Value(1. / 24) + x * (Value(1. / 120) + x * Value(1. / 720)));
+  const Value series = x * (Value(1) + x * (Value(0.5) + x * tail));
+  if (!any(!is_small)) {
+    return series;
+  }
+  return select(is_small, series, each_lane(x, [](auto number) { return std::expm1(number); }));
 }
 
 // Eq. 6 integrated over a step: the grains keep their mass, so 1 - n falls with the volume and grows with their thermal
 // expansion. volume_strain: change of the logarithm of the volume; temperature_change [K].
-template <class Real>
-THAWSLIDE_HD Real updated_porosity(const Phases<Real>& phases, Real porosity, Real volume_strain,
-                                   Real temperature_change) {
-  const Real exponent = phases.rock_expansion * temperature_change - volume_strain;
-  const Real updated = porosity - (Real(1) - porosity) * exponential_minus_one(exponent);
-  return updated > largest_porosity<Real>    ? largest_porosity<Real>
-         : updated < smallest_porosity<Real> ? smallest_porosity<Real>
-                                             : updated;
+template <class Real, class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value updated_porosity(const Phases<Real>& phases, Value porosity,
+                                                            Value volume_strain, Value temperature_change) {
+  using std::max, std::min;
+  const Value exponent = phases.rock_expansion * temperature_change - volume_strain;
+  const Value updated = porosity - (Real(1) - porosity) * exponential_minus_one(exponent);
+  return max(min(updated, Value(largest_porosity<Real>)), Value(smallest_porosity<Real>));
 }
 
 }  // namespace thawslide::physics

@@ -9,10 +9,12 @@
 // dilation the flow cannot reach it, and, as in Clausen et al., the stress is put there.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
 
+#include "base/lanes.hpp"
 #include "base/portability.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/principal.hpp"
@@ -30,6 +32,8 @@ struct ReturnResult {
 
 template <class Real>
 struct LinearElastic {
+  static constexpr bool yields = false;
+
   [[nodiscard]] THAWSLIDE_HD ReturnResult<Real> update(const SymmetricTensor<Real>& trial,
                                                        Real /*plastic_strain*/) const {
     return {trial, Real(0), Real(0), Real(0), false};
@@ -69,6 +73,14 @@ class MohrCoulomb {
     return residual_cohesion_ == cohesion_ || plastic_strain == Real(0)
                ? cohesion_
                : residual_cohesion_ + (cohesion_ - residual_cohesion_) * std::exp(-plastic_strain);
+  }
+
+  // Whether an elastic trial stress [Pa] may be beyond the yield surface, whatever its Lode angle and the cohesion
+  // left.
+  static constexpr bool yields = true;
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto may_yield(const SymmetricTensor<Value>& trial) const {
+    return !surely_elastic(trial, Real(2) * std::min(cohesion_, residual_cohesion_) * root_of_ratio_);
   }
 
   // The admissible stress that follows from an elastic trial [Pa].
@@ -116,12 +128,15 @@ class MohrCoulomb {
 
   // Whether the stress is within the surface whatever its Lode angle: no principal stress lies further from the mean m
   // than r = 2 sqrt(J2/3). Spares most particles their principal stresses.
-  [[nodiscard]] THAWSLIDE_HD bool surely_elastic(const SymmetricTensor<Real>& s, Real shear_limit) const {
-    const Real mean = (s[0] + s[1] + s[2]) / Real(3);
-    const Real a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
-    const Real second_invariant = Real(0.5) * (a * a + b * b + c * c) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
-    const Real reach = Real(2) * std::sqrt(second_invariant / Real(3));
-    return ratio_ * (mean + reach) - (mean - reach) <= shear_limit && mean + reach <= tension_cutoff_;
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto surely_elastic(const SymmetricTensor<Value>& s,
+                                                                         Real shear_limit) const {
+    using std::sqrt;
+    const Value mean = (s[0] + s[1] + s[2]) / Value(3);
+    const Value a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
+    const Value second_invariant = Real(0.5) * (a * a + b * b + c * c) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
+    const Value reach = Real(2) * sqrt(second_invariant / Real(3));
+    return (ratio_ * (mean + reach) - (mean - reach) <= shear_limit) & (mean + reach <= tension_cutoff_);
   }
 
   static Real pressure_ratio(Real angle) {

@@ -13,15 +13,20 @@ namespace thawslide::physics {
 
 // Of a volumetric strain increment, what closes a gap and so bears no stress: 0 to the gap's volumetric strain.
 template <class Real>
-[[nodiscard]] THAWSLIDE_HD Real closing_strain(Real gap, Real volume_strain) {
-  return std::min(gap, std::max(Real(0), -volume_strain));
+[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real closing_strain(Real gap, Real volume_strain) {
+  using std::max, std::min;
+  return min(gap, max(Real(0), -volume_strain));
 }
 
 // The strain increment that stress answers: the rest of it, the closing being equal in all directions.
 template <class Real>
-[[nodiscard]] THAWSLIDE_HD SymmetricTensor<Real> borne_strain(const SymmetricTensor<Real>& strain, Real closing) {
+[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Real> borne_strain(
+    const SymmetricTensor<Real>& strain, Real closing) {
   SymmetricTensor<Real> borne = strain;
-  borne.template head<3>().array() += closing / Real(3);
+  const Real third = closing / Real(3);
+  borne[0] += third;
+  borne[1] += third;
+  borne[2] += third;
   return borne;
 }
 

@@ -221,6 +221,11 @@ void Simulation<Dim, Real>::settle() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::seed() {
+  const auto& materials = model_.motion.materials;
+  particles_.affine_velocity.keep(model_.motion.transfer == mpm::TransferKind::apic);
+  particles_.viscous_stress.keep(model_.motion.viscous());
+  particles_.gap.keep(
+      std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.gaps_close_first; }));
   fill_bodies(parameters_, model_, particles_);
   band::set_heat_content(model_.band, particles_);
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));

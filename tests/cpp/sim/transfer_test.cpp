@@ -75,12 +75,15 @@ void stir(Simulation<2, double>& simulation, double spin, double velocity, doubl
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   auto& particles = simulation.particles();
+  const bool affine = simulation.model().motion.transfer == mpm::TransferKind::apic;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Plane arm = particles.position.get<Plane>(p) - Plane(19.8, 20.1);
     particles.velocity.set(
         p, Plane(-spin * arm[1] + velocity * number(random), spin * arm[0] + velocity * number(random)));
-    particles.affine_velocity(p, 1) = spin;
-    particles.affine_velocity(p, 2) = -spin;
+    if (affine) {
+      particles.affine_velocity(p, 1) = spin;
+      particles.affine_velocity(p, 2) = -spin;
+    }
     for (int c = 0; c < 4; ++c) {
       particles.stress(p, c) = stress * number(random);
     }

@@ -69,7 +69,9 @@ Mode vibrate(int cells, const std::vector<std::string>& sets) {
   for (std::size_t p = 0; p < particles.size(); ++p) {
     form[static_cast<std::size_t>(particles.id(p))] = std::sin(pi<double> * particles.position(p, 0));
     particles.velocity(p, 0) = bar_speed * std::sin(pi<double> * particles.position(p, 0));
-    particles.affine_velocity(p, 0) = bar_speed * pi<double> * std::cos(pi<double> * particles.position(p, 0));
+    if (simulation.model().motion.transfer == mpm::TransferKind::apic) {
+      particles.affine_velocity(p, 0) = bar_speed * pi<double> * std::cos(pi<double> * particles.position(p, 0));
+    }
   }
   const auto modal = [&](const auto& field) {
     double sum = 0.0, norm = 0.0;

@@ -1,0 +1,117 @@
+// The nodes' part of conduct_heat: their state, and their rate of temperature.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "band/heat.hpp"
+
+namespace thawslide::band {
+
+template <int Dim, class Real>
+bool any_face_condition(const BandModel<Dim, Real>& model) {
+  return std::any_of(std::begin(model.faces), std::end(model.faces),
+                     [](const HeatFace<Real>& face) { return face.kind != FaceHeat::insulated; });
+}
+
+// The face of the domain a node lies on, if that face has a condition for heat; null otherwise.
+template <int Dim, class Real>
+const HeatFace<Real>* face_of(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, std::size_t b,
+                              std::size_t k) {
+  const Vector<Real, Dim> position = mpm::node_position(grid, b, k);
+  constexpr Real round_off = static_cast<Real>(1e-9);
+  for (int a = 0; a < Dim; ++a) {
+    const HeatFace<Real>& lower = model.faces[2 * a];
+    const HeatFace<Real>& upper = model.faces[2 * a + 1];
+    if (lower.kind != FaceHeat::insulated && position[a] <= round_off * model.extent[a]) {
+      return &lower;
+    }
+    if (upper.kind != FaceHeat::insulated && position[a] >= model.extent[a] * (Real(1) - round_off)) {
+      return &upper;
+    }
+  }
+  return nullptr;
+}
+
+// Nodal temperature and pore pressure; a prescribed temperature takes its node before gradients are formed.
+template <int Dim, class Real>
+void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                    const mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& work) {
+  work.state.resize(grid.blocks().size());
+  const bool has_faces = any_face_condition(model);
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+      const auto& hats = nodes.hats(b, k);
+      auto& state = work.state(b, k);
+      state.fill(Real(0));
+      if (hats[mpm::HatLayout::volume] > Real(0)) {
+        state[0] = hats[mpm::HatLayout::temperature] / hats[mpm::HatLayout::volume];
+        state[1] = hats[mpm::HatLayout::pore_pressure] / hats[mpm::HatLayout::volume];
+        const HeatFace<Real>* face = has_faces ? face_of(grid, model, b, k) : nullptr;
+        if (face != nullptr && face->kind == FaceHeat::temperature) {
+          state[0] = face->value;
+        }
+      }
+    }
+  });
+}
+
+// The nodal rate of temperature with what `stored_at` gives: the capacity, and the heat that particles took by
+// levelling within cells; friction heat and face conditions come in here.
+template <int Dim, class Real, class StoredAt>
+HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
+                           bool first_step, const mpm::Nodes<Dim, Real>& nodes, const StoredAt& stored_at,
+                           HeatNodes<Dim, Real>& work) {
+  std::vector<HeatGain<Real>> gains(grid.blocks().size());
+  std::vector<std::uint8_t> orphans(grid.blocks().size(), 0);
+  work.orphan.resize(grid.blocks().size());
+  const bool has_faces = any_face_condition(model);
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    HeatGain<Real>& gain = gains[b];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+      const auto& rates = work.rates(b, k);
+      const Real friction = nodes.contact(b, k)[mpm::ContactLayout::friction_heat];
+      const auto [capacity, levelled] = stored_at(b, k);
+      Real& rate = work.state(b, k)[2];
+      rate = Real(0);
+      work.orphan(b, k)[0] = Real(0);
+      gain.friction += dt * friction;
+      if (!(capacity > Real(0))) {
+        if (friction > Real(0)) {
+          work.orphan(b, k)[0] = friction / nodes.momentum(b, k)[mpm::MomentumLayout<Dim>::mass];
+          orphans[b] = 1;
+        }
+        continue;
+      }
+      Real power = rates[0] + rates[1] + friction - levelled / dt;
+      gain.advection += dt * rates[1];
+      const HeatFace<Real>* face = has_faces ? face_of(grid, model, b, k) : nullptr;
+      if (face != nullptr && face->kind == FaceHeat::temperature) {
+        const auto& hats = nodes.hats(b, k);
+        const Real mapped = hats[mpm::HatLayout::temperature] / hats[mpm::HatLayout::volume];
+        rate = first_step ? (face->value - mapped) / dt : Real(0);
+        gain.boundary += dt * (capacity * rate - power);
+        continue;
+      }
+      if (face != nullptr && face->kind == FaceHeat::flux) {
+        // A full row of cells gives its face node half a cell of volume: area = 2 V / cell.
+        const Real inflow = face->value * Real(2) * nodes.hats(b, k)[mpm::HatLayout::volume] / grid.cell();
+        gain.boundary += dt * inflow;
+        power += inflow;
+      }
+      rate = power / capacity;
+    }
+  });
+  HeatGain<Real> sum;
+  work.any_orphan = false;
+  for (std::size_t b = 0; b < gains.size(); ++b) {
+    sum.friction += gains[b].friction;
+    sum.boundary += gains[b].boundary;
+    sum.advection += gains[b].advection;
+    work.any_orphan = work.any_orphan || orphans[b] != 0;
+  }
+  return sum;
+}
+
+}  // namespace thawslide::band

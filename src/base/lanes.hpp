@@ -1,0 +1,184 @@
+// Several numbers worked on at once: lane k of every quantity belongs to the k-th particle of a batch. A formula that
+// takes its numbers as a template parameter works for one number and for lanes alike; `select` stands in for a branch.
+//
+// g++ keeps an array of registers in registers only if it is never indexed by a variable: hence `unrolled`.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "base/linear.hpp"
+#include "base/portability.hpp"
+
+namespace thawslide {
+
+// body(k) for k = 0 .. Count-1, k being a constant.
+template <std::size_t Count, class Body>
+THAWSLIDE_ALWAYS_INLINE void unrolled(const Body& body) {
+  [&]<std::size_t... K>(std::index_sequence<K...>) THAWSLIDE_INLINE_LAMBDA {
+    (body(std::integral_constant<std::size_t, K>()), ...);
+  }
+  (std::make_index_sequence<Count>());
+}
+
+// The vector register of a real type, and that of its comparisons.
+template <class Real>
+struct LaneRegister;
+template <>
+struct LaneRegister<double> {
+  using Flag = std::int64_t;
+  using Numbers = double __attribute__((vector_size(32)));
+  using Stored = double __attribute__((vector_size(32), may_alias));  // among single numbers in memory
+  using Flags = std::int64_t __attribute__((vector_size(32)));
+};
+
+template <class Real>
+inline constexpr std::size_t lane_count = sizeof(typename LaneRegister<Real>::Numbers) / sizeof(Real);
+
+// One yes or no a lane.
+template <class Real>
+class LaneMask {
+ public:
+  using Native = typename LaneRegister<Real>::Flags;
+
+  LaneMask() = default;
+  THAWSLIDE_ALWAYS_INLINE explicit LaneMask(Native native) : native_(native) {}
+
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE bool operator[](std::size_t lane) const { return native_[lane] != 0; }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Native native() const { return native_; }
+
+  THAWSLIDE_ALWAYS_INLINE friend LaneMask operator&(LaneMask a, LaneMask b) { return LaneMask(a.native_ & b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend LaneMask operator|(LaneMask a, LaneMask b) { return LaneMask(a.native_ | b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend LaneMask operator!(LaneMask a) { return LaneMask(~a.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend bool any(LaneMask a) {
+    typename LaneRegister<Real>::Flag flags = 0;
+    for (std::size_t k = 0; k < lane_count<Real>; ++k) {
+      flags |= a.native_[k];
+    }
+    return flags != 0;
+  }
+
+ private:
+  Native native_;
+};
+
+template <class Real>
+class Lanes {
+ public:
+  static constexpr std::size_t count = lane_count<Real>;
+  using Native = typename LaneRegister<Real>::Numbers;
+  using Mask = LaneMask<Real>;
+
+  Lanes() = default;
+  // The same number in all lanes.
+  THAWSLIDE_ALWAYS_INLINE Lanes(Real number) : native_(number - Native{}) {}
+  THAWSLIDE_ALWAYS_INLINE explicit Lanes(Native native) : native_(native) {}
+
+  // From and to `count` numbers side by side, on a boundary of their size.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes load(const Real* numbers) {
+    return Lanes(Native(*reinterpret_cast<const typename LaneRegister<Real>::Stored*>(numbers)));
+  }
+  THAWSLIDE_ALWAYS_INLINE void store(Real* numbers) const {
+    *reinterpret_cast<typename LaneRegister<Real>::Stored*>(numbers) = native_;
+  }
+
+  // Lane k is number(k).
+  template <class Number>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes of(const Number& number) {
+    return [&]<std::size_t... K>(std::index_sequence<K...>) THAWSLIDE_INLINE_LAMBDA {
+      return Lanes(Native{static_cast<Real>(number(K))...});
+    }
+    (std::make_index_sequence<count>());
+  }
+
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real operator[](std::size_t lane) const { return native_[lane]; }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Native native() const { return native_; }
+
+  THAWSLIDE_ALWAYS_INLINE friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.native_ + b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.native_ - b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.native_ * b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.native_ / b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes operator-(Lanes a) { return Lanes(-a.native_); }
+  THAWSLIDE_ALWAYS_INLINE Lanes& operator+=(Lanes a) { return *this = *this + a; }
+  THAWSLIDE_ALWAYS_INLINE Lanes& operator-=(Lanes a) { return *this = *this - a; }
+  THAWSLIDE_ALWAYS_INLINE Lanes& operator*=(Lanes a) { return *this = *this * a; }
+  THAWSLIDE_ALWAYS_INLINE Lanes& operator/=(Lanes a) { return *this = *this / a; }
+
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator<(Lanes a, Lanes b) { return Mask(a.native_ < b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator<=(Lanes a, Lanes b) { return Mask(a.native_ <= b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator>(Lanes a, Lanes b) { return Mask(a.native_ > b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator>=(Lanes a, Lanes b) { return Mask(a.native_ >= b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator==(Lanes a, Lanes b) { return Mask(a.native_ == b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator!=(Lanes a, Lanes b) { return Mask(a.native_ != b.native_); }
+
+  // a where the mask says yes, b elsewhere.
+  THAWSLIDE_ALWAYS_INLINE friend Lanes select(Mask mask, Lanes a, Lanes b) {
+    return Lanes(mask.native() ? a.native_ : b.native_);
+  }
+  // function(number), lane by lane.
+  template <class Function>
+  THAWSLIDE_ALWAYS_INLINE friend Lanes each_lane(Lanes a, const Function& function) {
+    return of([&](std::size_t lane) { return function(a.native_[lane]); });
+  }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes sqrt(Lanes a) {
+    return each_lane(a, [](Real number) { return std::sqrt(number); });
+  }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes floor(Lanes a) {
+    return each_lane(a, [](Real number) { return std::floor(number); });
+  }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes log(Lanes a) {
+    return each_lane(a, [](Real number) { return std::log(number); });
+  }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes abs(Lanes a) { return select(a < Lanes(Real(0)), -a, a); }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes min(Lanes a, Lanes b) { return select(b < a, b, a); }
+  THAWSLIDE_ALWAYS_INLINE friend Lanes max(Lanes a, Lanes b) { return select(a < b, b, a); }
+
+ private:
+  Native native_;
+};
+
+// The same words for one number.
+template <class Value>
+THAWSLIDE_ALWAYS_INLINE Value select(bool condition, const Value& a, const Value& b) {
+  return condition ? a : b;
+}
+template <class Real, class Function, class = std::enable_if_t<std::is_floating_point_v<Real>>>
+THAWSLIDE_ALWAYS_INLINE Real each_lane(Real number, const Function& function) {
+  return function(number);
+}
+THAWSLIDE_ALWAYS_INLINE bool any(bool condition) { return condition; }
+
+// Rows become columns: lane j of result k is lane k of rows[j].
+THAWSLIDE_ALWAYS_INLINE void transpose(Lanes<double>& a, Lanes<double>& b, Lanes<double>& c, Lanes<double>& d) {
+  const auto low_ab = __builtin_shufflevector(a.native(), b.native(), 0, 4, 2, 6);
+  const auto high_ab = __builtin_shufflevector(a.native(), b.native(), 1, 5, 3, 7);
+  const auto low_cd = __builtin_shufflevector(c.native(), d.native(), 0, 4, 2, 6);
+  const auto high_cd = __builtin_shufflevector(c.native(), d.native(), 1, 5, 3, 7);
+  a = Lanes<double>(__builtin_shufflevector(low_ab, low_cd, 0, 1, 4, 5));
+  b = Lanes<double>(__builtin_shufflevector(high_ab, high_cd, 0, 1, 4, 5));
+  c = Lanes<double>(__builtin_shufflevector(low_ab, low_cd, 2, 3, 6, 7));
+  d = Lanes<double>(__builtin_shufflevector(high_ab, high_cd, 2, 3, 6, 7));
+}
+
+}  // namespace thawslide
+
+// Vectors and matrices of lanes.
+template <class Number>
+struct Eigen::NumTraits<thawslide::Lanes<Number>> : Eigen::GenericNumTraits<thawslide::Lanes<Number>> {
+  using Real = thawslide::Lanes<Number>;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = Real;
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
+};
