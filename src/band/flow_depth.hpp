@@ -15,7 +15,8 @@ namespace thawslide::band {
 // H of P_I = rho_I g H [m]: band particles see the thickness of the whole grid column (volume over footprint), others
 // their depth below its top; both times slope_cosine(x), the cosine of the terrain's slope there. A particle belongs to
 // the columns its box overlaps, by its share in each; the footprint is the cell's, or in a column at the body's edge
-// what the boxes cover of it. So thickness and top do not jump when particles pass from column to column.
+// what the boxes cover of it. So thickness does not jump when particles pass from column to column, and the top by the
+// rise of one particle at most.
 template <int Dim, class Real>
 class FlowDepth {
  public:

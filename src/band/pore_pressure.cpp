@@ -158,15 +158,16 @@ Pressures<Lanes<Real>> melted_pressures(const mpm::SparseGrid<Dim, Real>& grid, 
                                         const mpm::Particles<Dim, Real>& particles) {
   const Lanes<Real> zero = Real(0);
   const auto was_melted = melted_before(model, particles, batch);
+  const auto permeable = model.hydraulic(particles, batch) > zero;
   Lanes<Real> seepage_change = zero;
-  if (seepage && any(was_melted)) {
+  if (seepage && any(was_melted & permeable)) {
     const auto stencil = hat_stencil(grid, grid.tiles()[t].key, particles, batch);
     const Lanes<Real> change = particles.seepage_in_cell.load(batch) + mpm::read_nodes<1>(stencil, changes).value[0];
-    seepage_change = select(was_melted, change, zero);
+    seepage_change = select(was_melted & permeable, change, zero);
   }
   Lanes<Real> pressure = pressurized(model, was_melted, seepage_change, batch, particles);
-  if (seepage) {
-    pressure = select(at_surface(grid, depth, t, batch, particles), zero, pressure);
+  if (seepage && any(permeable)) {
+    pressure = select(at_surface(grid, depth, t, batch, particles) & permeable, zero, pressure);
   }
   return {pressure, pressure};
 }

@@ -140,6 +140,21 @@ void check_switches(const Case& checked, Reading& reading) {
         "band.cut_cells is \"equal_thickness\", and the case has no terrain; nothing cuts through cells. Set "
         "band.cut_cells = \"as_they_are\", or give terrain.type.");
   }
+  if (reading.sound({"band.cut_cells"}) && checked.band.cut_cells == CutCells::equal_thickness) {
+    const auto& [first_name, first] = *checked.bodies.begin();
+    for (const auto& [name, body] : checked.bodies) {
+      if (body.particles_per_axis != first.particles_per_axis) {
+        reading.report_misfit(
+            {"band.cut_cells"},
+            fmt::format(
+                "band.cut_cells is \"equal_thickness\", body.{}.particles_per_axis is {} and "
+                "body.{}.particles_per_axis is {}; allowed with it: one number for all bodies, since the band's "
+                "cells are told by it. Give the bodies the same, or set band.cut_cells = \"as_they_are\".",
+                first_name, first.particles_per_axis, name, body.particles_per_axis));
+        break;
+      }
+    }
+  }
   if (reading.sound({"mechanics.effective_stress", "pressure.enabled"}) && checked.mechanics.effective_stress &&
       !checked.pressure.enabled) {
     reading.report_misfit(

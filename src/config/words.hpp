@@ -32,7 +32,7 @@ inline std::vector<Choice<TerrainKind>> choices(TerrainKind) {
           {TerrainKind::profile, "profile", "a polyline read from terrain.file; in 3D the same at every y"}};
 }
 inline std::vector<Choice<TerrainForm>> choices(TerrainForm) {
-  return {{TerrainForm::signed_distance, "signed_distance", "normal, area and reach from the line itself"},
+  return {{TerrainForm::signed_distance, "signed_distance", "normal and area from the line itself"},
           {TerrainForm::rigid_points, "rigid_points", "from rigid material points in layers (Secs. 3.3 and 4)"}};
 }
 inline std::vector<Choice<LawKind>> choices(LawKind) {

@@ -41,7 +41,7 @@ struct HatLayout {
 
 // Candidate nodes: how they press on the ground, and what of it they have.
 struct BaseLayout {
-  static constexpr std::size_t load = 0;     // max(0, p.n) of the trial momentum [kg m/s]
+  static constexpr std::size_t load = 0;     // trial momentum into the ground, less what closes the clearance [kg m/s]
   static constexpr std::size_t covered = 1;  // what the slide covers of the node's share of the ground's surface [m2]
   static constexpr int size = 2;
 };
@@ -62,7 +62,7 @@ struct Nodes {
   NodeRecords<Dim, Real, HatLayout::size> hats;
   NodeRecords<Dim, Real, BaseLayout::size> base;
   NodeRecords<Dim, Real, ContactLayout::size> contact;
-  NodeRecords<Dim, Real, 1> gap;  // between slide and ground [m]; filled with the distance check alone
+  NodeRecords<Dim, Real, 1> clearance;  // between slide and ground [m]; filled for the distance check alone
 };
 
 // Position [m, relative to the domain's lower corner] of a node of a block.

@@ -86,7 +86,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {
 }
 
 // Eq. 6 integrated over a step: the grains keep their mass, so 1 - n falls with the volume and grows with their thermal
-// expansion. volume_strain: change of the logarithm of the volume; temperature_change [K].
+// expansion. volume_strain: change of the logarithm of the volume, for which a step's
+// mid-point strain stands (third order in it); temperature_change [K].
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value updated_porosity(const Phases<Real>& phases, Value porosity,
                                                             Value volume_strain, Value temperature_change) {

@@ -29,14 +29,21 @@ const char* fault_text(mpm::Fault fault) {
 // A particle this many times faster than the body's mean has come loose from it.
 constexpr double runaway = 5.0;
 
-// The cause that lies in closed pores, if some have: their water then has no room, and its pressure no bound.
+// Below this [C] it is squeezing that has closed pores, not the rock's expansion.
+constexpr double hot = 1000.0;
+
+// The cause that lies in pores closed by heat, if some are: their water then has no room, and its pressure no bound.
 template <int Dim, class Real>
 std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
   std::size_t closed = 0;
-  Real hottest = 0;
+  double hottest = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    closed += particles.porosity(p) <= physics::smallest_porosity<Real> ? 1u : 0u;
-    hottest = std::max(hottest, std::max(particles.temperature(p), particles.previous_temperature(p)));
+    double temperature = 0.0;  // of now and before, where these are numbers
+    for (const Real one : {particles.temperature(p), particles.previous_temperature(p)}) {
+      temperature = std::max(temperature, static_cast<double>(one));
+    }
+    hottest = std::max(hottest, temperature);
+    closed += particles.porosity(p) <= physics::smallest_porosity<Real> && temperature > hot ? 1u : 0u;
   }
   if (closed == 0) {
     return "";
@@ -45,7 +52,7 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
       "Likely cause: the pores of {} particles have closed, and the pressure of their water has no bound (hottest "
       "particle: {:.4g} C). Rock that expands with heat (Eq. 6) fills its pores at some thousand degrees; nothing "
       "boils or melts in this model. A thicker band, less basal.heat_fraction or less cohesion keep it cooler.",
-      closed, static_cast<double>(hottest));
+      closed, hottest);
 }
 
 }  // namespace
@@ -54,10 +61,9 @@ template <int Dim, class Real>
 std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   const std::string too_long =
       "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
-      "is torn apart; try "
-      "half of time.step, or viscosity_time or gaps_close_first in the material.";
+      "is torn apart; try half of time.step, or viscosity_time or gaps_close_first in the material.";
   if (bad_.fault != mpm::Fault::left_domain) {
-    const std::string closed = closed_pores(particles_);
+    const std::string closed = model_.band.heat && model_.band.pressure ? closed_pores(particles_) : "";
     return closed.empty() ? too_long : closed;
   }
   const BodySums<Dim, Real> sums = sum_over_body(*this);

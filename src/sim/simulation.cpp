@@ -6,7 +6,7 @@
 #include "band/averages.hpp"
 #include "base/error.hpp"
 #include "sim/bodies.hpp"
-#include "terrain/gap.hpp"
+#include "terrain/clearance.hpp"
 
 namespace thawslide::sim {
 
@@ -64,8 +64,8 @@ void Simulation<Dim, Real>::momentum_to_grid() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::resolve_contact() {
   if (model_.ground && model_.contact.distance_check) {
-    terrain::gaps_to_grid(grid_, ground_, model_.band.shape, model_.band.half_size, model_.band.sides, particles_,
-                          nodes_);
+    terrain::clearances_to_grid(grid_, ground_, model_.band.shape, model_.band.half_size, model_.band.sides, particles_,
+                                nodes_);
   }
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_);

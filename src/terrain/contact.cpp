@@ -27,11 +27,11 @@ struct NodeState {
   bool in_frame = false;
 };
 
-// Momentum with which a node runs into the ground in this step, less what closes the gap before it.
+// Momentum with which a node runs into the ground in this step, less what closes the clearance before it.
 template <int Dim, class Real>
 Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, bool distance_check, Real dt,
                  Real mass, Real inward_momentum) {
-  return std::max(Real(0), distance_check ? inward_momentum - mass * (nodes.gap(b, k)[0] / dt) : inward_momentum);
+  return std::max(Real(0), distance_check ? inward_momentum - mass * (nodes.clearance(b, k)[0] / dt) : inward_momentum);
 }
 
 template <int Dim, class Real>

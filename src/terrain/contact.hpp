@@ -33,7 +33,7 @@ struct ContactModel {
   bool base_holds = false;      // no slip at all: while gravity is being settled in
   bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
   Real mass_damping = 0;        // [1/s]
-  bool distance_check = false;  // a node may close the gap that nodes.gap holds before contact acts
+  bool distance_check = false;  // a node may close nodes.clearance before contact acts
 };
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null.
@@ -45,8 +45,9 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                        mpm::Nodes<Dim, Real>& nodes);
 
 // The mapped-back momenta (MUSL) become velocities: constraints again, and at contact nodes the inward normal
-// component is removed but for what closes the gap (no friction, no heat). Returns sum f_int.(v_mid - v_mapped) dt [J]:
-// the work that internal forces did on the nodes, less the stress work that the mapped-back velocities will book.
+// component is removed but for what closes the clearance (no friction, no heat). Returns sum f_int.(v_mid - v_mapped)
+// dt [J]: the work that internal forces did on the nodes, less the stress work that the mapped-back velocities will
+// book.
 template <int Dim, class Real>
 Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                            const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model,

@@ -140,6 +140,13 @@ TEST(Fault, ClosedPoresAreNamedAsTheCause) {
   EXPECT_NE(message.find("basal.heat_fraction"), std::string::npos) << message;
 }
 
+TEST(Fault, PoresSqueezedShutAreNotLaidToHeat) {
+  Simulation<2, double> simulation(lamplugh());
+  simulation.particles().porosity(17) = physics::smallest_porosity<double>;
+  simulation.particles().velocity(simulation.particles().size() - 1, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(failure_of(simulation, 2).find("half of time.step"), std::string::npos);
+}
+
 TEST(Fault, LeavingTheDomainNamesTheParticle) {
   Simulation<2, double> simulation(lamplugh({"body.slide.velocity=[0.0,300.0]"}));
   const std::string message = failure_of(simulation, 200);

@@ -87,5 +87,36 @@ TEST(Seepage, SpreadsABumpAndKeepsItsSum) {
   EXPECT_NEAR((spread_after - spread) / (2.0 * 0.025484 * 5.0), 1.0, 0.02);
 }
 
+// Melted matter without hydraulic conductivity keeps its water, beside matter that seeps and at the surface alike.
+TEST(Seepage, LeavesTheImpermeableAlone) {
+  const std::string tight = R"(
+[material.tight]
+law = "elastic"
+youngs_modulus = 1e8
+poisson_ratio = 0.2
+[body.lid]
+material = "tight"
+shape = "box"
+min = [0.0, 10.0]
+max = [1.0, 11.0]
+temperature = 5.0
+porosity = 0.4
+)";
+  Simulation<2, double> simulation(case_from_text(column + tight));
+  auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = particles.material(p) == 0 ? 1e6 : 3e5;
+  }
+  run_until(simulation, 1.0);
+  int lid = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (particles.position(p, 1) > 10.0) {
+      EXPECT_EQ(particles.pore_pressure(p), 3e5) << "at " << particles.position(p, 1) << " m";
+      ++lid;
+    }
+  }
+  EXPECT_EQ(lid, 16);
+}
+
 }  // namespace
 }  // namespace thawslide::sim

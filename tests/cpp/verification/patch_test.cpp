@@ -1,4 +1,5 @@
-// Patch tests: what is uniform stays uniform, and what is linear is reproduced, wherever the grid's lines cut the body.
+// Patch tests: what is uniform stays uniform wherever the grid's lines cut the body; what is linear is reproduced, by
+// FLIP where particles lie as they are seeded, by APIC anywhere.
 #include <gtest/gtest.h>
 
 #include <cmath>
