@@ -62,9 +62,13 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   const std::string too_long =
       "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
       "is torn apart; try half of time.step, or viscosity_time or gaps_close_first in the material.";
-  if (bad_.fault != mpm::Fault::left_domain) {
-    const std::string closed = model_.band.heat && model_.band.pressure ? closed_pores(particles_) : "";
+  const bool pressurized = model_.band.heat && model_.band.pressure;
+  if (bad_.fault == mpm::Fault::state_not_finite && pressurized) {
+    const std::string closed = closed_pores(particles_);
     return closed.empty() ? too_long : closed;
+  }
+  if (bad_.fault != mpm::Fault::left_domain) {
+    return too_long;
   }
   const BodySums<Dim, Real> sums = sum_over_body(*this);
   const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
