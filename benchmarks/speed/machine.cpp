@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "base/aligned.hpp"
+#include "base/lanes.hpp"
 #include "base/parallel.hpp"
 
 namespace thawslide::speed {
@@ -44,23 +45,25 @@ double triad(std::size_t length, int repeats, std::size_t parts) {
   return 3.0 * sizeof(double) * static_cast<double>(length) * repeats / seconds / giga;
 }
 
-// Enough independent chains of multiply-adds to fill the pipelines.
+// Enough independent chains of multiply-adds to fill the pipelines, few enough to stay in registers.
 double multiply_add() {
-  constexpr std::size_t chains = 96;
-  constexpr int rounds = 400'000;
-  alignas(cache_line) std::array<double, chains> x{};
-  x.fill(1.0);
-  double factor = 0.999999;
+  using Numbers = Lanes<double>;
+  constexpr std::size_t chains = 12;
+  constexpr int rounds = 2'000'000;
+  double start = 1.0, factor = 0.999999;
+  benchmark::DoNotOptimize(start);
   benchmark::DoNotOptimize(factor);
+  double sink = 0.0;
   const double seconds = best_of(5, [&] {
+    std::array<Numbers, chains> x;
+    unrolled<chains>([&](auto k) THAWSLIDE_INLINE_LAMBDA { x[k] = Numbers(start); });
     for (int r = 0; r < rounds; ++r) {
-      for (double& value : x) {
-        value = value * factor + 1e-6;
-      }
+      unrolled<chains>([&](auto k) THAWSLIDE_INLINE_LAMBDA { x[k] = x[k] * Numbers(factor) + Numbers(1e-6); });
     }
-    benchmark::DoNotOptimize(x);
+    unrolled<chains>([&](auto k) THAWSLIDE_INLINE_LAMBDA { sink += x[k][0]; });
+    benchmark::DoNotOptimize(sink);
   });
-  return 2.0 * static_cast<double>(chains) * rounds / seconds / giga;
+  return 2.0 * static_cast<double>(chains * Numbers::count) * rounds / seconds / giga;
 }
 
 }  // namespace

@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -78,11 +83,42 @@ double heap_in_use() {
   return static_cast<double>(heap.uordblks + heap.hblkhd);
 }
 
-template <int Dim>
-StepTiming time_simulation(const StepCase& which, int threads, int repeats, double seconds) {
+// A process that keeps the first core busy for as long as this lives.
+class BusyCore {
+ public:
+  explicit BusyCore(bool wanted) {
+    if (!wanted) {
+      return;
+    }
+    process_ = fork();
+    if (process_ == 0) {
+      cpu_set_t first;
+      CPU_ZERO(&first);
+      CPU_SET(0, &first);
+      sched_setaffinity(0, sizeof first, &first);
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      for (std::atomic<std::uint64_t> turns{0};; ++turns) {
+      }
+    }
+  }
+  ~BusyCore() {
+    if (process_ > 0) {
+      kill(process_, SIGKILL);
+      waitpid(process_, nullptr, 0);
+    }
+  }
+  BusyCore(const BusyCore&) = delete;
+  BusyCore& operator=(const BusyCore&) = delete;
+
+ private:
+  pid_t process_ = -1;
+};
+
+template <int Dim, class Real>
+StepTiming time_simulation(const StepCase& which, int threads, int repeats, double particle_steps) {
   using Clock = std::chrono::steady_clock;
   const double heap_before = heap_in_use();
-  sim::Simulation<Dim, double> simulation(make_case(which));
+  sim::Simulation<Dim, Real> simulation(make_case(which));
   const auto& particles = simulation.particles();
   const double dt = simulation.parameters().time.step;
   const auto step = [&] { simulation.step(dt); };
@@ -90,20 +126,19 @@ StepTiming time_simulation(const StepCase& which, int threads, int repeats, doub
   for (int k = 0; k < warm_up; ++k) {
     step();
   }
+  const BusyCore busy(which.beside_busy);
   const auto stages_before = simulation.stopwatch().seconds();
   std::vector<double> rates;
-  std::int64_t steps = 0;
+  const auto batch =
+      std::max<std::int64_t>(2, static_cast<std::int64_t>(particle_steps / static_cast<double>(particles.size())));
+  const std::int64_t steps = batch * repeats;
   for (int r = 0; r < repeats; ++r) {
     const auto start = Clock::now();
-    double passed = 0.0;
-    std::int64_t batch = 0;
-    while (passed < seconds) {
+    for (std::int64_t k = 0; k < batch; ++k) {
       step();
-      ++batch;
-      passed = std::chrono::duration<double>(Clock::now() - start).count();
     }
+    const double passed = std::chrono::duration<double>(Clock::now() - start).count();
     rates.push_back(static_cast<double>(particles.size()) * static_cast<double>(batch) / passed);
-    steps += batch;
   }
   StepTiming timing{which.name, particles.size(), threads, 0, 0, 0, 0, 0, {}};
   for (const auto& [stage, total] : simulation.stopwatch().seconds()) {
@@ -131,21 +166,36 @@ StepTiming time_simulation(const StepCase& which, int threads, int repeats, doub
 }  // namespace
 
 std::vector<StepCase> step_cases() {
-  return {{"2D 8,400", 2, 210, 1, 10},
-          {"2D 100,000", 2, 2500, 1, 10},
-          {"2D 1,000,000", 2, 12500, 1, 20},
-          {"3D 8,000", 3, 20, 10, 5},
-          {"3D 100,000", 3, 50, 25, 10},
-          {"3D 1,000,000", 3, 125, 100, 10},
-          {"3D 100,000 yielding", 3, 50, 25, 10, 1, 4e4},
-          {"2D 100,000 in a box 10 times as long", 2, 2500, 1, 10, 10},
-          {"2D 100,000 in a box 100 times as long", 2, 2500, 1, 10, 100}};
+  std::vector<StepCase> cases{{"2D 8,400", 2, 210, 1, 10},
+                              {"2D 100,000", 2, 2500, 1, 10},
+                              {"2D 1,000,000", 2, 12500, 1, 20},
+                              {"3D 8,000", 3, 20, 10, 5},
+                              {"3D 100,000", 3, 50, 25, 10},
+                              {"3D 1,000,000", 3, 125, 100, 10},
+                              {"3D 100,000 yielding", 3, 50, 25, 10, 1, 5e4},
+                              {"2D 100,000 in a box 10 times as long", 2, 2500, 1, 10, 10},
+                              {"2D 100,000 in a box 100 times as long", 2, 2500, 1, 10, 100}};
+  for (StepCase which : {cases[0], cases[1], cases[4]}) {
+    which.name += ", single precision";
+    which.in_single = true;
+    cases.push_back(which);
+  }
+  for (StepCase which : {cases[0], cases[1]}) {
+    which.name += ", beside a busy process";
+    which.beside_busy = true;
+    cases.push_back(which);
+  }
+  return cases;
 }
 
-StepTiming time_steps(const StepCase& which, int threads, int repeats, double seconds) {
+StepTiming time_steps(const StepCase& which, int threads, int repeats, double particle_steps) {
   set_thread_count(threads);
-  return which.dimension == 2 ? time_simulation<2>(which, threads, repeats, seconds)
-                              : time_simulation<3>(which, threads, repeats, seconds);
+  const auto time_in = [&](auto real) {
+    using Real = decltype(real);
+    return which.dimension == 2 ? time_simulation<2, Real>(which, threads, repeats, particle_steps)
+                                : time_simulation<3, Real>(which, threads, repeats, particle_steps);
+  };
+  return which.in_single ? time_in(0.0f) : time_in(0.0);
 }
 
 nlohmann::ordered_json to_json(const StepTiming& timing) {

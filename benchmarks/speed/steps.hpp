@@ -14,6 +14,8 @@ struct StepCase {
   double length, width, height;  // of the slab, in cells of 1 m
   double box = 1;                // the domain is this many times as long as the slab's needs it to be
   double cohesion = 5e5;         // inside the slab [Pa]: the smaller, the more of it yields
+  bool in_single = false;        // in single precision
+  bool beside_busy = false;      // another process keeps one core busy
 };
 
 struct StepTiming {
@@ -29,8 +31,9 @@ struct StepTiming {
 
 std::vector<StepCase> step_cases();
 
-// Times `repeats` batches of steps, each of at least `seconds`.
-StepTiming time_steps(const StepCase& which, int threads, int repeats, double seconds);
+// Times `repeats` batches of steps, each of about `particle_steps` and of two steps at least, so that what is timed
+// does not depend on the machine.
+StepTiming time_steps(const StepCase& which, int threads, int repeats, double particle_steps);
 
 nlohmann::ordered_json to_json(const StepTiming& timing);
 

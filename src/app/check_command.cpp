@@ -132,8 +132,7 @@ double peak_memory_megabytes() {
 int check_case(const CheckOptions& options) {
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
-  return with_dimension(parameters.general.dimension, [&](auto dimension) {
-    constexpr int Dim = decltype(dimension)::value;
+  return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     sim::Simulation<Dim, double> simulation(parameters);
     const Json picture = options.picture.empty() ? Json() : setup<Dim>(simulation);
     const auto limit = simulation.step_limit();

@@ -1,6 +1,4 @@
 // The command line: what can be asked, and how it ends (exit codes in ARCHITECTURE.md).
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <exception>
@@ -15,17 +13,6 @@ namespace {
 
 using thawslide::ExitCode;
 using namespace thawslide::app;
-
-// Threads that wait must not burn the core another one needs: they spin for some microseconds, which spares most waits
-// within a step a trip through the kernel, and then sleep. The OpenMP library reads this before main begins, so the
-// program starts itself once more with it set.
-void let_threads_wait_passively(char** arguments) {
-  if (std::getenv("OMP_WAIT_POLICY") == nullptr) {
-    setenv("OMP_WAIT_POLICY", "passive", 1);
-    setenv("GOMP_SPINCOUNT", "1000", 0);
-    execv("/proc/self/exe", arguments);
-  }
-}
 
 void add_case_options(CLI::App& command, CaseOptions& options) {
   command.add_option("case", options.file, "Case file, or the folder of a case.toml")->required();
@@ -119,7 +106,7 @@ int run_program(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  let_threads_wait_passively(arguments);
+  thawslide::let_threads_wait_passively(arguments);
   try {
     return run_program(count, arguments);
   } catch (const thawslide::UserError& error) {

@@ -38,8 +38,7 @@ int run_case(const RunOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   const fs::path folder = options.output.empty() ? fs::path("runs") / parameters.name : fs::path(options.output);
   io::require_usable(folder, options.overwrite);
-  return with_dimension(parameters.general.dimension, [&](auto dimension) {
-    constexpr int Dim = decltype(dimension)::value;
+  return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     sim::Simulation<Dim, double> simulation(parameters);
     io::make_run_folder(folder, options.overwrite);
     fmt::print("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
@@ -61,8 +60,7 @@ int resume_run(const ResumeOptions& options) {
                     folder.string()));
   }
   const config::Case parameters = config::read_case(folder);
-  return with_dimension(parameters.general.dimension, [&](auto dimension) {
-    constexpr int Dim = decltype(dimension)::value;
+  return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     sim::Simulation<Dim, double> simulation(parameters);
     std::vector<double> scalars;
     io::read_checkpoint<Dim, double>(folder / "checkpoint.bin", simulation.particles(), scalars);

@@ -43,14 +43,14 @@ class FrontWatch {
 };
 
 template <int Dim>
-void print_summary(const sim::Simulation<Dim, double>& simulation, std::int64_t steps, double wall,
-                   const std::filesystem::path& folder) {
+void print_summary(const sim::Simulation<Dim, double>& simulation, const std::map<std::string, double>& stage_seconds,
+                   std::int64_t steps, double wall, const std::filesystem::path& folder) {
   const double count = static_cast<double>(simulation.particles().size());
   fmt::print("{} particles, {} steps in {}: {:.3g} million particle-steps per second on {} thread{}\n",
              simulation.particles().size(), steps, duration_text(wall), count * static_cast<double>(steps) / wall / 1e6,
              thread_count(), thread_count() == 1 ? "" : "s");
   std::vector<std::pair<double, std::string>> stages;
-  for (const auto& [name, seconds] : simulation.stopwatch().seconds()) {
+  for (const auto& [name, seconds] : stage_seconds) {
     stages.emplace_back(seconds, name);
   }
   std::sort(stages.rbegin(), stages.rend());
@@ -90,7 +90,8 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
     output.write_index();
     output.write_provenance(simulation, status, message, wall());
     progress.finish();
-    print_summary(simulation, simulation.step_number() - first_step, wall(), folder);
+    print_summary(simulation, output.seconds_per_stage(simulation), simulation.step_number() - first_step, wall(),
+                  folder);
   };
   catch_signals();
   try {

@@ -102,7 +102,7 @@ template <int Dim>
 void RunOutput<Dim>::write_history(const Simulation& simulation) {
   if (history_step_ != simulation.step_number()) {
     history_step_ = simulation.step_number();
-    history_.add(sim::history_row(simulation));
+    stopwatch_.time("write_history", [&] { history_.add(sim::history_row(simulation)); });
   }
 }
 
@@ -110,14 +110,25 @@ template <int Dim>
 void RunOutput<Dim>::write_snapshot(const Simulation& simulation) {
   if (snapshot_step_ != simulation.step_number()) {
     snapshot_step_ = simulation.step_number();
-    snapshots_.add(io::take_snapshot<Dim, double>(simulation.particles(), simulation.model().origin, simulation.time(),
-                                                  simulation.step_number()));
+    stopwatch_.time("write_snapshot", [&] {
+      snapshots_.add(io::take_snapshot<Dim, double>(simulation.particles(), simulation.model().origin,
+                                                    simulation.time(), simulation.step_number()));
+    });
   }
 }
 
 template <int Dim>
-void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) const {
-  io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(), simulation.scalars());
+void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
+  stopwatch_.time("write_checkpoint", [&] {
+    io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(), simulation.scalars());
+  });
+}
+
+template <int Dim>
+std::map<std::string, double> RunOutput<Dim>::seconds_per_stage(const Simulation& simulation) const {
+  std::map<std::string, double> seconds = simulation.stopwatch().seconds();
+  seconds.insert(stopwatch_.seconds().begin(), stopwatch_.seconds().end());
+  return seconds;
 }
 
 template <int Dim>
@@ -128,7 +139,7 @@ void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::s
   provenance_.simulated_time = simulation.time();
   provenance_.steps = simulation.step_number();
   provenance_.wall_seconds = wall_seconds;
-  provenance_.seconds_per_stage = simulation.stopwatch().seconds();
+  provenance_.seconds_per_stage = seconds_per_stage(simulation);
   io::write_provenance(folder_ / "run.json", provenance_);
 }
 

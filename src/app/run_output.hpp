@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"
 #include "io/snapshot_series.hpp"
@@ -41,11 +43,15 @@ class RunOutput {
   void write_history(const Simulation& simulation);
   void write_snapshot(const Simulation& simulation);
   // particles.vtkhdf over all snapshots so far.
-  void write_index() { snapshots_.write_index(); }
-  void write_checkpoint(const Simulation& simulation) const;
+  void write_index() {
+    stopwatch_.time("write_snapshot", [&] { snapshots_.write_index(); });
+  }
+  void write_checkpoint(const Simulation& simulation);
   // run.json; status as architecture's words: running, done, stopped, failed.
   void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
                         double wall_seconds);
+  // Wall-clock time [s] of the step's stages and of writing.
+  [[nodiscard]] std::map<std::string, double> seconds_per_stage(const Simulation& simulation) const;
 
  private:
   RunOutput(const std::filesystem::path& folder, io::HistoryWriter history, io::SnapshotSeries snapshots);
@@ -54,6 +60,7 @@ class RunOutput {
   io::HistoryWriter history_;
   io::SnapshotSeries snapshots_;
   io::Provenance provenance_;
+  Stopwatch stopwatch_;
   std::int64_t history_step_ = -1, snapshot_step_ = -1;
 };
 

@@ -1,5 +1,6 @@
 #include "band/averages.hpp"
 
+#include "base/instances.hpp"
 #include "mpm/batch_transfer.hpp"
 #include "mpm/motion.hpp"
 
@@ -10,7 +11,7 @@ using mpm::HatLayout;
 template <int Dim, class Real>
 void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
                      const BandModel<Dim, Real>& model, mpm::Nodes<Dim, Real>& nodes) {
-  auto& patches = nodes.hats.patches(grid.tiles().size());
+  const auto patches = nodes.hats.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
     patch.clear();
@@ -33,8 +34,7 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particle
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \
   template void average_on_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const mpm::Particles<Dim, Real>&, \
                                            const BandModel<Dim, Real>&, mpm::Nodes<Dim, Real>&);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::band

@@ -1,9 +1,9 @@
 #include "band/flow_depth.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.hpp"
+#include "base/instances.hpp"
 #include "base/parallel.hpp"
 
 namespace thawslide::band {
@@ -11,56 +11,111 @@ namespace thawslide::band {
 // Column numbers count from here, so that a step to a neighbour never carries from one axis into the next.
 constexpr std::int64_t column_origin = std::int64_t{1} << 31;
 
-template <int Dim, class Real>
-int FlowDepth<Dim, Real>::local_cell(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, std::size_t axis,
-                                     Real place) {
-  const int first = mpm::Tile<Dim>::index(grid.tiles()[t].key)[axis] * mpm::Tile<Dim>::edge - 1;
-  const int local = static_cast<int>(std::floor(place * grid.inverse_cell())) - first;
-  THAWSLIDE_ASSERT(local >= 0 && local < columns_per_axis, "place {} m lies in cell {} of its tile", place, local);
-  return local;
+namespace {
+
+// What boxes cover of the two cells, `lower` and the next one, that they may overlap along one horizontal axis.
+template <class Real>
+struct Overlap {
+  Lanes<Real> lower;     // number of the cell, from the tile's first one
+  Lanes<Real> from[2];   // [m]
+  Lanes<Real> to[2];     // [m]
+  Lanes<Real> share[2];  // of the box
+};
+
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE Overlap<Real> overlap(Lanes<Real> middle, Lanes<Real> half, int first_cell, Real cell,
+                                              Real inverse_cell) {
+  const Lanes<Real> begin = middle - half, end = middle + half, sliver = round_off<Real> * half;
+  const Lanes<Real> number = floor((begin + sliver) * inverse_cell);
+  const Lanes<Real> border = (number + Real(1)) * cell;
+  const auto crosses = end - sliver >= border;
+  Overlap<Real> over;
+  over.lower = number - static_cast<Real>(first_cell);
+  over.from[0] = max(begin, number * cell);
+  over.to[0] = min(end, border);
+  over.from[1] = border;
+  over.to[1] = select(crosses, end, border);
+  const Lanes<Real> inverse_width = Real(1) / (Real(2) * half);
+  over.share[0] = (over.to[0] - over.from[0]) * inverse_width;
+  over.share[1] = (over.to[1] - over.from[1]) * inverse_width;
+  return over;
 }
 
 template <int Dim, class Real>
-template <class Visit>
-void FlowDepth<Dim, Real>::for_columns(const mpm::SparseGrid<Dim, Real>& grid,
-                                       const mpm::Particles<Dim, Real>& particles, std::size_t t, std::uint32_t p,
-                                       const Visit& visit) const {
-  constexpr Real sliver = static_cast<Real>(1e-9);  // of the box: less of a column is round-off
-  constexpr std::size_t axes = Dim - 1;
-  const auto tile = mpm::Tile<Dim>::index(grid.tiles()[t].key);
-  const Real half = half_size_[static_cast<std::size_t>(particles.body(p))];
-  std::array<int, axes> lowest{}, highest{};
-  std::array<Real, axes> lower{}, upper{};
-  for (std::size_t a = 0; a < axes; ++a) {
-    const Real middle = particles.position(p, static_cast<int>(a));
-    lower[a] = middle - half;
-    upper[a] = middle + half;
-    lowest[a] = local_cell(grid, t, a, lower[a] + sliver * half);
-    highest[a] = local_cell(grid, t, a, upper[a] - sliver * half);
+using Overlaps = std::array<Overlap<Real>, static_cast<std::size_t>(Dim) - 1>;
+
+template <int Dim, class Real>
+THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, Real> overlaps(const std::array<int, Dim - 1>& first_cell, Real cell,
+                                                     const std::vector<Real>& half_size,
+                                                     const mpm::Particles<Dim, Real>& particles,
+                                                     const mpm::Batch<Real>& batch) {
+  const Lanes<Real> half = of_body(half_size, particles, batch);
+  Overlaps<Dim, Real> along;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    along[a] = overlap(particles.position.load(batch, static_cast<int>(a)), half, first_cell[a], cell, Real(1) / cell);
+    const auto inside = (along[a].lower >= Real(0)) & (along[a].lower <= Real(mpm::Tile<Dim>::edge));
+    THAWSLIDE_ASSERT(!any(!inside), "of particles {} ... one lies outside its tile: cells {} ...",
+                     particles.id(batch.particle[0]), along[a].lower[0]);
   }
-  std::array<int, axes> cell = lowest;
-  while (true) {
-    Real share = 1;
-    std::array<Real, axes> from{}, to{};
-    std::size_t place = 0;
-    for (std::size_t a = axes; a-- > 0;) {
-      const auto begin = static_cast<Real>(tile[a] * mpm::Tile<Dim>::edge - 1 + cell[a]) * grid.cell();
-      from[a] = std::max(lower[a], begin);
-      to[a] = std::min(upper[a], begin + grid.cell());
-      share *= (to[a] - from[a]) / (Real(2) * half);
-      place = place * static_cast<std::size_t>(columns_per_axis) + static_cast<std::size_t>(cell[a]);
+  return along;
+}
+
+// Calls visit(which of the two cells along each axis, places in the tile, shares) for every column that boxes may
+// overlap.
+template <int Dim, class Real, class Visit>
+THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Real>& along, const Visit& visit) {
+  constexpr auto per_axis = static_cast<Real>(ColumnsOfTile<Dim, Real>::per_axis);
+  unrolled<static_cast<std::size_t>(1) << (Dim - 1)>([&](auto corner) THAWSLIDE_INLINE_LAMBDA {
+    std::array<std::size_t, Dim - 1> side{};
+    Lanes<Real> place = Real(0), share = Real(1);
+    for (std::size_t a = Dim - 1; a-- > 0;) {
+      side[a] = corner >> a & 1;
+      place = place * per_axis + along[a].lower + static_cast<Real>(side[a]);
+      share = share * along[a].share[side[a]];
     }
-    visit(place, share, from, to);
-    std::size_t a = 0;
-    while (a < axes && cell[a] == highest[a]) {
-      cell[a] = lowest[a];
-      ++a;
-    }
-    if (a == axes) {
-      return;
-    }
-    ++cell[a];
+    visit(side, place, share);
+  });
+}
+
+template <int Dim, class Real>
+std::array<int, Dim - 1> first_cells(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) {
+  std::array<int, Dim - 1> first{};
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    first[a] = mpm::Tile<Dim>::index(grid.tiles()[t].key)[a] * mpm::Tile<Dim>::edge - 1;
   }
+  return first;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+Lanes<Real> ColumnsOfTile<Dim, Real>::flow_depth(const mpm::Particles<Dim, Real>& particles,
+                                                 const mpm::Batch<Real>& batch) const {
+  const Lanes<Real> height = particles.position.load(batch, Dim - 1);
+  const auto in_band = Lanes<Real>::of([&](std::size_t lane) { return particles.in_band(batch.particle[lane]); });
+  Lanes<Real> depth = Real(0);
+  for_columns<Dim>(
+      overlaps<Dim>(first_cell_, cell_, *half_size_, particles, batch),
+      [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) {
+        const auto at_place = [&](const std::array<Real, count>& known) {
+          return Lanes<Real>::of([&](std::size_t lane) { return known[static_cast<std::size_t>(place[lane])]; });
+        };
+        const Lanes<Real> below = max(at_place(top_) - height, Lanes<Real>(Real(0)));
+        depth += share * at_place(cosine_) * select(in_band > Real(0), at_place(thickness_), below);
+      });
+  return depth;
+}
+
+template <int Dim, class Real>
+Lanes<Real> ColumnsOfTile<Dim, Real>::below_top(const mpm::Particles<Dim, Real>& particles,
+                                                const mpm::Batch<Real>& batch) const {
+  Lanes<Real> place = Real(0);
+  for (std::size_t a = Dim - 1; a-- > 0;) {
+    const Lanes<Real> number = floor(particles.position.load(batch, static_cast<int>(a)) * (Real(1) / cell_));
+    place = place * Real(per_axis) + (number - static_cast<Real>(first_cell_[a]));
+  }
+  return Lanes<Real>::of([&](std::size_t lane) { return top_[static_cast<std::size_t>(place[lane])]; }) -
+         particles.position.load(batch, Dim - 1);
 }
 
 template <int Dim, class Real>
@@ -69,8 +124,8 @@ std::uint64_t FlowDepth<Dim, Real>::column_key(const mpm::SparseGrid<Dim, Real>&
   const auto tile = mpm::Tile<Dim>::index(grid.tiles()[t].key);
   std::uint64_t key = 0;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    const int local = static_cast<int>(place % static_cast<std::size_t>(columns_per_axis));
-    place /= static_cast<std::size_t>(columns_per_axis);
+    const int local = static_cast<int>(place % static_cast<std::size_t>(OfTile::per_axis));
+    place /= static_cast<std::size_t>(OfTile::per_axis);
     key |= static_cast<std::uint64_t>(column_origin + tile[a] * mpm::Tile<Dim>::edge + local - 1) << (32 * a);
   }
   return key;
@@ -84,10 +139,6 @@ std::uint64_t FlowDepth<Dim, Real>::neighbour(std::uint64_t key, std::size_t axi
 
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::Column::add(const Column& part) {
-  if (!(volume > Real(0))) {
-    *this = part;
-    return;
-  }
   volume += part.volume;
   top = std::max(top, part.top);
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
@@ -116,7 +167,7 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
   keys_.clear();
   columns_.clear();
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    for (std::size_t place = 0; place < columns_per_tile; ++place) {
+    for (std::size_t place = 0; place < OfTile::count; ++place) {
       const Column& part = tiles_[t].part[place];
       if (!(part.volume > Real(0))) {
         continue;
@@ -133,6 +184,43 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
   }
 }
 
+// Particle after particle, whatever the batches, so that sums do not depend on them.
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
+                                    std::size_t t) {
+  constexpr std::size_t corners = static_cast<std::size_t>(1) << (Dim - 1);
+  tiles_[t].part.fill({});
+  const auto& tile = grid.tiles()[t];
+  const auto first_cell = first_cells(grid, t);
+  mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+    const auto along = overlaps<Dim>(first_cell, grid.cell(), half_size_, particles, batch);
+    const Lanes<Real> top = particles.position.load(batch, Dim - 1) + of_body(half_size_, particles, batch);
+    const Lanes<Real> volume = particles.volume.load(batch);
+    std::array<Lanes<Real>, corners> places, volumes;
+    std::array<std::array<std::size_t, Dim - 1>, corners> sides;
+    std::size_t known = 0;
+    for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) {
+      sides[known] = side;
+      places[known] = place;
+      volumes[known++] = share * volume;
+    });
+    for (std::size_t lane = 0; lane < batch.count; ++lane) {
+      for (std::size_t k = 0; k < corners; ++k) {
+        if (volumes[k][lane] > Real(0)) {
+          Column own;
+          own.volume = volumes[k][lane];
+          own.top = top[lane];
+          for (std::size_t a = 0; a + 1 < Dim; ++a) {
+            own.from[a] = along[a].from[sides[k][a]][lane];
+            own.to[a] = along[a].to[sides[k][a]][lane];
+          }
+          tiles_[t].part[static_cast<std::size_t>(places[k][lane])].add(own);
+        }
+      }
+    }
+  });
+}
+
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                                   const std::function<Real(Real)>& slope_cosine,
@@ -142,21 +230,7 @@ void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const 
     half *= grid.cell();
   }
   tiles_.resize(grid.tiles().size());
-  parallel_for(tiles_.size(), [&](std::size_t t) {
-    tiles_[t].part.fill({});
-    const auto& tile = grid.tiles()[t];
-    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-      const std::uint32_t p = grid.order()[k];
-      Column own;
-      own.top = particles.position(p, Dim - 1) + half_size_[static_cast<std::size_t>(particles.body(p))];
-      for_columns(grid, particles, t, p, [&](std::size_t place, Real share, const auto& from, const auto& to) {
-        own.volume = share * particles.volume(p);
-        own.from = from;
-        own.to = to;
-        tiles_[t].part[place].add(own);
-      });
-    }
-  });
+  parallel_for(tiles_.size(), [&](std::size_t t) { add_tile(grid, particles, t); });
   number_columns(grid);
   set_footprints(grid.cell());
   if (model.normal_thickness && slope_cosine) {
@@ -168,15 +242,19 @@ void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const 
 }
 
 template <int Dim, class Real>
-Real FlowDepth<Dim, Real>::depth_below_top(const mpm::SparseGrid<Dim, Real>& grid,
-                                           const mpm::Particles<Dim, Real>& particles, std::size_t t,
-                                           std::uint32_t p) const {
-  std::size_t place = 0;
-  for (std::size_t a = Dim - 1; a-- > 0;) {
-    place = place * static_cast<std::size_t>(columns_per_axis) +
-            static_cast<std::size_t>(local_cell(grid, t, a, particles.position(p, static_cast<int>(a))));
+ColumnsOfTile<Dim, Real> FlowDepth<Dim, Real>::of_tile(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) const {
+  OfTile columns;
+  columns.first_cell_ = first_cells(grid, t);
+  columns.cell_ = grid.cell();
+  columns.half_size_ = &half_size_;
+  for (std::size_t place = 0; place < OfTile::count; ++place) {
+    const bool known = tiles_[t].part[place].volume > Real(0);
+    const Column here = known ? columns_[static_cast<std::size_t>(tiles_[t].number[place])] : Column();
+    columns.thickness_[place] = known ? here.volume / here.footprint : Real(0);
+    columns.top_[place] = here.top;
+    columns.cosine_[place] = here.cosine;
   }
-  return column(t, place).top - particles.position(p, Dim - 1);
+  return columns;
 }
 
 template <int Dim, class Real>
@@ -184,21 +262,17 @@ void FlowDepth<Dim, Real>::depth_to_particles(const mpm::SparseGrid<Dim, Real>& 
                                               mpm::Particles<Dim, Real>& particles) const {
   parallel_for(tiles_.size(), [&](std::size_t t) {
     const auto& tile = grid.tiles()[t];
-    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-      const std::uint32_t p = grid.order()[k];
-      Real depth = 0;
-      for_columns(grid, particles, t, p, [&](std::size_t place, Real share, const auto& /*from*/, const auto& /*to*/) {
-        const Column& here = column(t, place);
-        const Real thickness = particles.in_band(p) != 0 ? here.volume / here.footprint
-                                                         : std::max(Real(0), here.top - particles.position(p, Dim - 1));
-        depth += share * thickness * here.cosine;
-      });
-      particles.flow_depth(p) = depth;
-    }
+    const OfTile columns = of_tile(grid, t);
+    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+      particles.flow_depth.store(batch, columns.flow_depth(particles, batch));
+    });
   });
 }
 
-template class FlowDepth<2, double>;
-template class FlowDepth<3, double>;
+#define THAWSLIDE_INSTANTIATE(Dim, Real)   \
+  template class ColumnsOfTile<Dim, Real>; \
+  template class FlowDepth<Dim, Real>;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::band

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "band/model.hpp"
@@ -11,6 +12,31 @@
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::band {
+
+// What the particles of one tile see of the grid's columns, by place in the tile.
+template <int Dim, class Real>
+class ColumnsOfTile {
+ public:
+  // A tile's particles reach from the cell below its first node to that above its last one; a box that ends there looks
+  // for its share of 0 in one more.
+  static constexpr int per_axis = mpm::Tile<Dim>::edge + 2;
+  static constexpr auto count = static_cast<std::size_t>(mpm::power(per_axis, Dim - 1));
+
+  // H [m] of particles: the columns' thickness in the band, elsewhere the depth below their tops; each column by the
+  // share of the box in it.
+  [[nodiscard]] Lanes<Real> flow_depth(const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) const;
+  // Depth below the top of the column that holds the particle's middle [m], vertical.
+  [[nodiscard]] Lanes<Real> below_top(const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) const;
+
+ private:
+  template <int, class>
+  friend class FlowDepth;
+
+  std::array<int, Dim - 1> first_cell_;  // number along each horizontal axis
+  Real cell_;                            // [m]
+  const std::vector<Real>* half_size_;   // of each body's particles [m]
+  std::array<Real, count> thickness_, top_, cosine_;
+};
 
 // H of P_I = rho_I g H [m]: band particles see the thickness of the whole grid column (volume over footprint), others
 // their depth below its top; both times slope_cosine(x), the cosine of the terrain's slope there. A particle belongs to
@@ -26,47 +52,40 @@ class FlowDepth {
   // particles.flow_depth from the columns and in_band.
   void depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid, mpm::Particles<Dim, Real>& particles) const;
 
-  // Depth of particle p of tile t below the top of its column [m], vertical.
-  [[nodiscard]] Real depth_below_top(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
-                                     std::size_t t, std::uint32_t p) const;
+  [[nodiscard]] ColumnsOfTile<Dim, Real> of_tile(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) const;
 
  private:
+  using OfTile = ColumnsOfTile<Dim, Real>;
+
   struct Column {
     Real volume = 0;
-    Real top = 0;
-    std::array<Real, Dim - 1> from{}, to{};  // what the boxes cover of it along each horizontal axis
-    Real footprint = 0;                      // [m2], per metre of width in 2D
+    Real top = std::numeric_limits<Real>::lowest();
+    std::array<Real, Dim - 1> from, to;  // what the boxes cover of it along each horizontal axis
+    Real footprint = 0;                  // [m2], per metre of width in 2D
     Real cosine = 1;
 
+    Column() {
+      from.fill(std::numeric_limits<Real>::max());
+      to.fill(std::numeric_limits<Real>::lowest());
+    }
     void add(const Column& part);
   };
-  // The columns that a tile's particles reach: their cells begin one below the tile's first node.
-  static constexpr int columns_per_axis = mpm::Tile<Dim>::edge + 1;
-  static constexpr auto columns_per_tile = static_cast<std::size_t>(mpm::power(columns_per_axis, Dim - 1));
-  struct TileColumns {
-    std::array<Column, columns_per_tile> part;
-    std::array<std::int32_t, columns_per_tile> number;
+  struct TilePart {
+    std::array<Column, OfTile::count> part;
+    std::array<std::int32_t, OfTile::count> number;
   };
 
-  // Calls visit(place in the tile, share, from, to) for each column that the box of a particle overlaps.
-  template <class Visit>
-  void for_columns(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t,
-                   std::uint32_t p, const Visit& visit) const;
-  // Cell of the tile's columns, from 0, that holds a place [m] along a horizontal axis.
-  static int local_cell(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, std::size_t axis, Real place);
+  void add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
   static std::uint64_t column_key(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, std::size_t place);
   // Key of the neighbour column `cells` further along a horizontal axis.
   static std::uint64_t neighbour(std::uint64_t key, std::size_t axis, int cells);
   void set_footprints(Real cell);
   void number_columns(const mpm::SparseGrid<Dim, Real>& grid);
-  [[nodiscard]] const Column& column(std::size_t t, std::size_t place) const {
-    return columns_[static_cast<std::size_t>(tiles_[t].number[place])];
-  }
 
   KeyIndex index_;  // column key -> place in columns_
   std::vector<std::uint64_t> keys_;
   std::vector<Column> columns_;
-  std::vector<TileColumns> tiles_;
+  std::vector<TilePart> tiles_;
   std::vector<Real> half_size_;  // of each body's particles [m]
 };
 

@@ -4,6 +4,7 @@
 
 #include "band/heat_nodes.hpp"
 #include "band/particle_heat.hpp"
+#include "base/instances.hpp"
 #include "mpm/batch_transfer.hpp"
 #include "physics/pressurization.hpp"
 
@@ -71,7 +72,7 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 4> heat_flows(const mpm::Sp
 template <int Dim, class Real, class Law>
 void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Law& law, Real dt,
                    bool levels, mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
-  auto& patches = work.rates.patches(grid.tiles().size());
+  const auto patches = work.rates.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
     patch.clear();
@@ -101,7 +102,7 @@ THAWSLIDE_ALWAYS_INLINE Lanes<Real> change_of_temperature(const mpm::BatchStenci
 template <int Dim, class Real, class Law>
 void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real dt,
                              HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
-  auto& patches = work.capacity.patches(grid.tiles().size());
+  const auto patches = work.capacity.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
     patch.clear();
@@ -131,9 +132,7 @@ template <int Dim, class Real>
 Lanes<Real> orphan_heating(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                            std::uint64_t tile, const mpm::Patch<Dim, Real, 1>& orphan,
                            const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) {
-  const auto half = Lanes<Real>::of([&](std::size_t lane) {
-    return model.half_size[static_cast<std::size_t>(particles.body(batch.particle[lane]))];
-  });
+  const auto half = of_body(model.half_size, particles, batch);
   Lanes<Real> specific = Real(0);
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     const auto place = place_of(grid, particles, batch);
@@ -290,8 +289,7 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
   template HeatGain<Real> conduct_heat<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&,  \
                                                   Real, bool, const mpm::Nodes<Dim, Real>&, HeatNodes<Dim, Real>&, \
                                                   mpm::Particles<Dim, Real>&);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::band

@@ -22,6 +22,8 @@ struct HeatGain {
 // Records of the heat stage at a node.
 template <int Dim, class Real>
 struct HeatNodes {
+  explicit HeatNodes(const std::shared_ptr<mpm::PatchRoom>& room) : rates(room), capacity(room) {}
+
   mpm::NodeRecords<Dim, Real, 4> rates;     // heat flow in [W], advection [W], capacity [J/K], levelled in cells [J]
   mpm::NodeRecords<Dim, Real, 2> capacity;  // with the secant capacity: [J/K], levelled in cells [J]
   mpm::NodeRecords<Dim, Real, 3> state;     // temperature [C], pore pressure [Pa], rate of temperature [K/s]

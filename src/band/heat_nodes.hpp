@@ -20,14 +20,13 @@ template <int Dim, class Real>
 const HeatFace<Real>* face_of(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, std::size_t b,
                               std::size_t k) {
   const Vector<Real, Dim> position = mpm::node_position(grid, b, k);
-  constexpr Real round_off = static_cast<Real>(1e-9);
   for (int a = 0; a < Dim; ++a) {
     const HeatFace<Real>& lower = model.faces[2 * a];
     const HeatFace<Real>& upper = model.faces[2 * a + 1];
-    if (lower.kind != FaceHeat::insulated && position[a] <= round_off * model.extent[a]) {
+    if (lower.kind != FaceHeat::insulated && position[a] <= round_off<Real> * model.extent[a]) {
       return &lower;
     }
-    if (upper.kind != FaceHeat::insulated && position[a] >= model.extent[a] * (Real(1) - round_off)) {
+    if (upper.kind != FaceHeat::insulated && position[a] >= model.extent[a] * (Real(1) - round_off<Real>)) {
       return &upper;
     }
   }

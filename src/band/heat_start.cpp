@@ -1,5 +1,6 @@
 // What heat starts from: the content at t = 0, and the scaling by the band that is in force.
 #include "band/heat.hpp"
+#include "base/instances.hpp"
 
 namespace thawslide::band {
 
@@ -42,8 +43,7 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
   template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);         \
   template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real, \
                                         const std::function<Real(Real)>&, mpm::Particles<Dim, Real>&);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::band

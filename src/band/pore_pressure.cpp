@@ -1,5 +1,6 @@
 #include "band/pore_pressure.hpp"
 
+#include "base/instances.hpp"
 #include "mpm/batch_transfer.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/pressurization.hpp"
@@ -87,7 +88,7 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
           hats[HatLayout::volume] > Real(0) ? hats[HatLayout::pore_pressure] / hats[HatLayout::volume] : Real(0);
     }
   });
-  auto& patches = work.flows.patches(grid.tiles().size());
+  const auto patches = work.flows.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
     patch.clear();
@@ -143,17 +144,15 @@ Lanes<Real> pressurized(const BandModel<Dim, Real>& model, const LaneMask<Real>&
 
 // Particles near the free surface of a drained body: at atmospheric pressure.
 template <int Dim, class Real>
-LaneMask<Real> at_surface(const mpm::SparseGrid<Dim, Real>& grid, const FlowDepth<Dim, Real>& depth, std::size_t t,
+LaneMask<Real> at_surface(const mpm::SparseGrid<Dim, Real>& grid, const ColumnsOfTile<Dim, Real>& columns,
                           const mpm::Batch<Real>& batch, const mpm::Particles<Dim, Real>& particles) {
-  const auto below_top = Lanes<Real>::of(
-      [&](std::size_t lane) { return depth.depth_below_top(grid, particles, t, batch.particle[lane]); });
-  return below_top < Real(0.5) * grid.cell();
+  return columns.below_top(particles, batch) < Real(0.5) * grid.cell();
 }
 
 // The melted particles of a batch.
 template <int Dim, class Real>
 Pressures<Lanes<Real>> melted_pressures(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                                        const FlowDepth<Dim, Real>& depth, bool seepage, std::size_t t,
+                                        const ColumnsOfTile<Dim, Real>& columns, bool seepage, std::size_t t,
                                         const mpm::Patch<Dim, Real, 1>& changes, const mpm::Batch<Real>& batch,
                                         const mpm::Particles<Dim, Real>& particles) {
   const Lanes<Real> zero = Real(0);
@@ -167,7 +166,7 @@ Pressures<Lanes<Real>> melted_pressures(const mpm::SparseGrid<Dim, Real>& grid, 
   }
   Lanes<Real> pressure = pressurized(model, was_melted, seepage_change, batch, particles);
   if (seepage && any(permeable)) {
-    pressure = select(at_surface(grid, depth, t, batch, particles) & permeable, zero, pressure);
+    pressure = select(at_surface(grid, columns, batch, particles) & permeable, zero, pressure);
   }
   return {pressure, pressure};
 }
@@ -188,6 +187,7 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
       load_pressure_changes(grid, t, work, dt, changes);
     }
     const auto& tile = grid.tiles()[t];
+    const auto columns = depth.of_tile(grid, t);
     mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
       const Lanes<Real> ice = physics::ice_pressure(model.phases, model.gravity, particles.flow_depth.load(batch));
       const Lanes<Real> temperature = particles.temperature.load(batch);
@@ -198,7 +198,7 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
         now = frozen_pressures(model, ice, temperature, particles.liquid_saturation.load(batch));
       }
       if (any(!frozen)) {
-        const auto melted = melted_pressures(grid, model, depth, seepage, t, changes, batch, particles);
+        const auto melted = melted_pressures(grid, model, columns, seepage, t, changes, batch, particles);
         now = {select(frozen, now.liquid, melted.liquid), select(frozen, now.pore, melted.pore)};
       }
       particles.liquid_pressure.store(batch, now.liquid);
@@ -232,8 +232,7 @@ void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Re
                                                const FlowDepth<Dim, Real>&, Real, const mpm::Nodes<Dim, Real>&, \
                                                SeepageNodes<Dim, Real>&, mpm::Particles<Dim, Real>&);           \
   template void set_pore_pressure<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::band

@@ -11,6 +11,8 @@ namespace thawslide::band {
 // Records of the pore pressure stage at a node.
 template <int Dim, class Real>
 struct SeepageNodes {
+  explicit SeepageNodes(const std::shared_ptr<mpm::PatchRoom>& room) : flows(room) {}
+
   mpm::NodeRecords<Dim, Real, 1> pressure;  // [Pa]
   mpm::NodeRecords<Dim, Real, 3>
       flows;  // inflow times K_L [Pa m3/s], pore space [m3], pore space times seepage within cells

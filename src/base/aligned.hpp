@@ -23,6 +23,15 @@ struct AlignedAllocator {
   }
 };
 
+// Room for `count` items and little more: std::vector would double its room for one more item than it holds.
+template <class Vector>
+void resize_sparingly(Vector& items, std::size_t count) {
+  if (count > items.capacity()) {
+    items.reserve(count + count / 8);
+  }
+  items.resize(count);
+}
+
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 

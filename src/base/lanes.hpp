@@ -35,6 +35,14 @@ struct LaneRegister<double> {
   using Flags = std::int64_t __attribute__((vector_size(32)));
 };
 
+template <>
+struct LaneRegister<float> {
+  using Flag = std::int32_t;
+  using Numbers = float __attribute__((vector_size(32)));
+  using Stored = float __attribute__((vector_size(32), may_alias));
+  using Flags = std::int32_t __attribute__((vector_size(32)));
+};
+
 template <class Real>
 inline constexpr std::size_t lane_count = sizeof(typename LaneRegister<Real>::Numbers) / sizeof(Real);
 
@@ -140,6 +148,16 @@ class Lanes {
   Native native_;
 };
 
+// The type of a number, or of one lane.
+template <class Value>
+struct NumberOf {
+  using Type = Value;
+};
+template <class Real>
+struct NumberOf<Lanes<Real>> {
+  using Type = Real;
+};
+
 // The same words for one number.
 template <class Value>
 THAWSLIDE_ALWAYS_INLINE Value select(bool condition, const Value& a, const Value& b) {
@@ -151,16 +169,32 @@ THAWSLIDE_ALWAYS_INLINE Real each_lane(Real number, const Function& function) {
 }
 THAWSLIDE_ALWAYS_INLINE bool any(bool condition) { return condition; }
 
-// Rows become columns: lane j of result k is lane k of rows[j].
-THAWSLIDE_ALWAYS_INLINE void transpose(Lanes<double>& a, Lanes<double>& b, Lanes<double>& c, Lanes<double>& d) {
-  const auto low_ab = __builtin_shufflevector(a.native(), b.native(), 0, 4, 2, 6);
-  const auto high_ab = __builtin_shufflevector(a.native(), b.native(), 1, 5, 3, 7);
-  const auto low_cd = __builtin_shufflevector(c.native(), d.native(), 0, 4, 2, 6);
-  const auto high_cd = __builtin_shufflevector(c.native(), d.native(), 1, 5, 3, 7);
-  a = Lanes<double>(__builtin_shufflevector(low_ab, low_cd, 0, 1, 4, 5));
-  b = Lanes<double>(__builtin_shufflevector(high_ab, high_cd, 0, 1, 4, 5));
-  c = Lanes<double>(__builtin_shufflevector(low_ab, low_cd, 2, 3, 6, 7));
-  d = Lanes<double>(__builtin_shufflevector(high_ab, high_cd, 2, 3, 6, 7));
+// Lanes of `a` where bit Half of the lane is 0 and of `b` moved up by Half elsewhere; the rest of both likewise.
+template <std::size_t Half, class Real, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE void exchange(Lanes<Real>& a, Lanes<Real>& b, std::index_sequence<K...> /*lanes*/) {
+  constexpr std::size_t count = sizeof...(K);
+  const auto kept = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? K : count + (K ^ Half))...);
+  const auto moved = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? (K | Half) : count + K)...);
+  a = Lanes<Real>(kept);
+  b = Lanes<Real>(moved);
+}
+
+// Rows become columns: lane j of rows[k] is lane k of the former rows[j]. As many rows as lanes.
+template <std::size_t Half, class Real>
+THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Lanes<Real>* rows) {
+  constexpr std::size_t count = lane_count<Real>;
+  unrolled<count>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+    if constexpr ((k & Half) == 0) {
+      exchange<Half>(rows[k], rows[k | Half], std::make_index_sequence<count>());
+    }
+  });
+  if constexpr (Half > 1) {
+    transpose_blocks<Half / 2>(rows);
+  }
+}
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE void transpose(Lanes<Real>* rows) {
+  transpose_blocks<lane_count<Real> / 2>(rows);
 }
 
 }  // namespace thawslide
@@ -172,7 +206,7 @@ struct Eigen::NumTraits<thawslide::Lanes<Number>> : Eigen::GenericNumTraits<thaw
   using NonInteger = Real;
   using Nested = Real;
   using Literal = Real;
-  enum {
+  enum {  // NOLINTBEGIN(readability-identifier-naming): Eigen's names
     IsComplex = 0,
     IsInteger = 0,
     IsSigned = 1,
@@ -180,5 +214,5 @@ struct Eigen::NumTraits<thawslide::Lanes<Number>> : Eigen::GenericNumTraits<thaw
     ReadCost = 1,
     AddCost = 1,
     MulCost = 1
-  };
+  };  // NOLINTEND(readability-identifier-naming)
 };

@@ -17,6 +17,16 @@
 
 namespace thawslide {
 
+// A tolerance in either precision.
+template <class Real>
+constexpr Real by_precision(double in_double, double in_single) {
+  return static_cast<Real>(sizeof(Real) == sizeof(double) ? in_double : in_single);
+}
+
+// Relative differences below are taken for round-off.
+template <class Real>
+inline constexpr Real round_off = by_precision<Real>(1e-9, 1e-5);
+
 // Absolute temperature of 0 degrees Celsius [K].
 template <class Real>
 inline constexpr Real celsius_to_kelvin = static_cast<Real>(273.15);

@@ -68,12 +68,14 @@ std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, c
 
 // Moves what `over` holds into `under`; tables are joined, all else is replaced.
 void lay_over(toml::table& under, toml::table&& over) {
-  for (auto&& [key, node] : over) {
+  for (auto&& entry : over) {
+    const toml::key& key = entry.first;
+    toml::node& node = entry.second;
     toml::table* inner = under.get_as<toml::table>(key.str());
     if (inner != nullptr && node.is_table()) {
       lay_over(*inner, std::move(*node.as_table()));
     } else {
-      node.visit([&](auto&& value) { under.insert_or_assign(key, std::move(value)); });
+      node.visit([&](auto& value) { under.insert_or_assign(key, std::move(value)); });
     }
   }
 }

@@ -224,12 +224,8 @@ THAWSLIDE_ALWAYS_INLINE void add_to_nodes(const BatchStencil<Dim, Real, Width>& 
   constexpr std::size_t lanes = lane_count<Real>;
   constexpr std::size_t groups = record_size<Real>(static_cast<int>(Carried)) / lanes;
   static_assert(record_size<Real>(static_cast<int>(Carried)) == record_size<Real>(Components));
-  for (std::size_t g = 0; g < groups; ++g) {
-    transpose(rows.value[g * lanes], rows.value[g * lanes + 1], rows.value[g * lanes + 2], rows.value[g * lanes + 3]);
-  }
-  for (std::size_t a = 0; HasFlux && a < Dim; ++a) {
-    transpose(rows.flux[a][0], rows.flux[a][1], rows.flux[a][2], rows.flux[a][3]);
-  }
+  unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { transpose(&rows.value[g * lanes]); });
+  unrolled<HasFlux ? Dim : 0>([&](auto a) THAWSLIDE_INLINE_LAMBDA { transpose(&rows.flux[a][0]); });
   const NodeWeights<Dim, Real, Width> nodes = node_weights(stencil);
   if (stencil.nodes.shared && count == lanes) {
     auto* records = &patch.records[static_cast<std::size_t>(stencil.nodes.first[0])];

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/linear.hpp"
+#include "base/portability.hpp"
 
 namespace thawslide::mpm {
 
@@ -40,10 +41,9 @@ struct Constraints {
 
  private:
   void apply_faces(const Vector<Real, Dim>& position, Vector<Real, Dim>& momentum) const {
-    constexpr Real round_off = static_cast<Real>(1e-9);
     for (int a = 0; a < Dim; ++a) {
-      const bool at_lower = position[a] <= round_off * extent[a];
-      const bool at_upper = position[a] >= extent[a] * (Real(1) - round_off);
+      const bool at_lower = position[a] <= round_off<Real> * extent[a];
+      const bool at_upper = position[a] >= extent[a] * (Real(1) - round_off<Real>);
       const FaceKind kind = at_lower ? faces[2 * a] : at_upper ? faces[2 * a + 1] : FaceKind::open;
       if (kind == FaceKind::fixed) {
         momentum.setZero();

@@ -141,16 +141,14 @@ class Field final : public FieldBase {
     if (!kept_) {
       return;
     }
-    scratch.resize(std::max(scratch.size(), data_.size() * sizeof(T)));
+    scratch.resize(std::max(scratch.size(), order.size() * sizeof(T)));
     T* moved = reinterpret_cast<T*>(scratch.data());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      for (int c = 0; c < Components; ++c) {
-        moved[position(k, c)] = data_[position(order[k], c)];
+    for (int c = 0; c < Components; ++c) {
+      for (std::size_t k = 0; k < order.size(); ++k) {
+        moved[k] = data_[position(order[k], c)];
       }
-    }
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      for (int c = 0; c < Components; ++c) {
-        data_[position(k, c)] = moved[position(k, c)];
+      for (std::size_t k = 0; k < order.size(); ++k) {
+        data_[position(k, c)] = moved[k];
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instances.hpp"
 #include "mpm/batch_transfer.hpp"
 
 namespace thawslide::mpm {
@@ -126,7 +127,7 @@ void split_total_stress(Particles<Dim, Real>& particles) {
 template <int Dim, class Real>
 void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes) {
-  auto& patches = nodes.momentum.patches(grid.tiles().size());
+  const auto patches = nodes.momentum.patches(grid.tiles().size());
   const bool viscous = model.viscous();
   with_transfer(model, [&](auto shape, auto transfer) {
     using Shape = decltype(shape);
@@ -227,7 +228,7 @@ Real move_tile(const SparseGrid<Dim, Real>& grid, const typename SparseGrid<Dim,
 template <int Dim, class Real>
 MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                               const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes) {
-  auto& patches = nodes.velocity.patches(grid.tiles().size());
+  const auto patches = nodes.velocity.patches(grid.tiles().size());
   std::vector<Real> kinetic(grid.tiles().size());
   with_transfer(model, [&](auto shape, auto transfer) {
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
@@ -310,8 +311,7 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
   template MoveWork<Real> move_particles<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,     \
                                                     const MotionModel<Dim, Real>&, Real, Nodes<Dim, Real>&); \
   template void take_new_positions<Dim, Real>(Particles<Dim, Real>&, const Vector<Real, Dim>&, BadParticle&);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::mpm

@@ -56,13 +56,14 @@ struct ContactLayout {
 
 template <int Dim, class Real>
 struct Nodes {
-  NodeRecords<Dim, Real, MomentumLayout<Dim>::size> momentum;
+  std::shared_ptr<PatchRoom> room = std::make_shared<PatchRoom>();
+  NodeRecords<Dim, Real, MomentumLayout<Dim>::size> momentum{room};
   NodeRecords<Dim, Real, MotionLayout<Dim>::size> motion;
-  NodeRecords<Dim, Real, Dim> velocity;  // mapped back from the moved particles (MUSL) [m/s]
-  NodeRecords<Dim, Real, HatLayout::size> hats;
+  NodeRecords<Dim, Real, Dim> velocity{room};  // mapped back from the moved particles (MUSL) [m/s]
+  NodeRecords<Dim, Real, HatLayout::size> hats{room};
   NodeRecords<Dim, Real, BaseLayout::size> base;
   NodeRecords<Dim, Real, ContactLayout::size> contact;
-  NodeRecords<Dim, Real, 1> clearance;  // between slide and ground [m]; filled for the distance check alone
+  NodeRecords<Dim, Real, 1> clearance{room};  // between slide and ground [m]; filled for the distance check alone
 };
 
 // Position [m, relative to the domain's lower corner] of a node of a block.

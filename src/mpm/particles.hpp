@@ -93,6 +93,15 @@ Matrix<Lanes<Real>, Dim> affine_velocity(const Particles<Dim, Real>& particles, 
   return matrix;
 }
 
+// What all particles of a body have in common, by lane.
+template <int Dim, class Real>
+THAWSLIDE_ALWAYS_INLINE Lanes<Real> of_body(const std::vector<Real>& by_body, const Particles<Dim, Real>& particles,
+                                            const Batch<Real>& batch) {
+  return by_body.size() == 1 ? Lanes<Real>(by_body[0]) : Lanes<Real>::of([&](std::size_t lane) {
+    return by_body[static_cast<std::size_t>(particles.body(batch.particle[lane]))];
+  });
+}
+
 // A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.
 template <int Dim, class Real>
 SymmetricTensor<Real> full_tensor(const typename Particles<Dim, Real>::TensorField& field, std::size_t particle) {

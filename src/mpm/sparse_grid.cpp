@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/instances.hpp"
 #include "base/parallel.hpp"
 
 namespace thawslide::mpm {
@@ -149,7 +150,8 @@ void SparseGrid<Dim, Real>::connect_blocks() {
   }
 }
 
-template class SparseGrid<2, double>;
-template class SparseGrid<3, double>;
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template class SparseGrid<Dim, Real>;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::mpm

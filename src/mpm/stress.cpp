@@ -1,6 +1,7 @@
 // Strain, rotation, stress, volume and porosity of particles (Eqs. 6, 11).
 #include <cmath>
 
+#include "base/instances.hpp"
 #include "mpm/batch_transfer.hpp"
 #include "mpm/motion.hpp"
 #include "physics/kinematics.hpp"
@@ -190,8 +191,7 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
   template StressWork<Real> update_stress_and_porosity<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&, \
                                                                   const MotionModel<Dim, Real>&, Real,                 \
                                                                   const Nodes<Dim, Real>&, BadParticle&);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::mpm

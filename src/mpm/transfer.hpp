@@ -6,9 +6,13 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <memory>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "base/aligned.hpp"
+#include "base/error.hpp"
 #include "base/lanes.hpp"
 #include "base/parallel.hpp"
 #include "mpm/shape.hpp"
@@ -32,6 +36,21 @@ struct Patch {
   void clear() { std::fill_n(records.front().data(), records.size() * records.front().size(), Real(0)); }
 };
 
+// Room for the patches of one stage at a time: what a stage has summed into its nodes, the next one overwrites.
+class PatchRoom {
+ public:
+  template <class AnyPatch>
+  [[nodiscard]] std::span<AnyPatch> take(std::size_t tiles) {
+    if (tiles * sizeof(AnyPatch) > bytes_.size()) {
+      resize_sparingly(bytes_, tiles * sizeof(AnyPatch));
+    }
+    return {reinterpret_cast<AnyPatch*>(bytes_.data()), tiles};
+  }
+
+ private:
+  AlignedVector<std::byte> bytes_;
+};
+
 // One record a node of every active block, and the patches that are summed into it.
 template <int Dim, class Real, int Components>
 class NodeRecords {
@@ -39,50 +58,79 @@ class NodeRecords {
   using Record = std::array<Real, record_size<Real>(Components)>;
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
+  // Without room for patches: what nodes work out for themselves.
+  NodeRecords() = default;
+  explicit NodeRecords(std::shared_ptr<PatchRoom> room) : room_(std::move(room)) {}
+
   [[nodiscard]] Record& operator()(std::size_t block, std::size_t node) { return records_[block * nodes + node]; }
   [[nodiscard]] const Record& operator()(std::size_t block, std::size_t node) const {
     return records_[block * nodes + node];
   }
-  void resize(std::size_t blocks) { records_.resize(blocks * nodes); }
+  void resize(std::size_t blocks) { resize_sparingly(records_, blocks * nodes); }
 
-  // Patches for the tiles, to be cleared and filled by whoever works on a tile.
-  AlignedVector<Patch<Dim, Real, Components>>& patches(std::size_t tiles) {
-    patches_.resize(tiles);
-    return patches_;
+  // Patches for the tiles, to be cleared and filled by whoever works on a tile, and to be summed before other records
+  // of the same room ask for theirs.
+  [[nodiscard]] std::span<Patch<Dim, Real, Components>> patches(std::size_t tiles) {
+    THAWSLIDE_ASSERT(room_ != nullptr, "{} components without room for patches", Components);
+    return room_->take<Patch<Dim, Real, Components>>(tiles);
   }
 
  private:
   AlignedVector<Record> records_;
-  AlignedVector<Patch<Dim, Real, Components>> patches_;
+  std::shared_ptr<PatchRoom> room_;
 };
 
-// Calls visit(block_place, patch_place, count) for each row of nodes that block and patch share, the block lying in
-// `direction` (0 .. 3^Dim-1) from the patch's tile.
-template <int Dim, class Visit>
-void for_shared_rows(int direction, const Visit& visit) {
-  using T = Tile<Dim>;
+// Calls body(d) for the directions d = 0 .. 3^Dim-1 of a neighbourhood, each a constant.
+template <int Dim, class Body>
+THAWSLIDE_ALWAYS_INLINE void for_each_direction(const Body& body) {
+  unrolled<static_cast<std::size_t>(Tile<Dim>::stencil)>(body);
+}
+
+// A tile that lies in direction d from a block sees it in the opposite one.
+template <int Dim>
+constexpr std::size_t opposite(std::size_t direction) {
+  return static_cast<std::size_t>(Tile<Dim>::stencil) - 1 - direction;
+}
+
+// The nodes that a patch shares with the block in some direction from its tile: first and last in the block along each
+// axis, and the patch's number of the block's node 0.
+struct SharedNodeBox {
   std::array<int, 3> first{}, last{1, 1, 1}, shift{};
+};
+
+template <int Dim>
+constexpr SharedNodeBox shared_node_box(std::size_t direction) {
+  constexpr int edge = Tile<Dim>::edge;
+  SharedNodeBox box;
   for (std::size_t a = 0; a < Dim; ++a) {
-    const int d = direction % 3 - 1;
+    const int d = static_cast<int>(direction % 3) - 1;
     direction /= 3;
-    first[a] = d < 0 ? T::edge - 1 : 0;
-    last[a] = d > 0 ? 1 : T::edge;
-    shift[a] = d * T::edge + 1;  // patch coordinate of the block's node 0
+    box.first[a] = d < 0 ? edge - 1 : 0;
+    box.last[a] = d > 0 ? 1 : edge;
+    box.shift[a] = d * edge + 1;
   }
-  for (int k = first[2]; k < last[2]; ++k) {
-    for (int j = first[1]; j < last[1]; ++j) {
-      visit(static_cast<std::size_t>((k * T::edge + j) * T::edge + first[0]),
-            static_cast<std::size_t>(((k + shift[2]) * T::patch_edge + j + shift[1]) * T::patch_edge + first[0] +
-                                     shift[0]),
-            static_cast<std::size_t>(last[0] - first[0]));
+  return box;
+}
+
+// Calls visit(block_place, patch_place, count) for each row of nodes that block and patch share.
+template <int Dim, std::size_t Direction, class Visit>
+THAWSLIDE_ALWAYS_INLINE void for_shared_rows(const Visit& visit) {
+  using T = Tile<Dim>;
+  constexpr SharedNodeBox box = shared_node_box<Dim>(Direction);
+  for (int k = box.first[2]; k < box.last[2]; ++k) {
+    for (int j = box.first[1]; j < box.last[1]; ++j) {
+      visit(static_cast<std::size_t>((k * T::edge + j) * T::edge + box.first[0]),
+            static_cast<std::size_t>(((k + box.shift[2]) * T::patch_edge + j + box.shift[1]) * T::patch_edge +
+                                     box.first[0] + box.shift[0]),
+            static_cast<std::size_t>(box.last[0] - box.first[0]));
     }
   }
 }
 
 // Calls visit(block_place, patch_place) for each node of these rows.
-template <int Dim, class Visit>
-void for_shared_nodes(int direction, const Visit& visit) {
-  for_shared_rows<Dim>(direction, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
+template <int Dim, std::size_t Direction, class Visit>
+THAWSLIDE_ALWAYS_INLINE void for_shared_nodes(const Visit& visit) {
+  for_shared_rows<Dim, Direction>([&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       visit(in_block + i, in_patch + i);
     }
@@ -95,26 +143,25 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
   using Record = typename NodeRecords<Dim, Real, Components>::Record;
   constexpr std::size_t size = std::tuple_size_v<Record>;
   nodes.resize(grid.blocks().size());
-  const auto& patches = nodes.patches(grid.tiles().size());
+  const auto patches = nodes.patches(grid.tiles().size());
   parallel_for(grid.blocks().size(), [&](std::size_t block) {
     Record* records = &nodes(block, 0);
     std::fill_n(records->data(), size * NodeRecords<Dim, Real, Components>::nodes, Real(0));
     const std::int32_t* tiles = grid.tiles_about_block(block);
-    for (int d = 0; d < Tile<Dim>::stencil; ++d) {
+    for_each_direction<Dim>([&](auto d) {
       if (tiles[d] == KeyIndex::absent) {
-        continue;
+        return;
       }
       const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
-      // The tile lies in direction d from the block, so the block lies opposite from the tile.
-      for_shared_rows<Dim>(Tile<Dim>::stencil - 1 - d,
-                           [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
-                             Real* sums = records[in_block].data();
-                             const Real* parts = patch.records[in_patch].data();
-                             for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
-                               (Lanes<Real>::load(sums + c) + Lanes<Real>::load(parts + c)).store(sums + c);
-                             }
-                           });
-    }
+      const auto add_row = [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
+        Real* sums = records[in_block].data();
+        const Real* parts = patch.records[in_patch].data();
+        for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
+          (Lanes<Real>::load(sums + c) + Lanes<Real>::load(parts + c)).store(sums + c);
+        }
+      };
+      for_shared_rows<Dim, opposite<Dim>(d)>(add_row);
+    });
   });
 }
 
@@ -124,16 +171,16 @@ void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const NodeReco
                 Patch<Dim, Real, Components>& patch) {
   constexpr std::size_t size = std::tuple_size_v<typename NodeRecords<Dim, Real, Components>::Record>;
   const std::int32_t* blocks = grid.blocks_about_tile(t);
-  for (int d = 0; d < Tile<Dim>::stencil; ++d) {
+  for_each_direction<Dim>([&](auto d) {
     const auto block = static_cast<std::size_t>(blocks[d]);
-    for_shared_rows<Dim>(d, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
+    for_shared_rows<Dim, d>([&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
       const Real* from = nodes(block, in_block).data();
       Real* to = patch.records[in_patch].data();
       for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
         Lanes<Real>::load(from + c).store(to + c);
       }
     });
-  }
+  });
 }
 
 // Calls visit(place, weight, gradient) for each of the Width^Dim nodes, `first` being the place of the lowest.

@@ -38,7 +38,7 @@ struct HeatContent {
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto drowns_in_round_off(Value change) const {
     using std::abs;
-    constexpr Real smallest_change = static_cast<Real>(1e-7);
+    constexpr Real smallest_change = by_precision<Real>(1e-7, 1e-3);
     return abs(change) < smallest_change;
   }
 
@@ -61,7 +61,7 @@ struct HeatContent {
     const Value melting = melting_heat(porosity);
     const auto melted = heat >= melting;
     constexpr int most_iterations = 100;
-    constexpr Real close = static_cast<Real>(1e-6);  // converges quadratically: the next change is round-off
+    constexpr Real close = by_precision<Real>(1e-6, 1e-3);  // converges quadratically: the next change is round-off
     Value below = min(guess - curve.reference_temperature, Value(0));
     auto open = !melted;
     for (int k = 0; k < most_iterations && any(open); ++k) {

@@ -76,9 +76,11 @@ THAWSLIDE_HD Value expansion(const Phases<Real>& phases, Value porosity, Value s
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {
   using std::abs;
-  const auto is_small = abs(x) < Value(1e-2);
-  const Value tail = Value(1. / 6) + x * (Value(1. / 24) + x * (Value(1. / 120) + x * Value(1. / 720)));
-  const Value series = x * (Value(1) + x * (Value(0.5) + x * tail));
+  using Real = typename NumberOf<Value>::Type;
+  const auto is_small = abs(x) < static_cast<Real>(1e-2);
+  const auto one_over = [](int divisor) { return Value(Real(1) / static_cast<Real>(divisor)); };
+  const Value tail = one_over(6) + x * (one_over(24) + x * (one_over(120) + x * one_over(720)));
+  const Value series = x * (Value(1) + x * (one_over(2) + x * tail));
   if (!any(!is_small)) {
     return series;
   }

@@ -41,7 +41,7 @@ struct LinearElastic {
 };
 
 template <class Real>
-class MohrCoulomb {
+class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming): clang copying its arrays
  public:
   // Angles in degrees, cohesions c_0 and c_f [Pa], tension cut-off sigma_t [Pa] (infinity: none).
   static MohrCoulomb make(const Elastic<Real>& elastic, Real friction_angle, Real dilation_angle, Real cohesion,
@@ -119,7 +119,7 @@ class MohrCoulomb {
   // Planes in the space of ordered principal stresses: Mohr-Coulomb of (s1, s3), (s1, s2), (s2, s3); cut-off of s1, s2,
   // s3.
   static constexpr int planes = 6;
-  static constexpr Real round_off = static_cast<Real>(1e-12);
+  static constexpr Real round_off = by_precision<Real>(1e-12, 1e-6);
 
   struct ActiveSet {
     int count;

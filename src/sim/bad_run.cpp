@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instances.hpp"
 #include "physics/mixture.hpp"
 #include "sim/simulation.hpp"
 
@@ -102,9 +103,10 @@ void Simulation<Dim, Real>::stop_if_bad() {
   THAWSLIDE_ASSERT(false, "bad particle {} is not among the particles", bad_.id);
 }
 
-template std::string Simulation<2, double>::likely_cause(std::size_t) const;
-template std::string Simulation<3, double>::likely_cause(std::size_t) const;
-template void Simulation<2, double>::stop_if_bad();
-template void Simulation<3, double>::stop_if_bad();
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                       \
+  template std::string Simulation<Dim, Real>::likely_cause(std::size_t) const; \
+  template void Simulation<Dim, Real>::stop_if_bad();
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

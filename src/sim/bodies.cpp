@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/instances.hpp"
 #include "config/profile_csv.hpp"
 
 namespace thawslide::sim {
@@ -306,7 +307,9 @@ void fill_bodies(const config::Case& parameters, const Model<Dim, Real>& model, 
   }
 }
 
-template void fill_bodies<2, double>(const config::Case&, const Model<2, double>&, mpm::Particles<2, double>&);
-template void fill_bodies<3, double>(const config::Case&, const Model<3, double>&, mpm::Particles<3, double>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real) \
+  template void fill_bodies<Dim, Real>(const config::Case&, const Model<Dim, Real>&, mpm::Particles<Dim, Real>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

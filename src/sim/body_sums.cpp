@@ -1,4 +1,5 @@
 // Sums over the particles of a run: energies, masses, momentum.
+#include "base/instances.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -66,7 +67,9 @@ BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
   return sums;
 }
 
-template BodySums<2, double> sum_over_body<2, double>(const Simulation<2, double>&);
-template BodySums<3, double> sum_over_body<3, double>(const Simulation<3, double>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real) \
+  template BodySums<Dim, Real> sum_over_body<Dim, Real>(const Simulation<Dim, Real>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

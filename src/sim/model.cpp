@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instances.hpp"
 #include "config/profile_csv.hpp"
 #include "terrain/layer_thickness.hpp"
 
@@ -276,7 +277,8 @@ Model<Dim, Real> make_model(const config::Case& parameters) {
   return model;
 }
 
-template Model<2, double> make_model<2, double>(const config::Case&);
-template Model<3, double> make_model<3, double>(const config::Case&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template Model<Dim, Real> make_model<Dim, Real>(const config::Case&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

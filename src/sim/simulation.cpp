@@ -5,6 +5,7 @@
 
 #include "band/averages.hpp"
 #include "base/error.hpp"
+#include "base/instances.hpp"
 #include "sim/bodies.hpp"
 #include "terrain/clearance.hpp"
 
@@ -321,7 +322,8 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   find_particles_cells();
 }
 
-template class Simulation<2, double>;
-template class Simulation<3, double>;
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template class Simulation<Dim, Real>;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

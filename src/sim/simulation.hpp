@@ -87,8 +87,8 @@ class Simulation {
   mpm::SparseGrid<Dim, Real> grid_;
   mpm::Nodes<Dim, Real> nodes_;
   terrain::GroundOnGrid<Dim, Real> ground_;
-  band::HeatNodes<Dim, Real> heat_nodes_;
-  band::SeepageNodes<Dim, Real> seepage_nodes_;
+  band::HeatNodes<Dim, Real> heat_nodes_{nodes_.room};
+  band::SeepageNodes<Dim, Real> seepage_nodes_{nodes_.room};
   band::FlowDepth<Dim, Real> flow_depth_;
   terrain::ContactWork<Dim, Real> contact_;
   Ledger<Dim, Real> ledger_;

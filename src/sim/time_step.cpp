@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instances.hpp"
 #include "physics/pressurization.hpp"
 
 namespace thawslide::sim {
@@ -100,9 +101,10 @@ StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, R
   return limit;
 }
 
-template StepLimit largest_stable_step<2, double>(const config::Case&, const Model<2, double>&, double,
-                                                  const mpm::Particles<2, double>&);
-template StepLimit largest_stable_step<3, double>(const config::Case&, const Model<3, double>&, double,
-                                                  const mpm::Particles<3, double>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                  \
+  template StepLimit largest_stable_step<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double, \
+                                                    const mpm::Particles<Dim, Real>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

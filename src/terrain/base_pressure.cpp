@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/instances.hpp"
+
 namespace thawslide::terrain {
 
 template <int Dim, class Real>
@@ -15,15 +17,18 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
   mpm::Patch<Dim, Real, BaseLayout::size> patch;
   patch.clear();
   const std::int32_t* blocks = grid.blocks_about_block(b);
-  for (int d = 0; d < T::stencil; ++d) {
+  mpm::for_each_direction<Dim>([&](auto d) {
     if (blocks[d] != KeyIndex::absent) {
-      mpm::for_shared_nodes<Dim>(d, [&](std::size_t in_block, std::size_t in_patch) {
+      mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
         patch.records[in_patch] = nodes.base(static_cast<std::size_t>(blocks[d]), in_block);
       });
     }
-  }
-  std::array<Real, static_cast<std::size_t>(T::nodes)> pressure;
+  });
+  std::array<Real, static_cast<std::size_t>(T::nodes)> pressure{};
   for (int k = 0; k < T::nodes; ++k) {
+    if (!(nodes.base(b, static_cast<std::size_t>(k))[BaseLayout::load] > Real(0))) {
+      continue;
+    }
     const typename T::Index here = T::node({}, k);
     int across = 0;  // the axis that is most nearly normal to the ground
     ground.block(b)[static_cast<std::size_t>(k)].normal.cwiseAbs().maxCoeff(&across);
@@ -51,8 +56,7 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
   template std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(                         \
       const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, const mpm::Nodes<Dim, Real>&, std::size_t, \
       Real, Real);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::terrain

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/instances.hpp"
+#include "mpm/batch_transfer.hpp"
+
 namespace thawslide::terrain {
 
 namespace {
@@ -16,36 +19,43 @@ bool load_distances(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<D
                     DistancePatch<Dim, Real>& patch) {
   const std::int32_t* blocks = grid.blocks_about_tile(t);
   bool any = false;
-  for (int d = 0; d < mpm::Tile<Dim>::stencil; ++d) {
+  mpm::for_each_direction<Dim>([&](auto d) {
     const auto b = static_cast<std::size_t>(blocks[d]);
     any = any || ground.any_candidate(b);
-    mpm::for_shared_nodes<Dim>(d, [&](std::size_t in_block, std::size_t in_patch) {
+    mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
       const auto& known = ground.block(b)[in_block];
       patch.records[in_patch][0] = known.distance;
       mpm::set_vector<Dim>(patch.records[in_patch], 1, known.normal);
     });
-  }
+  });
   return any;
 }
 
-// Distance of a particle's middle from the ground, by the hats.
+// How far boxes of half size `half` [m] reach towards the ground if that lies along a grid axis; what they read of the
+// patch.
 template <int Dim, class Real>
-Real distance_of(const mpm::Stencil<Dim, Real, 2>& stencil, const DistancePatch<Dim, Real>& patch) {
-  Real distance = 0;
-  stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
-    distance += weight * patch.records[place][0];
-  });
-  return distance;
+Lanes<Real> reach_of_box(const mpm::Reading<Dim, Lanes<Real>, 1 + Dim>& seen, Lanes<Real> half) {
+  using std::max, std::abs;
+  Lanes<Real> largest = Real(0);
+  for (std::size_t a = 0; a < Dim; ++a) {
+    largest = max(largest, abs(seen.value[1 + a]));
+  }
+  return half * largest;
 }
 
-// How far a particle's box of half size `half` [m] reaches towards the ground if that lies along a grid axis.
+// Lowers the clearance of the nodes that particles see.
 template <int Dim, class Real>
-Real reach_of_box(const mpm::Stencil<Dim, Real, 2>& stencil, const DistancePatch<Dim, Real>& patch, Real half) {
-  Vector<Real, Dim> normal = Vector<Real, Dim>::Zero();
-  stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
-    normal += weight * mpm::vector_at<Dim, Real>(patch.records[place], 1);
-  });
-  return half * normal.cwiseAbs().maxCoeff();
+THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>& stencil, std::size_t count,
+                                             Lanes<Real> clearance, mpm::Patch<Dim, Real, 1>& patch) {
+  constexpr Real far = std::numeric_limits<Real>::max();
+  mpm::for_each_node<Dim>(
+      stencil.axis, 0, [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
+        const Lanes<Real> seen = select(weight > Real(0), clearance, Lanes<Real>(far));
+        for (std::size_t lane = 0; lane < count; ++lane) {
+          Real& known = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane]) + offset][0];
+          known = std::min(known, seen[lane]);
+        }
+      });
 }
 
 }  // namespace
@@ -53,20 +63,16 @@ Real reach_of_box(const mpm::Stencil<Dim, Real, 2>& stencil, const DistancePatch
 template <int Dim, class Real>
 void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                const std::vector<Real>& half_size, mpm::Particles<Dim, Real>& particles) {
-  constexpr Real round_off = static_cast<Real>(1e-9);
   DistancePatch<Dim, Real> patch;
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     const auto& tile = grid.tiles()[t];
     load_distances(grid, ground, t, patch);
-    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-      const std::uint32_t p = grid.order()[k];
-      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
-      const Real distance = distance_of(stencil, patch);
-      const Real reach =
-          reach_of_box(stencil, patch, half_size[static_cast<std::size_t>(particles.body(p))] * grid.cell());
-      const bool lowest = distance < Real(2) * reach * (Real(1) + round_off);
-      particles.reach(p) = lowest ? distance : reach;
-    }
+    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+      const auto seen = mpm::read_nodes<1 + Dim>(hat_stencil(grid, tile.key, particles, batch), patch);
+      const Lanes<Real> reach = reach_of_box(seen, of_body(half_size, particles, batch) * grid.cell());
+      const auto lowest = seen.value[0] < Real(2) * (Real(1) + round_off<Real>)*reach;
+      particles.reach.store(batch, select(lowest, seen.value[0], reach));
+    });
   }
 }
 
@@ -75,7 +81,10 @@ void clearances_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
                         mpm::ShapeKind shape, const std::vector<Real>& half_size, const mpm::HeldSides<Dim>& sides,
                         const mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
   constexpr Real far = std::numeric_limits<Real>::max();
-  auto& patches = nodes.clearance.patches(grid.tiles().size());
+  // A contact node lies within sqrt(2) cells of the ground, and the nodes that a particle sees within 2 cells of one
+  // another along every axis: no further away, by the hats, is a particle that sees a contact node.
+  constexpr Real beyond_contact = 5;
+  const auto patches = nodes.clearance.patches(grid.tiles().size());
   mpm::with_shape<Real>(shape, [&](auto shape_function) {
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
       auto& patch = patches[t];
@@ -85,19 +94,18 @@ void clearances_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
         return;
       }
       const auto& tile = grid.tiles()[t];
-      for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-        const std::uint32_t p = grid.order()[k];
-        const Real half = half_size[static_cast<std::size_t>(particles.body(p))];
-        const Real distance = distance_of(mpm::hat_stencil(grid, tile.key, particles, p), distances);
-        const Real clearance = std::max(Real(0), distance - particles.reach(p));
-        const auto place = mpm::place_of(grid, particles.position.template get<Vector<Real, Dim>>(p));
-        const auto stencil = mpm::make_stencil<decltype(shape_function)>(grid, tile.key, place, half, sides);
-        stencil.for_each_node([&](std::size_t node, Real weight, const Vector<Real, Dim>& /*slope*/) {
-          if (weight > Real(0)) {
-            patch.records[node][0] = std::min(patch.records[node][0], clearance);
-          }
-        });
-      }
+      mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+        const auto hats = hat_stencil(grid, tile.key, particles, batch);
+        const Lanes<Real> distance = mpm::read_nodes<1>(hats, distances).value[0];
+        if (!any(distance < beyond_contact * grid.cell())) {
+          return;
+        }
+        const Lanes<Real> clearance = max(Lanes<Real>(Real(0)), distance - particles.reach.load(batch));
+        const auto place = place_of(grid, particles, batch);
+        const auto stencil = mpm::make_stencil<decltype(shape_function)>(grid, tile.key, place,
+                                                                         of_body(half_size, particles, batch), sides);
+        lower_clearance(stencil, batch.count, clearance, patch);
+      });
     });
   });
   nodes.clearance.resize(grid.blocks().size());
@@ -106,14 +114,14 @@ void clearances_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
       nodes.clearance(b, k)[0] = far;
     }
     const std::int32_t* tiles = grid.tiles_about_block(b);
-    for (int d = 0; d < mpm::Tile<Dim>::stencil; ++d) {
+    mpm::for_each_direction<Dim>([&](auto d) {
       if (tiles[d] != KeyIndex::absent) {
-        mpm::for_shared_nodes<Dim>(mpm::Tile<Dim>::stencil - 1 - d, [&](std::size_t in_block, std::size_t in_patch) {
+        mpm::for_shared_nodes<Dim, mpm::opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch) {
           Real& clearance = nodes.clearance(b, in_block)[0];
           clearance = std::min(clearance, patches[static_cast<std::size_t>(tiles[d])].records[in_patch][0]);
         });
       }
-    }
+    });
   });
 }
 
@@ -123,8 +131,7 @@ void clearances_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
   template void clearances_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,    \
                                               mpm::ShapeKind, const std::vector<Real>&, const mpm::HeldSides<Dim>&, \
                                               const mpm::Particles<Dim, Real>&, mpm::Nodes<Dim, Real>&);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::terrain

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/instances.hpp"
+#include "mpm/batch_transfer.hpp"
 #include "physics/contact.hpp"
 #include "terrain/base_pressure.hpp"
 
@@ -320,45 +322,40 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
                         const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     const std::int32_t* blocks = grid.blocks_about_tile(t);
-    bool any = false;
+    bool near_ground = false;
     for (int d = 0; d < mpm::Tile<Dim>::stencil; ++d) {
-      any = any || ground.any_candidate(static_cast<std::size_t>(blocks[d]));
+      near_ground = near_ground || ground.any_candidate(static_cast<std::size_t>(blocks[d]));
     }
     const auto& tile = grid.tiles()[t];
-    if (!any) {
+    if (!near_ground) {
       for (std::uint32_t k = tile.first; k < tile.last; ++k) {
         particles.in_band(grid.order()[k]) = 0;
       }
       return;
     }
-    // [candidate, touching, slip speed] of the nodes about the tile.
+    // [candidate, touching, slip speed where touching] of the nodes about the tile.
     mpm::Patch<Dim, Real, 3> patch;
-    for (int d = 0; d < mpm::Tile<Dim>::stencil; ++d) {
+    mpm::for_each_direction<Dim>([&](auto d) {
       const auto b = static_cast<std::size_t>(blocks[d]);
-      mpm::for_shared_nodes<Dim>(d, [&](std::size_t in_block, std::size_t in_patch) {
+      mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
         const auto& contact = nodes.contact(b, in_block);
         patch.records[in_patch] = {ground.block(b)[in_block].candidate ? Real(1) : Real(0),
-                                   contact[ContactLayout::touching], contact[ContactLayout::slip_speed]};
+                                   contact[ContactLayout::touching],
+                                   contact[ContactLayout::touching] * contact[ContactLayout::slip_speed]};
       });
-    }
-    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-      const std::uint32_t p = grid.order()[k];
-      const auto stencil = mpm::hat_stencil(grid, tile.key, particles, p);
-      bool in_band = false;
-      Real weights = 0;
-      Real slip = 0;
-      stencil.for_each_node([&](std::size_t place, Real weight, const Vector<Real, Dim>& /*gradient*/) {
-        if (weight > Real(0)) {
-          in_band = in_band || patch.records[place][0] > Real(0);
-          weights += weight * patch.records[place][1];
-          slip += weight * patch.records[place][1] * patch.records[place][2];
-        }
-      });
-      particles.in_band(p) = in_band ? 1 : 0;
-      if (weights > Real(0)) {
-        particles.slip(p) += dt * slip / weights;
+    });
+    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+      const auto seen = mpm::read_nodes<3>(hat_stencil(grid, tile.key, particles, batch), patch).value;
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        particles.in_band(batch.particle[lane]) = seen[0][lane] > Real(0) ? 1 : 0;
       }
-    }
+      const auto touches = seen[1] > Real(0);
+      if (any(touches)) {
+        const Lanes<Real> slip_speed = seen[2] / select(touches, seen[1], Lanes<Real>(Real(1)));
+        const Lanes<Real> slip = particles.slip.load(batch);
+        particles.slip.store(batch, select(touches, slip + dt * slip_speed, slip));
+      }
+    });
   });
 }
 
@@ -371,8 +368,7 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
                                                  const Vector<Real, Dim>&, Real, Real, mpm::Nodes<Dim, Real>&);        \
   template void mark_band_and_slip<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, Real, \
                                               const mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::terrain

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instances.hpp"
 #include "terrain/rigid_points.hpp"
 
 namespace thawslide::terrain {
@@ -178,7 +179,9 @@ Vector<double, Dim> Ground<Dim>::normal_below(double x) const {
 
 template class Ground<2>;
 template class Ground<3>;
-template GroundAtNode<2, double> Ground<2>::at_node(const Vector<double, 2>&, double) const;
-template GroundAtNode<3, double> Ground<3>::at_node(const Vector<double, 3>&, double) const;
+#define THAWSLIDE_INSTANTIATE(Dim, Real) \
+  template GroundAtNode<Dim, Real> Ground<Dim>::at_node(const Vector<Real, Dim>&, Real) const;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::terrain

@@ -48,10 +48,12 @@ void expect_thickness(double from, double bulge, double allowed) {
   depth.update(grid, model, {}, box);
   depth.depth_to_particles(grid, box);
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    const auto columns = depth.of_tile(grid, t);
     for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
       const std::uint32_t p = grid.order()[k];
       const double below_top = layers * spacing - box.position(p, Dim - 1);
-      EXPECT_NEAR(depth.depth_below_top(grid, box, t, p), below_top, 1e-9) << "box from " << from << ", particle " << p;
+      EXPECT_NEAR(columns.below_top(box, mpm::batch_in_memory<double>(p, p + 1))[0], below_top, 1e-9)
+          << "box from " << from << ", particle " << p;
       EXPECT_NEAR(box.flow_depth(p), box.in_band(p) != 0 ? layers * spacing : below_top, allowed)
           << "box from " << from << ", particle " << p;
     }

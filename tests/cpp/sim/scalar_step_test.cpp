@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "../support/case_from_text.hpp"
 #include "base/parallel.hpp"
@@ -162,11 +164,12 @@ TEST(ScalarStep, IsThatOfTheBatchesInThePlaneYielding) { expect_the_scalar_step<
 TEST(ScalarStep, IsThatOfTheBatchesInSpaceElastic) { expect_the_scalar_step<3>(1e7, false); }
 TEST(ScalarStep, IsThatOfTheBatchesInSpaceYielding) { expect_the_scalar_step<3>(5e3, true); }
 
-// Every field of every particle after some steps, by id.
-template <int Dim>
-std::vector<double> fields_after(int steps, int threads, int sorting_interval) {
+// Every field of every particle after some steps, by name and in order of id.
+template <int Dim, class Real = double>
+std::map<std::string, std::vector<double>> fields_after(int steps, int threads, int sorting_interval,
+                                                        double cohesion = 5e3) {
   set_thread_count(threads);
-  Simulation<Dim, double> simulation(two_bodies<Dim>(5e3));
+  Simulation<Dim, Real> simulation(two_bodies<Dim>(cohesion));
   simulation.set_sorting_interval(sorting_interval);
   for (int k = 0; k < steps; ++k) {
     simulation.step(0.002);
@@ -176,21 +179,21 @@ std::vector<double> fields_after(int steps, int threads, int sorting_interval) {
   for (std::size_t p = 0; p < by_id.size(); ++p) {
     by_id[static_cast<std::size_t>(particles.id(p))] = p;
   }
-  std::vector<double> numbers;
+  std::map<std::string, std::vector<double>> fields;
   for (const auto* field : particles.fields.all()) {
     for (const std::size_t p : by_id) {
       for (int c = 0; c < field->components(); ++c) {
-        numbers.push_back(field->value(p, c));
+        fields[field->info().name].push_back(field->value(p, c));
       }
     }
   }
-  return numbers;
+  return fields;
 }
 
 template <int Dim>
 void expect_the_same_bits(int steps) {
   const int before = thread_count();
-  const std::vector<double> first = fields_after<Dim>(steps, 1, 1000);
+  const auto first = fields_after<Dim>(steps, 1, 1000);
   for (const auto& [threads, interval] : {std::pair(1, 1), std::pair(2, 7), std::pair(3, 64), std::pair(4, 3)}) {
     EXPECT_TRUE((fields_after<Dim>(steps, threads, interval) == first))
         << threads << " threads, sorted every " << interval << " steps";
@@ -200,6 +203,37 @@ void expect_the_same_bits(int steps) {
 
 TEST(Bits, DependNeitherOnThreadsNorOnSortingInThePlane) { expect_the_same_bits<2>(80); }
 TEST(Bits, DependNeitherOnThreadsNorOnSortingInSpace) { expect_the_same_bits<3>(15); }
+
+// The largest difference that single precision makes to a field, over the field's largest size.
+template <int Dim>
+void expect_of_single_precision(int steps, const std::map<std::string, double>& allowed) {
+  constexpr double elastic = 1e7;
+  const int threads = thread_count();
+  const auto in_double = fields_after<Dim>(steps, threads, 64, elastic);
+  const auto in_single = fields_after<Dim, float>(steps, threads, 64, elastic);
+  for (const auto& [name, most] : allowed) {
+    const auto& exact = in_double.at(name);
+    double largest = 0.0, size = 0.0;
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+      largest = std::max(largest, std::abs(in_single.at(name)[k] - exact[k]));
+      size = std::max(size, std::abs(exact[k]));
+    }
+    EXPECT_LE(largest, most * size) << name << " after " << steps << " steps";
+  }
+}
+
+// In one step some ten digits' ends, and what undrained heating makes of those of the temperature. Then differences of
+// positions about a cell lose digits to their distance from the origin, and stress shows it first.
+TEST(SinglePrecision, IsAsFarFromDoubleAsItsDigits) {
+  const std::map<std::string, double> in_one_step{{"velocity", 5e-6}, {"displacement", 5e-6},
+                                                  {"stress", 5e-6},   {"temperature", 5e-6},
+                                                  {"porosity", 5e-6}, {"pore_pressure", 5e-5}};
+  expect_of_single_precision<2>(1, in_one_step);
+  expect_of_single_precision<3>(1, in_one_step);
+  const std::map<std::string, double> in_many{{"velocity", 1e-2},    {"displacement", 1e-3}, {"stress", 3e-2},
+                                              {"temperature", 1e-3}, {"porosity", 1e-3},     {"pore_pressure", 5e-3}};
+  expect_of_single_precision<2>(200, in_many);
+}
 
 }  // namespace
 }  // namespace thawslide::sim

@@ -102,7 +102,7 @@ class ManufacturedVibration {
 
   void add_body_force() {
     using Layout = mpm::MomentumLayout<2>;
-    auto& patches = body_force_.patches(grid_.tiles().size());
+    const auto patches = body_force_.patches(grid_.tiles().size());
     mpm::with_shape<double>(model_.shape, [&](auto shape) {
       for (std::size_t t = 0; t < grid_.tiles().size(); ++t) {
         const auto& tile = grid_.tiles()[t];
@@ -151,7 +151,7 @@ class ManufacturedVibration {
   mpm::Particles<2, double> particles_;
   mpm::SparseGrid<2, double> grid_;
   mpm::Nodes<2, double> nodes_;
-  mpm::NodeRecords<2, double, 2> body_force_;
+  mpm::NodeRecords<2, double, 2> body_force_{std::make_shared<mpm::PatchRoom>()};
 };
 
 }  // namespace thawslide::sim

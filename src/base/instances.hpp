@@ -1,0 +1,8 @@
+// What the templates of the step are compiled for: dimensions, and the precision of numbers.
+#pragma once
+
+#define THAWSLIDE_FOR_ALL_INSTANCES(INSTANTIATE) \
+  INSTANTIATE(2, double)                         \
+  INSTANTIATE(3, double)                         \
+  INSTANTIATE(2, float)                          \
+  INSTANTIATE(3, float)
