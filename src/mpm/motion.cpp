@@ -1,6 +1,7 @@
 #include "mpm/motion.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
@@ -280,10 +281,10 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
       const LanesVector step = particles.step_displacement.template load_vector<Dim>(batch);
       const LanesVector old = particles.position.template load_vector<Dim>(batch);
       const LanesVector position = old + step;
-      // Not a number is in no range; infinity less itself is none.
+      // Not a number is in no range.
       const Lanes<Real> state =
           particles.temperature.load(batch) + particles.pore_pressure.load(batch) + particles.stress.load(batch);
-      auto well = state - state == Lanes<Real>(Real(0));
+      auto well = abs(state) <= Lanes<Real>(std::numeric_limits<Real>::max());
       for (int a = 0; a < Dim; ++a) {
         well = well & (position[a] >= Real(0)) & (position[a] <= extent[a]);
       }
