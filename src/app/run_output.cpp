@@ -86,6 +86,7 @@ RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation)
   write_provenance(simulation, "running", "", 0.0);
   write_history(simulation);
   write_snapshot(simulation);
+  stopwatch_ = {};  // time counts from the first step on
 }
 
 template <int Dim>
