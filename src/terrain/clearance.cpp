@@ -63,6 +63,7 @@ THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>&
 template <int Dim, class Real>
 void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                const std::vector<Real>& half_size, mpm::Particles<Dim, Real>& particles) {
+  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's reach
   DistancePatch<Dim, Real> patch;
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     const auto& tile = grid.tiles()[t];
@@ -70,7 +71,7 @@ void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, R
     mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
       const auto seen = mpm::read_nodes<1 + Dim>(hat_stencil(grid, tile.key, particles, batch), patch);
       const Lanes<Real> reach = reach_of_box(seen, of_body(half_size, particles, batch) * grid.cell());
-      const auto lowest = seen.value[0] < Real(2) * (Real(1) + round_off<Real>)*reach;
+      const auto lowest = seen.value[0] < within_lowest_layer * reach;
       particles.reach.store(batch, select(lowest, seen.value[0], reach));
     });
   }

@@ -10,8 +10,7 @@ namespace thawslide::terrain {
 
 // Sets particles.reach [m]: the distance from the ground at which a particle touches it. A body that stands on the
 // ground at the start touches with its lowest particles as they stand, which on a slope across the grid are not all
-// equally far from it; the others touch with the edge of their box, as
-// the ground lies below them at the start.
+// equally far from it; the others touch with the edge of their box, as the ground lies below them at the start.
 template <int Dim, class Real>
 void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                const std::vector<Real>& half_size, mpm::Particles<Dim, Real>& particles);
