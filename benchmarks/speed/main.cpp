@@ -43,7 +43,7 @@ int main(int argc, char** argv) try {
   int repeats = 5;
   double particle_steps = 2e6;
   bool kernels = false;
-  app.add_option("--filter", filter, "Only cases whose name begins with this");
+  app.add_option("--filter", filter, "Only the case of this name, or those whose names begin with it");
   app.add_option("--threads", threads, "Thread counts")->delimiter(',')->check(CLI::Range(1, 1024));
   app.add_option("--repeats", repeats, "Batches of steps, of which the median counts")->check(CLI::Range(1, 1000));
   app.add_option("--particle-steps", particle_steps, "Length of a batch: the same work on any machine")
@@ -66,8 +66,10 @@ int main(int argc, char** argv) try {
              "% yld", "B/part");
   nlohmann::ordered_json json{{"machine", to_json(limits)}};
   std::vector<StepTiming> timings;
-  for (const StepCase& which : step_cases()) {
-    if (which.name.rfind(filter, 0) != 0) {
+  const std::vector<StepCase> cases = step_cases();
+  const bool is_name = std::any_of(cases.begin(), cases.end(), [&](const StepCase& c) { return c.name == filter; });
+  for (const StepCase& which : cases) {
+    if (is_name ? which.name != filter : which.name.rfind(filter, 0) != 0) {
       continue;
     }
     for (const int count : threads) {

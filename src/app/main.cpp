@@ -22,7 +22,7 @@ void add_case_options(CLI::App& command, CaseOptions& options) {
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads (default: the cores this process may use)")
+  command.add_option("--threads", threads, "Threads to use at most (default: the cores this process may use)")
       ->check(CLI::Range(1, 1024));
 }
 

@@ -8,6 +8,7 @@
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/thread_choice.hpp"
 #include "sim/history.hpp"
 
 namespace thawslide::app {
@@ -86,7 +87,17 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   bool warned = false;
   const auto start = std::chrono::steady_clock::now();
   const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const int most_threads = thread_count();
+  ThreadChoice choice(most_threads, 0.0);
+  double seconds_in_steps = 0.0;
+  const auto step = [&](double until) {
+    const double before = wall();
+    simulation.step(simulation.next_step(until));
+    seconds_in_steps += wall() - before;
+    set_thread_count(choice.after_step(seconds_in_steps));
+  };
   const auto close = [&](const std::string& status, const std::string& message) {
+    set_thread_count(most_threads);
     output.write_index();
     output.write_provenance(simulation, status, message, wall());
     progress.finish();
@@ -98,7 +109,7 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
     while (simulation.time() < times.end - 0.5 * simulation.last_step() && caught_signal() == 0) {
       const double next_event = std::min(
           {snapshots.next(), checkpoints.next(), times.history_interval > 0.0 ? history.next() : times.end, times.end});
-      simulation.step(simulation.next_step(next_event));
+      step(next_event);
       const double dt = simulation.last_step();
       if (times.history_interval <= 0.0 || history.reached(simulation.time(), dt)) {
         output.write_history(simulation);

@@ -1,0 +1,75 @@
+#include "base/thread_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace thawslide {
+namespace {
+
+// A run on a clock of its own, whose steps take step_seconds(threads, time).
+struct TimedRun {
+  ThreadChoice choice;
+  double now = 0.0;
+  std::int64_t steps = 0;
+
+  explicit TimedRun(int most) : choice(most, 0.0) {}
+  void until(double end, const std::function<double(int, double)>& step_seconds) {
+    while (now < end) {
+      now += step_seconds(choice.threads(), now);
+      choice.after_step(now);
+      ++steps;
+    }
+  }
+};
+
+constexpr double step = 0.001;
+
+double shared_well(int threads, double /*time*/) { return step / threads; }
+// Threads wait for the one whose core is not its own.
+double beside_another(int threads, double /*time*/) { return threads == 1 ? step : 2.0 * step; }
+
+TEST(ThreadChoice, UsesAllThreadsOfAQuietMachine) {
+  TimedRun run(4);
+  run.until(20.0, shared_well);
+  EXPECT_EQ(run.choice.threads(), 4);
+  EXPECT_GT(static_cast<double>(run.steps), 0.98 * 20.0 / (step / 4));
+}
+
+TEST(ThreadChoice, GivesUpAThreadThatHoldsUpTheOther) {
+  TimedRun run(2);
+  run.until(20.0, beside_another);
+  EXPECT_GT(static_cast<double>(run.steps), 0.98 * 20.0 / step);
+}
+
+TEST(ThreadChoice, FollowsWhatElseTheMachineDoes) {
+  TimedRun run(2);
+  run.until(20.0, shared_well);
+  const std::int64_t before = run.steps;
+  run.until(30.0, beside_another);
+  EXPECT_GT(static_cast<double>(run.steps - before), 0.95 * 10.0 / step);
+  const std::int64_t beside = run.steps;
+  run.until(60.0, shared_well);
+  EXPECT_GT(static_cast<double>(run.steps - beside), 0.9 * 30.0 / (step / 2));
+}
+
+TEST(ThreadChoice, FindsFewThreadsAmongMany) {
+  // Every thread beyond four costs more than it brings.
+  const auto small_case = [](int threads, double /*time*/) {
+    return step / std::min(threads, 4) + 1e-4 * std::max(0, threads - 4);
+  };
+  TimedRun run(32);
+  run.until(60.0, small_case);
+  EXPECT_GE(run.choice.threads(), 3);
+  EXPECT_LE(run.choice.threads(), 5);
+}
+
+TEST(ThreadChoice, LeavesOneThreadAlone) {
+  TimedRun run(1);
+  run.until(1.0, shared_well);
+  EXPECT_EQ(run.choice.threads(), 1);
+}
+
+}  // namespace
+}  // namespace thawslide
