@@ -121,6 +121,7 @@ void RunOutput<Dim>::write_snapshot(const Simulation& simulation) {
 template <int Dim>
 void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
   stopwatch_.time("write_checkpoint", [&] {
+    snapshots_.finish_writing();  // a run that goes on from here must find all snapshots before
     io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(), simulation.scalars());
   });
 }
@@ -129,6 +130,7 @@ template <int Dim>
 std::map<std::string, double> RunOutput<Dim>::seconds_per_stage(const Simulation& simulation) const {
   std::map<std::string, double> seconds = simulation.stopwatch().seconds();
   seconds.insert(stopwatch_.seconds().begin(), stopwatch_.seconds().end());
+  seconds["write_snapshot_beside"] = snapshots_.seconds_beside();
   return seconds;
 }
 

@@ -1,5 +1,7 @@
 #include "io/snapshot_series.hpp"
 
+#include <ctime>
+
 #include "io/atomic_file.hpp"
 #include "io/vtkhdf.hpp"
 
@@ -75,14 +77,27 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, double tim
   return series;
 }
 
-void SnapshotSeries::add(const Snapshot& snapshot) {
-  const std::vector<std::byte> bytes = snapshot_bytes(snapshot);
-  write_file_atomically(folder_ / file_name(entries_.size()), bytes.data(), bytes.size());
+void SnapshotSeries::finish_writing() {
+  if (writing_.valid()) {
+    seconds_beside_ += writing_.get();
+  }
+}
+
+void SnapshotSeries::add(Snapshot snapshot) {
+  finish_writing();
+  const fs::path file = folder_ / file_name(entries_.size());
   entries_.push_back({snapshot.time, snapshot.particles()});
   columns_.clear();
   for (const SnapshotField& field : snapshot.fields) {
     columns_.push_back({field.name, field.unit, field.components, field.integer});
   }
+  writing_ = std::async(std::launch::async, [file, snapshot = std::move(snapshot)] {
+    const std::vector<std::byte> bytes = snapshot_bytes(snapshot);
+    write_file_atomically(file, bytes.data(), bytes.size());
+    timespec spent{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
+    return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+  });
   const auto now = std::chrono::steady_clock::now();
   if (std::chrono::duration<double>(now - indexed_).count() > seconds_between_indices) {
     write_index();
@@ -162,6 +177,7 @@ void SnapshotSeries::write_steps(std::int64_t root) const {
 }
 
 void SnapshotSeries::write_index() {
+  finish_writing();
   const hdf5::MemoryFile file;
   const hdf5::Handle root = vtkhdf::make_root(file.root());
   std::vector<std::int64_t> counts;

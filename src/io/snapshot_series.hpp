@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <future>
 #include <vector>
 
 #include "io/snapshot.hpp"
@@ -16,12 +17,17 @@ class SnapshotSeries {
   // Goes on with the series: snapshots later than `time` are removed.
   static SnapshotSeries continue_after(const std::filesystem::path& folder, double time);
 
-  // Writes folder/snapshots/NNNNNN.vtkhdf; the index follows when it was not written for some seconds.
-  void add(const Snapshot& snapshot);
+  // Writes folder/snapshots/NNNNNN.vtkhdf while the caller goes on; the index follows when it was not written for some
+  // seconds. Throws UserError if this snapshot or the one before it could not be written.
+  void add(Snapshot snapshot);
+  // Waits until the last snapshot is on the disk; throws as add does.
+  void finish_writing();
   // Writes folder/particles.vtkhdf: virtual datasets over all snapshots so far, with their times.
   void write_index();
 
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  // Processor time that snapshots took while the caller went on [s], but for the last one if it is still being written.
+  [[nodiscard]] double seconds_beside() const { return seconds_beside_; }
 
  private:
   struct Entry {
@@ -42,6 +48,8 @@ class SnapshotSeries {
   std::vector<Entry> entries_;
   std::vector<Column> columns_;
   std::chrono::steady_clock::time_point indexed_;
+  std::future<double> writing_;  // the last snapshot; HDF5 is in one thread's hands at a time
+  double seconds_beside_ = 0.0;
 };
 
 }  // namespace thawslide::io

@@ -107,15 +107,17 @@ double front_position(const Simulation<Dim, Real>& simulation) {
     by_x.emplace_back(static_cast<double>(particles.position(p, 0)), static_cast<double>(particles.mass(p)));
     mass += by_x.back().second;
   }
-  std::sort(by_x.begin(), by_x.end());
-  double behind = 0.0;
-  for (const auto& [x, m] : by_x) {
-    behind += m;
-    if (behind >= front_share * mass) {
-      return x + simulation.model().origin[0];
+  // The foremost few, one by one, until what lies behind is less than the share.
+  std::make_heap(by_x.begin(), by_x.end());
+  double ahead = 0.0;
+  for (auto end = by_x.end(); end - by_x.begin() > 1; --end) {
+    ahead += by_x.front().second;
+    if (mass - ahead < front_share * mass) {
+      break;
     }
+    std::pop_heap(by_x.begin(), end);
   }
-  return by_x.back().first + simulation.model().origin[0];
+  return by_x.front().first + simulation.model().origin[0];
 }
 
 template <int Dim, class Real>
