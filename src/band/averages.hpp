@@ -1,16 +1,16 @@
 // Averages of band quantities at nodes.
 #pragma once
 
-#include "band/model.hpp"
+#include "band/heat.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/particles.hpp"
 
 namespace thawslide::band {
 
-// Temperature, pore pressure (Eq. 21 with normalised weights), saturation and solid fraction to the nodes, by volume
-// with the linear hats.
+// Temperature and pore pressure (Eq. 21 with normalised weights) to the nodes, by volume with the linear hats: their
+// sums, and in heat_nodes.state the averages.
 template <int Dim, class Real>
 void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
-                     const BandModel<Dim, Real>& model, mpm::Nodes<Dim, Real>& nodes);
+                     const BandModel<Dim, Real>& model, mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& heat_nodes);
 
 }  // namespace thawslide::band

@@ -92,16 +92,26 @@ template <int Dim, class Real>
 Lanes<Real> ColumnsOfTile<Dim, Real>::flow_depth(const mpm::Particles<Dim, Real>& particles,
                                                  const mpm::Batch<Real>& batch) const {
   const Lanes<Real> height = particles.position.load(batch, Dim - 1);
-  const auto in_band = Lanes<Real>::of([&](std::size_t lane) { return particles.in_band(batch.particle[lane]); });
+  const auto in_band =
+      Lanes<Real>::of([&](std::size_t lane) { return particles.in_band(batch.particle[lane]); }) > Real(0);
+  const bool any_in_band = any(in_band);
   Lanes<Real> depth = Real(0);
   for_columns<Dim>(
       overlaps<Dim>(first_cell_, cell_, *half_size_, particles, batch),
-      [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) {
-        const auto at_place = [&](const std::array<Real, count>& known) {
-          return Lanes<Real>::of([&](std::size_t lane) { return known[static_cast<std::size_t>(place[lane])]; });
+      [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) THAWSLIDE_INLINE_LAMBDA {
+        if (!any(share > Real(0))) {
+          return;
+        }
+        std::array<std::int32_t, lane_count<Real>> places;
+        place.store_whole(places.data());
+        const auto at_place = [&](const std::array<Real, count>& known) THAWSLIDE_INLINE_LAMBDA {
+          return Lanes<Real>::of([&](std::size_t lane) { return known[static_cast<std::size_t>(places[lane])]; });
         };
-        const Lanes<Real> below = max(at_place(top_) - height, Lanes<Real>(Real(0)));
-        depth += share * at_place(cosine_) * select(in_band > Real(0), at_place(thickness_), below);
+        Lanes<Real> here = max(at_place(top_) - height, Lanes<Real>(Real(0)));
+        if (any_in_band) {
+          here = select(in_band, at_place(thickness_), here);
+        }
+        depth += share * at_place(cosine_) * here;
       });
   return depth;
 }
@@ -190,22 +200,24 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
                                     std::size_t t) {
   constexpr std::size_t corners = static_cast<std::size_t>(1) << (Dim - 1);
   tiles_[t].part.fill({});
-  const auto& tile = grid.tiles()[t];
   const auto first_cell = first_cells(grid, t);
-  mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+  for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
     const auto along = overlaps<Dim>(first_cell, grid.cell(), half_size_, particles, batch);
     const Lanes<Real> top = particles.position.load(batch, Dim - 1) + of_body(half_size_, particles, batch);
     const Lanes<Real> volume = particles.volume.load(batch);
-    std::array<Lanes<Real>, corners> places, volumes;
+    std::array<std::array<std::int32_t, mpm::Batch<Real>::most>, corners> places;
+    std::array<Lanes<Real>, corners> volumes;
     std::array<std::array<std::size_t, Dim - 1>, corners> sides;
     std::size_t known = 0;
-    for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) {
-      sides[known] = side;
-      places[known] = place;
-      volumes[known++] = share * volume;
+    for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) THAWSLIDE_INLINE_LAMBDA {
+      if (any(share > Real(0))) {
+        sides[known] = side;
+        place.store_whole(places[known].data());
+        volumes[known++] = share * volume;
+      }
     });
     for (std::size_t lane = 0; lane < batch.count; ++lane) {
-      for (std::size_t k = 0; k < corners; ++k) {
+      for (std::size_t k = 0; k < known; ++k) {
         if (volumes[k][lane] > Real(0)) {
           Column own;
           own.volume = volumes[k][lane];
@@ -218,7 +230,7 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
         }
       }
     }
-  });
+  }
 }
 
 template <int Dim, class Real>
@@ -261,11 +273,10 @@ template <int Dim, class Real>
 void FlowDepth<Dim, Real>::depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid,
                                               mpm::Particles<Dim, Real>& particles) const {
   parallel_for(tiles_.size(), [&](std::size_t t) {
-    const auto& tile = grid.tiles()[t];
     const OfTile columns = of_tile(grid, t);
-    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
       particles.flow_depth.store(batch, columns.flow_depth(particles, batch));
-    });
+    }
   });
 }
 

@@ -65,10 +65,10 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 4> heat_flows(const mpm::Sp
   return carried;
 }
 
-// Eq. 19's sums over particles: conduction and advection, and the capacity with the tangent to the heat content.
-// Differences within a cell, which nodes do not see, are levelled by the particles themselves, and the heat that this
-// brings is taken off at the nodes (Gerya and Yuen 2003); `levels` is false in the step in which prescribed
-// temperatures jump, since the nodes then are ahead of the particles, and for the printed update.
+// What particles add to Eq. 19's sums, not yet summed: conduction and advection, and the capacity with the tangent to
+// the heat content. Differences within a cell, which nodes do not see, are levelled by the particles themselves, and
+// the heat that this brings is taken off at the nodes (Gerya and Yuen 2003); `levels` is false in the step in which
+// prescribed temperatures jump, since the nodes then are ahead of the particles, and for the printed update.
 template <int Dim, class Real, class Law>
 void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Law& law, Real dt,
                    bool levels, mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
@@ -78,14 +78,12 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
     patch.clear();
     mpm::Patch<Dim, Real, 3> state;
     load_patch(grid, t, work.state, state);
-    const auto& tile = grid.tiles()[t];
-    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
-      const auto stencil = hat_stencil(grid, tile.key, particles, batch);
+    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+      const auto stencil = hat_stencil(grid, particles, batch);
       auto carried = heat_flows(grid, model, law, dt, levels, stencil, state, batch, particles);
-      add_to_nodes<true>(stencil, batch.count, carried, patch);
-    });
+      add_to_nodes<0>(stencil, batch.count, carried, patch);
+    }
   });
-  sum_patches(grid, work.rates);
 }
 
 // The change of temperature [K] of a step, at the particles' places and within their cells.
@@ -97,8 +95,8 @@ THAWSLIDE_ALWAYS_INLINE Lanes<Real> change_of_temperature(const mpm::BatchStenci
   return particles.conduction_in_cell.load(batch) + dt * mpm::read_nodes<1>(stencil, state, 2).value[0];
 }
 
-// Secant capacity along the predicted change, to particles and nodes: with it the sum of what particles take equals
-// what nodes give.
+// Secant capacity along the predicted change, to particles and, not yet summed, to nodes: with it the sum of what
+// particles take equals what nodes give.
 template <int Dim, class Real, class Law>
 void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real dt,
                              HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
@@ -108,9 +106,8 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
     patch.clear();
     mpm::Patch<Dim, Real, 3> state;
     load_patch(grid, t, work.state, state);
-    const auto& tile = grid.tiles()[t];
-    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
-      const auto stencil = hat_stencil(grid, tile.key, particles, batch);
+    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+      const auto stencil = hat_stencil(grid, particles, batch);
       const Lanes<Real> change = change_of_temperature(stencil, state, dt, batch, particles);
       Lanes<Real> secant = particles.secant_capacity.load(batch);  // still the tangent
       const auto drowns = law.content.drowns_in_round_off(change);
@@ -121,22 +118,21 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
       mpm::Contribution<Dim, Real, 2> carried;
       carried.value[0] = particles.initial_volume.load(batch) / particles.thermal_scaling.load(batch) * secant;
       carried.value[1] = carried.value[0] * particles.conduction_in_cell.load(batch);
-      add_to_nodes<false>(stencil, batch.count, carried, patch);
-    });
+      add_to_nodes<mpm::no_flux>(stencil, batch.count, carried, patch);
+    }
   });
-  sum_patches(grid, work.capacity);
 }
 
 // What particles get of the heat of nodes without hat weight [W/kg], by the weight of their momentum there.
 template <int Dim, class Real>
 Lanes<Real> orphan_heating(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                           std::uint64_t tile, const mpm::Patch<Dim, Real, 1>& orphan,
-                           const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) {
+                           const mpm::Patch<Dim, Real, 1>& orphan, const mpm::Particles<Dim, Real>& particles,
+                           const mpm::TileBatch<Real>& batch) {
   const auto half = of_body(model.half_size, particles, batch);
   Lanes<Real> specific = Real(0);
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     const auto place = place_of(grid, particles, batch);
-    const auto stencil = mpm::make_stencil<decltype(shape)>(grid, tile, place, half, model.sides);
+    const auto stencil = mpm::make_stencil<decltype(shape)>(grid, batch, place, half, model.sides);
     specific = mpm::read_nodes<1>(stencil, orphan).value[0];
   });
   return specific;
@@ -149,11 +145,10 @@ Real sum_of_heat(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Di
                  const OfParticles& of_particles) {
   std::vector<Real> sums(grid.tiles().size(), Real(0));
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
-    const auto& tile = grid.tiles()[t];
-    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
       const Lanes<Real> volume = particles.initial_volume.load(batch) / particles.thermal_scaling.load(batch);
       batch.add_to(sums[t], volume * of_particles(batch));
-    });
+    }
   });
   Real sum = 0;
   for (const Real part : sums) {
@@ -177,13 +172,12 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
       any_orphan = std::any_of(orphan.records.begin(), orphan.records.end(),
                                [](const auto& record) { return record[0] != Real(0); });
     }
-    const auto& tile = grid.tiles()[t];
-    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
-      const auto stencil = hat_stencil(grid, tile.key, particles, batch);
+    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+      const auto stencil = hat_stencil(grid, particles, batch);
       Lanes<Real> gain =
           particles.secant_capacity.load(batch) * change_of_temperature(stencil, state, dt, batch, particles);
       if (any_orphan) {
-        gain += dt * orphan_heating(grid, model, tile.key, orphan, particles, batch) * particles.mass.load(batch) *
+        gain += dt * orphan_heating(grid, model, orphan, particles, batch) * particles.mass.load(batch) *
                 particles.thermal_scaling.load(batch) / particles.initial_volume.load(batch);
       }
       const Lanes<Real> old_temperature = particles.temperature.load(batch);
@@ -198,7 +192,7 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
             physics::updated_porosity(model.phases, porosity, Lanes<Real>(Real(0)), temperature - old_temperature);
         particles.porosity.store(batch, select(changed, updated, porosity));
       }
-    });
+    }
   });
 }
 
@@ -224,9 +218,9 @@ HeatGain<Real> update_heat_content(const mpm::SparseGrid<Dim, Real>& grid, const
   const auto with_secant = [&](std::size_t b, std::size_t k) {
     return std::pair(work.capacity(b, k)[0], work.capacity(b, k)[1]);
   };
-  solve_rates(grid, model, dt, first_step, nodes, with_tangent, work);
+  solve_rates(grid, model, dt, first_step, nodes, work.rates, with_tangent, work);
   secant_capacity_to_grid(grid, law, dt, work, particles);
-  const HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, with_secant, work);
+  const HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, work.capacity, with_secant, work);
   heat_to_particles(grid, model, law, dt, work, particles, [&](const mpm::Batch<Real>& batch, Lanes<Real> taken) {
     const Lanes<Real> before = particles.heat_content.load(batch);
     const Lanes<Real> heat_content = before + taken;
@@ -249,7 +243,7 @@ HeatGain<Real> update_temperature(const mpm::SparseGrid<Dim, Real>& grid, const 
                                   const Law& law, Real dt, bool first_step, const mpm::Nodes<Dim, Real>& nodes,
                                   HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
   const auto with_tangent = [&](std::size_t b, std::size_t k) { return std::pair(work.rates(b, k)[2], Real(0)); };
-  HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, with_tangent, work);
+  HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, work.rates, with_tangent, work);
   heat_to_particles(grid, model, law, dt, work, particles, [&](const mpm::Batch<Real>& batch, Lanes<Real> taken) {
     // The secant capacity still is the tangent.
     particles.temperature.store(batch,
@@ -275,7 +269,6 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
                             mpm::Particles<Dim, Real>& particles) {
   return with_particle_heat(model, particles, [&](const auto& law) {
     const Real from_porosity = model.current_masses ? count_masses_anew(grid, law, particles) : Real(0);
-    set_node_state(grid, model, nodes, work);
     flows_to_grid(grid, model, law, dt, model.secant_capacity && !first_step, particles, work);
     HeatGain<Real> gain = model.secant_capacity
                               ? update_heat_content(grid, model, law, dt, first_step, nodes, work, particles)

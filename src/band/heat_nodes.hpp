@@ -33,40 +33,40 @@ const HeatFace<Real>* face_of(const mpm::SparseGrid<Dim, Real>& grid, const Band
   return nullptr;
 }
 
-// Nodal temperature and pore pressure; a prescribed temperature takes its node before gradients are formed.
+// Temperature and pore pressure of the nodes of a block; a prescribed temperature takes its node before gradients are
+// formed.
 template <int Dim, class Real>
 void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                    const mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& work) {
-  work.state.resize(grid.blocks().size());
+                    const mpm::Nodes<Dim, Real>& nodes, std::size_t b, HeatNodes<Dim, Real>& work) {
   const bool has_faces = any_face_condition(model);
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-      const auto& hats = nodes.hats(b, k);
-      auto& state = work.state(b, k);
-      state.fill(Real(0));
-      if (hats[mpm::HatLayout::volume] > Real(0)) {
-        state[0] = hats[mpm::HatLayout::temperature] / hats[mpm::HatLayout::volume];
-        state[1] = hats[mpm::HatLayout::pore_pressure] / hats[mpm::HatLayout::volume];
-        const HeatFace<Real>* face = has_faces ? face_of(grid, model, b, k) : nullptr;
-        if (face != nullptr && face->kind == FaceHeat::temperature) {
-          state[0] = face->value;
-        }
+  for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+    const auto& hats = nodes.hats(b, k);
+    auto& state = work.state(b, k);
+    state.fill(Real(0));
+    if (hats[mpm::HatLayout::volume] > Real(0)) {
+      state[0] = hats[mpm::HatLayout::temperature] / hats[mpm::HatLayout::volume];
+      state[1] = hats[mpm::HatLayout::pore_pressure] / hats[mpm::HatLayout::volume];
+      const HeatFace<Real>* face = has_faces ? face_of(grid, model, b, k) : nullptr;
+      if (face != nullptr && face->kind == FaceHeat::temperature) {
+        state[0] = face->value;
       }
     }
-  });
+  }
 }
 
 // The nodal rate of temperature with what `stored_at` gives: the capacity, and the heat that particles took by
-// levelling within cells; friction heat and face conditions come in here.
-template <int Dim, class Real, class StoredAt>
+// levelling within cells; friction heat and face conditions come in here. summed: records whose patches are summed
+// first.
+template <int Dim, class Real, int Components, class StoredAt>
 HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                           bool first_step, const mpm::Nodes<Dim, Real>& nodes, const StoredAt& stored_at,
+                           bool first_step, const mpm::Nodes<Dim, Real>& nodes,
+                           mpm::NodeRecords<Dim, Real, Components>& summed, const StoredAt& stored_at,
                            HeatNodes<Dim, Real>& work) {
   std::vector<HeatGain<Real>> gains(grid.blocks().size());
   std::vector<std::uint8_t> orphans(grid.blocks().size(), 0);
   work.orphan.resize(grid.blocks().size());
   const bool has_faces = any_face_condition(model);
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+  sum_patches(grid, summed, [&](std::size_t b) {
     HeatGain<Real>& gain = gains[b];
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       const auto& rates = work.rates(b, k);

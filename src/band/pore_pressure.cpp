@@ -73,6 +73,19 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 3> seepage_flows(
   return carried;
 }
 
+// The nodal pore pressure about tile t [Pa] (Eq. 21).
+template <int Dim, class Real>
+void load_pressures(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, const mpm::Nodes<Dim, Real>& nodes,
+                    mpm::Patch<Dim, Real, 1>& pressures) {
+  mpm::Patch<Dim, Real, HatLayout::size> hats;
+  load_patch(grid, t, nodes.hats, hats);
+  for (std::size_t k = 0; k < hats.records.size(); ++k) {
+    const auto& node = hats.records[k];
+    const bool has_weight = node[HatLayout::volume] > Real(0);
+    pressures.records[k][0] = has_weight ? node[HatLayout::pore_pressure] / node[HatLayout::volume] : Real(0);
+  }
+}
+
 // Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or whole as printed); frozen particles
 // keep their pressure and act as sinks. Differences within a cell, which nodes do not see, are levelled by the
 // particles themselves, and what this changes at the nodes is taken off there (Gerya and Yuen 2003).
@@ -80,29 +93,20 @@ template <int Dim, class Real>
 void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                      const mpm::Nodes<Dim, Real>& nodes, Real dt, SeepageNodes<Dim, Real>& work,
                      mpm::Particles<Dim, Real>& particles) {
-  work.pressure.resize(grid.blocks().size());
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-      const auto& hats = nodes.hats(b, k);
-      work.pressure(b, k)[0] =
-          hats[HatLayout::volume] > Real(0) ? hats[HatLayout::pore_pressure] / hats[HatLayout::volume] : Real(0);
-    }
-  });
   const auto patches = work.flows.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
     patch.clear();
     mpm::Patch<Dim, Real, 1> pressure;
-    load_patch(grid, t, work.pressure, pressure);
-    const auto& tile = grid.tiles()[t];
-    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+    load_pressures(grid, t, nodes, pressure);
+    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
       const Lanes<Real> hydraulic = model.hydraulic(particles, batch);
       if (any(hydraulic > Real(0))) {
-        const auto stencil = hat_stencil(grid, tile.key, particles, batch);
+        const auto stencil = hat_stencil(grid, particles, batch);
         auto carried = seepage_flows(grid, model, dt, stencil, pressure, hydraulic, batch, particles);
-        add_to_nodes<true>(stencil, batch.count, carried, patch);
+        add_to_nodes<0>(stencil, batch.count, carried, patch);
       }
-    });
+    }
   });
   sum_patches(grid, work.flows);
 }
@@ -152,15 +156,15 @@ LaneMask<Real> at_surface(const mpm::SparseGrid<Dim, Real>& grid, const ColumnsO
 // The melted particles of a batch.
 template <int Dim, class Real>
 Pressures<Lanes<Real>> melted_pressures(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                                        const ColumnsOfTile<Dim, Real>& columns, bool seepage, std::size_t t,
-                                        const mpm::Patch<Dim, Real, 1>& changes, const mpm::Batch<Real>& batch,
+                                        const ColumnsOfTile<Dim, Real>& columns, bool seepage,
+                                        const mpm::Patch<Dim, Real, 1>& changes, const mpm::TileBatch<Real>& batch,
                                         const mpm::Particles<Dim, Real>& particles) {
   const Lanes<Real> zero = Real(0);
   const auto was_melted = melted_before(model, particles, batch);
   const auto permeable = model.hydraulic(particles, batch) > zero;
   Lanes<Real> seepage_change = zero;
   if (seepage && any(was_melted & permeable)) {
-    const auto stencil = hat_stencil(grid, grid.tiles()[t].key, particles, batch);
+    const auto stencil = hat_stencil(grid, particles, batch);
     const Lanes<Real> change = particles.seepage_in_cell.load(batch) + mpm::read_nodes<1>(stencil, changes).value[0];
     seepage_change = select(was_melted & permeable, change, zero);
   }
@@ -186,9 +190,11 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
     if (seepage) {
       load_pressure_changes(grid, t, work, dt, changes);
     }
-    const auto& tile = grid.tiles()[t];
     const auto columns = depth.of_tile(grid, t);
-    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
+    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+      if (model.thickness_each_step) {
+        particles.flow_depth.store(batch, columns.flow_depth(particles, batch));
+      }
       const Lanes<Real> ice = physics::ice_pressure(model.phases, model.gravity, particles.flow_depth.load(batch));
       const Lanes<Real> temperature = particles.temperature.load(batch);
       particles.ice_pressure.store(batch, ice);
@@ -198,12 +204,12 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
         now = frozen_pressures(model, ice, temperature, particles.liquid_saturation.load(batch));
       }
       if (any(!frozen)) {
-        const auto melted = melted_pressures(grid, model, columns, seepage, t, changes, batch, particles);
+        const auto melted = melted_pressures(grid, model, columns, seepage, changes, batch, particles);
         now = {select(frozen, now.liquid, melted.liquid), select(frozen, now.pore, melted.pore)};
       }
       particles.liquid_pressure.store(batch, now.liquid);
       particles.pore_pressure.store(batch, now.pore);
-    });
+    }
   });
 }
 

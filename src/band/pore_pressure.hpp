@@ -13,12 +13,12 @@ template <int Dim, class Real>
 struct SeepageNodes {
   explicit SeepageNodes(const std::shared_ptr<mpm::PatchRoom>& room) : flows(room) {}
 
-  mpm::NodeRecords<Dim, Real, 1> pressure;  // [Pa]
   mpm::NodeRecords<Dim, Real, 3>
       flows;  // inflow times K_L [Pa m3/s], pore space [m3], pore space times seepage within cells
 };
 
-// Pore pressure of all particles after dt; to follow conduct_heat in a step, and average_on_grid at its start.
+// Flow depth and pore pressure of all particles after dt; to follow conduct_heat in a step, and average_on_grid at its
+// start.
 template <int Dim, class Real>
 void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                          const FlowDepth<Dim, Real>& depth, Real dt, const mpm::Nodes<Dim, Real>& nodes,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 
@@ -33,6 +34,7 @@ struct LaneRegister<double> {
   using Numbers = double __attribute__((vector_size(32)));
   using Stored = double __attribute__((vector_size(32), may_alias));  // among single numbers in memory
   using Flags = std::int64_t __attribute__((vector_size(32)));
+  using Whole = std::int32_t __attribute__((vector_size(16)));
 };
 
 template <>
@@ -41,6 +43,7 @@ struct LaneRegister<float> {
   using Numbers = float __attribute__((vector_size(32)));
   using Stored = float __attribute__((vector_size(32), may_alias));
   using Flags = std::int32_t __attribute__((vector_size(32)));
+  using Whole = std::int32_t __attribute__((vector_size(32)));
 };
 
 template <class Real>
@@ -62,11 +65,16 @@ class LaneMask {
   THAWSLIDE_ALWAYS_INLINE friend LaneMask operator|(LaneMask a, LaneMask b) { return LaneMask(a.native_ | b.native_); }
   THAWSLIDE_ALWAYS_INLINE friend LaneMask operator!(LaneMask a) { return LaneMask(~a.native_); }
   THAWSLIDE_ALWAYS_INLINE friend bool any(LaneMask a) {
+#ifdef __AVX__
+    using Bits = long long __attribute__((vector_size(32)));
+    return __builtin_ia32_ptestz256(Bits(a.native_), Bits(a.native_)) == 0;
+#else
     typename LaneRegister<Real>::Flag flags = 0;
     for (std::size_t k = 0; k < lane_count<Real>; ++k) {
       flags |= a.native_[k];
     }
     return flags != 0;
+#endif
   }
 
  private:
@@ -91,6 +99,12 @@ class Lanes {
   }
   THAWSLIDE_ALWAYS_INLINE void store(Real* numbers) const {
     *reinterpret_cast<typename LaneRegister<Real>::Stored*>(numbers) = native_;
+  }
+
+  // Whole numbers, to `count` places side by side.
+  THAWSLIDE_ALWAYS_INLINE void store_whole(std::int32_t* numbers) const {
+    const auto whole = __builtin_convertvector(native_, typename LaneRegister<Real>::Whole);
+    std::memcpy(numbers, &whole, sizeof whole);
   }
 
   // Lane k is number(k).
@@ -168,6 +182,46 @@ THAWSLIDE_ALWAYS_INLINE Real each_lane(Real number, const Function& function) {
   return function(number);
 }
 THAWSLIDE_ALWAYS_INLINE bool any(bool condition) { return condition; }
+
+// Calls body(k) for the lanes k of a mask.
+template <class Real, class Body>
+THAWSLIDE_ALWAYS_INLINE void for_each_lane(const LaneMask<Real>& mask, const Body& body) {
+  for (std::size_t k = 0; any(mask) && k < lane_count<Real>; ++k) {
+    if (mask[k]) {
+      body(k);
+    }
+  }
+}
+template <class Body>
+THAWSLIDE_ALWAYS_INLINE void for_each_lane(bool condition, const Body& body) {
+  if (condition) {
+    body(std::size_t{0});
+  }
+}
+
+// The number in one lane.
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE Real in_lane(const Lanes<Real>& lanes, std::size_t lane) {
+  return lanes[lane];
+}
+template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
+THAWSLIDE_ALWAYS_INLINE Real in_lane(Real number, std::size_t /*lane*/) {
+  return number;
+}
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE void set_lane(Lanes<Real>& lanes, std::size_t lane, Real number) {
+  lanes = Lanes<Real>::of([&](std::size_t k) { return k == lane ? number : lanes[k]; });
+}
+template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
+THAWSLIDE_ALWAYS_INLINE void set_lane(Real& number, std::size_t /*lane*/, Real other) {
+  number = other;
+}
+
+// function(number), number by number and out of line: where that is the rare way.
+template <class Value, class Function>
+[[gnu::noinline, gnu::cold]] Value rarely(Value x, const Function& function) {
+  return each_lane(x, function);
+}
 
 // Lanes of `a` where bit Half of the lane is 0 and of `b` moved up by Half elsewhere; the rest of both likewise.
 template <std::size_t Half, class Real, std::size_t... K>

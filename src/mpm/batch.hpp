@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "base/lanes.hpp"
 
@@ -33,40 +32,28 @@ struct Batch {
 // The batch of particles first, first + 1, ... of `size` particles as they stand in memory; first is a multiple of the
 // lanes.
 template <class Real>
-Batch<Real> batch_in_memory(std::size_t first, std::size_t size) {
+THAWSLIDE_ALWAYS_INLINE Batch<Real> batch_in_memory(std::size_t first, std::size_t size) {
   Batch<Real> batch;
   batch.count = std::min(Batch<Real>::most, size - first);
   batch.whole = batch.count == Batch<Real>::most;
   for (std::size_t lane = 0; lane < Batch<Real>::most; ++lane) {
-    batch.particle[lane] = static_cast<std::uint32_t>(first + std::min(lane, batch.count - 1));
+    batch.particle[lane] = static_cast<std::uint32_t>(first + (batch.whole ? lane : std::min(lane, batch.count - 1)));
   }
   return batch;
 }
 
-// Calls work(batch) for batches that together are order[first .. last-1].
-template <class Real, class Work>
-THAWSLIDE_ALWAYS_INLINE void for_each_batch(const std::vector<std::uint32_t>& order, std::uint32_t first,
-                                            std::uint32_t last, const Work& work) {
-  constexpr std::size_t most = Batch<Real>::most;
-  const auto side_by_side = [&](std::uint32_t k) {
-    bool same = order[k] % most == 0 && k + most <= last;
-    for (std::size_t lane = 1; same && lane < most; ++lane) {
-      same = order[k + lane] == order[k] + lane;
-    }
-    return same;
-  };
-  for (std::uint32_t k = first; k < last;) {
-    Batch<Real> batch;
-    batch.whole = side_by_side(k);
-    batch.count = 0;
-    while (batch.count < most && k < last && (batch.whole || batch.count == 0 || !side_by_side(k))) {
-      batch.particle[batch.count++] = order[k++];
-    }
-    for (std::size_t lane = batch.count; lane < most; ++lane) {
-      batch.particle[lane] = batch.particle[batch.count - 1];
-    }
-    work(batch);
-  }
-}
+// The nodes that the particles of a batch see: the places of the lowest ones in their tile's patch.
+template <class Real>
+struct BatchNodes {
+  std::array<std::int32_t, lane_count<Real>> first;  // by lane
+  bool shared;                                       // all lanes see the same nodes
+};
+
+// A batch of one tile and one material, and its nodes while the particles stay where they are.
+template <class Real>
+struct TileBatch : Batch<Real> {
+  BatchNodes<Real> nodes;  // 3 an axis, from the one before the nearest
+  BatchNodes<Real> hats;   // the corners of the particle's cell
+};
 
 }  // namespace thawslide::mpm

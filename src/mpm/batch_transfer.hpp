@@ -7,13 +7,6 @@
 
 namespace thawslide::mpm {
 
-// The nodes that the particles of a batch see: the places of the lowest ones in their tile's patch.
-template <class Real>
-struct BatchNodes {
-  std::array<std::int64_t, lane_count<Real>> first;  // by lane
-  bool shared;                                       // all lanes see the same nodes
-};
-
 // The nodes and their weights. Made in one piece: g++ copies an array of registers by a call.
 template <int Dim, class Real, std::size_t Width = 3>
 struct BatchStencil {
@@ -51,25 +44,6 @@ THAWSLIDE_ALWAYS_INLINE BatchPlace<Dim, Real> place_of(const SparseGrid<Dim, Rea
   return place;
 }
 
-// The nodes that lanes see, from the lowest one's numbers along the axes.
-template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Dim>& lowest) {
-  using T = Tile<Dim>;
-  const typename T::Index tile = T::index(tile_key);
-  Lanes<Real> place = Real(0);
-  for (int a = Dim - 1; a >= 0; --a) {
-    const auto before = static_cast<Real>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
-    place = place * Real(T::patch_edge) + (lowest[a] - before);
-  }
-  BatchNodes<Real> nodes;
-  nodes.shared = true;
-  for (std::size_t lane = 0; lane < lane_count<Real>; ++lane) {
-    nodes.first[lane] = static_cast<std::int64_t>(place[lane]);
-    nodes.shared = nodes.shared && nodes.first[lane] == nodes.first[0];
-  }
-  return nodes;
-}
-
 // Lanes at a side of the domain that prescribes velocity.
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE LaneMask<Real> at_side(const HeldSides<Dim>& sides, int axis, Lanes<Real> node) {
@@ -79,11 +53,11 @@ THAWSLIDE_ALWAYS_INLINE LaneMask<Real> at_side(const HeldSides<Dim>& sides, int 
 
 // For shape functions Shape (Ugimp, Linear, Quadratic); half: half sizes of the particles in cells.
 template <class Shape, int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile_key,
+THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid,
+                                                             const TileBatch<Real>& batch,
                                                              const BatchPlace<Dim, Real>& place, Lanes<Real> half,
                                                              const HeldSides<Dim>& sides) {
-  const Vector<Lanes<Real>, Dim> lowest = place.node - Vector<Lanes<Real>, Dim>::Constant(Real(1));
-  return {nodes_from<Dim, Real>(tile_key, lowest), for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
+  return {batch.nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
             return Shape::weights(place.offset[a], half, at_side(sides, a, place.node[a]), grid.inverse_cell());
           })};
 }
@@ -91,20 +65,13 @@ THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Di
 // The corners of the particles' cells with their linear hats.
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real, 2> hat_stencil(const SparseGrid<Dim, Real>& grid,
-                                                               std::uint64_t tile_key,
                                                                const Particles<Dim, Real>& particles,
-                                                               const Batch<Real>& batch) {
-  const BatchPlace<Dim, Real> place = place_of(grid, particles, batch);
+                                                               const TileBatch<Real>& batch) {
   const Lanes<Real> slope = grid.inverse_cell();
-  Vector<Lanes<Real>, Dim> lowest, along;
-  for (int a = 0; a < Dim; ++a) {
-    const Lanes<Real> from_node = place.offset[a];  // within [-1/2, 1/2]
-    const Lanes<Real> left = select(from_node < Real(0), Lanes<Real>(Real(1)), Lanes<Real>(Real(0)));
-    along[a] = from_node + left;
-    lowest[a] = place.node[a] - left;
-  }
-  return {nodes_from<Dim, Real>(tile_key, lowest), for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
-            return AxisWeights<Lanes<Real>, 2>{{Real(1) - along[a], along[a]}, {-slope, slope}};
+  return {batch.hats, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
+            const Lanes<Real> in_cells = particles.position.load(batch, a) * grid.inverse_cell();
+            const Lanes<Real> along = in_cells - floor(in_cells);
+            return AxisWeights<Lanes<Real>, 2>{{Real(1) - along, along}, {-slope, slope}};
           })};
 }
 
@@ -145,7 +112,7 @@ struct SharedNodes {
 template <int Dim, class Real, int Components>
 struct OwnNodes {
   const Patch<Dim, Real, Components>& patch;
-  const std::array<std::int64_t, lane_count<Real>>& first;
+  const std::array<std::int32_t, lane_count<Real>>& first;
 
   THAWSLIDE_ALWAYS_INLINE Lanes<Real> operator()(std::size_t offset, std::size_t component) const {
     return Lanes<Real>::of(
@@ -166,89 +133,131 @@ THAWSLIDE_ALWAYS_INLINE Reading<Dim, Lanes<Real>, Count> read_nodes(const BatchS
   return read_along_axes<Count>(stencil.axis, nodes, first_component);
 }
 
-// What a batch adds to the records about it: weight * value, and in the first components also gradient . flux.
+// One particle's weights, each in all lanes.
+template <int Dim, class Real, std::size_t Width>
+struct SpreadWeights {
+  Lanes<Real> weight[Dim][Width], slope[Dim][Width];
+
+  THAWSLIDE_ALWAYS_INLINE SpreadWeights(const BatchStencil<Dim, Real, Width>& stencil, std::size_t lane) {
+    unrolled<Dim * Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+      weight[k / Width][k % Width] = stencil.axis[k / Width].weight[k % Width][lane];
+      slope[k / Width][k % Width] = stencil.axis[k / Width].slope[k % Width][lane];
+    });
+  }
+};
+
+// What one particle reads of one register of every record about it.
+template <int Axis, int Dim, class Real, std::size_t Width>
+THAWSLIDE_ALWAYS_INLINE Lanes<Real> sum_along_axes(const SpreadWeights<Dim, Real, Width>& spread,
+                                                   std::size_t record_size, const Real* records) {
+  constexpr auto stride = static_cast<std::size_t>(power(Tile<Dim>::patch_edge, Axis));
+  Lanes<Real> sum = Real(0);
+  unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+    const Real* place = records + k * stride * record_size;
+    if constexpr (Axis == 0) {
+      sum += spread.weight[0][k] * Lanes<Real>::load(place);
+    } else {
+      sum += spread.weight[Axis][k] * sum_along_axes<Axis - 1>(spread, record_size, place);
+    }
+  });
+  return sum;
+}
+
+// The values, without gradients, of all components of the records about a batch: particle by particle, a register of
+// components at a time, wherever their nodes are.
+template <int Dim, class Real, std::size_t Width, int Components>
+THAWSLIDE_ALWAYS_INLINE std::array<Lanes<Real>, record_size<Real>(Components)> read_values(
+    const BatchStencil<Dim, Real, Width>& stencil, const Patch<Dim, Real, Components>& patch) {
+  constexpr std::size_t lanes = lane_count<Real>, size = record_size<Real>(Components);
+  alignas(sizeof(Lanes<Real>)) Real of_lane[size / lanes][lanes * lanes];
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const SpreadWeights<Dim, Real, Width> spread(stencil, lane);
+    const Real* records = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane])].data();
+    unrolled<size / lanes>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
+      sum_along_axes<Dim - 1>(spread, size, records + g * lanes).store(&of_lane[g][lane * lanes]);
+    });
+  }
+  std::array<Lanes<Real>, size> values;
+  unrolled<size / lanes>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
+    unrolled<lanes>([&](auto lane) THAWSLIDE_INLINE_LAMBDA {
+      values[g * lanes + lane] = Lanes<Real>::load(&of_lane[g][lane * lanes]);
+    });
+    transpose(&values[g * lanes]);
+  });
+  return values;
+}
+
+// What a batch adds to the records about it: weight * value, and in the components of one register also
+// gradient . flux.
 template <int Dim, class Real, std::size_t Components>
 struct Contribution {
-  std::array<Lanes<Real>, record_size<Real>(Components)> value;
-  std::array<std::array<Lanes<Real>, lane_count<Real>>, Dim> flux;  // by axis
+  static constexpr std::size_t lanes = lane_count<Real>;
+  static constexpr std::size_t groups = record_size<Real>(static_cast<int>(Components)) / lanes;  // of registers
+
+  Lanes<Real> value[groups * lanes];
+  Lanes<Real> flux[Dim][lanes];  // by axis
 
   Contribution() {
-    value.fill(Real(0));
-    for (auto& along : flux) {
-      along.fill(Real(0));
-    }
+    unrolled<groups * lanes>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = Real(0); });
+    unrolled<Dim * lanes>([&](auto c) THAWSLIDE_INLINE_LAMBDA { flux[c / lanes][c % lanes] = Real(0); });
+  }
+
+  // From a row a component to a row a particle: row k of a register's components becomes what lane k adds to them.
+  template <bool HasFlux>
+  THAWSLIDE_ALWAYS_INLINE void by_particle() {
+    unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { transpose(&value[g * lanes]); });
+    unrolled<HasFlux ? Dim : 0>([&](auto a) THAWSLIDE_INLINE_LAMBDA { transpose(flux[a]); });
   }
 };
 
-// Weights and gradients of every node, in the order of their places.
-template <int Dim, class Real, std::size_t Width>
-struct NodeWeights {
-  static constexpr std::size_t nodes = static_cast<std::size_t>(power(static_cast<int>(Width), Dim));
-  std::array<std::size_t, nodes> offset;
-  std::array<Lanes<Real>, nodes> weight;
-  std::array<std::array<Lanes<Real>, nodes>, Dim> gradient;
-};
-
-template <int Dim, class Real, std::size_t Width>
-THAWSLIDE_ALWAYS_INLINE NodeWeights<Dim, Real, Width> node_weights(const BatchStencil<Dim, Real, Width>& stencil) {
-  NodeWeights<Dim, Real, Width> weights;
-  std::size_t k = 0;
-  const auto keep = [&](std::size_t place, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& gradient) {
-    weights.offset[k] = place;
-    weights.weight[k] = weight;
-    for (std::size_t a = 0; a < Dim; ++a) {
-      weights.gradient[a][k] = gradient[static_cast<int>(a)];
+// What a particle adds to one register of every record about it, axis by axis, the last one first: fewer products than
+// node by node. along: flux along this axis and the ones before it.
+template <int Axis, bool HasFlux, int Dim, class Real, std::size_t Width>
+THAWSLIDE_ALWAYS_INLINE void add_along_axes(const SpreadWeights<Dim, Real, Width>& spread, Lanes<Real> value,
+                                            Lanes<Real> along_0, Lanes<Real> along_1, Lanes<Real> along_2,
+                                            std::size_t record_size, Real* records) {
+  constexpr auto stride = static_cast<std::size_t>(power(Tile<Dim>::patch_edge, Axis));
+  const Lanes<Real> along = Axis == 0 ? along_0 : Axis == 1 ? along_1 : along_2;
+  unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+    const Lanes<Real>& weight = spread.weight[Axis][k];
+    Real* place = records + k * stride * record_size;
+    if constexpr (Axis == 0) {
+      Lanes<Real> sum = Lanes<Real>::load(place) + weight * value;
+      if constexpr (HasFlux) {
+        sum += spread.slope[0][k] * along;
+      }
+      sum.store(place);
+    } else {
+      Lanes<Real> part = weight * value;
+      if constexpr (HasFlux) {
+        part += spread.slope[Axis][k] * along;
+      }
+      add_along_axes<Axis - 1, HasFlux>(spread, part, weight * along_0, weight * along_1, along_2, record_size, place);
     }
-    ++k;
-  };
-  for_each_node<Dim>(stencil.axis, 0, keep);
-  return weights;
+  });
 }
 
-// What one lane adds to one register of a record: g components on. HasFlux: contribution.flux is not zero.
-template <bool HasFlux, int Dim, class Real, std::size_t Width, std::size_t Carried>
-THAWSLIDE_ALWAYS_INLINE void add_lane(const NodeWeights<Dim, Real, Width>& nodes, std::size_t node, std::size_t lane,
-                                      const Contribution<Dim, Real, Carried>& rows, std::size_t group,
-                                      Lanes<Real>& sum) {
-  sum += Lanes<Real>(nodes.weight[node][lane]) * rows.value[group * lane_count<Real> + lane];
-  for (std::size_t a = 0; HasFlux && group == 0 && a < Dim; ++a) {
-    sum += Lanes<Real>(nodes.gradient[a][node][lane]) * rows.flux[a][lane];
-  }
-}
+constexpr int no_flux = -1;
 
-// Adds to every node particle after particle, a register of components at a time. Particles that see the same nodes go
-// to a node together, which is then read and written once.
-template <bool HasFlux, int Dim, class Real, std::size_t Width, int Components, std::size_t Carried>
+// Adds to every node particle after particle, a register of components at a time, from component `First` on.
+// FluxGroup: number of the register, from there, to which the flux adds.
+template <int FluxGroup, std::size_t First = 0, int Dim, class Real, std::size_t Width, int Components,
+          std::size_t Carried>
 THAWSLIDE_ALWAYS_INLINE void add_to_nodes(const BatchStencil<Dim, Real, Width>& stencil, std::size_t count,
                                           Contribution<Dim, Real, Carried>& rows, Patch<Dim, Real, Components>& patch) {
   constexpr std::size_t lanes = lane_count<Real>;
-  constexpr std::size_t groups = record_size<Real>(static_cast<int>(Carried)) / lanes;
-  static_assert(record_size<Real>(static_cast<int>(Carried)) == record_size<Real>(Components));
-  unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { transpose(&rows.value[g * lanes]); });
-  unrolled<HasFlux ? Dim : 0>([&](auto a) THAWSLIDE_INLINE_LAMBDA { transpose(&rows.flux[a][0]); });
-  const NodeWeights<Dim, Real, Width> nodes = node_weights(stencil);
-  if (stencil.nodes.shared && count == lanes) {
-    auto* records = &patch.records[static_cast<std::size_t>(stencil.nodes.first[0])];
-    for (std::size_t k = 0; k < nodes.weight.size(); ++k) {
-      Real* record = records[nodes.offset[k]].data();
-      unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
-        Lanes<Real> sum = Lanes<Real>::load(record + g * lanes);
-        unrolled<lanes>([&](auto lane) THAWSLIDE_INLINE_LAMBDA { add_lane<HasFlux>(nodes, k, lane, rows, g, sum); });
-        sum.store(record + g * lanes);
-      });
-    }
-    return;
-  }
+  constexpr std::size_t size = record_size<Real>(Components);
+  constexpr std::size_t groups = Contribution<Dim, Real, Carried>::groups;
+  static_assert(First % lanes == 0 && First + groups * lanes <= size);
+  rows.template by_particle<FluxGroup != no_flux>();
   for (std::size_t lane = 0; lane < count; ++lane) {
-    auto* records = &patch.records[static_cast<std::size_t>(stencil.nodes.first[lane])];
-    for (std::size_t k = 0; k < nodes.weight.size(); ++k) {
-      Real* record = records[nodes.offset[k]].data();
-      for (std::size_t g = 0; g < groups; ++g) {
-        Lanes<Real> sum = Lanes<Real>::load(record + g * lanes);
-        add_lane<HasFlux>(nodes, k, lane, rows, g, sum);
-        sum.store(record + g * lanes);
-      }
-    }
+    const SpreadWeights<Dim, Real, Width> spread(stencil, lane);
+    Real* records = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane])].data() + First;
+    unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
+      constexpr bool has_flux = static_cast<int>(g()) == FluxGroup;
+      add_along_axes<Dim - 1, has_flux>(spread, rows.value[g * lanes + lane], rows.flux[0][lane], rows.flux[1][lane],
+                                        rows.flux[Dim - 1][lane], size, records + g * lanes);
+    });
   }
 }
 

@@ -39,32 +39,25 @@ void with_transfer(const MotionModel<Dim, Real>& model, const Work& work) {
 }
 
 template <class Shape, int Dim, class Real>
-AffineBatch<Dim, Real> affine_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile,
-                                      const Particles<Dim, Real>& particles, const MotionModel<Dim, Real>& model,
-                                      const Batch<Real>& batch) {
+AffineBatch<Dim, Real> affine_stencil(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
+                                      const MotionModel<Dim, Real>& model, const TileBatch<Real>& batch) {
   const auto place = place_of(grid, particles, batch);
   const auto half = model.half_sizes(particles, batch);
-  return make_affine<Shape>(grid, make_stencil<Shape>(grid, tile, place, half, model.sides), place, model.sides);
+  return make_affine<Shape>(grid, make_stencil<Shape>(grid, batch, place, half, model.sides), place, model.sides);
 }
 
-// Adds S m C (x_i - x_p), the momentum of the velocity about the particles, to the nodes.
-template <int Dim, class Real, class Records>
+// Adds S m C (x_i - x_p), the momentum of the velocity about the particles, to components First ... of the nodes.
+template <std::size_t First, int Dim, class Real, int Components>
 void add_affine_momentum(const AffineBatch<Dim, Real>& affine, const Particles<Dim, Real>& particles,
-                         const Batch<Real>& batch, std::size_t first, Records& records) {
+                         const Batch<Real>& batch, Patch<Dim, Real, Components>& patch) {
+  constexpr std::size_t lanes = lane_count<Real>;
   const Lanes<Real> mass = particles.mass.load(batch);
   const Matrix<Lanes<Real>, Dim> moment = mass * affine_velocity(particles, batch) * affine.moment.asDiagonal();
-  const NodeWeights<Dim, Real, 3> nodes = node_weights(affine.nodes);
-  for (std::size_t lane = 0; lane < batch.count; ++lane) {
-    for (std::size_t k = 0; k < nodes.offset.size(); ++k) {
-      auto& record = records[static_cast<std::size_t>(affine.nodes.nodes.first[lane]) + nodes.offset[k]];
-      for (int a = 0; a < Dim; ++a) {
-        for (int b = 0; b < Dim; ++b) {
-          record[first + static_cast<std::size_t>(a)] +=
-              moment(a, b)[lane] * nodes.gradient[static_cast<std::size_t>(b)][k][lane];
-        }
-      }
-    }
-  }
+  Contribution<Dim, Real, lanes> carried;
+  unrolled<static_cast<std::size_t>(Dim * Dim)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+    carried.flux[k / Dim][First % lanes + k % Dim] = moment(static_cast<int>(k) % Dim, static_cast<int>(k) / Dim);
+  });
+  add_to_nodes<0, First / lanes * lanes>(affine.nodes, batch.count, carried, patch);
 }
 
 // V sigma [J] that Eq. 12 sees.
@@ -91,26 +84,19 @@ THAWSLIDE_ALWAYS_INLINE Contribution<Dim, Real, MomentumLayout<Dim>::size> momen
     const Particles<Dim, Real>& particles, const MotionModel<Dim, Real>& model, bool viscous,
     const Batch<Real>& batch) {
   using Layout = MomentumLayout<Dim>;
-  constexpr std::size_t row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of a symmetric tensor
+  constexpr int row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of a symmetric tensor
   Contribution<Dim, Real, Layout::size> carried;
   const Lanes<Real> mass = particles.mass.load(batch);
   const SymmetricTensor<Lanes<Real>> stress = stress_on_nodes(particles, model, viscous, batch);
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const int axis = static_cast<int>(a);
+  unrolled<static_cast<std::size_t>(Dim)>([&](auto a) THAWSLIDE_INLINE_LAMBDA {
+    constexpr int axis = static_cast<int>(a());
     carried.value[Layout::momentum + a] = mass * particles.velocity.load(batch, axis);
     carried.value[Layout::force + a] = mass * model.gravity[axis];
-    for (std::size_t b = 0; b < Dim; ++b) {
-      carried.flux[b][Layout::force + a] = -stress[static_cast<int>(row[a][b])];
-    }
-  }
+    unrolled<static_cast<std::size_t>(Dim)>(
+        [&](auto b) THAWSLIDE_INLINE_LAMBDA { carried.flux[b][Layout::force + a] = -stress[row[a()][b()]]; });
+  });
   carried.value[Layout::mass] = mass;
   carried.value[Layout::volume] = particles.volume.load(batch);
-  carried.value[Layout::temperature] = mass * particles.temperature.load(batch);
-  carried.value[Layout::pore_pressure] = mass * particles.pore_pressure.load(batch);
-  carried.value[Layout::saturation] = mass * particles.liquid_saturation.load(batch);
-  carried.value[Layout::solid_fraction] =
-      mass * basal_solid_fraction(particles, model.phases, model.lubrication, batch);
-  carried.value[Layout::slip] = mass * particles.slip.load(batch);
   return carried;
 }
 
@@ -135,19 +121,17 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
       auto& patch = patches[t];
       patch.clear();
-      const auto& tile = grid.tiles()[t];
-      for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const Batch<Real>& batch) {
+      for (const TileBatch<Real>& batch : grid.batches(t)) {
         const auto place = place_of(grid, particles, batch);
-        const auto stencil =
-            make_stencil<Shape>(grid, tile.key, place, model.half_sizes(particles, batch), model.sides);
+        const auto stencil = make_stencil<Shape>(grid, batch, place, model.half_sizes(particles, batch), model.sides);
         auto carried = momentum_contribution(particles, model, viscous, batch);
-        add_to_nodes<true>(stencil, batch.count, carried, patch);
-      });
+        add_to_nodes<0>(stencil, batch.count, carried, patch);
+      }
       if constexpr (decltype(transfer)::affine) {
-        for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const Batch<Real>& batch) {
-          const auto affine = affine_stencil<Shape>(grid, tile.key, particles, model, batch);
-          add_affine_momentum(affine, particles, batch, MomentumLayout<Dim>::momentum, patch.records);
-        });
+        for (const TileBatch<Real>& batch : grid.batches(t)) {
+          const auto affine = affine_stencil<Shape>(grid, particles, model, batch);
+          add_affine_momentum<MomentumLayout<Dim>::momentum>(affine, particles, batch, patch);
+        }
       }
     });
   });
@@ -192,19 +176,19 @@ Lanes<Real> take_affine_velocity(const AffineBatch<Dim, Real>& affine, const Mot
 // One tile's new velocities and displacements, and the momentum that its particles map back. Returns the kinetic energy
 // of MoveWork.
 template <class Shape, class Transfer, int Dim, class Real>
-Real move_tile(const SparseGrid<Dim, Real>& grid, const typename SparseGrid<Dim, Real>::OccupiedTile& tile,
-               const MotionModel<Dim, Real>& model, const Transfer& transfer, Real dt,
-               const MotionPatch<Dim, Real>& motion, Particles<Dim, Real>& particles, Patch<Dim, Real, Dim>& patch) {
+Real move_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, const MotionModel<Dim, Real>& model,
+               const Transfer& transfer, Real dt, const MotionPatch<Dim, Real>& motion, Particles<Dim, Real>& particles,
+               Patch<Dim, Real, Dim>& patch) {
   using Layout = MotionLayout<Dim>;
   Real kinetic = 0;
-  for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const Batch<Real>& batch) {
+  for (const TileBatch<Real>& batch : grid.batches(t)) {
     const auto place = place_of(grid, particles, batch);
-    const auto stencil = make_stencil<Shape>(grid, tile.key, place, model.half_sizes(particles, batch), model.sides);
-    const auto seen = read_nodes<2 * Dim>(stencil, motion);
+    const auto stencil = make_stencil<Shape>(grid, batch, place, model.half_sizes(particles, batch), model.sides);
+    const auto seen = read_values(stencil, motion);
     Vector<Lanes<Real>, Dim> acceleration, middle;
     for (std::size_t a = 0; a < Dim; ++a) {
-      acceleration[static_cast<int>(a)] = seen.value[Layout::acceleration + a];
-      middle[static_cast<int>(a)] = seen.value[Layout::middle_velocity + a];
+      acceleration[static_cast<int>(a)] = seen[Layout::acceleration + a];
+      middle[static_cast<int>(a)] = seen[Layout::middle_velocity + a];
     }
     particles.step_displacement.store_vector(batch, Vector<Lanes<Real>, Dim>(Lanes<Real>(dt) * middle));
     batch.add_to(kinetic, take_velocity(acceleration, middle, transfer.pic_share, dt, particles, batch));
@@ -212,14 +196,14 @@ Real move_tile(const SparseGrid<Dim, Real>& grid, const typename SparseGrid<Dim,
     for (std::size_t a = 0; a < Dim; ++a) {
       momentum.value[a] = particles.mass.load(batch) * particles.velocity.load(batch, static_cast<int>(a));
     }
-    add_to_nodes<false>(stencil, batch.count, momentum, patch);
-  });
+    add_to_nodes<no_flux>(stencil, batch.count, momentum, patch);
+  }
   if constexpr (Transfer::affine) {
-    for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const Batch<Real>& batch) {
-      const auto affine = affine_stencil<Shape>(grid, tile.key, particles, model, batch);
+    for (const TileBatch<Real>& batch : grid.batches(t)) {
+      const auto affine = affine_stencil<Shape>(grid, particles, model, batch);
       batch.add_to(kinetic, -take_affine_velocity(affine, motion, dt, particles, batch));
-      add_affine_momentum(affine, particles, batch, 0, patch.records);
-    });
+      add_affine_momentum<0>(affine, particles, batch, patch);
+    }
   }
   return kinetic;
 }
@@ -236,8 +220,7 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
       patches[t].clear();
       MotionPatch<Dim, Real> motion;
       load_patch(grid, t, nodes.motion, motion);
-      kinetic[t] =
-          move_tile<decltype(shape)>(grid, grid.tiles()[t], model, transfer, dt, motion, particles, patches[t]);
+      kinetic[t] = move_tile<decltype(shape)>(grid, t, model, transfer, dt, motion, particles, patches[t]);
     });
   });
   sum_patches(grid, nodes.velocity);

@@ -96,8 +96,9 @@ struct BadParticle {
 
 // n_e of Eq. 2 as the basal law sees it: of the particles' current or, without lubrication, initial state.
 template <int Dim, class Real>
-Lanes<Real> basal_solid_fraction(const Particles<Dim, Real>& particles, const physics::Phases<Real>& phases,
-                                 bool lubrication, const Batch<Real>& batch) {
+THAWSLIDE_ALWAYS_INLINE Lanes<Real> basal_solid_fraction(const Particles<Dim, Real>& particles,
+                                                         const physics::Phases<Real>& phases, bool lubrication,
+                                                         const Batch<Real>& batch) {
   const auto& porosity = lubrication ? particles.porosity : particles.initial_porosity;
   const auto& saturation = lubrication ? particles.liquid_saturation : particles.initial_saturation;
   return physics::effective_solid_fraction(phases, porosity.load(batch), saturation.load(batch));
@@ -107,7 +108,7 @@ Lanes<Real> basal_solid_fraction(const Particles<Dim, Real>& particles, const ph
 template <int Dim, class Real>
 void split_total_stress(Particles<Dim, Real>& particles);
 
-// Particle mass, momentum, force (Eq. 12), volume and band quantities to the nodes.
+// Particle mass, momentum, force (Eq. 12) and volume to the nodes.
 template <int Dim, class Real>
 void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes);

@@ -5,19 +5,15 @@
 
 namespace thawslide::mpm {
 
-// Sums over particles with the momentum shape functions S_ip and gradients G_ip.
+// Sums over particles with the momentum shape functions S_ip and gradients G_ip. No vector lies in two registers of
+// four.
 template <int Dim>
 struct MomentumLayout {
   static constexpr std::size_t force = 0;                    // sum S m b - V sigma.G [N], Eq. 12
-  static constexpr std::size_t momentum = Dim;               // sum S m v [kg m/s]
-  static constexpr std::size_t mass = 2 * Dim;               // sum S m [kg]
-  static constexpr std::size_t volume = 1 + 2 * Dim;         // sum S V [m3]
-  static constexpr std::size_t temperature = 2 + 2 * Dim;    // sum S m T [kg K]; with the three below for nodes
-  static constexpr std::size_t pore_pressure = 3 + 2 * Dim;  // without hat weight
-  static constexpr std::size_t saturation = 4 + 2 * Dim;
-  static constexpr std::size_t solid_fraction = 5 + 2 * Dim;
-  static constexpr std::size_t slip = 6 + 2 * Dim;  // sum S m slip [kg m]
-  static constexpr int size = 7 + 2 * Dim;
+  static constexpr std::size_t momentum = Dim == 2 ? 2 : 4;  // sum S m v [kg m/s]
+  static constexpr std::size_t mass = Dim == 2 ? 4 : 3;      // sum S m [kg]
+  static constexpr std::size_t volume = Dim == 2 ? 5 : 7;    // sum S V [m3]
+  static constexpr int size = 2 + 2 * Dim;
 };
 
 // What particles read to move: the node's acceleration [m/s2] and its velocity at mid-step [m/s].
@@ -28,15 +24,32 @@ struct MotionLayout {
   static constexpr int size = 2 * Dim;
 };
 
-// Sums over particles with the linear hats, weighted by volume: temperature, pore pressure (Eq. 21, normalised),
-// saturation, effective solid fraction n_e (Eq. 2).
+// Sums over particles with the linear hats, weighted by volume: temperature, pore pressure (Eq. 21, normalised).
 struct HatLayout {
   static constexpr std::size_t volume = 0;  // sum S V [m3]
   static constexpr std::size_t temperature = 1;
   static constexpr std::size_t pore_pressure = 2;
-  static constexpr std::size_t saturation = 3;
-  static constexpr std::size_t solid_fraction = 4;
-  static constexpr int size = 5;
+  static constexpr int size = 3;
+};
+
+// What the particles near the ground tell its candidate nodes: sums S m X with the momentum shape functions, for nodes
+// without hat weight and for the slip; sums S V X with the hats; the smallest distance left to the ground.
+template <class Real>
+struct NearBaseLayout {
+  static constexpr std::size_t temperature = 0;
+  static constexpr std::size_t pore_pressure = 1;
+  static constexpr std::size_t saturation = 2;
+  static constexpr std::size_t solid_fraction = 3;  // effective, n_e of Eq. 2
+  static constexpr std::size_t slip = 4;            // [kg m]
+  static constexpr std::size_t by_mass = 5;         // those above
+
+  static constexpr std::size_t first_by_hats = record_size<Real>(by_mass);
+  static constexpr std::size_t saturation_by_hats = first_by_hats;
+  static constexpr std::size_t solid_fraction_by_hats = first_by_hats + 1;
+  static constexpr std::size_t by_hats = 2;
+
+  static constexpr std::size_t clearance = first_by_hats + by_hats;  // [m], beyond all bounds where there is none
+  static constexpr int size = clearance + 1;
 };
 
 // Candidate nodes: how they press on the ground, and what of it they have.
@@ -63,7 +76,7 @@ struct Nodes {
   NodeRecords<Dim, Real, HatLayout::size> hats{room};
   NodeRecords<Dim, Real, BaseLayout::size> base;
   NodeRecords<Dim, Real, ContactLayout::size> contact;
-  NodeRecords<Dim, Real, 1> clearance{room};  // between slide and ground [m]; filled for the distance check alone
+  NodeRecords<Dim, Real, NearBaseLayout<Real>::size> near_base{room};  // of blocks with candidate nodes alone
 };
 
 // Position [m, relative to the domain's lower corner] of a node of a block.

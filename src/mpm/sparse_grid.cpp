@@ -1,7 +1,8 @@
 #include "mpm/sparse_grid.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
+#include <limits>
 #include <numeric>
 
 #include "base/instances.hpp"
@@ -31,7 +32,12 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
   const bool first_call = order_.size() != count;
   if (first_call) {
     keys_.assign(count, ~std::uint64_t{0});
-    moved_.assign(count, 0);
+    moved_.assign(count + Batch<Real>::most, 0);
+    forget_nearest(count);
+    one_material_ = true;
+    for (std::size_t p = 0; p < count; ++p) {
+      one_material_ = one_material_ && particles.material(p) == particles.material(0);
+    }
     order_.resize(count);
     std::iota(order_.begin(), order_.end(), 0u);
   }
@@ -47,14 +53,24 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
       keys[k] = keys_[order_[k]];
     }
     keys_.swap(keys);
+    forget_nearest(count);
     std::iota(order_.begin(), order_.end(), 0u);
   }
   blocks_changed_ = false;
   if (any_moved || first_call) {
     find_tiles();
   }
+  batches_.resize(tiles_.size());
+  parallel_for(tiles_.size(), [&](std::size_t t) { make_batches(particles, t); });
 }
 
+// The next keys are computed whether or not particles have moved.
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::forget_nearest(std::size_t count) {
+  nearest_.assign((count + Batch<Real>::most) * Dim, std::numeric_limits<std::int32_t>::min());
+}
+
+// Most particles have the nearest node that they had before, and nothing to do.
 template <int Dim, class Real>
 bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) {
   const std::size_t count = particles.size();
@@ -62,16 +78,32 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
   std::vector<std::uint8_t> task_moved(tasks, 0);
   parallel_for(tasks, [&](std::size_t task) {
     const std::size_t last = std::min(count, (task + 1) * keys_per_task);
-    for (std::size_t p = task * keys_per_task; p < last; ++p) {
-      Index node{}, tile{};
-      Vector<Real, Dim> offset;
-      int local = 0;
-      nearest_node(particles.position.template get<Vector<Real, Dim>>(p), node, offset);
-      T::split(node, tile, local);
-      const std::uint64_t key = (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
-      moved_[p] = key != keys_[p] ? 1 : 0;
-      keys_[p] = key;
-      task_moved[task] |= moved_[p];
+    for (std::size_t first = task * keys_per_task; first < last; first += Batch<Real>::most) {
+      const auto batch = batch_in_memory<Real>(first, last);
+      constexpr std::size_t most = Batch<Real>::most;
+      std::int32_t nearest[Dim * most];
+      for (int a = 0; a < Dim; ++a) {
+        floor(particles.position.load(batch, a) * inverse_cell_ + Real(0.5))
+            .store_whole(nearest + static_cast<std::size_t>(a) * most);
+      }
+      std::fill_n(&moved_[first], most, std::uint8_t{0});
+      if (std::memcmp(nearest, &nearest_[first * Dim], sizeof nearest) == 0) {
+        continue;
+      }
+      std::copy_n(nearest, Dim * most, &nearest_[first * Dim]);
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        Index node{}, tile{};
+        int local = 0;
+        for (std::size_t a = 0; a < Dim; ++a) {
+          node[a] = nearest[a * most + lane];
+        }
+        T::split(node, tile, local);
+        const std::uint64_t key = (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
+        const std::size_t p = first + lane;
+        moved_[p] = key != keys_[p] ? 1 : 0;
+        keys_[p] = key;
+        task_moved[task] |= moved_[p];
+      }
     }
   });
   return std::any_of(task_moved.begin(), task_moved.end(), [](std::uint8_t moved) { return moved != 0; });
@@ -108,6 +140,61 @@ void SparseGrid<Dim, Real>::find_tiles() {
   if (tile_keys_ != old_keys) {
     connect_blocks();
     blocks_changed_ = true;
+  }
+}
+
+// Places of nodes in the patch of a tile, from their numbers along the axes.
+template <int Dim, class Real>
+BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Dim>& lowest) {
+  using T = Tile<Dim>;
+  const typename T::Index tile = T::index(tile_key);
+  Lanes<Real> place = Real(0);
+  for (int a = Dim - 1; a >= 0; --a) {
+    const auto before = static_cast<Real>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
+    place = place * Real(T::patch_edge) + (lowest[a] - before);
+  }
+  BatchNodes<Real> nodes;
+  place.store_whole(nodes.first.data());
+  nodes.shared = !any(place != Lanes<Real>(place[0]));
+  return nodes;
+}
+
+// Four particles (as many as lanes) that stand side by side in memory go together, the others fill up batches.
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, std::size_t t) {
+  constexpr std::size_t most = Batch<Real>::most;
+  const OccupiedTile& tile = tiles_[t];
+  const auto material = [&](std::uint32_t k) { return one_material_ ? 0 : particles.material(order_[k]); };
+  const auto side_by_side = [&](std::uint32_t k) {
+    bool same = order_[k] % most == 0 && k + most <= tile.last;
+    for (std::uint32_t lane = 1; same && lane < most; ++lane) {
+      same = order_[k + lane] == order_[k] + lane && material(k + lane) == material(k);
+    }
+    return same;
+  };
+  auto& batches = batches_[t];
+  batches.clear();
+  for (std::uint32_t k = tile.first; k < tile.last;) {
+    TileBatch<Real> batch;
+    batch.whole = side_by_side(k);
+    batch.count = 0;
+    const std::int32_t of_one = material(k);
+    while (batch.count < most && k < tile.last && material(k) == of_one &&
+           (batch.whole || batch.count == 0 || !side_by_side(k))) {
+      batch.particle[batch.count++] = order_[k++];
+    }
+    for (std::size_t lane = batch.count; lane < most; ++lane) {
+      batch.particle[lane] = batch.particle[batch.count - 1];
+    }
+    Vector<Lanes<Real>, Dim> before_nearest, corner;
+    for (int a = 0; a < Dim; ++a) {
+      const Lanes<Real> in_cells = particles.position.load(batch, a) * inverse_cell_;
+      before_nearest[a] = floor(in_cells + Real(0.5)) - Real(1);
+      corner[a] = floor(in_cells);
+    }
+    batch.nodes = nodes_from<Dim, Real>(tile.key, before_nearest);
+    batch.hats = nodes_from<Dim, Real>(tile.key, corner);
+    batches.push_back(batch);
   }
 }
 

@@ -28,14 +28,16 @@ class SparseGrid {
   [[nodiscard]] Real cell() const { return cell_; }
   [[nodiscard]] Real inverse_cell() const { return inverse_cell_; }
 
-  // Brings order, tiles and blocks up to date with the particles' positions. Particles stand by nearest node, then by
-  // id, whatever their place in memory. Every `interval` calls particles are also moved in memory to stand in this
-  // order.
+  // Brings order, tiles, batches and blocks up to date with the particles' positions. Particles stand by nearest node,
+  // then by id, whatever their place in memory. Every `interval` calls particles are also moved in memory to stand in
+  // this order.
   void update(Particles<Dim, Real>& particles, int interval);
 
   // Particle indices in canonical order.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
   [[nodiscard]] const std::vector<OccupiedTile>& tiles() const { return tiles_; }
+  // The particles of tile t in batches, in canonical order.
+  [[nodiscard]] const std::vector<TileBatch<Real>>& batches(std::size_t t) const { return batches_[t]; }
   // Keys of the active blocks: occupied tiles and their neighbours, ascending.
   [[nodiscard]] const std::vector<std::uint64_t>& blocks() const { return blocks_; }
   // True if the last update changed the set of blocks (block numbers then changed too).
@@ -63,16 +65,21 @@ class SparseGrid {
  private:
   static constexpr std::size_t stencil = static_cast<std::size_t>(T::stencil);
 
+  void forget_nearest(std::size_t count);
   bool compute_keys(const Particles<Dim, Real>& particles);
   void merge_moved(const Particles<Dim, Real>& particles);
   void find_tiles();
   void connect_blocks();
+  void make_batches(const Particles<Dim, Real>& particles, std::size_t t);
 
   Real cell_, inverse_cell_;
-  std::vector<std::uint64_t> keys_;  // by particle: tile key, then place in the tile
+  std::vector<std::uint64_t> keys_;    // by particle: tile key, then place in the tile
+  std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: the nearest node
+  bool one_material_ = true;
   std::vector<std::uint8_t> moved_;
   std::vector<std::uint32_t> order_, spare_order_;
   std::vector<OccupiedTile> tiles_;
+  std::vector<std::vector<TileBatch<Real>>> batches_;  // by tile
   std::vector<std::uint64_t> tile_keys_;
   std::vector<std::uint64_t> blocks_;
   std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;

@@ -16,47 +16,6 @@ THAWSLIDE_ALWAYS_INLINE Value double_contraction(const SymmetricTensor<Value>& a
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + Value(2) * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
-// What a law made of a batch's trial stresses, by lane; members as in physics::ReturnResult.
-template <class Real>
-struct Returned {
-  Lanes<Real> stress[6];
-  Lanes<Real> plastic_work_density = Real(0);
-  Lanes<Real> opening = Real(0);
-};
-
-// Sends the particles of a mask through the law one by one; their plastic strains grow.
-template <int Dim, class Real, class Law>
-[[gnu::noinline]] void return_one_by_one(const Law& law, const LaneMask<Real>& which, const Batch<Real>& batch,
-                                         Particles<Dim, Real>& particles, Returned<Real>& returned) {
-  alignas(sizeof(Lanes<Real>)) Real stress[6][lane_count<Real>], work[lane_count<Real>] = {},
-                                                                 opening[lane_count<Real>] = {};
-  for (int c = 0; c < 6; ++c) {
-    returned.stress[c].store(stress[c]);
-  }
-  for (std::size_t lane = 0; lane < batch.count; ++lane) {
-    if (!which[lane]) {
-      continue;
-    }
-    Real& plastic_strain = particles.plastic_strain(batch.particle[lane]);
-    SymmetricTensor<Real> trial;
-    for (int c = 0; c < 6; ++c) {
-      trial[c] = stress[c][lane];
-    }
-    const auto result = law.update(trial, plastic_strain);
-    for (int c = 0; c < 6; ++c) {
-      stress[c][lane] = result.stress[c];
-    }
-    plastic_strain += result.equivalent_plastic_strain_increment;
-    work[lane] = result.plastic_work_density;
-    opening[lane] = result.opening;
-  }
-  for (int c = 0; c < 6; ++c) {
-    returned.stress[c] = Lanes<Real>::load(stress[c]);
-  }
-  returned.plastic_work_density = Lanes<Real>::load(work);
-  returned.opening = Lanes<Real>::load(opening);
-}
-
 // The stresses that follow from a batch's elastic trial stresses.
 template <int Dim, class Real, class Law>
 THAWSLIDE_ALWAYS_INLINE void admit(const Law& law, const Batch<Real>& batch, Particles<Dim, Real>& particles,
@@ -64,13 +23,13 @@ THAWSLIDE_ALWAYS_INLINE void admit(const Law& law, const Batch<Real>& batch, Par
                                    Lanes<Real>& opening) {
   plastic_work_density = opening = Real(0);
   if constexpr (Law::yields) {
-    const LaneMask<Real> may_yield = law.may_yield(stress);
-    if (any(may_yield)) {
-      Returned<Real> returned{{stress[0], stress[1], stress[2], stress[3], stress[4], stress[5]}};
-      return_one_by_one(law, may_yield, batch, particles, returned);
-      unrolled<6>([&](auto c) THAWSLIDE_INLINE_LAMBDA { stress[static_cast<int>(c())] = returned.stress[c()]; });
-      plastic_work_density = returned.plastic_work_density;
-      opening = returned.opening;
+    const Lanes<Real> plastic_strain = particles.plastic_strain.load(batch);
+    if (any(law.template may_yield<Dim>(stress, plastic_strain))) {
+      const auto result = law.template update<Dim>(stress, plastic_strain);
+      stress = result.stress;
+      plastic_work_density = result.plastic_work_density;
+      opening = result.opening;
+      particles.plastic_strain.store(batch, plastic_strain + result.equivalent_plastic_strain_increment);
     }
   }
 }
@@ -131,30 +90,18 @@ void note_bad_volumes(const Particles<Dim, Real>& particles, const Batch<Real>& 
 
 // One tile's particles; the velocities of the nodes about it are given.
 template <class Shape, int Dim, class Real>
-StressWork<Real> deform_tile(const SparseGrid<Dim, Real>& grid,
-                             const typename SparseGrid<Dim, Real>::OccupiedTile& tile,
-                             const MotionModel<Dim, Real>& model, Real dt, const Patch<Dim, Real, Dim>& velocity,
-                             Particles<Dim, Real>& particles, BadParticle& bad) {
+StressWork<Real> deform_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, const MotionModel<Dim, Real>& model,
+                             Real dt, const Patch<Dim, Real, Dim>& velocity, Particles<Dim, Real>& particles,
+                             BadParticle& bad) {
   StressWork<Real> sum;
-  // Runs of particles of one material share one choice of law.
-  for (std::uint32_t k = tile.first; k < tile.last;) {
-    const std::int32_t material = particles.material(grid.order()[k]);
-    const MaterialModel<Real>& chosen = model.materials[static_cast<std::size_t>(material)];
-    const std::uint32_t first = k;
-    while (k < tile.last && particles.material(grid.order()[k]) == material) {
-      ++k;
-    }
-    std::visit(
-        [&](const auto& law) {
-          for_each_batch<Real>(grid.order(), first, k, [&](const Batch<Real>& batch) {
-            const auto stencil = make_stencil<Shape>(grid, tile.key, place_of(grid, particles, batch),
-                                                     model.half_sizes(particles, batch), model.sides);
-            const Matrix<Lanes<Real>, Dim> gradient = Lanes<Real>(dt) * gradient_of(read_nodes<Dim>(stencil, velocity));
-            deform<Dim, Real>(particles, batch, gradient, law, chosen, model, dt, sum);
-            note_bad_volumes(particles, batch, bad);
-          });
-        },
-        chosen.law);
+  for (const TileBatch<Real>& batch : grid.batches(t)) {
+    const auto& material = model.materials[static_cast<std::size_t>(particles.material(batch.particle[0]))];
+    const auto stencil = make_stencil<Shape>(grid, batch, place_of(grid, particles, batch),
+                                             model.half_sizes(particles, batch), model.sides);
+    const Matrix<Lanes<Real>, Dim> gradient = Lanes<Real>(dt) * gradient_of(read_nodes<Dim>(stencil, velocity));
+    std::visit([&](const auto& law) { deform<Dim, Real>(particles, batch, gradient, law, material, model, dt, sum); },
+               material.law);
+    note_bad_volumes(particles, batch, bad);
   }
   return sum;
 }
@@ -171,7 +118,7 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
       Patch<Dim, Real, Dim> velocity;
       load_patch(grid, t, nodes.velocity, velocity);
-      works[t] = deform_tile<decltype(shape)>(grid, grid.tiles()[t], model, dt, velocity, particles, bads[t]);
+      works[t] = deform_tile<decltype(shape)>(grid, t, model, dt, velocity, particles, bads[t]);
     });
   });
   StressWork<Real> sum;

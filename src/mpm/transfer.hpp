@@ -137,32 +137,44 @@ THAWSLIDE_ALWAYS_INLINE void for_shared_nodes(const Visit& visit) {
   });
 }
 
-// Node sums of what the patches of the tiles hold, always in the same order of tiles.
+// Sums at the nodes of one block of what the patches of the tiles hold, always in the same order of tiles.
 template <int Dim, class Real, int Components>
-void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes) {
+void sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
+                          std::span<Patch<Dim, Real, Components>> patches, NodeRecords<Dim, Real, Components>& nodes) {
   using Record = typename NodeRecords<Dim, Real, Components>::Record;
   constexpr std::size_t size = std::tuple_size_v<Record>;
+  Record* records = &nodes(block, 0);
+  std::fill_n(records->data(), size * NodeRecords<Dim, Real, Components>::nodes, Real(0));
+  const std::int32_t* tiles = grid.tiles_about_block(block);
+  for_each_direction<Dim>([&](auto d) {
+    if (tiles[d] == KeyIndex::absent) {
+      return;
+    }
+    const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
+    const auto add_row = [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
+      Real* sums = records[in_block].data();
+      const Real* parts = patch.records[in_patch].data();
+      for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
+        (Lanes<Real>::load(sums + c) + Lanes<Real>::load(parts + c)).store(sums + c);
+      }
+    };
+    for_shared_rows<Dim, opposite<Dim>(d)>(add_row);
+  });
+}
+
+// The same at the nodes of all blocks; then(block) follows once a block has its sums.
+template <int Dim, class Real, int Components, class Then>
+void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes, const Then& then) {
   nodes.resize(grid.blocks().size());
   const auto patches = nodes.patches(grid.tiles().size());
   parallel_for(grid.blocks().size(), [&](std::size_t block) {
-    Record* records = &nodes(block, 0);
-    std::fill_n(records->data(), size * NodeRecords<Dim, Real, Components>::nodes, Real(0));
-    const std::int32_t* tiles = grid.tiles_about_block(block);
-    for_each_direction<Dim>([&](auto d) {
-      if (tiles[d] == KeyIndex::absent) {
-        return;
-      }
-      const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
-      const auto add_row = [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
-        Real* sums = records[in_block].data();
-        const Real* parts = patch.records[in_patch].data();
-        for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
-          (Lanes<Real>::load(sums + c) + Lanes<Real>::load(parts + c)).store(sums + c);
-        }
-      };
-      for_shared_rows<Dim, opposite<Dim>(d)>(add_row);
-    });
+    sum_patches_in_block(grid, block, patches, nodes);
+    then(block);
   });
+}
+template <int Dim, class Real, int Components>
+void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes) {
+  sum_patches(grid, nodes, [](std::size_t /*block*/) {});
 }
 
 // Copies what the nodes about tile t hold into a patch.

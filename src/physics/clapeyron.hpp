@@ -14,25 +14,25 @@ namespace thawslide::physics {
 
 // P_I [Pa]; gravity [m/s2], depth H [m].
 template <class Real, class Value>
-THAWSLIDE_HD Value ice_pressure(const Phases<Real>& phases, Real gravity, Value depth) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value ice_pressure(const Phases<Real>& phases, Real gravity, Value depth) {
   return phases.ice_density * gravity * depth;
 }
 
 // P_L of Eq. 4 [Pa]; temperatures [C]; sign +1, or -1 as the paper prints it. Meaningful only as weighted in Eq. 21:
 // far below 0 C it is some -12 MPa times a saturation of 1e-5.
 template <class Real, class Value>
-THAWSLIDE_HD Value liquid_pressure_clapeyron(const Phases<Real>& phases, Value ice_pressure, Value temperature,
-                                             Real reference_temperature, Real sign) {
-  using std::log;
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value liquid_pressure_clapeyron(const Phases<Real>& phases, Value ice_pressure,
+                                                                     Value temperature, Real reference_temperature,
+                                                                     Real sign) {
   const Value absolute = temperature + celsius_to_kelvin<Real>;
   const Real reference = reference_temperature + celsius_to_kelvin<Real>;
   return phases.water_density / phases.ice_density * ice_pressure +
-         sign * phases.water_density * phases.latent_heat * log(absolute / reference);
+         sign * phases.water_density * phases.latent_heat * log_of_ratio(absolute, Value(reference));
 }
 
 // P_pore of Eq. 21 [Pa].
 template <class Value>
-THAWSLIDE_HD Value pore_pressure(Value saturation, Value liquid_pressure, Value ice_pressure) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_pressure(Value saturation, Value liquid_pressure, Value ice_pressure) {
   return saturation * liquid_pressure + (Value(1) - saturation) * ice_pressure;
 }
 

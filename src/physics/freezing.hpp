@@ -24,7 +24,7 @@ template <class Value, class Real>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent) {
   constexpr Real largest_whole = 16;
   if (!(exponent >= Real(0) && exponent <= largest_whole) || exponent != std::floor(exponent)) {
-    return each_lane(base, [&](Real number) { return std::pow(number, exponent); });
+    return rarely(base, [&](Real number) { return std::pow(number, exponent); });
   }
   Value result = 1;
   for (int k = static_cast<int>(exponent); k > 0; k >>= 1) {

@@ -37,7 +37,8 @@ inline constexpr Real largest_porosity = static_cast<Real>(0.95);
 
 // n_e of Eq. 2.
 template <class Real, class Value>
-THAWSLIDE_HD Value effective_solid_fraction(const Phases<Real>& phases, Value porosity, Value saturation) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value effective_solid_fraction(const Phases<Real>& phases, Value porosity,
+                                                                    Value saturation) {
   return Real(1) - porosity + porosity * (Real(1) - saturation) * phases.ice_to_rock_density_ratio;
 }
 
@@ -58,14 +59,14 @@ THAWSLIDE_HD Value heat_capacity(const Phases<Real>& phases, Value porosity, Val
 
 // k of Eq. 9 [W/m/K]: follows the saturation.
 template <class Real, class Value>
-THAWSLIDE_HD Value conductivity(const Phases<Real>& phases, Value porosity, Value saturation) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value conductivity(const Phases<Real>& phases, Value porosity, Value saturation) {
   return (Real(1) - porosity) * phases.rock_conductivity +
          porosity * (saturation * phases.water_conductivity + (Real(1) - saturation) * phases.ice_conductivity);
 }
 
 // beta_m of Eq. 8 [1/K], with r = rho_I/rho_L (the paper prints rho_L/rho_L).
 template <class Real, class Value>
-THAWSLIDE_HD Value expansion(const Phases<Real>& phases, Value porosity, Value saturation) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases, Value porosity, Value saturation) {
   const Real ratio = phases.ice_density / phases.water_density;
   return (Real(1) - porosity) * (saturation + (Real(1) - saturation) * ratio) * phases.rock_expansion +
          porosity * saturation * phases.water_expansion +
@@ -84,7 +85,28 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {
   if (!any(!is_small)) {
     return series;
   }
-  return select(is_small, series, each_lane(x, [](auto number) { return std::expm1(number); }));
+  return select(is_small, series, rarely(x, [](auto number) { return std::expm1(number); }));
+}
+
+// log(a/b); for ratios near 1, as those of absolute temperatures are, by its series 2 artanh((a - b)/(a + b)), which is
+// exact to round-off there and much faster.
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value log_of_ratio(Value a, Value b) {
+  using std::abs;
+  using Real = typename NumberOf<Value>::Type;
+  constexpr int terms = 9;
+  const Value argument = (a - b) / (a + b);
+  const auto is_small = abs(argument) < static_cast<Real>(0.112);  // the term left out is below 1e-17
+  const Value square = argument * argument;
+  Value series = 0;
+  for (int k = terms - 1; k >= 0; --k) {
+    series = series * square + Value(Real(2) / static_cast<Real>(2 * k + 1));
+  }
+  series *= argument;
+  if (!any(!is_small)) {
+    return series;
+  }
+  return select(is_small, series, rarely(a / b, [](auto number) { return std::log(number); }));
 }
 
 // Eq. 6 integrated over a step: the grains keep their mass, so 1 - n falls with the volume and grows with their thermal

@@ -21,22 +21,25 @@
 
 namespace thawslide::physics {
 
-template <class Real>
+template <class Value>
 struct ReturnResult {
-  SymmetricTensor<Real> stress;              // [Pa]
-  Real equivalent_plastic_strain_increment;  // sqrt(2/3 de_p:de_p)
-  Real plastic_work_density;                 // stress : de_p [J/m3]
-  Real opening;                              // volumetric plastic strain at the apex or the cut-off: a gap torn open
-  bool yielded;
+  using Condition = decltype(Value() < Value());
+
+  SymmetricTensor<Value> stress;                  // [Pa]
+  Value equivalent_plastic_strain_increment = 0;  // sqrt(2/3 de_p:de_p)
+  Value plastic_work_density = 0;                 // stress : de_p [J/m3]
+  Value opening = 0;  // volumetric plastic strain at the apex or the cut-off: a gap torn open
+  Condition yielded = Value(0) < Value(0);
 };
 
 template <class Real>
 struct LinearElastic {
   static constexpr bool yields = false;
 
-  [[nodiscard]] THAWSLIDE_HD ReturnResult<Real> update(const SymmetricTensor<Real>& trial,
-                                                       Real /*plastic_strain*/) const {
-    return {trial, Real(0), Real(0), Real(0), false};
+  template <int Dim = 3, class Value>
+  [[nodiscard]] THAWSLIDE_HD ReturnResult<Value> update(const SymmetricTensor<Value>& trial,
+                                                        Value /*plastic_strain*/) const {
+    return {trial};
   }
 };
 
@@ -61,58 +64,81 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     }
     for (int i = 0; i < planes; ++i) {
       law.normal_[i] = normal(i, law.ratio_);
-      for (int j = 0; j < planes; ++j) {
-        law.coupling_(i, j) = law.normal_[i].dot(law.relaxation_[j]);
+    }
+    for (int s = 0; s < set_count; ++s) {
+      Matrix<Real, 3> coupling = Matrix<Real, 3>::Identity();
+      for (int a = 0; a < sets[s].count; ++a) {
+        for (int b = 0; b < sets[s].count; ++b) {
+          coupling(a, b) = law.normal_[sets[s].plane[a]].dot(law.relaxation_[sets[s].plane[b]]);
+        }
       }
+      law.inverse_coupling_[s] = coupling.inverse();
     }
     return law;
   }
 
   // c [Pa] after an equivalent plastic strain.
-  [[nodiscard]] THAWSLIDE_HD Real cohesion(Real plastic_strain) const {
-    return residual_cohesion_ == cohesion_ || plastic_strain == Real(0)
-               ? cohesion_
-               : residual_cohesion_ + (cohesion_ - residual_cohesion_) * std::exp(-plastic_strain);
-  }
-
-  // Whether an elastic trial stress [Pa] may be beyond the yield surface, whatever its Lode angle and the cohesion
-  // left.
-  static constexpr bool yields = true;
   template <class Value>
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto may_yield(const SymmetricTensor<Value>& trial) const {
-    return !surely_elastic(trial, Real(2) * std::min(cohesion_, residual_cohesion_) * root_of_ratio_);
+  [[nodiscard]] THAWSLIDE_HD Value cohesion(Value plastic_strain) const {
+    const auto has_yielded = plastic_strain != Value(0);
+    if (residual_cohesion_ == cohesion_ || !any(has_yielded)) {
+      return cohesion_;
+    }
+    const Value share = each_lane(plastic_strain, [](Real strain) { return std::exp(-strain); });
+    return select(has_yielded, residual_cohesion_ + (cohesion_ - residual_cohesion_) * share, Value(cohesion_));
   }
 
-  // The admissible stress that follows from an elastic trial [Pa].
-  [[nodiscard]] THAWSLIDE_HD ReturnResult<Real> update(const SymmetricTensor<Real>& trial, Real plastic_strain) const {
-    const Real shear_limit = Real(2) * cohesion(plastic_strain) * root_of_ratio_;
-    if (surely_elastic(trial, shear_limit)) {
-      return {trial, Real(0), Real(0), Real(0), false};
-    }
-    const bool plane = trial[4] == Real(0) && trial[5] == Real(0);
-    Principal<Real> state;
-    if (plane) {
-      state.values = plane_principal_values(trial);  // the axes only if it yields
+  // Whether an elastic trial stress [Pa] may be beyond the yield surface: yes only if it is, to round-off, for intact
+  // matter in plane strain, whose principal stresses cost no more than the bound that stands for them in space.
+  static constexpr bool yields = true;
+  template <int Dim, class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto may_yield(const SymmetricTensor<Value>& trial,
+                                                                    Value plastic_strain) const {
+    using std::max, std::min, std::sqrt;
+    // exp(-eps) is nowhere below 1 - eps.
+    const Value lowest_cohesion =
+        std::min(cohesion_, residual_cohesion_) +
+        std::max(cohesion_ - residual_cohesion_, Real(0)) * max(Real(1) - plastic_strain, Value(0));
+    const Value shear_limit = Real(2) * root_of_ratio_ * lowest_cohesion;
+    if constexpr (Dim == 2) {
+      const Value centre = Real(0.5) * (trial[0] + trial[1]), half_difference = Real(0.5) * (trial[0] - trial[1]);
+      const Value radius = sqrt(half_difference * half_difference + trial[3] * trial[3]);
+      return !is_elastic(max(centre + radius, trial[2]), min(centre - radius, trial[2]), shear_limit);
     } else {
-      state = principal(trial);
+      return !surely_elastic(trial, shear_limit);
     }
-    const Vector<Real, 3> trial_values = state.values;
-    const Real tolerance = round_off * (ratio_ * trial_values.cwiseAbs().maxCoeff() + shear_limit);
-    // Of ordered values, (s1, s3) is the first plane to be reached, and s1 the first to pass the cut-off.
-    if (ratio_ * trial_values[0] - trial_values[2] - shear_limit <= tolerance &&
-        trial_values[0] - tension_cutoff_ <= tolerance) {
-      return {trial, Real(0), Real(0), Real(0), false};
+  }
+
+  // The admissible stress that follows from an elastic trial [Pa]; Dim 2: of plane strain.
+  template <int Dim = 3, class Value>
+  [[nodiscard]] THAWSLIDE_HD ReturnResult<Value> update(const SymmetricTensor<Value>& trial,
+                                                        Value plastic_strain) const {
+    using std::abs, std::max, std::sqrt;
+    const Value shear_limit = Real(2) * root_of_ratio_ * cohesion(plastic_strain);
+    if (!any(!surely_elastic(trial, shear_limit))) {
+      return {trial};
     }
-    Vector<Real, planes> limits;
-    limits << Vector<Real, 3>::Constant(shear_limit), Vector<Real, 3>::Constant(tension_cutoff_);
-    if (plane) {
-      state = principal(trial);
+    Principal<Value> state = principal<Dim>(trial);
+    const Vector<Value, 3> trial_values = state.values;
+    const Value tolerance = round_off * (ratio_ * max(abs(trial_values[0]), abs(trial_values[2])) + shear_limit);
+    const auto yielded = !is_elastic(trial_values[0], trial_values[2], shear_limit, tolerance);
+    if (!any(yielded)) {
+      return {trial};
     }
-    bool torn = false;
-    state.values = returned(trial_values, limits, tolerance, torn);
-    const Vector<Real, 3> plastic = elastic_strain(trial_values - state.values);
-    return {from_principal(state), std::sqrt(Real(2) / Real(3) * plastic.squaredNorm()), state.values.dot(plastic),
-            torn ? plastic.sum() : Real(0), true};
+    Value torn = 0;
+    state.values = returned(trial_values, shear_limit, tolerance, yielded, torn);
+    const Vector<Value, 3> plastic = elastic_strain(Vector<Value, 3>(trial_values - state.values));
+    const SymmetricTensor<Value> stress = from_principal(state);
+    const auto if_yielded = [&](Value value) { return select(yielded, value, Value(0)); };
+    ReturnResult<Value> result{trial};
+    for (int c = 0; c < 6; ++c) {
+      result.stress[c] = select(yielded, stress[c], trial[c]);
+    }
+    result.equivalent_plastic_strain_increment = if_yielded(sqrt(Real(2) / Real(3) * plastic.squaredNorm()));
+    result.plastic_work_density = if_yielded(state.values.dot(plastic));
+    result.opening = if_yielded(torn * plastic.sum());
+    result.yielded = yielded;
+    return result;
   }
 
  private:
@@ -125,18 +151,30 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     int count;
     int plane[3];
   };
+  // Face, cut-off face, edges, corners: from the likely to the rare.
+  static constexpr int set_count = 12;
+  static constexpr ActiveSet sets[set_count] = {{1, {0, 0, 0}}, {1, {3, 0, 0}}, {2, {0, 1, 0}}, {2, {0, 2, 0}},
+                                                {2, {0, 3, 0}}, {2, {3, 4, 0}}, {3, {3, 4, 5}}, {3, {0, 1, 3}},
+                                                {3, {0, 3, 4}}, {3, {0, 2, 3}}, {3, {2, 3, 4}}, {3, {0, 2, 4}}};
+
+  // Of the largest and the smallest principal stress, or of bounds on them.
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_elastic(Value largest, Value smallest, Value shear_limit,
+                                                                     Value tolerance = 0) const {
+    return (ratio_ * largest - smallest <= shear_limit + tolerance) & (largest <= tension_cutoff_ + tolerance);
+  }
 
   // Whether the stress is within the surface whatever its Lode angle: no principal stress lies further from the mean m
   // than r = 2 sqrt(J2/3). Spares most particles their principal stresses.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto surely_elastic(const SymmetricTensor<Value>& s,
-                                                                         Real shear_limit) const {
+                                                                         Value shear_limit) const {
     using std::sqrt;
     const Value mean = (s[0] + s[1] + s[2]) / Value(3);
     const Value a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
     const Value second_invariant = Real(0.5) * (a * a + b * b + c * c) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
     const Value reach = Real(2) * sqrt(second_invariant / Real(3));
-    return (ratio_ * (mean + reach) - (mean - reach) <= shear_limit) & (mean + reach <= tension_cutoff_);
+    return is_elastic(mean + reach, mean - reach, shear_limit);
   }
 
   static Real pressure_ratio(Real angle) {
@@ -157,28 +195,43 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     }
   }
 
-  [[nodiscard]] THAWSLIDE_HD bool admissible(const Vector<Real, 3>& values, const Vector<Real, planes>& limits,
-                                             Real tolerance) const {
-    for (int i = 0; i < planes; ++i) {
-      if (normal_[i].dot(values) - limits[i] > tolerance) {
-        return false;
-      }
+  // Principal stresses on the yield surface for those that yielded; torn: 1 at the apex or on the cut-off, else 0. Most
+  // return to the face; the others one by one.
+  template <class Value, class Condition>
+  [[nodiscard]] THAWSLIDE_HD Vector<Value, 3> returned(const Vector<Value, 3>& trial, Value shear_limit,
+                                                       Value tolerance, const Condition& yielded, Value& torn) const {
+    const Value multiplier = inverse_coupling_[0](0, 0) * (ratio_ * trial[0] - trial[2] - shear_limit);
+    Vector<Value, 3> values;
+    for (int k = 0; k < 3; ++k) {
+      values[k] = trial[k] - multiplier * relaxation_[0][k];
     }
-    return true;
+    const auto in_order = (ratio_ * values[0] - values[1] <= shear_limit + tolerance) &
+                          (ratio_ * values[1] - values[2] <= shear_limit + tolerance);
+    const auto below_cutoff = (values[0] <= tension_cutoff_ + tolerance) & (values[1] <= tension_cutoff_ + tolerance) &
+                              (values[2] <= tension_cutoff_ + tolerance);
+    const auto elsewhere = yielded & !((multiplier >= Value(0)) & in_order & below_cutoff);
+    for_each_lane(elsewhere, [&](std::size_t lane) {
+      bool torn_here = false;
+      const Vector<Real, 3> one(in_lane(trial[0], lane), in_lane(trial[1], lane), in_lane(trial[2], lane));
+      const Vector<Real, 3> found = returned_one(one, in_lane(shear_limit, lane), in_lane(tolerance, lane), torn_here);
+      for (int k = 0; k < 3; ++k) {
+        set_lane(values[k], lane, found[k]);
+      }
+      set_lane(torn, lane, torn_here ? Real(1) : Real(0));
+    });
+    return values;
   }
 
-  // Principal stresses on the yield surface; torn: at the apex or on the cut-off.
-  [[nodiscard]] THAWSLIDE_HD Vector<Real, 3> returned(const Vector<Real, 3>& trial, const Vector<Real, planes>& limits,
-                                                      Real tolerance, bool& torn) const {
-    // Face, cut-off face, edges, corners: from the likely to the rare.
-    constexpr ActiveSet sets[] = {{1, {0, 0, 0}}, {1, {3, 0, 0}}, {2, {0, 1, 0}}, {2, {0, 2, 0}},
-                                  {2, {0, 3, 0}}, {2, {3, 4, 0}}, {3, {3, 4, 5}}, {3, {0, 1, 3}},
-                                  {3, {0, 3, 4}}, {3, {0, 2, 3}}, {3, {2, 3, 4}}, {3, {0, 2, 4}}};
+  // Of one, by all sets of active planes.
+  [[nodiscard]] THAWSLIDE_HD Vector<Real, 3> returned_one(const Vector<Real, 3>& trial, Real shear_limit,
+                                                          Real tolerance, bool& torn) const {
+    Vector<Real, planes> limits;
+    limits << Vector<Real, 3>::Constant(shear_limit), Vector<Real, 3>::Constant(tension_cutoff_);
     const int with_cutoff = std::isfinite(tension_cutoff_) ? planes : 3;
-    for (const ActiveSet& set : sets) {
+    for (int s = 0; s < set_count; ++s) {
+      const ActiveSet& set = sets[s];
       Vector<Real, 3> values = trial;
-      if (set.plane[set.count - 1] < with_cutoff && relax(set, limits, values) &&
-          admissible(values, limits, tolerance)) {
+      if (set.plane[set.count - 1] < with_cutoff && relax(s, limits, values) && admissible(values, limits, tolerance)) {
         torn = set.plane[set.count - 1] >= 3 || set.plane[0] >= 3;
         return values;
       }
@@ -189,18 +242,24 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return Vector<Real, 3>::Constant(apex < tension_cutoff_ ? apex : tension_cutoff_);
   }
 
-  // Takes the plastic strain of the active planes off the trial stress; false if a multiplier is negative.
-  [[nodiscard]] THAWSLIDE_HD bool relax(const ActiveSet& set, const Vector<Real, planes>& limits,
-                                        Vector<Real, 3>& values) const {
-    Matrix<Real, 3> system = Matrix<Real, 3>::Identity();
+  [[nodiscard]] THAWSLIDE_HD bool admissible(const Vector<Real, 3>& values, const Vector<Real, planes>& limits,
+                                             Real tolerance) const {
+    for (int i = 0; i < planes; ++i) {
+      if (normal_[i].dot(values) - limits[i] > tolerance) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Takes the plastic strain of an active set of planes off the trial stress; false if a multiplier is negative.
+  [[nodiscard]] THAWSLIDE_HD bool relax(int number, const Vector<Real, planes>& limits, Vector<Real, 3>& values) const {
+    const ActiveSet& set = sets[number];
     Vector<Real, 3> excess = Vector<Real, 3>::Zero();
     for (int a = 0; a < 3 && a < set.count; ++a) {
       excess[a] = normal_[set.plane[a]].dot(values) - limits[set.plane[a]];
-      for (int b = 0; b < 3 && b < set.count; ++b) {
-        system(a, b) = coupling_(set.plane[a], set.plane[b]);
-      }
     }
-    const Vector<Real, 3> multipliers = system.inverse() * excess;
+    const Vector<Real, 3> multipliers = inverse_coupling_[number] * excess;
     for (int a = 0; a < 3 && a < set.count; ++a) {
       if (!(multipliers[a] >= Real(0))) {
         return false;
@@ -211,10 +270,12 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   }
 
   // The elastic strain of a principal stress.
-  [[nodiscard]] THAWSLIDE_HD Vector<Real, 3> elastic_strain(const Vector<Real, 3>& stress) const {
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD Vector<Value, 3> elastic_strain(const Vector<Value, 3>& stress) const {
     const Real two_shear = Real(2) * elastic_.shear_modulus;
-    const Real share = elastic_.lame_lambda / (two_shear + Real(3) * elastic_.lame_lambda);
-    return (stress - Vector<Real, 3>::Constant(share * stress.sum())) / two_shear;
+    const Value mean = elastic_.lame_lambda / (two_shear + Real(3) * elastic_.lame_lambda) * stress.sum();
+    const Value compliance = Real(1) / two_shear;
+    return compliance * (stress - Vector<Value, 3>::Constant(mean));
   }
 
   Real ratio_ = 1;          // k
@@ -222,8 +283,8 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   Real cohesion_ = 0, residual_cohesion_ = 0, tension_cutoff_ = 0;
   Elastic<Real> elastic_;
   Vector<Real, 3> normal_[planes];
-  Vector<Real, 3> relaxation_[planes];  // elastic stress of a plane's flow [Pa per unit multiplier]
-  Matrix<Real, planes> coupling_;       // normal_[i] . relaxation_[j]
+  Vector<Real, 3> relaxation_[planes];           // elastic stress of a plane's flow [Pa per unit multiplier]
+  Matrix<Real, 3> inverse_coupling_[set_count];  // of the planes of a set: normal_[i] . relaxation_[j]
 };
 
 // Chosen once per run of particles of one material, never per particle.

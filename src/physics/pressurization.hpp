@@ -11,14 +11,16 @@ namespace thawslide::physics {
 
 // Lambda = K_L beta_m/(n S) [Pa/K]: pressure per kelvin of undrained heating.
 template <class Real, class Value>
-THAWSLIDE_HD Value undrained_pressure_coefficient(const Phases<Real>& phases, Value porosity, Value saturation) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value undrained_pressure_coefficient(const Phases<Real>& phases, Value porosity,
+                                                                          Value saturation) {
   return phases.water_bulk_modulus * expansion(phases, porosity, saturation) / (porosity * saturation);
 }
 
 // K_L/(n S) [Pa]: pressure per volumetric compression of a pore that does not drain (Eq. 8, r = rho_I/rho_L, times
 // S + (1 - S) r, which is 1 once melted).
 template <class Real, class Value>
-THAWSLIDE_HD Value pore_stiffness(const Phases<Real>& phases, Value porosity, Value saturation) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_stiffness(const Phases<Real>& phases, Value porosity,
+                                                          Value saturation) {
   const Real ratio = phases.ice_density / phases.water_density;
   return phases.water_bulk_modulus * (saturation + (Real(1) - saturation) * ratio) / (porosity * saturation);
 }
@@ -26,14 +28,14 @@ THAWSLIDE_HD Value pore_stiffness(const Phases<Real>& phases, Value porosity, Va
 // What the pore space is divided by when flow is multiplied by xi: xi, as Eq. 19 divides the capacity, or, as Eq. 23
 // is printed, nothing.
 template <class Value>
-THAWSLIDE_HD Value pore_space_scaling(Value scaling, bool as_printed) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_space_scaling(Value scaling, bool as_printed) {
   return as_printed ? Value(1) : scaling;
 }
 
 // D = K_L k_L/(n S gamma_w) [m2/s]; hydraulic conductivity k_L [m/s].
 template <class Real, class Value>
-THAWSLIDE_HD Value hydraulic_diffusivity(const Phases<Real>& phases, Value porosity, Value saturation,
-                                         Value hydraulic_conductivity) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases<Real>& phases, Value porosity,
+                                                                 Value saturation, Value hydraulic_conductivity) {
   return phases.water_bulk_modulus * hydraulic_conductivity / (porosity * saturation * phases.water_unit_weight);
 }
 
@@ -41,7 +43,8 @@ THAWSLIDE_HD Value hydraulic_diffusivity(const Phases<Real>& phases, Value poros
 // within a step: 1 - exp(-dt D sum_a 2/h_a^2), h the mesh size that D is meant for [m] (Gerya and Yuen 2003, Eq. 23).
 // Nodes do not see differences within a cell, and diffusion between nodes would leave them standing for ever.
 template <class Real, class Value>
-THAWSLIDE_HD Value share_levelled_within_cell(Value diffusivity, Value mesh_size, int dimension, Real dt) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_levelled_within_cell(Value diffusivity, Value mesh_size, int dimension,
+                                                                      Real dt) {
   return -exponential_minus_one(-dt * diffusivity * Real(2 * dimension) / (mesh_size * mesh_size));
 }
 

@@ -1,31 +1,39 @@
-// Principal values and axes of a symmetric tensor, without iteration. In space the value that lies furthest from the
-// other two comes from the cubic; its axis leaves a plane problem for the others (Eberly 2014), which keeps all digits
-// where values meet.
+// Principal values and axes of a symmetric tensor, of one or, lane by lane, of several. In space the value that lies
+// furthest from the other two comes from the cubic; its axis leaves a plane problem for the others (Eberly 2014), which
+// keeps all digits where values meet.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "base/lanes.hpp"
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 
 namespace thawslide::physics {
 
-template <class Real>
+template <class Value>
 struct Principal {
-  Vector<Real, 3> values;  // largest first
-  Matrix<Real, 3> axes;    // column k belongs to value k
+  Vector<Value, 3> values;  // largest first
+  Matrix<Value, 3> axes;    // column k belongs to value k
 };
 
 namespace detail {
 
-template <class Real>
-THAWSLIDE_HD void sort_descending(Principal<Real>& principal) {
-  const auto order = [&](int a, int b) {
-    if (principal.values[a] < principal.values[b]) {
-      std::swap(principal.values[a], principal.values[b]);
-      principal.axes.col(a).swap(principal.axes.col(b));
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void exchange_where(const decltype(Value() < Value())& condition, Value& a,
+                                                         Value& b) {
+  const Value former = a;
+  a = select(condition, b, a);
+  b = select(condition, former, b);
+}
+
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void sort_descending(Principal<Value>& principal) {
+  const auto order = [&](int a, int b) THAWSLIDE_INLINE_LAMBDA {
+    const auto wrong = principal.values[a] < principal.values[b];
+    exchange_where(wrong, principal.values[a], principal.values[b]);
+    for (int row = 0; row < 3; ++row) {
+      exchange_where(wrong, principal.axes(row, a), principal.axes(row, b));
     }
   };
   order(0, 1);
@@ -34,92 +42,101 @@ THAWSLIDE_HD void sort_descending(Principal<Real>& principal) {
 }
 
 // The cosine and sine of the axis of the larger value of [xx xy; xy yy], and how far the values lie from their mean.
-template <class Real>
+template <class Value>
 struct PlaneAxis {
-  Real cosine = 1, sine = 0, radius;
+  Value cosine, sine, radius;
 
-  THAWSLIDE_HD PlaneAxis(Real xx, Real yy, Real xy) {
-    const Real half_difference = Real(0.5) * (xx - yy);
-    radius = std::sqrt(half_difference * half_difference + xy * xy);
-    if (!(radius > Real(0))) {
-      return;
-    }
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE PlaneAxis(Value xx, Value yy, Value xy) {
+    using std::abs, std::sqrt;
+    using Real = typename NumberOf<Value>::Type;
+    const Value half_difference = Real(0.5) * (xx - yy);
+    radius = sqrt(half_difference * half_difference + xy * xy);
+    const auto distinct = radius > Value(0);
+    const Value divisor = select(distinct, radius, Value(1));
     // The larger of the two half-angle forms keeps its digits.
-    const Real cosine2 = half_difference / radius;
-    const Real larger = std::sqrt(Real(0.5) * (Real(1) + std::abs(cosine2)));
-    const Real smaller = Real(0.5) * xy / (radius * larger);
-    cosine = cosine2 < Real(0) ? std::abs(smaller) : larger;
-    sine = cosine2 < Real(0) ? (xy < Real(0) ? -larger : larger) : smaller;
+    const Value cosine2 = select(distinct, half_difference / divisor, Value(1));
+    const Value larger = sqrt(Real(0.5) * (Real(1) + abs(cosine2)));
+    const Value smaller = Real(0.5) * xy / (divisor * larger);
+    const auto flipped = cosine2 < Value(0);
+    cosine = select(flipped, abs(smaller), larger);
+    sine = select(flipped, select(xy < Value(0), -larger, larger), smaller);
   }
 };
 
-// The axis of the value that lies furthest from the other two, of a deviator that is not zero.
-template <class Real>
-THAWSLIDE_HD Vector<Real, 3> isolated_axis(const Matrix<Real, 3>& deviator) {
-  const Matrix<Real, 3> scaled = deviator / std::sqrt(deviator.squaredNorm() / Real(6));
-  const Real half_determinant = std::clamp(Real(0.5) * scaled.determinant(), Real(-1), Real(1));
-  const Real angle = std::acos(half_determinant) / Real(3);
-  const Real value = Real(2) * std::cos(half_determinant >= Real(0) ? angle : angle + Real(2) * pi<Real> / Real(3));
+// The root x of x^3 - 3x = 2h that lies furthest from the other two, h within [-1, 1]: 2 cos(acos(h)/3) for h >= 0.
+// Newton's iteration: the start is within 0.003, and the slope there is 6 at least.
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value isolated_root(Value h) {
+  using std::abs, std::sqrt;
+  using Real = typename NumberOf<Value>::Type;
+  const Value size = abs(h);
+  const Real root_of_3 = static_cast<Real>(1.7320508075688772935);
+  Value x = root_of_3 + size * (Real(1) / Real(3) - size * (root_of_3 + Real(1) / Real(3) - Real(2)));
+  for (int k = 0; k < 3; ++k) {
+    x -= (x * (x * x - Real(3)) - Real(2) * size) / (Real(3) * (x * x - Real(1)));
+  }
+  return select(h < Value(0), -x, x);
+}
+
+// The axis of the value that lies furthest from the other two; some axis where all meet.
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> isolated_axis(const Matrix<Value, 3>& deviator) {
+  using std::max, std::min, std::sqrt;
+  using Real = typename NumberOf<Value>::Type;
+  const Value size = sqrt(deviator.squaredNorm() / Real(6));
+  const Value inverse = Real(1) / select(size > Value(0), size, Value(1));
+  const Matrix<Value, 3> scaled = inverse * deviator;
+  const Value value = isolated_root(Value(max(min(Real(0.5) * scaled.determinant(), Value(1)), Value(-1))));
   // Of the rows (or columns) of scaled - value I, which span the plane across the axis, the two that say most.
-  const Matrix<Real, 3> rows = scaled - value * Matrix<Real, 3>::Identity();
-  Vector<Real, 3> axis = rows.col(0).cross(rows.col(1));
-  for (const Vector<Real, 3>& other :
-       {Vector<Real, 3>(rows.col(1).cross(rows.col(2))), Vector<Real, 3>(rows.col(2).cross(rows.col(0)))}) {
-    if (other.squaredNorm() > axis.squaredNorm()) {
-      axis = other;
+  const Matrix<Value, 3> rows = scaled - value * Matrix<Value, 3>::Identity();
+  Vector<Value, 3> axis = rows.col(0).cross(rows.col(1));
+  Value most = axis.squaredNorm();
+  for (int k = 1; k < 3; ++k) {
+    const Vector<Value, 3> other = rows.col(k).cross(rows.col((k + 1) % 3));
+    const auto says_more = other.squaredNorm() > most;
+    most = select(says_more, other.squaredNorm(), most);
+    for (int row = 0; row < 3; ++row) {
+      axis[row] = select(says_more, other[row], axis[row]);
     }
   }
-  return axis.normalized();
+  return axis / sqrt(most);
 }
 
 // A unit vector across an axis.
-template <class Real>
-THAWSLIDE_HD Vector<Real, 3> across(const Vector<Real, 3>& axis) {
-  const bool mostly_x = std::abs(axis[0]) > std::abs(axis[1]);
-  const Vector<Real, 3> other =
-      mostly_x ? Vector<Real, 3>(-axis[2], Real(0), axis[0]) : Vector<Real, 3>(Real(0), axis[2], -axis[1]);
-  return other.normalized();
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> across(const Vector<Value, 3>& axis) {
+  using std::abs, std::sqrt;
+  const auto mostly_x = abs(axis[0]) > abs(axis[1]);
+  const Value zero = 0;
+  const Vector<Value, 3> other(select(mostly_x, -axis[2], zero), select(mostly_x, zero, axis[2]),
+                               select(mostly_x, axis[0], -axis[1]));
+  return other / sqrt(other.squaredNorm());
 }
 
 }  // namespace detail
 
-// Principal values alone, largest first, where yz = xz = 0 (plane strain).
-template <class Real>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Real, 3> plane_principal_values(const SymmetricTensor<Real>& tensor) {
-  const Real centre = Real(0.5) * (tensor[0] + tensor[1]);
-  const Real half_difference = Real(0.5) * (tensor[0] - tensor[1]);
-  const Real radius = std::sqrt(half_difference * half_difference + tensor[3] * tensor[3]);
-  const Real high = centre + radius;
-  const Real low = centre - radius;
-  const Real out = tensor[2];
-  return out >= high  ? Vector<Real, 3>(out, high, low)
-         : out <= low ? Vector<Real, 3>(high, low, out)
-                      : Vector<Real, 3>(high, out, low);
-}
-
-// Of a tensor xx yy zz xy yz xz.
-template <class Real>
-THAWSLIDE_HD Principal<Real> principal(const SymmetricTensor<Real>& tensor) {
-  Principal<Real> result;
-  result.axes.setIdentity();
-  const Real mean = (tensor[0] + tensor[1] + tensor[2]) / Real(3);
-  Matrix<Real, 3> full;
-  full << tensor[0] - mean, tensor[3], tensor[5], tensor[3], tensor[1] - mean, tensor[4], tensor[5], tensor[4],
-      tensor[2] - mean;
-  if (tensor[4] == Real(0) && tensor[5] == Real(0)) {
-    const detail::PlaneAxis<Real> plane(tensor[0], tensor[1], tensor[3]);
-    const Real centre = Real(0.5) * (tensor[0] + tensor[1]);
+// Of a tensor xx yy zz xy yz xz; Dim 2: plane strain, yz and xz being 0.
+template <int Dim = 3, class Value>
+THAWSLIDE_HD Principal<Value> principal(const SymmetricTensor<Value>& tensor) {
+  using Real = typename NumberOf<Value>::Type;
+  Principal<Value> result;
+  if constexpr (Dim == 2) {
+    const detail::PlaneAxis<Value> plane(tensor[0], tensor[1], tensor[3]);
+    const Value centre = Real(0.5) * (tensor[0] + tensor[1]), zero = 0;
     result.values << centre + plane.radius, centre - plane.radius, tensor[2];
-    result.axes.col(0) << plane.cosine, plane.sine, Real(0);
-    result.axes.col(1) << -plane.sine, plane.cosine, Real(0);
+    result.axes << plane.cosine, -plane.sine, zero, plane.sine, plane.cosine, zero, zero, zero, Value(1);
   } else {
-    const Vector<Real, 3> isolated = detail::isolated_axis(full);
-    const Vector<Real, 3> first = detail::across(isolated);
-    const Vector<Real, 3> second = isolated.cross(first);
-    const Real xx = first.dot(full * first);
-    const Real yy = second.dot(full * second);
-    const detail::PlaneAxis<Real> plane(xx, yy, first.dot(full * second));
-    const Real centre = mean + Real(0.5) * (xx + yy);
+    const Value mean = (tensor[0] + tensor[1] + tensor[2]) / Real(3);
+    Matrix<Value, 3> full;
+    full << tensor[0] - mean, tensor[3], tensor[5], tensor[3], tensor[1] - mean, tensor[4], tensor[5], tensor[4],
+        tensor[2] - mean;
+    const Vector<Value, 3> isolated = detail::isolated_axis(full);
+    const Vector<Value, 3> first = detail::across(isolated);
+    const Vector<Value, 3> second = isolated.cross(first);
+    const Value xx = first.dot(full * first);
+    const Value yy = second.dot(full * second);
+    const detail::PlaneAxis<Value> plane(xx, yy, first.dot(full * second));
+    const Value centre = mean + Real(0.5) * (xx + yy);
     result.values << centre + plane.radius, centre - plane.radius, mean + isolated.dot(full * isolated);
     result.axes << plane.cosine * first + plane.sine * second, plane.cosine * second - plane.sine * first, isolated;
   }
@@ -128,18 +145,18 @@ THAWSLIDE_HD Principal<Real> principal(const SymmetricTensor<Real>& tensor) {
 }
 
 // The tensor with given principal values on given axes.
-template <class Real>
-THAWSLIDE_HD SymmetricTensor<Real> from_principal(const Principal<Real>& principal) {
-  SymmetricTensor<Real> tensor = SymmetricTensor<Real>::Zero();
+template <class Value>
+THAWSLIDE_HD SymmetricTensor<Value> from_principal(const Principal<Value>& principal) {
+  SymmetricTensor<Value> tensor = SymmetricTensor<Value>::Zero();
   for (int k = 0; k < 3; ++k) {
-    const Vector<Real, 3> axis = principal.axes.col(k);
-    const Real value = principal.values[k];
-    tensor[0] += value * axis[0] * axis[0];
-    tensor[1] += value * axis[1] * axis[1];
-    tensor[2] += value * axis[2] * axis[2];
-    tensor[3] += value * axis[0] * axis[1];
-    tensor[4] += value * axis[1] * axis[2];
-    tensor[5] += value * axis[0] * axis[2];
+    const Vector<Value, 3> axis = principal.axes.col(k);
+    const Vector<Value, 3> scaled = principal.values[k] * axis;
+    tensor[0] += scaled[0] * axis[0];
+    tensor[1] += scaled[1] * axis[1];
+    tensor[2] += scaled[2] * axis[2];
+    tensor[3] += scaled[0] * axis[1];
+    tensor[4] += scaled[1] * axis[2];
+    tensor[5] += scaled[0] * axis[2];
   }
   return tensor;
 }

@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/bodies.hpp"
-#include "terrain/clearance.hpp"
+#include "terrain/near_base.hpp"
 
 namespace thawslide::sim {
 
@@ -53,7 +53,7 @@ void Simulation<Dim, Real>::find_particles_cells() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::average_band_on_grid() {
   if (model_.ground || model_.band.heat || model_.band.pressure) {
-    band::average_on_grid(grid_, particles_, model_.band, nodes_);
+    band::average_on_grid(grid_, particles_, model_.band, nodes_, heat_nodes_);
   }
 }
 
@@ -64,9 +64,8 @@ void Simulation<Dim, Real>::momentum_to_grid() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::resolve_contact() {
-  if (model_.ground && model_.contact.distance_check) {
-    terrain::clearances_to_grid(grid_, ground_, model_.band.shape, model_.band.half_size, model_.band.sides, particles_,
-                                nodes_);
+  if (model_.ground) {
+    terrain::near_base_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
   }
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_);
@@ -127,9 +126,6 @@ void Simulation<Dim, Real>::drain_pore_pressure() {
     return;
   }
   update_columns();
-  if (model_.band.thickness_each_step) {
-    flow_depth_.depth_to_particles(grid_, particles_);
-  }
   band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, seepage_nodes_, particles_);
 }
 

@@ -18,7 +18,7 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
   patch.clear();
   const std::int32_t* blocks = grid.blocks_about_block(b);
   mpm::for_each_direction<Dim>([&](auto d) {
-    if (blocks[d] != KeyIndex::absent) {
+    if (blocks[d] != KeyIndex::absent && ground.any_candidate(static_cast<std::size_t>(blocks[d]))) {
       mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
         patch.records[in_patch] = nodes.base(static_cast<std::size_t>(blocks[d]), in_block);
       });

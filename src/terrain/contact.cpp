@@ -17,6 +17,8 @@ using mpm::ContactLayout;
 using mpm::HatLayout;
 using mpm::MomentumLayout;
 using mpm::MotionLayout;
+template <class Real>
+using NearBase = mpm::NearBaseLayout<Real>;
 
 // The smallest contact area, as a share of a cell's face: keeps N = p.n / (A dt) finite where no ground is near.
 constexpr double smallest_area = 1e-6;
@@ -33,7 +35,9 @@ struct NodeState {
 template <int Dim, class Real>
 Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, bool distance_check, Real dt,
                  Real mass, Real inward_momentum) {
-  return std::max(Real(0), distance_check ? inward_momentum - mass * (nodes.clearance(b, k)[0] / dt) : inward_momentum);
+  return std::max(Real(0), distance_check
+                               ? inward_momentum - mass * (nodes.near_base(b, k)[NearBase<Real>::clearance] / dt)
+                               : inward_momentum);
 }
 
 template <int Dim, class Real>
@@ -50,17 +54,13 @@ NodeState<Dim, Real> trial_state(
   return state;
 }
 
-// Average of a band quantity at a node: by hat weights, or by mass with the momentum shape functions where the node has
-// GIMP mass but no hat weight.
+// Average of a band quantity at a node: from its sum by the hats, or by mass with the momentum shape functions where
+// the node has GIMP mass but no hat weight.
 template <int Dim, class Real>
-Real at_base(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, std::size_t in_hats,
-             std::size_t in_momentum) {
-  const auto& hats = nodes.hats(b, k);
-  if (hats[HatLayout::volume] > Real(0)) {
-    return hats[in_hats] / hats[HatLayout::volume];
-  }
-  const auto& momentum = nodes.momentum(b, k);
-  return momentum[in_momentum] / momentum[MomentumLayout<Dim>::mass];
+Real at_base(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real sum_by_hats, std::size_t by_mass) {
+  const Real volume = nodes.hats(b, k)[HatLayout::volume];
+  return volume > Real(0) ? sum_by_hats / volume
+                          : nodes.near_base(b, k)[by_mass] / nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
 }
 
 // The contact nodes of one block, with what the basal law needs of them.
@@ -75,8 +75,12 @@ template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
                       const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
-  using Layout = MomentumLayout<Dim>;
-  const auto& record = nodes.momentum(b, k);
+  using Layout = NearBase<Real>;
+  const auto& hats = nodes.hats(b, k);
+  const auto& near_base = nodes.near_base(b, k);
+  const auto average = [&](Real sum_by_hats, std::size_t by_mass) {
+    return at_base(nodes, b, k, sum_by_hats, by_mass);
+  };
   BasalNodes<Real>& basal = contact.basal;
   const std::size_t c = basal.count++;
   const Real load = nodes.base(b, k)[BaseLayout::load];
@@ -85,11 +89,11 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   contact.area[c] = area;
   basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
-      model.pore_pressure ? at_base<Dim, Real>(nodes, b, k, HatLayout::pore_pressure, Layout::pore_pressure) : Real(0);
-  basal.saturation[c] = at_base<Dim, Real>(nodes, b, k, HatLayout::saturation, Layout::saturation);
-  basal.solid_fraction[c] = at_base<Dim, Real>(nodes, b, k, HatLayout::solid_fraction, Layout::solid_fraction);
-  basal.temperature[c] = at_base<Dim, Real>(nodes, b, k, HatLayout::temperature, Layout::temperature);
-  basal.slip[c] = record[Layout::slip] / record[Layout::mass];
+      model.pore_pressure ? average(hats[HatLayout::pore_pressure], Layout::pore_pressure) : Real(0);
+  basal.saturation[c] = average(near_base[Layout::saturation_by_hats], Layout::saturation);
+  basal.solid_fraction[c] = average(near_base[Layout::solid_fraction_by_hats], Layout::solid_fraction);
+  basal.temperature[c] = average(hats[HatLayout::temperature], Layout::temperature);
+  basal.slip[c] = near_base[Layout::slip] / state.mass;
   basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
 }
 
@@ -98,7 +102,8 @@ template <int Dim, class Real>
 Real filled_share(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                   const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k) {
   const bool near_ground = ground.any_candidate(b) && ground.block(b)[k].candidate;
-  const Real space = near_ground ? ground.block(b)[k].space : std::pow(grid.cell(), Real(Dim));
+  const Real cell = grid.cell();
+  const Real space = near_ground ? ground.block(b)[k].space : Dim == 2 ? cell * cell : cell * cell * cell;
   const Real volume = nodes.momentum(b, k)[MomentumLayout<Dim>::volume];
   return volume < space ? volume / space : Real(1);
 }
@@ -132,17 +137,21 @@ Real covered_share(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Di
   return share;
 }
 
-// Fills nodes.base: how every candidate node presses on the ground, and the area it covers.
+// Fills nodes.base of the blocks that have candidate nodes: how every candidate node presses on the ground, and the
+// area it covers.
 template <int Dim, class Real>
 void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                      const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
                      Real dt, mpm::Nodes<Dim, Real>& nodes) {
   nodes.base.resize(grid.blocks().size());
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    if (!ground.any_candidate(b)) {
+      return;
+    }
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       auto& base = nodes.base(b, k);
       base.fill(Real(0));
-      if (!ground.any_candidate(b) || !ground.block(b)[k].candidate) {
+      if (!ground.block(b)[k].candidate) {
         continue;
       }
       const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
@@ -321,18 +330,14 @@ template <int Dim, class Real>
 void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
                         const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
-    const std::int32_t* blocks = grid.blocks_about_tile(t);
-    bool near_ground = false;
-    for (int d = 0; d < mpm::Tile<Dim>::stencil; ++d) {
-      near_ground = near_ground || ground.any_candidate(static_cast<std::size_t>(blocks[d]));
-    }
-    const auto& tile = grid.tiles()[t];
-    if (!near_ground) {
+    if (!ground.any_near(t)) {
+      const auto& tile = grid.tiles()[t];
       for (std::uint32_t k = tile.first; k < tile.last; ++k) {
         particles.in_band(grid.order()[k]) = 0;
       }
       return;
     }
+    const std::int32_t* blocks = grid.blocks_about_tile(t);
     // [candidate, touching, slip speed where touching] of the nodes about the tile.
     mpm::Patch<Dim, Real, 3> patch;
     mpm::for_each_direction<Dim>([&](auto d) {
@@ -344,8 +349,14 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
                                    contact[ContactLayout::touching] * contact[ContactLayout::slip_speed]};
       });
     });
-    mpm::for_each_batch<Real>(grid.order(), tile.first, tile.last, [&](const mpm::Batch<Real>& batch) {
-      const auto seen = mpm::read_nodes<3>(hat_stencil(grid, tile.key, particles, batch), patch).value;
+    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+      if (!ground.any_near(t, batch)) {
+        for (std::size_t lane = 0; lane < batch.count; ++lane) {
+          particles.in_band(batch.particle[lane]) = 0;
+        }
+        continue;
+      }
+      const auto seen = mpm::read_nodes<3>(hat_stencil(grid, particles, batch), patch).value;
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         particles.in_band(batch.particle[lane]) = seen[0][lane] > Real(0) ? 1 : 0;
       }
@@ -355,7 +366,7 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
         const Lanes<Real> slip = particles.slip.load(batch);
         particles.slip.store(batch, select(touches, slip + dt * slip_speed, slip));
       }
-    });
+    }
   });
 }
 

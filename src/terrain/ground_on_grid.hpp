@@ -1,6 +1,7 @@
 // The ground at the nodes of the active blocks: computed when a block is first seen, remembered afterwards.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -15,7 +16,7 @@ class GroundOnGrid {
  public:
   using Block = std::array<GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)>;
 
-  // Brings block numbers up to date; to be called after the grid's blocks changed.
+  // Brings blocks and tiles up to date; to be called after the grid's blocks changed.
   void update(const Ground<Dim>& ground, const mpm::SparseGrid<Dim, Real>& grid) {
     number_.resize(grid.blocks().size());
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
@@ -33,6 +34,19 @@ class GroundOnGrid {
       blocks_.push_back(block);
       any_candidate_.push_back(any ? 1 : 0);
     }
+    near_.resize(grid.tiles().size());
+    any_near_.resize(grid.tiles().size());
+    for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+      find_near(grid, t);
+    }
+  }
+
+  // Whether particles of tile t see a candidate node, with any shape functions.
+  [[nodiscard]] bool any_near(std::size_t t) const { return any_near_[t] != 0; }
+  // The same for those of one of its batches.
+  [[nodiscard]] bool any_near(std::size_t t, const mpm::TileBatch<Real>& batch) const {
+    return std::any_of(batch.nodes.first.begin(), batch.nodes.first.end(),
+                       [&](std::int32_t lowest) { return near_[t][static_cast<std::size_t>(lowest)] != 0; });
   }
 
   // What the nodes of active block b know.
@@ -42,10 +56,48 @@ class GroundOnGrid {
   }
 
  private:
+  using T = mpm::Tile<Dim>;
+  // By place in a tile's patch: whether a candidate is among the 3^Dim nodes from there on.
+  using Near = std::array<std::uint8_t, static_cast<std::size_t>(T::patch_nodes)>;
+
+  void find_near(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) {
+    const std::int32_t* blocks = grid.blocks_about_tile(t);
+    Near candidate{};
+    mpm::for_each_direction<Dim>([&](auto d) {
+      const auto b = static_cast<std::size_t>(blocks[d]);
+      if (any_candidate(b)) {
+        mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
+          candidate[in_patch] = block(b)[in_block].candidate ? 1 : 0;
+        });
+      }
+    });
+    near_[t].fill(0);
+    for (int node = 0; node < T::nodes; ++node) {  // the nearest one
+      const typename T::Index nearest = T::node({}, node);
+      std::uint8_t& near = near_[t][static_cast<std::size_t>(T::in_patch(below(nearest)))];
+      for (int k = 0; k < T::stencil; ++k) {
+        typename T::Index seen = nearest;
+        for (int a = 0, rest = k; a < Dim; ++a, rest /= 3) {
+          seen[static_cast<std::size_t>(a)] += rest % 3 - 1;
+        }
+        near |= candidate[static_cast<std::size_t>(T::in_patch(seen))];
+      }
+    }
+    any_near_[t] = std::any_of(near_[t].begin(), near_[t].end(), [](std::uint8_t near) { return near != 0; }) ? 1 : 0;
+  }
+  static typename T::Index below(typename T::Index node) {
+    for (int& along : node) {
+      --along;
+    }
+    return node;
+  }
+
   KeyIndex index_;  // block key -> place in blocks_
   std::vector<Block> blocks_;
   std::vector<std::uint8_t> any_candidate_;
   std::vector<std::int32_t> number_;  // active block -> place in blocks_
+  std::vector<Near> near_;            // by tile
+  std::vector<std::uint8_t> any_near_;
 };
 
 }  // namespace thawslide::terrain

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "physics/clapeyron.hpp"
@@ -119,6 +120,16 @@ TEST(Seepage, WithinACellDecaysExponentially) {
   EXPECT_NEAR(1.0 - whole, (1.0 - half) * (1.0 - half), 1e-15);
   EXPECT_NEAR(whole, 1.0 - std::exp(-0.08), 1e-15);
   EXPECT_EQ(share_levelled_within_cell(0.0, size, 2, dt), 0.0);
+}
+
+TEST(Mixture, LogarithmOfARatioKeepsAllDigits) {
+  for (double ratio = 0.3; ratio < 3.0; ratio *= 1.003) {
+    EXPECT_NEAR(log_of_ratio(273.15 * ratio, 273.15), std::log(ratio), 3e-16 * (1.0 + std::abs(std::log(ratio))))
+        << ratio;
+  }
+  EXPECT_EQ(log_of_ratio(273.15, 273.15), 0.0);
+  // The difference of near temperatures is not lost in their ratio.
+  EXPECT_NEAR(log_of_ratio(273.15 + 1e-9, 273.15) / ((273.15 + 1e-9 - 273.15) / 273.15), 1.0, 1e-11);
 }
 
 }  // namespace

@@ -50,6 +50,43 @@ Tensor random_stress(std::mt19937& random, bool plane) {
 
 double size(const Tensor& stress) { return stress.cwiseAbs().maxCoeff(); }
 
+// Four (as many as lanes) at a time are what they are one by one: faces, edges, apex and cut-off in one batch too.
+TEST(MohrCoulomb, LanesReturnAsSingleNumbersDo) {
+  using Wide = Lanes<double>;
+  std::mt19937 random(4);
+  for (const Set& set : sets) {
+    const auto law =
+        MohrCoulomb<double>::make(elastic, set.friction, set.dilation, set.cohesion, 0.5 * set.cohesion, set.cutoff);
+    int yielded = 0;
+    for (int k = 0; k < 500; ++k) {
+      std::array<Tensor, Wide::count> one;
+      for (Tensor& stress : one) {
+        stress = (k % 3 == 0 ? 0.1 : 1.0) * random_stress(random, k % 2 == 0);
+      }
+      SymmetricTensor<Wide> trial;
+      for (int c = 0; c < 6; ++c) {
+        trial[c] = Wide::of([&](std::size_t lane) { return one[lane][c]; });
+      }
+      const Wide strain = Wide::of([&](std::size_t lane) { return 0.1 * static_cast<double>(lane * (k % 5)); });
+      const auto together = k % 2 == 0 ? law.update<2>(trial, strain) : law.update<3>(trial, strain);
+      for (std::size_t lane = 0; lane < Wide::count; ++lane) {
+        const auto alone = k % 2 == 0 ? law.update<2>(one[lane], strain[lane]) : law.update<3>(one[lane], strain[lane]);
+        EXPECT_EQ(together.yielded[lane], alone.yielded);
+        yielded += alone.yielded ? 1 : 0;
+        for (int c = 0; c < 6; ++c) {
+          EXPECT_NEAR(together.stress[c][lane], alone.stress[c], 1e-12 * size(one[lane]));
+        }
+        EXPECT_NEAR(together.equivalent_plastic_strain_increment[lane], alone.equivalent_plastic_strain_increment,
+                    1e-12);
+        EXPECT_NEAR(together.opening[lane], alone.opening, 1e-12);
+        EXPECT_TRUE(!alone.yielded || (k % 2 == 0 ? law.may_yield<2>(one[lane], strain[lane])
+                                                  : law.may_yield<3>(one[lane], strain[lane])));
+      }
+    }
+    EXPECT_GT(yielded, 200);
+  }
+}
+
 TEST(Principal, RebuildsTheTensor) {
   std::mt19937 random(1);
   for (int k = 0; k < 2000; ++k) {

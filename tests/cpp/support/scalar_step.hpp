@@ -72,9 +72,15 @@ class ScalarStep {
       : points_(std::move(points)), simulation_(simulation), dt_(dt), inverse_cell_(1.0 / simulation.grid().cell()) {
     momentum_ = add_up(3, mpm::MomentumLayout<Dim>::size, [&](const Point<Dim>& p) { return momentum_of(p); });
     hats_ = add_up(2, mpm::HatLayout::size, [&](const Point<Dim>& p) {
-      return Carried{{p.volume, p.volume * p.temperature, p.volume * p.pore_pressure, p.volume * p.saturation,
-                      p.volume * solid_fraction(p)},
+      return Carried{{p.volume, p.volume * p.temperature, p.volume * p.pore_pressure}, {}};
+    });
+    near_base_by_mass_ = add_up(3, mpm::NearBaseLayout<double>::by_mass, [&](const Point<Dim>& p) {
+      return Carried{{p.mass * p.temperature, p.mass * p.pore_pressure, p.mass * p.saturation,
+                      p.mass * solid_fraction(p), p.mass * p.slip},
                      {}};
+    });
+    near_base_by_hats_ = add_up(2, mpm::NearBaseLayout<double>::by_hats, [&](const Point<Dim>& p) {
+      return Carried{{p.volume * p.saturation, p.volume * solid_fraction(p)}, {}};
     });
     for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
       const Index tile = mpm::Tile<Dim>::index(simulation.grid().blocks()[b]);
@@ -92,9 +98,11 @@ class ScalarStep {
     drain();
   }
 
-  // By node: the sums of momentum_to_grid, of average_band_on_grid, and the mapped-back momentum.
+  // By node: the sums of momentum_to_grid, of average_band_on_grid, of near_base_to_grid, and the mapped-back momentum.
   [[nodiscard]] const Sums& momentum() const { return momentum_; }
   [[nodiscard]] const Sums& hats() const { return hats_; }
+  [[nodiscard]] const Sums& near_base_by_mass() const { return near_base_by_mass_; }
+  [[nodiscard]] const Sums& near_base_by_hats() const { return near_base_by_hats_; }
   [[nodiscard]] const Sums& mapped() const { return mapped_; }
   [[nodiscard]] std::pair<std::size_t, std::size_t> at(const Index& node) const { return place_.at(node); }
   // The particles after the step, by id; positions are still the old ones.
@@ -180,13 +188,12 @@ class ScalarStep {
       }
       carried.flux.push_back(flux);
     }
+    carried.value.resize(mpm::MomentumLayout<Dim>::size);
     for (int a = 0; a < Dim; ++a) {
-      carried.value.push_back(p.mass * p.velocity[a]);
+      carried.value[mpm::MomentumLayout<Dim>::momentum + static_cast<std::size_t>(a)] = p.mass * p.velocity[a];
     }
-    for (const double number :
-         {1.0, p.volume / p.mass, p.temperature, p.pore_pressure, p.saturation, solid_fraction(p), p.slip}) {
-      carried.value.push_back(p.mass * number);
-    }
+    carried.value[mpm::MomentumLayout<Dim>::mass] = p.mass;
+    carried.value[mpm::MomentumLayout<Dim>::volume] = p.volume;
     return carried;
   }
 
@@ -223,7 +230,7 @@ class ScalarStep {
       const SymmetricTensor<double> trial = physics::rotate<double, Dim>(p.stress, increment.rotation) +
                                             physics::stress_increment(material.elastic, increment.strain);
       const auto result =
-          std::visit([&](const auto& law) { return law.update(trial, p.plastic_strain); }, material.law);
+          std::visit([&](const auto& law) { return law.template update<Dim>(trial, p.plastic_strain); }, material.law);
       p.stress = result.stress;
       p.plastic_strain += result.equivalent_plastic_strain_increment;
       p.volume *= increment.volume_ratio;
@@ -251,7 +258,7 @@ class ScalarStep {
       const double friction = simulation_.nodes().contact(b, k)[mpm::ContactLayout::friction_heat];
       const auto held = stored.find(node);
       if (friction > 0.0 && (held == stored.end() || !(held->second[0] > 0.0))) {
-        power += weight * friction / momentum_.at(node)[2 * Dim];
+        power += weight * friction / momentum_.at(node)[mpm::MomentumLayout<Dim>::mass];
       }
     });
     return dt_ * power * p.mass * p.scaling / p.initial_volume;
@@ -372,7 +379,7 @@ class ScalarStep {
   std::vector<Point<Dim>> points_;
   const sim::Simulation<Dim, double>& simulation_;
   double dt_, inverse_cell_;
-  Sums momentum_, hats_, mapped_;
+  Sums momentum_, hats_, near_base_by_mass_, near_base_by_hats_, mapped_;
   std::map<Index, std::pair<std::size_t, std::size_t>> place_;
 };
 

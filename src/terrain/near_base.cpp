@@ -1,0 +1,170 @@
+#include "terrain/near_base.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/instances.hpp"
+#include "mpm/batch_transfer.hpp"
+
+namespace thawslide::terrain {
+
+namespace {
+
+// The ground about a tile: distance [m], and its normal.
+template <int Dim, class Real>
+using DistancePatch = mpm::Patch<Dim, Real, 1 + Dim>;
+
+template <int Dim, class Real>
+void load_distances(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, std::size_t t,
+                    DistancePatch<Dim, Real>& patch) {
+  const std::int32_t* blocks = grid.blocks_about_tile(t);
+  mpm::for_each_direction<Dim>([&](auto d) {
+    const auto b = static_cast<std::size_t>(blocks[d]);
+    mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
+      const auto& known = ground.block(b)[in_block];
+      patch.records[in_patch][0] = known.distance;
+      mpm::set_vector<Dim>(patch.records[in_patch], 1, known.normal);
+    });
+  });
+}
+
+// How far boxes of half size `half` [m] reach towards the ground if that lies along a grid axis; what they read of the
+// patch.
+template <int Dim, class Real>
+Lanes<Real> reach_of_box(const mpm::Reading<Dim, Lanes<Real>, 1 + Dim>& seen, Lanes<Real> half) {
+  using std::max, std::abs;
+  Lanes<Real> largest = Real(0);
+  for (std::size_t a = 0; a < Dim; ++a) {
+    largest = max(largest, abs(seen.value[1 + a]));
+  }
+  return half * largest;
+}
+
+template <int Dim, class Real>
+using NearBasePatch = mpm::Patch<Dim, Real, mpm::NearBaseLayout<Real>::size>;
+
+// Lowers the clearance of the nodes that particles see.
+template <int Dim, class Real>
+THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>& stencil, std::size_t count,
+                                             Lanes<Real> clearance, NearBasePatch<Dim, Real>& patch) {
+  constexpr Real far = std::numeric_limits<Real>::max();
+  mpm::for_each_node<Dim>(
+      stencil.axis, 0, [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
+        const Lanes<Real> seen = select(weight > Real(0), clearance, Lanes<Real>(far));
+        for (std::size_t lane = 0; lane < count; ++lane) {
+          auto& record = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane]) + offset];
+          Real& known = record[mpm::NearBaseLayout<Real>::clearance];
+          known = std::min(known, seen[lane]);
+        }
+      });
+}
+
+// What a batch adds to the sums of NearBaseLayout, by mass with the momentum shape functions and by volume with the
+// hats.
+template <int Dim, class Real>
+THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stencil,
+                                       const mpm::BatchStencil<Dim, Real, 2>& hats,
+                                       const mpm::MotionModel<Dim, Real>& model,
+                                       const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch,
+                                       NearBasePatch<Dim, Real>& patch) {
+  using Layout = mpm::NearBaseLayout<Real>;
+  const Lanes<Real> mass = particles.mass.load(batch), volume = particles.volume.load(batch);
+  const Lanes<Real> saturation = particles.liquid_saturation.load(batch);
+  const Lanes<Real> solid_fraction = mpm::basal_solid_fraction(particles, model.phases, model.lubrication, batch);
+  mpm::Contribution<Dim, Real, Layout::by_mass> by_mass;
+  by_mass.value[Layout::temperature] = mass * particles.temperature.load(batch);
+  by_mass.value[Layout::pore_pressure] = mass * particles.pore_pressure.load(batch);
+  by_mass.value[Layout::saturation] = mass * saturation;
+  by_mass.value[Layout::solid_fraction] = mass * solid_fraction;
+  by_mass.value[Layout::slip] = mass * particles.slip.load(batch);
+  add_to_nodes<mpm::no_flux>(stencil, batch.count, by_mass, patch);
+  mpm::Contribution<Dim, Real, Layout::by_hats> by_hats;
+  by_hats.value[Layout::saturation_by_hats - Layout::first_by_hats] = volume * saturation;
+  by_hats.value[Layout::solid_fraction_by_hats - Layout::first_by_hats] = volume * solid_fraction;
+  add_to_nodes<mpm::no_flux, Layout::first_by_hats>(hats, batch.count, by_hats, patch);
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+               const std::vector<Real>& half_size, mpm::Particles<Dim, Real>& particles) {
+  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's reach
+  DistancePatch<Dim, Real> patch;
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    load_distances(grid, ground, t, patch);
+    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+      const auto seen = mpm::read_nodes<1 + Dim>(hat_stencil(grid, particles, batch), patch);
+      const Lanes<Real> reach = reach_of_box(seen, of_body(half_size, particles, batch) * grid.cell());
+      const auto lowest = seen.value[0] < within_lowest_layer * reach;
+      particles.reach.store(batch, select(lowest, seen.value[0], reach));
+    }
+  }
+}
+
+template <int Dim, class Real>
+void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                       const mpm::MotionModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
+                       mpm::Nodes<Dim, Real>& nodes) {
+  constexpr std::size_t clearance_at = mpm::NearBaseLayout<Real>::clearance;
+  constexpr Real far = std::numeric_limits<Real>::max();
+  const auto patches = nodes.near_base.patches(grid.tiles().size());
+  mpm::with_shape<Real>(model.shape, [&](auto shape) {
+    parallel_for(grid.tiles().size(), [&](std::size_t t) {
+      auto& patch = patches[t];
+      patch.clear();
+      for (auto& record : patch.records) {
+        record[clearance_at] = far;
+      }
+      if (!ground.any_near(t)) {
+        return;
+      }
+      DistancePatch<Dim, Real> distances;
+      load_distances(grid, ground, t, distances);
+      for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+        if (!ground.any_near(t, batch)) {
+          continue;
+        }
+        const auto hats = hat_stencil(grid, particles, batch);
+        const Lanes<Real> distance = mpm::read_nodes<1>(hats, distances).value[0];
+        const auto place = place_of(grid, particles, batch);
+        const auto stencil =
+            mpm::make_stencil<decltype(shape)>(grid, batch, place, model.half_sizes(particles, batch), model.sides);
+        add_state(stencil, hats, model, particles, batch, patch);
+        lower_clearance(stencil, batch.count, max(Lanes<Real>(Real(0)), distance - particles.reach.load(batch)), patch);
+      }
+    });
+  });
+  nodes.near_base.resize(grid.blocks().size());
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    if (!ground.any_candidate(b)) {
+      return;
+    }
+    sum_patches_in_block(grid, b, patches, nodes.near_base);
+    std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> clearance;
+    clearance.fill(far);
+    const std::int32_t* tiles = grid.tiles_about_block(b);
+    mpm::for_each_direction<Dim>([&](auto d) {
+      if (tiles[d] != KeyIndex::absent) {
+        mpm::for_shared_nodes<Dim, mpm::opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch) {
+          const auto& record = patches[static_cast<std::size_t>(tiles[d])].records[in_patch];
+          clearance[in_block] = std::min(clearance[in_block], record[clearance_at]);
+        });
+      }
+    });
+    for (std::size_t k = 0; k < clearance.size(); ++k) {
+      nodes.near_base(b, k)[clearance_at] = clearance[k];
+    }
+  });
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
+  template void set_reach<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,            \
+                                     const std::vector<Real>&, mpm::Particles<Dim, Real>&);                        \
+  template void near_base_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,    \
+                                             const mpm::MotionModel<Dim, Real>&, const mpm::Particles<Dim, Real>&, \
+                                             mpm::Nodes<Dim, Real>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::terrain
