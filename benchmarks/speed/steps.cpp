@@ -49,7 +49,7 @@ hydraulic_conductivity = 1e-9
 material = "debris"
 min = {low}
 max = {high}
-temperature = -1.0
+temperature = {temperature}
 porosity = 0.375
 [basal]
 friction = "lubricated"
@@ -70,7 +70,7 @@ config::Case make_case(const StepCase& which) {
       fmt::arg("min", point(which, -margin, -margin, -margin)),
       fmt::arg("max", point(which, end, which.width + margin, which.height + 2 * margin)),
       fmt::arg("low", point(which, 0, 0, 0)), fmt::arg("high", point(which, which.length, which.width, which.height)),
-      fmt::arg("cohesion", which.cohesion));
+      fmt::arg("cohesion", which.cohesion), fmt::arg("temperature", which.temperature));
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("thawslide-speed-{}", getpid());
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "case.toml") << text;
@@ -181,6 +181,8 @@ std::vector<StepCase> step_cases() {
                               {"3D 100,000", 3, 50, 25, 10},
                               {"3D 1,000,000", 3, 125, 100, 10},
                               {"3D 100,000 yielding", 3, 50, 25, 10, 1, 5e4},
+                              {"2D 100,000 thawed", 2, 2500, 1, 10, 1, 5e5, 1},
+                              {"3D 100,000 thawed", 3, 50, 25, 10, 1, 5e5, 1},
                               {"2D 100,000 in a box 10 times as long", 2, 2500, 1, 10, 10},
                               {"2D 100,000 in a box 100 times as long", 2, 2500, 1, 10, 100}};
   for (StepCase which : {cases[0], cases[1], cases[4]}) {

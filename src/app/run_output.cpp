@@ -130,7 +130,6 @@ template <int Dim>
 std::map<std::string, double> RunOutput<Dim>::seconds_per_stage(const Simulation& simulation) const {
   std::map<std::string, double> seconds = simulation.stopwatch().seconds();
   seconds.insert(stopwatch_.seconds().begin(), stopwatch_.seconds().end());
-  seconds["write_snapshot_beside"] = snapshots_.seconds_beside();
   return seconds;
 }
 
@@ -143,6 +142,7 @@ void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::s
   provenance_.steps = simulation.step_number();
   provenance_.wall_seconds = wall_seconds;
   provenance_.seconds_per_stage = seconds_per_stage(simulation);
+  provenance_.seconds_beside = snapshots_.seconds_beside();
   io::write_provenance(folder_ / "run.json", provenance_);
 }
 

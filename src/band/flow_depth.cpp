@@ -148,48 +148,46 @@ std::uint64_t FlowDepth<Dim, Real>::neighbour(std::uint64_t key, std::size_t axi
 }
 
 template <int Dim, class Real>
-void FlowDepth<Dim, Real>::Column::add(const Column& part) {
-  volume += part.volume;
-  top = std::max(top, part.top);
+FlowDepth<Dim, Real>::Extent::Extent() {
+  from.fill(std::numeric_limits<Real>::max());
+  to.fill(std::numeric_limits<Real>::lowest());
+}
+
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::Extent::add(const Extent& part) {
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     from[a] = std::min(from[a], part.from[a]);
     to[a] = std::max(to[a], part.to[a]);
   }
 }
 
+// Numbers every column that particles of the tiles might overlap; holds until there are other tiles.
 template <int Dim, class Real>
-void FlowDepth<Dim, Real>::set_footprints(Real cell) {
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    Column& column = columns_[c];
-    column.footprint = Real(1);
-    for (std::size_t a = 0; a + 1 < Dim; ++a) {
-      const bool inside = index_.find(neighbour(keys_[c], a, -1)) != KeyIndex::absent &&
-                          index_.find(neighbour(keys_[c], a, 1)) != KeyIndex::absent;
-      column.footprint *= inside ? cell : std::min(cell, column.to[a] - column.from[a]);
+void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid,
+                                          const std::function<Real(Real)>& slope_cosine) {
+  KeyIndex index;
+  std::vector<std::uint64_t> keys;
+  numbered_.clear();
+  tiles_.resize(grid.tiles().size());
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    numbered_.push_back(grid.tiles()[t].key);
+    for (std::size_t place = 0; place < OfTile::count; ++place) {
+      const std::uint64_t key = column_key(grid, t, place);
+      tiles_[t].number[place] = index.insert(key);
+      if (index.size() > keys.size()) {
+        keys.push_back(key);
+      }
     }
   }
-}
-
-// The tiles' parts add up in the order of tiles, so that sums do not depend on threads.
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid) {
-  index_.clear();
-  keys_.clear();
-  columns_.clear();
-  for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    for (std::size_t place = 0; place < OfTile::count; ++place) {
-      const Column& part = tiles_[t].part[place];
-      if (!(part.volume > Real(0))) {
-        continue;
-      }
-      const std::uint64_t key = column_key(grid, t, place);
-      const auto number = static_cast<std::size_t>(index_.insert(key));
-      tiles_[t].number[place] = static_cast<std::int32_t>(number);
-      if (number == columns_.size()) {
-        columns_.emplace_back();
-        keys_.push_back(key);
-      }
-      columns_[number].add(part);
+  columns_.assign(keys.size(), {});
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      columns_[c].beside[2 * a] = index.find(neighbour(keys[c], a, -1));
+      columns_[c].beside[2 * a + 1] = index.find(neighbour(keys[c], a, 1));
+    }
+    if (slope_cosine) {
+      const auto cell = static_cast<Real>(static_cast<std::int64_t>(keys[c] & 0xffffffffu) - column_origin);
+      columns_[c].cosine = slope_cosine((cell + Real(0.5)) * grid.cell());
     }
   }
 }
@@ -199,36 +197,109 @@ template <int Dim, class Real>
 void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
                                     std::size_t t) {
   constexpr std::size_t corners = static_cast<std::size_t>(1) << (Dim - 1);
-  tiles_[t].part.fill({});
+  TilePart& part = tiles_[t];
+  part.volume.fill(Real(0));
+  part.top.fill(std::numeric_limits<Real>::lowest());
   const auto first_cell = first_cells(grid, t);
   for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
-    const auto along = overlaps<Dim>(first_cell, grid.cell(), half_size_, particles, batch);
     const Lanes<Real> top = particles.position.load(batch, Dim - 1) + of_body(half_size_, particles, batch);
     const Lanes<Real> volume = particles.volume.load(batch);
+    const auto along = overlaps<Dim>(first_cell, grid.cell(), half_size_, particles, batch);
     std::array<std::array<std::int32_t, mpm::Batch<Real>::most>, corners> places;
     std::array<Lanes<Real>, corners> volumes;
-    std::array<std::array<std::size_t, Dim - 1>, corners> sides;
-    std::size_t known = 0;
-    for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) THAWSLIDE_INLINE_LAMBDA {
+    std::size_t seen = 0;
+    for_columns<Dim>(along, [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) THAWSLIDE_INLINE_LAMBDA {
       if (any(share > Real(0))) {
-        sides[known] = side;
-        place.store_whole(places[known].data());
-        volumes[known++] = share * volume;
+        place.store_whole(places[seen].data());
+        volumes[seen++] = share * volume;
       }
     });
     for (std::size_t lane = 0; lane < batch.count; ++lane) {
-      for (std::size_t k = 0; k < known; ++k) {
+      for (std::size_t k = 0; k < seen; ++k) {
         if (volumes[k][lane] > Real(0)) {
-          Column own;
-          own.volume = volumes[k][lane];
-          own.top = top[lane];
-          for (std::size_t a = 0; a + 1 < Dim; ++a) {
-            own.from[a] = along[a].from[sides[k][a]][lane];
-            own.to[a] = along[a].to[sides[k][a]][lane];
-          }
-          tiles_[t].part[static_cast<std::size_t>(places[k][lane])].add(own);
+          const auto here = static_cast<std::size_t>(places[k][lane]);
+          part.volume[here] += volumes[k][lane];
+          part.top[here] = std::max(part.top[here], top[lane]);
         }
       }
+    }
+  }
+}
+
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
+                                       const mpm::Particles<Dim, Real>& particles, std::size_t t) {
+  TilePart& part = tiles_[t];
+  part.extent.fill({});
+  const auto first_cell = first_cells(grid, t);
+  for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    const auto along = overlaps<Dim>(first_cell, grid.cell(), half_size_, particles, batch);
+    for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) {
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        if (share[lane] > Real(0)) {
+          Extent own;
+          for (std::size_t a = 0; a + 1 < Dim; ++a) {
+            own.from[a] = along[a].from[side[a]][lane];
+            own.to[a] = along[a].to[side[a]][lane];
+          }
+          part.extent[static_cast<std::size_t>(place[lane])].add(own);
+        }
+      }
+    });
+  }
+}
+
+// The tiles' parts add up in the order of tiles, so that sums do not depend on threads.
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::sum_columns() {
+  for (Column& column : columns_) {
+    column.volume = Real(0);
+    column.top = std::numeric_limits<Real>::lowest();
+  }
+  for (const TilePart& tile : tiles_) {
+    for (std::size_t place = 0; place < OfTile::count; ++place) {
+      Column& column = columns_[static_cast<std::size_t>(tile.number[place])];
+      column.volume += tile.volume[place];
+      column.top = std::max(column.top, tile.top[place]);
+    }
+  }
+}
+
+// The columns that lack a neighbour, and the tiles that see one of them.
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::find_edge() {
+  const auto is_empty = [&](std::int32_t c) {
+    return c == KeyIndex::absent || !(columns_[static_cast<std::size_t>(c)].volume > Real(0));
+  };
+  for (Column& column : columns_) {
+    column.extent = {};
+    column.at_edge = column.volume > Real(0) && std::any_of(column.beside.begin(), column.beside.end(), is_empty);
+  }
+  edge_tiles_.clear();
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    const auto& numbers = tiles_[t].number;
+    if (std::any_of(numbers.begin(), numbers.end(),
+                    [&](std::int32_t c) { return columns_[static_cast<std::size_t>(c)].at_edge; })) {
+      edge_tiles_.push_back(t);
+    }
+  }
+}
+
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::set_footprints(Real cell) {
+  for (const std::size_t t : edge_tiles_) {
+    for (std::size_t place = 0; place < OfTile::count; ++place) {
+      columns_[static_cast<std::size_t>(tiles_[t].number[place])].extent.add(tiles_[t].extent[place]);
+    }
+  }
+  const auto filled = [&](std::int32_t c) {
+    return c != KeyIndex::absent && columns_[static_cast<std::size_t>(c)].volume > Real(0);
+  };
+  for (Column& column : columns_) {
+    column.footprint = Real(1);
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      const bool inside = !column.at_edge || (filled(column.beside[2 * a]) && filled(column.beside[2 * a + 1]));
+      column.footprint *= inside ? cell : std::min(cell, column.extent.to[a] - column.extent.from[a]);
     }
   }
 }
@@ -241,16 +312,16 @@ void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const 
   for (Real& half : half_size_) {
     half *= grid.cell();
   }
-  tiles_.resize(grid.tiles().size());
-  parallel_for(tiles_.size(), [&](std::size_t t) { add_tile(grid, particles, t); });
-  number_columns(grid);
-  set_footprints(grid.cell());
-  if (model.normal_thickness && slope_cosine) {
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const auto cell = static_cast<Real>(static_cast<std::int64_t>(keys_[c] & 0xffffffffu) - column_origin);
-      columns_[c].cosine = slope_cosine((cell + Real(0.5)) * grid.cell());
-    }
+  const bool same_tiles = std::equal(numbered_.begin(), numbered_.end(), grid.tiles().begin(), grid.tiles().end(),
+                                     [](std::uint64_t key, const auto& tile) { return key == tile.key; });
+  if (!same_tiles) {
+    number_columns(grid, model.normal_thickness ? slope_cosine : std::function<Real(Real)>());
   }
+  parallel_for(tiles_.size(), [&](std::size_t t) { add_tile(grid, particles, t); });
+  sum_columns();
+  find_edge();
+  parallel_for(edge_tiles_.size(), [&](std::size_t k) { add_extents(grid, particles, edge_tiles_[k]); });
+  set_footprints(grid.cell());
 }
 
 template <int Dim, class Real>
@@ -260,9 +331,8 @@ ColumnsOfTile<Dim, Real> FlowDepth<Dim, Real>::of_tile(const mpm::SparseGrid<Dim
   columns.cell_ = grid.cell();
   columns.half_size_ = &half_size_;
   for (std::size_t place = 0; place < OfTile::count; ++place) {
-    const bool known = tiles_[t].part[place].volume > Real(0);
-    const Column here = known ? columns_[static_cast<std::size_t>(tiles_[t].number[place])] : Column();
-    columns.thickness_[place] = known ? here.volume / here.footprint : Real(0);
+    const Column& here = columns_[static_cast<std::size_t>(tiles_[t].number[place])];
+    columns.thickness_[place] = here.volume > Real(0) ? here.volume / here.footprint : Real(0);
     columns.top_[place] = here.top;
     columns.cosine_[place] = here.cosine;
   }

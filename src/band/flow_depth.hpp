@@ -57,35 +57,43 @@ class FlowDepth {
  private:
   using OfTile = ColumnsOfTile<Dim, Real>;
 
+  // What boxes cover of a column along each horizontal axis.
+  struct Extent {
+    std::array<Real, Dim - 1> from, to;
+
+    Extent();
+    void add(const Extent& part);
+  };
   struct Column {
     Real volume = 0;
     Real top = std::numeric_limits<Real>::lowest();
-    std::array<Real, Dim - 1> from, to;  // what the boxes cover of it along each horizontal axis
-    Real footprint = 0;                  // [m2], per metre of width in 2D
-    Real cosine = 1;
-
-    Column() {
-      from.fill(std::numeric_limits<Real>::max());
-      to.fill(std::numeric_limits<Real>::lowest());
-    }
-    void add(const Column& part);
+    Extent extent;  // of a column at the body's edge
+    bool at_edge = false;
+    Real footprint = 0;                                // [m2], per metre of width in 2D
+    Real cosine = 1;                                   // of the terrain's slope
+    std::array<std::int32_t, 2 * (Dim - 1)> beside{};  // the next columns along each axis, or KeyIndex::absent
   };
+  // What one tile's particles are to the columns they see, by place.
   struct TilePart {
-    std::array<Column, OfTile::count> part;
+    std::array<Real, OfTile::count> volume, top;
+    std::array<Extent, OfTile::count> extent;  // where one of the columns is at the edge
     std::array<std::int32_t, OfTile::count> number;
   };
 
+  void number_columns(const mpm::SparseGrid<Dim, Real>& grid, const std::function<Real(Real)>& slope_cosine);
   void add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
+  void add_extents(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
+  void sum_columns();
+  void find_edge();
+  void set_footprints(Real cell);
   static std::uint64_t column_key(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, std::size_t place);
   // Key of the neighbour column `cells` further along a horizontal axis.
   static std::uint64_t neighbour(std::uint64_t key, std::size_t axis, int cells);
-  void set_footprints(Real cell);
-  void number_columns(const mpm::SparseGrid<Dim, Real>& grid);
 
-  KeyIndex index_;  // column key -> place in columns_
-  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint64_t> numbered_;  // the tiles that columns and their numbers are of
   std::vector<Column> columns_;
   std::vector<TilePart> tiles_;
+  std::vector<std::size_t> edge_tiles_;
   std::vector<Real> half_size_;  // of each body's particles [m]
 };
 

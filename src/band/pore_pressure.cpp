@@ -1,5 +1,7 @@
 #include "band/pore_pressure.hpp"
 
+#include <algorithm>
+
 #include "base/instances.hpp"
 #include "mpm/batch_transfer.hpp"
 #include "physics/clapeyron.hpp"
@@ -86,6 +88,23 @@ void load_pressures(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, const
   }
 }
 
+// Marks the tiles and blocks where water may seep; false if there are none.
+template <int Dim, class Real>
+bool find_seepage(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                  const mpm::Particles<Dim, Real>& particles, SeepageNodes<Dim, Real>& work) {
+  work.seeping_tiles.resize(grid.tiles().size());
+  parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    const auto& batches = grid.batches(t);
+    const auto seeps = [&](const mpm::Batch<Real>& batch) {
+      return any(melted_before(model, particles, batch) & (model.hydraulic(particles, batch) > Real(0)));
+    };
+    work.seeping_tiles[t] = std::any_of(batches.begin(), batches.end(), seeps) ? 1 : 0;
+  });
+  grid.mark_blocks_about(work.seeping_tiles, work.seeping_blocks);
+  return std::any_of(work.seeping_tiles.begin(), work.seeping_tiles.end(),
+                     [](std::uint8_t seeps) { return seeps != 0; });
+}
+
 // Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or whole as printed); frozen particles
 // keep their pressure and act as sinks. Differences within a cell, which nodes do not see, are levelled by the
 // particles themselves, and what this changes at the nodes is taken off there (Gerya and Yuen 2003).
@@ -95,6 +114,9 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
                      mpm::Particles<Dim, Real>& particles) {
   const auto patches = work.flows.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    if (!grid.any_about_tile(t, work.seeping_blocks)) {
+      return;
+    }
     auto& patch = patches[t];
     patch.clear();
     mpm::Patch<Dim, Real, 1> pressure;
@@ -108,7 +130,12 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
       }
     }
   });
-  sum_patches(grid, work.flows);
+  work.flows.resize(grid.blocks().size());
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    if (work.seeping_blocks[b] != 0) {
+      sum_patches_in_block(grid, b, patches, work.flows);
+    }
+  });
 }
 
 // The pressure that seepage brings to a node in a step [Pa] (Eq. 22), in place of its flows.
@@ -182,12 +209,13 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
                          const FlowDepth<Dim, Real>& depth, Real dt, const mpm::Nodes<Dim, Real>& nodes,
                          SeepageNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
   const bool seepage = model.seepage && model.thermal_pressurization;
-  if (seepage) {
+  const bool any_seeps = seepage && find_seepage(grid, model, particles, work);
+  if (any_seeps) {
     seepage_to_grid(grid, model, nodes, dt, work, particles);
   }
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     mpm::Patch<Dim, Real, 1> changes;
-    if (seepage) {
+    if (any_seeps && work.seeping_tiles[t] != 0) {
       load_pressure_changes(grid, t, work, dt, changes);
     }
     const auto columns = depth.of_tile(grid, t);

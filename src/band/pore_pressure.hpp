@@ -1,6 +1,9 @@
 // Pore pressure (Eqs. 4, 8, 21-23): Clapeyron while ice and water coexist, then thermal pressurization and seepage.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "band/flow_depth.hpp"
 #include "band/model.hpp"
 #include "mpm/nodes.hpp"
@@ -13,6 +16,8 @@ template <int Dim, class Real>
 struct SeepageNodes {
   explicit SeepageNodes(const std::shared_ptr<mpm::PatchRoom>& room) : flows(room) {}
 
+  std::vector<std::uint8_t> seeping_tiles;   // with particles from or to which water seeps
+  std::vector<std::uint8_t> seeping_blocks;  // with nodes that these see; flows are of these alone
   mpm::NodeRecords<Dim, Real, 3>
       flows;  // inflow times K_L [Pa m3/s], pore space [m3], pore space times seepage within cells
 };

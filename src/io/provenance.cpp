@@ -89,6 +89,7 @@ void write_provenance(const fs::path& file, const Provenance& p) {
           ? static_cast<double>(p.particles) * static_cast<double>(p.steps - p.steps_before) / p.wall_seconds
           : 0.0;
   json["seconds_per_stage"] = p.seconds_per_stage;
+  json["seconds_beside"] = p.seconds_beside;
   json["origin_m"] = p.origin;
   json["gravity_m_s2"] = p.gravity;
   json["crs"] = nullptr;

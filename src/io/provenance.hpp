@@ -28,6 +28,7 @@ struct Provenance {
   std::int64_t steps = 0;
   std::int64_t steps_before = 0;  // of them, those before this process went on with the run: not in wall_seconds
   std::map<std::string, double> seconds_per_stage;
+  double seconds_beside = 0.0;  // processor time that writing snapshots took while steps went on
 };
 
 // Version, commit, command line, host and time of start filled in.

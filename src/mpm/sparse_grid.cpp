@@ -125,6 +125,17 @@ void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
 }
 
 template <int Dim, class Real>
+void SparseGrid<Dim, Real>::mark_blocks_about(const std::vector<std::uint8_t>& tiles,
+                                              std::vector<std::uint8_t>& blocks) const {
+  blocks.assign(blocks_.size(), 0);
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    for (std::size_t d = 0; d < stencil && tiles[t] != 0; ++d) {
+      blocks[static_cast<std::size_t>(blocks_about_tile(t)[d])] = 1;
+    }
+  }
+}
+
+template <int Dim, class Real>
 void SparseGrid<Dim, Real>::find_tiles() {
   tiles_.clear();
   const std::vector<std::uint64_t> old_keys = std::move(tile_keys_);

@@ -2,6 +2,7 @@
 // blocks of nodes they touch. Its cost follows occupied cells, never the bounding box.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -50,6 +51,15 @@ class SparseGrid {
   // For the 3^Dim neighbours of block b in order: the number of the active block there, or KeyIndex::absent.
   [[nodiscard]] const std::int32_t* blocks_about_block(std::size_t b) const {
     return &blocks_about_block_[b * stencil];
+  }
+
+  // Marks the blocks about marked tiles, all whose nodes particles of these tiles may see.
+  void mark_blocks_about(const std::vector<std::uint8_t>& tiles, std::vector<std::uint8_t>& blocks) const;
+  // Whether a block about tile t is marked.
+  [[nodiscard]] bool any_about_tile(std::size_t t, const std::vector<std::uint8_t>& blocks) const {
+    const std::int32_t* about = blocks_about_tile(t);
+    return std::any_of(about, about + stencil,
+                       [&](std::int32_t b) { return blocks[static_cast<std::size_t>(b)] != 0; });
   }
 
   // Nearest node of a position, and the offset from it in cells.

@@ -1,4 +1,5 @@
 // Strain, rotation, stress, volume and porosity of particles (Eqs. 6, 11).
+#include <algorithm>
 #include <cmath>
 
 #include "base/instances.hpp"
@@ -76,7 +77,8 @@ THAWSLIDE_ALWAYS_INLINE void deform(Particles<Dim, Real>& particles, const Batch
 }
 
 template <int Dim, class Real>
-void note_bad_volumes(const Particles<Dim, Real>& particles, const Batch<Real>& batch, BadParticle& bad) {
+THAWSLIDE_ALWAYS_INLINE void note_bad_volumes(const Particles<Dim, Real>& particles, const Batch<Real>& batch,
+                                              BadParticle& bad) {
   if (!any(!(particles.volume.load(batch) > Real(0)))) {
     return;
   }
@@ -94,14 +96,27 @@ StressWork<Real> deform_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, c
                              Real dt, const Patch<Dim, Real, Dim>& velocity, Particles<Dim, Real>& particles,
                              BadParticle& bad) {
   StressWork<Real> sum;
-  for (const TileBatch<Real>& batch : grid.batches(t)) {
-    const auto& material = model.materials[static_cast<std::size_t>(particles.material(batch.particle[0]))];
-    const auto stencil = make_stencil<Shape>(grid, batch, place_of(grid, particles, batch),
-                                             model.half_sizes(particles, batch), model.sides);
-    const Matrix<Lanes<Real>, Dim> gradient = Lanes<Real>(dt) * gradient_of(read_nodes<Dim>(stencil, velocity));
-    std::visit([&](const auto& law) { deform<Dim, Real>(particles, batch, gradient, law, material, model, dt, sum); },
-               material.law);
-    note_bad_volumes(particles, batch, bad);
+  const auto& batches = grid.batches(t);
+  const auto material_of = [&](const TileBatch<Real>& batch) {
+    return static_cast<std::size_t>(particles.material(batch.particle[0]));
+  };
+  // Batches of one material share one choice of law.
+  for (auto first = batches.begin(); first != batches.end();) {
+    const std::size_t material = material_of(*first);
+    const auto last = std::find_if(first, batches.end(), [&](const auto& b) { return material_of(b) != material; });
+    const MaterialModel<Real>& chosen = model.materials[material];
+    std::visit(
+        [&](const auto& law) {
+          for (auto batch = first; batch != last; ++batch) {
+            const auto stencil = make_stencil<Shape>(grid, *batch, place_of(grid, particles, *batch),
+                                                     model.half_sizes(particles, *batch), model.sides);
+            const Matrix<Lanes<Real>, Dim> gradient = Lanes<Real>(dt) * gradient_of(read_nodes<Dim>(stencil, velocity));
+            deform<Dim, Real>(particles, *batch, gradient, law, chosen, model, dt, sum);
+            note_bad_volumes(particles, *batch, bad);
+          }
+        },
+        chosen.law);
+    first = last;
   }
   return sum;
 }

@@ -76,7 +76,8 @@ def read_terminal(descriptor: int) -> bytes:
 
 def test_bar_on_a_terminal(binary: Path, plain_environment: dict[str, str], tmp_path: Path) -> None:
     ours, theirs = pty.openpty()
-    command = [str(binary), "run", str(LAMPLUGH), "--output", str(tmp_path / "run"), *sets(time__end=2)]
+    of_some_seconds = sets(time__end=2, time__step=0.001)
+    command = [str(binary), "run", str(LAMPLUGH), "--output", str(tmp_path / "run"), *of_some_seconds]
     with subprocess.Popen(command, env=plain_environment, stdout=theirs, stdin=subprocess.DEVNULL) as process:
         os.close(theirs)
         shown = read_terminal(ours).decode()
@@ -92,4 +93,4 @@ def test_bar_on_a_terminal(binary: Path, plain_environment: dict[str, str], tmp_
     # The bar is drawn over itself: no new line between the first and the last, and one before the summary.
     first, last = shown.index("\r\033[K["), shown.rindex("\r\033[K[")
     assert "\n" not in shown[first:last]
-    assert re.search(r"m/s\r\n\d+ particles, 200 steps in ", shown[last:])
+    assert re.search(r"m/s\r\n\d+ particles, 2000 steps in ", shown[last:])
