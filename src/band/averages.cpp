@@ -16,7 +16,7 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particle
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
     patch.clear();
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const Lanes<Real> volume = particles.volume.load(batch);
       mpm::Contribution<Dim, Real, HatLayout::size> carried;
       carried.value[HatLayout::volume] = volume;

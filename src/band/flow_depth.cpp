@@ -201,7 +201,7 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
   part.volume.fill(Real(0));
   part.top.fill(std::numeric_limits<Real>::lowest());
   const auto first_cell = first_cells(grid, t);
-  for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+  for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
     const Lanes<Real> top = particles.position.load(batch, Dim - 1) + of_body(half_size_, particles, batch);
     const Lanes<Real> volume = particles.volume.load(batch);
     const auto along = overlaps<Dim>(first_cell, grid.cell(), half_size_, particles, batch);
@@ -232,7 +232,7 @@ void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
   TilePart& part = tiles_[t];
   part.extent.fill({});
   const auto first_cell = first_cells(grid, t);
-  for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+  for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
     const auto along = overlaps<Dim>(first_cell, grid.cell(), half_size_, particles, batch);
     for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) {
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
@@ -344,7 +344,7 @@ void FlowDepth<Dim, Real>::depth_to_particles(const mpm::SparseGrid<Dim, Real>& 
                                               mpm::Particles<Dim, Real>& particles) const {
   parallel_for(tiles_.size(), [&](std::size_t t) {
     const OfTile columns = of_tile(grid, t);
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       particles.flow_depth.store(batch, columns.flow_depth(particles, batch));
     }
   });

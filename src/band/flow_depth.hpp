@@ -46,7 +46,7 @@ class ColumnsOfTile {
 template <int Dim, class Real>
 class FlowDepth {
  public:
-  // The columns from positions and volumes. slope_cosine may be empty: level ground.
+  // The columns from positions and volumes. slope_cosine may be empty: level ground; it must be the same in every call.
   void update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
               const std::function<Real(Real)>& slope_cosine, const mpm::Particles<Dim, Real>& particles);
   // particles.flow_depth from the columns and in_band.

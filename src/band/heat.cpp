@@ -78,7 +78,7 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
     patch.clear();
     mpm::Patch<Dim, Real, 3> state;
     load_patch(grid, t, work.state, state);
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto stencil = hat_stencil(grid, particles, batch);
       auto carried = heat_flows(grid, model, law, dt, levels, stencil, state, batch, particles);
       add_to_nodes<0>(stencil, batch.count, carried, patch);
@@ -106,7 +106,7 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
     patch.clear();
     mpm::Patch<Dim, Real, 3> state;
     load_patch(grid, t, work.state, state);
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto stencil = hat_stencil(grid, particles, batch);
       const Lanes<Real> change = change_of_temperature(stencil, state, dt, batch, particles);
       Lanes<Real> secant = particles.secant_capacity.load(batch);  // still the tangent
@@ -127,7 +127,7 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
 template <int Dim, class Real>
 Lanes<Real> orphan_heating(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                            const mpm::Patch<Dim, Real, 1>& orphan, const mpm::Particles<Dim, Real>& particles,
-                           const mpm::TileBatch<Real>& batch) {
+                           const mpm::TileBatch<Dim, Real>& batch) {
   const auto half = of_body(model.half_size, particles, batch);
   Lanes<Real> specific = Real(0);
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
@@ -145,7 +145,7 @@ Real sum_of_heat(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Di
                  const OfParticles& of_particles) {
   std::vector<Real> sums(grid.tiles().size(), Real(0));
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const Lanes<Real> volume = particles.initial_volume.load(batch) / particles.thermal_scaling.load(batch);
       batch.add_to(sums[t], volume * of_particles(batch));
     }
@@ -172,7 +172,7 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
       any_orphan = std::any_of(orphan.records.begin(), orphan.records.end(),
                                [](const auto& record) { return record[0] != Real(0); });
     }
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto stencil = hat_stencil(grid, particles, batch);
       Lanes<Real> gain =
           particles.secant_capacity.load(batch) * change_of_temperature(stencil, state, dt, batch, particles);

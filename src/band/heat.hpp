@@ -31,7 +31,8 @@ struct HeatNodes {
   bool any_orphan = false;
 };
 
-// Heat content, temperature and saturation of all particles after dt. first_step: prescribed temperatures jump now.
+// Heat content, temperature and saturation of all particles after dt; work.state must hold what average_on_grid made of
+// this step. first_step: prescribed temperatures jump now.
 template <int Dim, class Real>
 HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                             bool first_step, const mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& work,

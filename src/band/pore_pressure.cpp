@@ -121,7 +121,7 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
     patch.clear();
     mpm::Patch<Dim, Real, 1> pressure;
     load_pressures(grid, t, nodes, pressure);
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const Lanes<Real> hydraulic = model.hydraulic(particles, batch);
       if (any(hydraulic > Real(0))) {
         const auto stencil = hat_stencil(grid, particles, batch);
@@ -184,7 +184,7 @@ LaneMask<Real> at_surface(const mpm::SparseGrid<Dim, Real>& grid, const ColumnsO
 template <int Dim, class Real>
 Pressures<Lanes<Real>> melted_pressures(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                                         const ColumnsOfTile<Dim, Real>& columns, bool seepage,
-                                        const mpm::Patch<Dim, Real, 1>& changes, const mpm::TileBatch<Real>& batch,
+                                        const mpm::Patch<Dim, Real, 1>& changes, const mpm::TileBatch<Dim, Real>& batch,
                                         const mpm::Particles<Dim, Real>& particles) {
   const Lanes<Real> zero = Real(0);
   const auto was_melted = melted_before(model, particles, batch);
@@ -219,7 +219,7 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
       load_pressure_changes(grid, t, work, dt, changes);
     }
     const auto columns = depth.of_tile(grid, t);
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       if (model.thickness_each_step) {
         particles.flow_depth.store(batch, columns.flow_depth(particles, batch));
       }

@@ -11,11 +11,6 @@ class KeyIndex {
  public:
   static constexpr std::int32_t absent = -1;
 
-  void clear() {
-    count_ = 0;
-    slots_.assign(slots_.size(), Slot{});
-  }
-
   [[nodiscard]] std::size_t size() const { return count_; }
 
   // The index stored for the key, or absent.

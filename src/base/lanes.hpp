@@ -101,7 +101,12 @@ class Lanes {
     *reinterpret_cast<typename LaneRegister<Real>::Stored*>(numbers) = native_;
   }
 
-  // Whole numbers, to `count` places side by side.
+  // Whole numbers, from and to `count` places side by side.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes load_whole(const std::int32_t* numbers) {
+    typename LaneRegister<Real>::Whole whole;
+    std::memcpy(&whole, numbers, sizeof whole);
+    return Lanes(__builtin_convertvector(whole, Native));
+  }
   THAWSLIDE_ALWAYS_INLINE void store_whole(std::int32_t* numbers) const {
     const auto whole = __builtin_convertvector(native_, typename LaneRegister<Real>::Whole);
     std::memcpy(numbers, &whole, sizeof whole);

@@ -17,9 +17,8 @@ class ThreadChoice {
   [[nodiscard]] int threads() const { return threads_; }
 
  private:
-  void end_trial(double speed, double now);
+  void end_trial(double speed, double length, double now);
   void challenge();
-  void settle(int threads, double now, double pause);
 
   int most_;
   int best_;     // of the trials so far
@@ -28,6 +27,7 @@ class ThreadChoice {
   double speed_of_best_ = 0;  // [steps/s] in its last trial
   double trial_begin_;
   std::int64_t steps_ = 0;  // of this trial
+  bool is_cold_ = true;     // the first trial does not count
   double pause_, next_challenge_;
 };
 

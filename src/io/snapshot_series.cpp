@@ -85,23 +85,25 @@ void SnapshotSeries::finish_writing() {
 
 void SnapshotSeries::add(Snapshot snapshot) {
   finish_writing();
+  const auto now = std::chrono::steady_clock::now();
+  if (!entries_.empty() && std::chrono::duration<double>(now - indexed_).count() > seconds_between_indices) {
+    write_index();
+  }
   const fs::path file = folder_ / file_name(entries_.size());
-  entries_.push_back({snapshot.time, snapshot.particles()});
+  const Entry entry{snapshot.time, snapshot.particles()};
   columns_.clear();
   for (const SnapshotField& field : snapshot.fields) {
     columns_.push_back({field.name, field.unit, field.components, field.integer});
   }
-  writing_ = std::async(std::launch::async, [file, snapshot = std::move(snapshot)] {
+  writing_ = std::async(std::launch::async, [file, snapshot = std::move(snapshot)]() mutable {
     const std::vector<std::byte> bytes = snapshot_bytes(snapshot);
+    snapshot = {};
     write_file_atomically(file, bytes.data(), bytes.size());
     timespec spent{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
     return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
   });
-  const auto now = std::chrono::steady_clock::now();
-  if (std::chrono::duration<double>(now - indexed_).count() > seconds_between_indices) {
-    write_index();
-  }
+  entries_.push_back(entry);
 }
 
 // One dataset of the index: the rows of all snapshots, one after another. extra_rows: rows beyond the particle count.

@@ -17,8 +17,9 @@ class SnapshotSeries {
   // Goes on with the series: snapshots later than `time` are removed.
   static SnapshotSeries continue_after(const std::filesystem::path& folder, double time);
 
-  // Writes folder/snapshots/NNNNNN.vtkhdf while the caller goes on; the index follows when it was not written for some
-  // seconds. Throws UserError if this snapshot or the one before it could not be written.
+  // Writes folder/snapshots/NNNNNN.vtkhdf while the caller goes on, and before that, when it was not written for some
+  // seconds, the index of the snapshots so far. Throws UserError if this snapshot or the one before it could not be
+  // written.
   void add(Snapshot snapshot);
   // Waits until the last snapshot is on the disk; throws as add does.
   void finish_writing();

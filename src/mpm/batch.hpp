@@ -50,10 +50,11 @@ struct BatchNodes {
 };
 
 // A batch of one tile and one material, and its nodes while the particles stay where they are.
-template <class Real>
+template <int Dim, class Real>
 struct TileBatch : Batch<Real> {
-  BatchNodes<Real> nodes;  // 3 an axis, from the one before the nearest
-  BatchNodes<Real> hats;   // the corners of the particle's cell
+  std::array<std::array<std::int32_t, lane_count<Real>>, Dim> nearest;  // numbers of the nearest node, by axis
+  BatchNodes<Real> nodes;                                               // 3 an axis, from the one before the nearest
+  BatchNodes<Real> hats;                                                // the corners of the particle's cell
 };
 
 }  // namespace thawslide::mpm

@@ -34,12 +34,11 @@ struct BatchPlace {
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE BatchPlace<Dim, Real> place_of(const SparseGrid<Dim, Real>& grid,
                                                        const Particles<Dim, Real>& particles,
-                                                       const Batch<Real>& batch) {
+                                                       const TileBatch<Dim, Real>& batch) {
   BatchPlace<Dim, Real> place;
   for (int a = 0; a < Dim; ++a) {
-    const Lanes<Real> in_cells = particles.position.load(batch, a) * grid.inverse_cell();
-    place.node[a] = floor(in_cells + Real(0.5));
-    place.offset[a] = in_cells - place.node[a];
+    place.node[a] = Lanes<Real>::load_whole(batch.nearest[static_cast<std::size_t>(a)].data());
+    place.offset[a] = particles.position.load(batch, a) * grid.inverse_cell() - place.node[a];
   }
   return place;
 }
@@ -54,7 +53,7 @@ THAWSLIDE_ALWAYS_INLINE LaneMask<Real> at_side(const HeldSides<Dim>& sides, int 
 // For shape functions Shape (Ugimp, Linear, Quadratic); half: half sizes of the particles in cells.
 template <class Shape, int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid,
-                                                             const TileBatch<Real>& batch,
+                                                             const TileBatch<Dim, Real>& batch,
                                                              const BatchPlace<Dim, Real>& place, Lanes<Real> half,
                                                              const HeldSides<Dim>& sides) {
   return {batch.nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
@@ -66,7 +65,7 @@ THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Di
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real, 2> hat_stencil(const SparseGrid<Dim, Real>& grid,
                                                                const Particles<Dim, Real>& particles,
-                                                               const TileBatch<Real>& batch) {
+                                                               const TileBatch<Dim, Real>& batch) {
   const Lanes<Real> slope = grid.inverse_cell();
   return {batch.hats, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
             const Lanes<Real> in_cells = particles.position.load(batch, a) * grid.inverse_cell();
@@ -75,7 +74,8 @@ THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real, 2> hat_stencil(const SparseGrid<
           })};
 }
 
-// The same nodes and weights for APIC (AffineStencil).
+// The same nodes and weights for APIC: in place of the gradient G_i stands S_i (x_i - x_p)/D, with which node
+// velocities make the affine velocity C. moment: the second moments D [m2] along each axis.
 template <int Dim, class Real>
 struct AffineBatch {
   BatchStencil<Dim, Real> nodes;

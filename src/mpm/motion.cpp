@@ -40,7 +40,7 @@ void with_transfer(const MotionModel<Dim, Real>& model, const Work& work) {
 
 template <class Shape, int Dim, class Real>
 AffineBatch<Dim, Real> affine_stencil(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                                      const MotionModel<Dim, Real>& model, const TileBatch<Real>& batch) {
+                                      const MotionModel<Dim, Real>& model, const TileBatch<Dim, Real>& batch) {
   const auto place = place_of(grid, particles, batch);
   const auto half = model.half_sizes(particles, batch);
   return make_affine<Shape>(grid, make_stencil<Shape>(grid, batch, place, half, model.sides), place, model.sides);
@@ -121,14 +121,14 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
       auto& patch = patches[t];
       patch.clear();
-      for (const TileBatch<Real>& batch : grid.batches(t)) {
+      for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
         const auto place = place_of(grid, particles, batch);
         const auto stencil = make_stencil<Shape>(grid, batch, place, model.half_sizes(particles, batch), model.sides);
         auto carried = momentum_contribution(particles, model, viscous, batch);
         add_to_nodes<0>(stencil, batch.count, carried, patch);
       }
       if constexpr (decltype(transfer)::affine) {
-        for (const TileBatch<Real>& batch : grid.batches(t)) {
+        for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
           const auto affine = affine_stencil<Shape>(grid, particles, model, batch);
           add_affine_momentum<MomentumLayout<Dim>::momentum>(affine, particles, batch, patch);
         }
@@ -181,7 +181,7 @@ Real move_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, const MotionMod
                Patch<Dim, Real, Dim>& patch) {
   using Layout = MotionLayout<Dim>;
   Real kinetic = 0;
-  for (const TileBatch<Real>& batch : grid.batches(t)) {
+  for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
     const auto place = place_of(grid, particles, batch);
     const auto stencil = make_stencil<Shape>(grid, batch, place, model.half_sizes(particles, batch), model.sides);
     const auto seen = read_values(stencil, motion);
@@ -199,7 +199,7 @@ Real move_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, const MotionMod
     add_to_nodes<no_flux>(stencil, batch.count, momentum, patch);
   }
   if constexpr (Transfer::affine) {
-    for (const TileBatch<Real>& batch : grid.batches(t)) {
+    for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto affine = affine_stencil<Shape>(grid, particles, model, batch);
       batch.add_to(kinetic, -take_affine_velocity(affine, motion, dt, particles, batch));
       add_affine_momentum<0>(affine, particles, batch, patch);

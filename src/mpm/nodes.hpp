@@ -76,7 +76,7 @@ struct Nodes {
   NodeRecords<Dim, Real, HatLayout::size> hats{room};
   NodeRecords<Dim, Real, BaseLayout::size> base;
   NodeRecords<Dim, Real, ContactLayout::size> contact;
-  NodeRecords<Dim, Real, NearBaseLayout<Real>::size> near_base{room};  // of blocks with candidate nodes alone
+  NodeRecords<Dim, Real, NearBaseLayout<Real>::size> near_base{room};  // of candidate nodes alone
 };
 
 // Position [m, relative to the domain's lower corner] of a node of a block.

@@ -13,6 +13,7 @@ namespace thawslide::mpm {
 namespace {
 
 constexpr std::size_t keys_per_task = 1024;
+constexpr std::int32_t never = std::numeric_limits<std::int32_t>::min();  // the number of a nearest node
 
 template <int Dim>
 typename Tile<Dim>::Index neighbour(const typename Tile<Dim>::Index& tile, int direction) {
@@ -22,6 +23,29 @@ typename Tile<Dim>::Index neighbour(const typename Tile<Dim>::Index& tile, int d
     direction /= 3;
   }
   return other;
+}
+
+// Place in nearest_ of a particle's number along an axis: as many particles as lanes side by side, axis after axis.
+template <int Dim, class Real>
+std::size_t in_nearest(std::size_t particle, std::size_t axis) {
+  constexpr std::size_t most = Batch<Real>::most;
+  return (particle / most * Dim + axis) * most + particle % most;
+}
+
+// Places of nodes in the patch of a tile, from their numbers along the axes.
+template <int Dim, class Real>
+BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Dim>& lowest) {
+  using T = Tile<Dim>;
+  const typename T::Index tile = T::index(tile_key);
+  Lanes<Real> place = Real(0);
+  for (int a = Dim - 1; a >= 0; --a) {
+    const auto before = static_cast<Real>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
+    place = place * Real(T::patch_edge) + (lowest[a] - before);
+  }
+  BatchNodes<Real> nodes;
+  place.store_whole(nodes.first.data());
+  nodes.shared = !any(place != Lanes<Real>(place[0]));
+  return nodes;
 }
 
 }  // namespace
@@ -49,11 +73,15 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
     calls_ = 0;
     particles.reorder(order_);
     std::vector<std::uint64_t> keys(count);
+    std::vector<std::int32_t> nearest(nearest_.size(), never);
     for (std::size_t k = 0; k < count; ++k) {
       keys[k] = keys_[order_[k]];
+      for (std::size_t a = 0; a < Dim; ++a) {
+        nearest[in_nearest<Dim, Real>(k, a)] = nearest_[in_nearest<Dim, Real>(order_[k], a)];
+      }
     }
     keys_.swap(keys);
-    forget_nearest(count);
+    nearest_.swap(nearest);
     std::iota(order_.begin(), order_.end(), 0u);
   }
   blocks_changed_ = false;
@@ -67,7 +95,7 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
 // The next keys are computed whether or not particles have moved.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::forget_nearest(std::size_t count) {
-  nearest_.assign((count + Batch<Real>::most) * Dim, std::numeric_limits<std::int32_t>::min());
+  nearest_.assign((count + Batch<Real>::most) * Dim, never);
 }
 
 // Most particles have the nearest node that they had before, and nothing to do.
@@ -154,22 +182,6 @@ void SparseGrid<Dim, Real>::find_tiles() {
   }
 }
 
-// Places of nodes in the patch of a tile, from their numbers along the axes.
-template <int Dim, class Real>
-BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Dim>& lowest) {
-  using T = Tile<Dim>;
-  const typename T::Index tile = T::index(tile_key);
-  Lanes<Real> place = Real(0);
-  for (int a = Dim - 1; a >= 0; --a) {
-    const auto before = static_cast<Real>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
-    place = place * Real(T::patch_edge) + (lowest[a] - before);
-  }
-  BatchNodes<Real> nodes;
-  place.store_whole(nodes.first.data());
-  nodes.shared = !any(place != Lanes<Real>(place[0]));
-  return nodes;
-}
-
 // Four particles (as many as lanes) that stand side by side in memory go together, the others fill up batches.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, std::size_t t) {
@@ -186,7 +198,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   auto& batches = batches_[t];
   batches.clear();
   for (std::uint32_t k = tile.first; k < tile.last;) {
-    TileBatch<Real> batch;
+    TileBatch<Dim, Real> batch;
     batch.whole = side_by_side(k);
     batch.count = 0;
     const std::int32_t of_one = material(k);
@@ -199,9 +211,13 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
     }
     Vector<Lanes<Real>, Dim> before_nearest, corner;
     for (int a = 0; a < Dim; ++a) {
-      const Lanes<Real> in_cells = particles.position.load(batch, a) * inverse_cell_;
-      before_nearest[a] = floor(in_cells + Real(0.5)) - Real(1);
-      corner[a] = floor(in_cells);
+      auto& nearest = batch.nearest[static_cast<std::size_t>(a)];
+      for (std::size_t lane = 0; lane < most; ++lane) {
+        const std::size_t p = batch.particle[lane];
+        nearest[lane] = nearest_[in_nearest<Dim, Real>(p, static_cast<std::size_t>(a))];
+      }
+      before_nearest[a] = Lanes<Real>::load_whole(nearest.data()) - Real(1);
+      corner[a] = floor(particles.position.load(batch, a) * inverse_cell_);
     }
     batch.nodes = nodes_from<Dim, Real>(tile.key, before_nearest);
     batch.hats = nodes_from<Dim, Real>(tile.key, corner);

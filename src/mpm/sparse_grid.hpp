@@ -38,7 +38,7 @@ class SparseGrid {
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
   [[nodiscard]] const std::vector<OccupiedTile>& tiles() const { return tiles_; }
   // The particles of tile t in batches, in canonical order.
-  [[nodiscard]] const std::vector<TileBatch<Real>>& batches(std::size_t t) const { return batches_[t]; }
+  [[nodiscard]] const std::vector<TileBatch<Dim, Real>>& batches(std::size_t t) const { return batches_[t]; }
   // Keys of the active blocks: occupied tiles and their neighbours, ascending.
   [[nodiscard]] const std::vector<std::uint64_t>& blocks() const { return blocks_; }
   // True if the last update changed the set of blocks (block numbers then changed too).
@@ -62,16 +62,6 @@ class SparseGrid {
                        [&](std::int32_t b) { return blocks[static_cast<std::size_t>(b)] != 0; });
   }
 
-  // Nearest node of a position, and the offset from it in cells.
-  void nearest_node(const Vector<Real, Dim>& position, Index& node, Vector<Real, Dim>& offset) const {
-    for (int a = 0; a < Dim; ++a) {
-      const Real s = position[a] * inverse_cell_;
-      const Real nearest = std::floor(s + Real(0.5));
-      node[static_cast<std::size_t>(a)] = static_cast<int>(nearest);
-      offset[a] = s - nearest;
-    }
-  }
-
  private:
   static constexpr std::size_t stencil = static_cast<std::size_t>(T::stencil);
 
@@ -89,7 +79,7 @@ class SparseGrid {
   std::vector<std::uint8_t> moved_;
   std::vector<std::uint32_t> order_, spare_order_;
   std::vector<OccupiedTile> tiles_;
-  std::vector<std::vector<TileBatch<Real>>> batches_;  // by tile
+  std::vector<std::vector<TileBatch<Dim, Real>>> batches_;  // by tile
   std::vector<std::uint64_t> tile_keys_;
   std::vector<std::uint64_t> blocks_;
   std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;

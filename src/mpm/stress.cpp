@@ -97,7 +97,7 @@ StressWork<Real> deform_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, c
                              BadParticle& bad) {
   StressWork<Real> sum;
   const auto& batches = grid.batches(t);
-  const auto material_of = [&](const TileBatch<Real>& batch) {
+  const auto material_of = [&](const TileBatch<Dim, Real>& batch) {
     return static_cast<std::size_t>(particles.material(batch.particle[0]));
   };
   // Batches of one material share one choice of law.

@@ -222,18 +222,6 @@ THAWSLIDE_ALWAYS_INLINE void for_each_node(
   }
 }
 
-// The nodes a particle sees, as places in its tile's patch, and their weights.
-template <int Dim, class Real, std::size_t Width = 3>
-struct Stencil {
-  std::size_t first;  // place in the patch of the lowest node
-  std::array<AxisWeights<Real, Width>, Dim> axis;
-
-  template <class Visit>
-  THAWSLIDE_ALWAYS_INLINE void for_each_node(const Visit& visit) const {
-    mpm::for_each_node<Dim>(axis, first, visit);
-  }
-};
-
 // What a particle reads of `Count` numbers of the records about it: their values at its place and their gradients
 // [per m]. Axis by axis, rows first: fewer products than node by node.
 template <int Dim, class Value, std::size_t Count>
@@ -313,87 +301,6 @@ struct HeldSides {
     lower.fill(none);
     upper.fill(none);
   }
-  [[nodiscard]] bool at(std::size_t axis, int node) const { return node == lower[axis] || node == upper[axis]; }
 };
-
-// Where a particle stands: its nearest node and its offset from it, in cells.
-template <int Dim, class Real>
-struct Place {
-  typename Tile<Dim>::Index node{};
-  Vector<Real, Dim> offset;
-};
-
-template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE Place<Dim, Real> place_of(const SparseGrid<Dim, Real>& grid,
-                                                  const Vector<Real, Dim>& position) {
-  Place<Dim, Real> place;
-  grid.nearest_node(position, place.node, place.offset);
-  return place;
-}
-
-// Stencil of a particle in its tile, for shape functions Shape (Ugimp, Linear, Quadratic). half: its half size in
-// cells.
-template <class Shape, int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE Stencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile_key,
-                                                        const Place<Dim, Real>& place, Real half,
-                                                        const HeldSides<Dim>& sides) {
-  using T = Tile<Dim>;
-  const typename T::Index tile = T::index(tile_key);
-  Stencil<Dim, Real> stencil;
-  typename T::Index lowest{};
-  for (std::size_t a = 0; a < Dim; ++a) {
-    lowest[a] = place.node[a] - tile[a] * T::edge - 1;
-    stencil.axis[a] =
-        Shape::weights(place.offset[static_cast<int>(a)], half, sides.at(a, place.node[a]), grid.inverse_cell());
-  }
-  stencil.first = static_cast<std::size_t>(T::in_patch(lowest));
-  return stencil;
-}
-
-// The same nodes and weights for APIC: in place of the gradient G_i stands S_i (x_i - x_p)/D, with which node
-// velocities make the affine velocity C. moment: the second moments D [m2] along each axis.
-template <int Dim, class Real>
-struct AffineStencil {
-  Stencil<Dim, Real> nodes;
-  Vector<Real, Dim> moment;
-};
-
-template <class Shape, int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE AffineStencil<Dim, Real> make_affine(const SparseGrid<Dim, Real>& grid,
-                                                             const Stencil<Dim, Real>& stencil,
-                                                             const Place<Dim, Real>& place,
-                                                             const HeldSides<Dim>& sides) {
-  AffineStencil<Dim, Real> affine;
-  affine.nodes.first = stencil.first;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const Real offset = place.offset[static_cast<int>(a)];
-    affine.nodes.axis[a] = Shape::affine(stencil.axis[a], offset, sides.at(a, place.node[a]), grid.inverse_cell());
-    affine.moment[static_cast<int>(a)] = second_moment(stencil.axis[a], offset) * grid.cell() * grid.cell();
-  }
-  return affine;
-}
-
-// The corners of the particle's cell with its linear hats, which heat and pore pressure use whatever momentum uses.
-template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE Stencil<Dim, Real, 2> hat_stencil(const SparseGrid<Dim, Real>& grid, std::uint64_t tile_key,
-                                                          const Particles<Dim, Real>& particles, std::uint32_t p) {
-  using T = Tile<Dim>;
-  typename T::Index node{};
-  Vector<Real, Dim> offset;
-  grid.nearest_node(particles.position.template get<Vector<Real, Dim>>(p), node, offset);
-  const typename T::Index tile = T::index(tile_key);
-  const Real slope = grid.inverse_cell();
-  Stencil<Dim, Real, 2> stencil;
-  typename T::Index lowest{};
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const Real from_node = offset[static_cast<int>(a)];  // in cells, within [-1/2, 1/2]
-    const bool left = from_node < Real(0);
-    const Real along = left ? Real(1) + from_node : from_node;
-    lowest[a] = node[a] - tile[a] * T::edge - (left ? 1 : 0);
-    stencil.axis[a] = {{Real(1) - along, along}, {-slope, slope}};
-  }
-  stencil.first = static_cast<std::size_t>(T::in_patch(lowest));
-  return stencil;
-}
 
 }  // namespace thawslide::mpm

@@ -3,6 +3,7 @@
 // keeps all digits where values meet.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/lanes.hpp"
@@ -67,7 +68,7 @@ struct PlaneAxis {
 // Newton's iteration: the start is within 0.003, and the slope there is 6 at least.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value isolated_root(Value h) {
-  using std::abs, std::sqrt;
+  using std::abs;
   using Real = typename NumberOf<Value>::Type;
   const Value size = abs(h);
   const Real root_of_3 = static_cast<Real>(1.7320508075688772935);

@@ -349,7 +349,7 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
                                    contact[ContactLayout::touching] * contact[ContactLayout::slip_speed]};
       });
     });
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       if (!ground.any_near(t, batch)) {
         for (std::size_t lane = 0; lane < batch.count; ++lane) {
           particles.in_band(batch.particle[lane]) = 0;

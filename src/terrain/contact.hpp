@@ -33,11 +33,11 @@ struct ContactModel {
   bool base_holds = false;      // no slip at all: while gravity is being settled in
   bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
   Real mass_damping = 0;        // [1/s]
-  bool distance_check = false;  // a node may close nodes.clearance before contact acts
+  bool distance_check = false;  // a node may close its clearance before contact acts
 };
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null.
-// nodes.hats must hold the averages of this step.
+// nodes.hats and, with ground, nodes.near_base must hold the sums of this step.
 template <int Dim, class Real>
 ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                                        const mpm::Constraints<Dim, Real>& constraints,

@@ -13,6 +13,8 @@ namespace thawslide::terrain {
 
 template <int Dim, class Real>
 class GroundOnGrid {
+  using T = mpm::Tile<Dim>;
+
  public:
   using Block = std::array<GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)>;
 
@@ -36,15 +38,20 @@ class GroundOnGrid {
     }
     near_.resize(grid.tiles().size());
     any_near_.resize(grid.tiles().size());
-    for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-      find_near(grid, t);
-    }
+    parallel_for(grid.tiles().size(), [&](std::size_t t) { find_near(grid, t); });
+  }
+
+  // Whether a block about tile t has candidate nodes.
+  [[nodiscard]] bool any_candidate_about(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) const {
+    const std::int32_t* blocks = grid.blocks_about_tile(t);
+    return std::any_of(blocks, blocks + T::stencil,
+                       [&](std::int32_t b) { return any_candidate(static_cast<std::size_t>(b)); });
   }
 
   // Whether particles of tile t see a candidate node, with any shape functions.
   [[nodiscard]] bool any_near(std::size_t t) const { return any_near_[t] != 0; }
   // The same for those of one of its batches.
-  [[nodiscard]] bool any_near(std::size_t t, const mpm::TileBatch<Real>& batch) const {
+  [[nodiscard]] bool any_near(std::size_t t, const mpm::TileBatch<Dim, Real>& batch) const {
     return std::any_of(batch.nodes.first.begin(), batch.nodes.first.end(),
                        [&](std::int32_t lowest) { return near_[t][static_cast<std::size_t>(lowest)] != 0; });
   }
@@ -56,11 +63,15 @@ class GroundOnGrid {
   }
 
  private:
-  using T = mpm::Tile<Dim>;
   // By place in a tile's patch: whether a candidate is among the 3^Dim nodes from there on.
   using Near = std::array<std::uint8_t, static_cast<std::size_t>(T::patch_nodes)>;
 
   void find_near(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) {
+    near_[t].fill(0);
+    any_near_[t] = 0;
+    if (!any_candidate_about(grid, t)) {
+      return;
+    }
     const std::int32_t* blocks = grid.blocks_about_tile(t);
     Near candidate{};
     mpm::for_each_direction<Dim>([&](auto d) {
@@ -71,7 +82,6 @@ class GroundOnGrid {
         });
       }
     });
-    near_[t].fill(0);
     for (int node = 0; node < T::nodes; ++node) {  // the nearest one
       const typename T::Index nearest = T::node({}, node);
       std::uint8_t& near = near_[t][static_cast<std::size_t>(T::in_patch(below(nearest)))];

@@ -93,7 +93,7 @@ void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, R
   DistancePatch<Dim, Real> patch;
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     load_distances(grid, ground, t, patch);
-    for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto seen = mpm::read_nodes<1 + Dim>(hat_stencil(grid, particles, batch), patch);
       const Lanes<Real> reach = reach_of_box(seen, of_body(half_size, particles, batch) * grid.cell());
       const auto lowest = seen.value[0] < within_lowest_layer * reach;
@@ -111,6 +111,9 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
   const auto patches = nodes.near_base.patches(grid.tiles().size());
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
+      if (!ground.any_candidate_about(grid, t)) {
+        return;
+      }
       auto& patch = patches[t];
       patch.clear();
       for (auto& record : patch.records) {
@@ -121,7 +124,7 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
       }
       DistancePatch<Dim, Real> distances;
       load_distances(grid, ground, t, distances);
-      for (const mpm::TileBatch<Real>& batch : grid.batches(t)) {
+      for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
         if (!ground.any_near(t, batch)) {
           continue;
         }

@@ -15,8 +15,8 @@ template <int Dim, class Real>
 void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                const std::vector<Real>& half_size, mpm::Particles<Dim, Real>& particles);
 
-// Fills nodes.near_base of the blocks that have candidate nodes: the averages, and the clearance [m], the smallest
-// distance left between the ground and the particles that a node sees, 0 where they touch.
+// Fills nodes.near_base of candidate nodes (others of their blocks hold nothing meaningful): the sums, and the
+// clearance [m], the smallest distance left between the ground and the particles that a node sees, 0 where they touch.
 template <int Dim, class Real>
 void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                        const mpm::MotionModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,

@@ -76,5 +76,31 @@ TEST(FlowDepth, SeesTheBodyAboveABandThatIsAhead) {
   }
 }
 
+// Columns are numbered anew when the body comes to other tiles.
+TEST(FlowDepth, GoesWithTheBodyFromTileToTile) {
+  mpm::Particles<2, double> box;
+  fill_box<2>(7, 6, 2.5, 0.0, box);
+  mpm::SparseGrid<2, double> grid(cell);
+  BandModel<2, double> model;
+  model.half_size = {0.5 * spacing / cell};
+  FlowDepth<2, double> followed;
+  for (int step = 0; step < 60; ++step) {
+    grid.update(box, 7);
+    followed.update(grid, model, {}, box);
+    followed.depth_to_particles(grid, box);
+    std::vector<double> depth(box.size());
+    for (std::size_t p = 0; p < box.size(); ++p) {
+      depth[p] = box.flow_depth(p);
+    }
+    FlowDepth<2, double> fresh;
+    fresh.update(grid, model, {}, box);
+    fresh.depth_to_particles(grid, box);
+    for (std::size_t p = 0; p < box.size(); ++p) {
+      ASSERT_EQ(depth[p], box.flow_depth(p)) << "step " << step;
+      box.position(p, 0) += 3.1;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace thawslide::band

@@ -65,6 +65,13 @@ TEST(ThreadChoice, FindsFewThreadsAmongMany) {
   EXPECT_LE(run.choice.threads(), 5);
 }
 
+TEST(ThreadChoice, LosesLittleWhereStepsAreLong) {
+  TimedRun run(2);
+  run.until(1000.0, [](int threads, double /*time*/) { return 2.0 / threads; });
+  EXPECT_EQ(run.choice.threads(), 2);
+  EXPECT_GT(static_cast<double>(run.steps), 0.95 * 1000.0);
+}
+
 TEST(ThreadChoice, LeavesOneThreadAlone) {
   TimedRun run(1);
   run.until(1.0, shared_well);

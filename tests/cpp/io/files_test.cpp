@@ -14,6 +14,7 @@
 #include "io/run_folder.hpp"
 #include "io/sha256.hpp"
 #include "io/snapshot.hpp"
+#include "io/snapshot_series.hpp"
 
 namespace thawslide::io {
 namespace {
@@ -206,6 +207,17 @@ TEST_F(Files, RunFoldersAreNeverOverwrittenByAccident) {
             std::string::npos);
   EXPECT_NE(failure_of([&] { require_usable(folder_ / "deep" / "run" / "notes.txt" / "x", false); }).find("is a file"),
             std::string::npos);
+}
+
+TEST_F(Files, SnapshotThatCouldNotBeWrittenIsToldByTheNextCall) {
+  const Snapshot snapshot{0.0, 0, {1.0, 2.0, 0.0}, {}};
+  SnapshotSeries series(folder_);
+  series.add(snapshot);
+  series.finish_writing();
+  EXPECT_TRUE(fs::exists(folder_ / "snapshots" / "000000.vtkhdf"));
+  fs::remove_all(folder_ / "snapshots");
+  series.add(snapshot);
+  EXPECT_NE(failure_of([&] { series.add(snapshot); }).find("cannot write"), std::string::npos);
 }
 
 }  // namespace

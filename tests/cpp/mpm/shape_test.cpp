@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "mpm/transfer.hpp"
+#include "mpm/batch_transfer.hpp"
 
 namespace thawslide::mpm {
 namespace {
@@ -114,26 +114,30 @@ void expect_hats_reproduce_a_linear_field() {
   grid.update(particles, 64);
   using T = Tile<Dim>;
   std::size_t seen = 0;
-  for (const auto& tile : grid.tiles()) {
-    const auto index = T::index(tile.key);
-    for (std::uint32_t k = tile.first; k < tile.last; ++k, ++seen) {
-      const std::uint32_t p = grid.order()[k];
-      const auto stencil = hat_stencil(grid, tile.key, particles, p);
-      double sum = 0.0, x = 0.0;
-      Vector<double, Dim> gradient = Vector<double, Dim>::Zero();
-      stencil.for_each_node([&](std::size_t node, double weight, const Vector<double, Dim>& slope) {
-        // The patch's first node along x lies one before the tile.
-        const auto i = static_cast<double>(node % static_cast<std::size_t>(T::patch_edge));
-        const double at = 5.0 * (static_cast<double>(index[0] * T::edge) - 1.0 + i);
-        sum += weight;
-        x += weight * at;
-        gradient += at * slope;
-      });
-      EXPECT_NEAR(sum, 1.0, 1e-14);
-      EXPECT_NEAR(x, particles.position(p, 0), 1e-12);
-      EXPECT_NEAR(gradient[0], 1.0, 1e-12);
-      for (int a = 1; a < Dim; ++a) {
-        EXPECT_NEAR(gradient[a], 0.0, 1e-12);
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    const auto index = T::index(grid.tiles()[t].key);
+    for (const auto& batch : grid.batches(t)) {
+      const auto stencil = hat_stencil(grid, particles, batch);
+      for (std::size_t lane = 0; lane < batch.count; ++lane, ++seen) {
+        double sum = 0.0, x = 0.0;
+        Vector<double, Dim> gradient = Vector<double, Dim>::Zero();
+        for_each_node<Dim>(stencil.axis, static_cast<std::size_t>(stencil.nodes.first[lane]),
+                           [&](std::size_t node, const Lanes<double>& weight, const auto& slope) {
+                             // The patch's first node along x lies one before the tile.
+                             const auto i = static_cast<double>(node % static_cast<std::size_t>(T::patch_edge));
+                             const double at = 5.0 * (static_cast<double>(index[0] * T::edge) - 1.0 + i);
+                             sum += weight[lane];
+                             x += weight[lane] * at;
+                             for (int a = 0; a < Dim; ++a) {
+                               gradient[a] += at * slope[a][lane];
+                             }
+                           });
+        EXPECT_NEAR(sum, 1.0, 1e-14);
+        EXPECT_NEAR(x, particles.position(batch.particle[lane], 0), 1e-12);
+        EXPECT_NEAR(gradient[0], 1.0, 1e-12);
+        for (int a = 1; a < Dim; ++a) {
+          EXPECT_NEAR(gradient[a], 0.0, 1e-12);
+        }
       }
     }
   }

@@ -79,6 +79,16 @@ TEST(MohrCoulomb, LanesReturnAsSingleNumbersDo) {
         EXPECT_NEAR(together.equivalent_plastic_strain_increment[lane], alone.equivalent_plastic_strain_increment,
                     1e-12);
         EXPECT_NEAR(together.opening[lane], alone.opening, 1e-12);
+        // Whatever goes with it in a batch, its bits are the same.
+        SymmetricTensor<Wide> by_itself;
+        for (int c = 0; c < 6; ++c) {
+          by_itself[c] = one[lane][c];
+        }
+        const auto copies =
+            k % 2 == 0 ? law.update<2>(by_itself, Wide(strain[lane])) : law.update<3>(by_itself, Wide(strain[lane]));
+        for (int c = 0; c < 6; ++c) {
+          EXPECT_EQ(together.stress[c][lane], copies.stress[c][0]);
+        }
         EXPECT_TRUE(!alone.yielded || (k % 2 == 0 ? law.may_yield<2>(one[lane], strain[lane])
                                                   : law.may_yield<3>(one[lane], strain[lane])));
       }

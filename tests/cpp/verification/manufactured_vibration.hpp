@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "mpm/batch_transfer.hpp"
 #include "mpm/motion.hpp"
 #include "terrain/contact.hpp"
 
@@ -105,17 +106,19 @@ class ManufacturedVibration {
     const auto patches = body_force_.patches(grid_.tiles().size());
     mpm::with_shape<double>(model_.shape, [&](auto shape) {
       for (std::size_t t = 0; t < grid_.tiles().size(); ++t) {
-        const auto& tile = grid_.tiles()[t];
         patches[t].clear();
-        for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-          const std::uint32_t p = grid_.order()[k];
-          const Plane force = particles_.mass(p) * body_force(start(p));
-          const auto place = mpm::place_of(grid_, particles_.position.get<Plane>(p));
-          mpm::make_stencil<decltype(shape)>(grid_, tile.key, place, 0.25, model_.sides)
-              .for_each_node([&](std::size_t node, double weight, const Plane& /*gradient*/) {
-                patches[t].records[node][0] += weight * force[0];
-                patches[t].records[node][1] += weight * force[1];
-              });
+        for (const auto& batch : grid_.batches(t)) {
+          const auto place = mpm::place_of(grid_, particles_, batch);
+          const auto stencil =
+              mpm::make_stencil<decltype(shape)>(grid_, batch, place, Lanes<double>(0.25), model_.sides);
+          mpm::Contribution<2, double, 2> force;
+          for (std::size_t a = 0; a < 2; ++a) {
+            force.value[a] = Lanes<double>::of([&](std::size_t lane) {
+              const std::uint32_t p = batch.particle[lane];
+              return particles_.mass(p) * body_force(start(p))[static_cast<int>(a)];
+            });
+          }
+          add_to_nodes<mpm::no_flux>(stencil, batch.count, force, patches[t]);
         }
       }
     });
