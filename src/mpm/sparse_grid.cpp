@@ -212,9 +212,12 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
     Vector<Lanes<Real>, Dim> before_nearest, corner;
     for (int a = 0; a < Dim; ++a) {
       auto& nearest = batch.nearest[static_cast<std::size_t>(a)];
-      for (std::size_t lane = 0; lane < most; ++lane) {
-        const std::size_t p = batch.particle[lane];
-        nearest[lane] = nearest_[in_nearest<Dim, Real>(p, static_cast<std::size_t>(a))];
+      if (batch.whole) {
+        std::copy_n(&nearest_[in_nearest<Dim, Real>(batch.particle[0], static_cast<std::size_t>(a))], most,
+                    nearest.begin());
+      }
+      for (std::size_t lane = 0; !batch.whole && lane < most; ++lane) {
+        nearest[lane] = nearest_[in_nearest<Dim, Real>(batch.particle[lane], static_cast<std::size_t>(a))];
       }
       before_nearest[a] = Lanes<Real>::load_whole(nearest.data()) - Real(1);
       corner[a] = floor(particles.position.load(batch, a) * inverse_cell_);
