@@ -92,8 +92,7 @@ template <int Dim, class Real>
 Lanes<Real> ColumnsOfTile<Dim, Real>::flow_depth(const mpm::Particles<Dim, Real>& particles,
                                                  const mpm::Batch<Real>& batch) const {
   const Lanes<Real> height = particles.position.load(batch, Dim - 1);
-  const auto in_band =
-      Lanes<Real>::of([&](std::size_t lane) { return particles.in_band(batch.particle[lane]); }) > Real(0);
+  const auto in_band = particles.in_band.load_whole(batch) > Real(0);
   const bool any_in_band = any(in_band);
   Lanes<Real> depth = Real(0);
   for_columns<Dim>(

@@ -16,18 +16,15 @@ namespace {
 template <int Dim, class Real, class Stencil>
 Lanes<Real> advected_heat(const BandModel<Dim, Real>& model, const Stencil& stencil,
                           const mpm::Patch<Dim, Real, 3>& state, const Vector<Lanes<Real>, Dim>& temperature_gradient,
-                          const mpm::Batch<Real>& batch, const mpm::Particles<Dim, Real>& particles) {
-  const Lanes<Real> zero = Real(0);
-  const auto melted = particles.temperature.load(batch) >= model.reference_temperature;
-  if (!(model.advection && model.seepage && model.thermal_pressurization) || !any(melted)) {
-    return zero;
-  }
+                          const LaneMask<Real>& melted, const mpm::Batch<Real>& batch,
+                          const mpm::Particles<Dim, Real>& particles) {
   const Vector<Lanes<Real>, Dim> pressure_gradient = gradient_of(read_nodes<1>(stencil, state, 1), 0);
   const Lanes<Real> mobility =
       particles.thermal_scaling.load(batch) * model.hydraulic(particles, batch) / model.phases.water_unit_weight;
   const Real capacity = model.phases.water_density * model.phases.water_heat_capacity;
   return select(melted,
-                particles.volume.load(batch) * capacity * mobility * pressure_gradient.dot(temperature_gradient), zero);
+                particles.volume.load(batch) * capacity * mobility * pressure_gradient.dot(temperature_gradient),
+                Lanes<Real>(Real(0)));
 }
 
 // What a batch adds to the records of HeatNodes::rates.
@@ -59,7 +56,10 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 4> heat_flows(const mpm::Sp
   }
   particles.secant_capacity.store(batch, tangent);
   particles.conduction_in_cell.store(batch, in_cell);
-  carried.value[1] = advected_heat(model, stencil, state, gradient, batch, particles);
+  const auto melted = particles.temperature.load(batch) >= model.reference_temperature;
+  if (model.advection && model.seepage && model.thermal_pressurization && any(melted)) {
+    carried.value[1] = advected_heat(model, stencil, state, gradient, melted, batch, particles);
+  }
   carried.value[2] = capacity;
   carried.value[3] = capacity * in_cell;
   return carried;
@@ -95,17 +95,35 @@ THAWSLIDE_ALWAYS_INLINE Lanes<Real> change_of_temperature(const mpm::BatchStenci
   return particles.conduction_in_cell.load(batch) + dt * mpm::read_nodes<1>(stencil, state, 2).value[0];
 }
 
+// Whether some particle's temperature in a tile may change by more than drowns in round-off.
+template <int Dim, class Real, class Law>
+bool temperatures_change(const std::vector<mpm::TileBatch<Dim, Real>>& batches, const Law& law, Real dt,
+                         const mpm::Patch<Dim, Real, 3>& state, const mpm::Particles<Dim, Real>& particles) {
+  const auto half_drowns = [&](auto change) { return law.content.drowns_in_round_off(Real(2) * change); };
+  return !std::all_of(state.records.begin(), state.records.end(),
+                      [&](const auto& node) { return half_drowns(dt * node[2]); }) ||
+         std::any_of(batches.begin(), batches.end(),
+                     [&](const auto& batch) { return any(!half_drowns(particles.conduction_in_cell.load(batch))); });
+}
+
 // Secant capacity along the predicted change, to particles and, not yet summed, to nodes: with it the sum of what
-// particles take equals what nodes give.
+// particles take equals what nodes give. Where no temperature changes it is the tangent, which particles and the
+// patches of work.rates still hold.
 template <int Dim, class Real, class Law>
 void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real dt,
                              HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
-  const auto patches = work.capacity.patches(grid.tiles().size());
+  const auto patches = work.rates.patches(grid.tiles().size());
+  work.changing_tiles.resize(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
-    auto& patch = patches[t];
-    patch.clear();
     mpm::Patch<Dim, Real, 3> state;
     load_patch(grid, t, work.state, state);
+    const bool changes = temperatures_change(grid.batches(t), law, dt, state, particles);
+    work.changing_tiles[t] = changes ? 1 : 0;
+    if (!changes) {
+      return;
+    }
+    auto& patch = patches[t];
+    patch.clear();
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto stencil = hat_stencil(grid, particles, batch);
       const Lanes<Real> change = change_of_temperature(stencil, state, dt, batch, particles);
@@ -115,12 +133,13 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
         secant = select(drowns, secant, law.secant(batch, change));
         particles.secant_capacity.store(batch, secant);
       }
-      mpm::Contribution<Dim, Real, 2> carried;
-      carried.value[0] = particles.initial_volume.load(batch) / particles.thermal_scaling.load(batch) * secant;
-      carried.value[1] = carried.value[0] * particles.conduction_in_cell.load(batch);
+      mpm::Contribution<Dim, Real, 4> carried;
+      carried.value[2] = particles.initial_volume.load(batch) / particles.thermal_scaling.load(batch) * secant;
+      carried.value[3] = carried.value[2] * particles.conduction_in_cell.load(batch);
       add_to_nodes<mpm::no_flux>(stencil, batch.count, carried, patch);
     }
   });
+  grid.mark_blocks_about(work.changing_tiles, work.changing_blocks);
 }
 
 // What particles get of the heat of nodes without hat weight [W/kg], by the weight of their momentum there.
@@ -208,19 +227,27 @@ Real count_masses_anew(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, m
 }
 
 // Eq. 18 for the heat content: the gain goes into the particle's account, and its temperature follows.
-template <int Dim, class Real, class Law>
+template <int Dim, class Real, class Law, class SumRates>
 HeatGain<Real> update_heat_content(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                                    const Law& law, Real dt, bool first_step, const mpm::Nodes<Dim, Real>& nodes,
-                                   HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
+                                   const SumRates& sum_rates, HeatNodes<Dim, Real>& work,
+                                   mpm::Particles<Dim, Real>& particles) {
   const auto with_tangent = [&](std::size_t b, std::size_t k) {
     return std::pair(work.rates(b, k)[2], work.rates(b, k)[3]);
   };
   const auto with_secant = [&](std::size_t b, std::size_t k) {
-    return std::pair(work.capacity(b, k)[0], work.capacity(b, k)[1]);
+    const auto& stored = work.changing_blocks[b] != 0 ? work.capacity(b, k) : work.rates(b, k);
+    return std::pair(stored[2], stored[3]);
   };
-  solve_rates(grid, model, dt, first_step, nodes, work.rates, with_tangent, work);
+  const auto sum_secant = [&](std::size_t b) {
+    if (work.changing_blocks[b] != 0) {
+      sum_patches_in_block(grid, b, work.rates.patches(grid.tiles().size()), work.capacity);
+    }
+  };
+  solve_rates(grid, model, dt, first_step, nodes, sum_rates, with_tangent, work);
   secant_capacity_to_grid(grid, law, dt, work, particles);
-  const HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, work.capacity, with_secant, work);
+  work.capacity.resize(grid.blocks().size());
+  const HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, sum_secant, with_secant, work);
   heat_to_particles(grid, model, law, dt, work, particles, [&](const mpm::Batch<Real>& batch, Lanes<Real> taken) {
     const Lanes<Real> before = particles.heat_content.load(batch);
     const Lanes<Real> heat_content = before + taken;
@@ -238,12 +265,13 @@ HeatGain<Real> update_heat_content(const mpm::SparseGrid<Dim, Real>& grid, const
 
 // Eqs. 18 and 19 as printed: the old apparent capacity turns heat into a change of temperature. The heat a particle
 // then holds is not what it was given; the difference is counted.
-template <int Dim, class Real, class Law>
+template <int Dim, class Real, class Law, class SumRates>
 HeatGain<Real> update_temperature(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                                   const Law& law, Real dt, bool first_step, const mpm::Nodes<Dim, Real>& nodes,
-                                  HeatNodes<Dim, Real>& work, mpm::Particles<Dim, Real>& particles) {
+                                  const SumRates& sum_rates, HeatNodes<Dim, Real>& work,
+                                  mpm::Particles<Dim, Real>& particles) {
   const auto with_tangent = [&](std::size_t b, std::size_t k) { return std::pair(work.rates(b, k)[2], Real(0)); };
-  HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, work.rates, with_tangent, work);
+  HeatGain<Real> gain = solve_rates(grid, model, dt, first_step, nodes, sum_rates, with_tangent, work);
   heat_to_particles(grid, model, law, dt, work, particles, [&](const mpm::Batch<Real>& batch, Lanes<Real> taken) {
     // The secant capacity still is the tangent.
     particles.temperature.store(batch,
@@ -270,9 +298,13 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
   return with_particle_heat(model, particles, [&](const auto& law) {
     const Real from_porosity = model.current_masses ? count_masses_anew(grid, law, particles) : Real(0);
     flows_to_grid(grid, model, law, dt, model.secant_capacity && !first_step, particles, work);
+    work.rates.resize(grid.blocks().size());
+    const auto sum_rates = [&](std::size_t b) {
+      sum_patches_in_block(grid, b, work.rates.patches(grid.tiles().size()), work.rates);
+    };
     HeatGain<Real> gain = model.secant_capacity
-                              ? update_heat_content(grid, model, law, dt, first_step, nodes, work, particles)
-                              : update_temperature(grid, model, law, dt, first_step, nodes, work, particles);
+                              ? update_heat_content(grid, model, law, dt, first_step, nodes, sum_rates, work, particles)
+                              : update_temperature(grid, model, law, dt, first_step, nodes, sum_rates, work, particles);
     gain.porosity = from_porosity;
     return gain;
   });

@@ -1,7 +1,10 @@
 // Heat on the grid (Eqs. 9, 18-20), with the shear band scaling of Sec. 2.3: as if the grid were xi times finer.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "band/model.hpp"
 #include "mpm/nodes.hpp"
@@ -22,13 +25,14 @@ struct HeatGain {
 // Records of the heat stage at a node.
 template <int Dim, class Real>
 struct HeatNodes {
-  explicit HeatNodes(const std::shared_ptr<mpm::PatchRoom>& room) : rates(room), capacity(room) {}
+  explicit HeatNodes(const std::shared_ptr<mpm::PatchRoom>& room) : rates(room) {}
 
   mpm::NodeRecords<Dim, Real, 4> rates;     // heat flow in [W], advection [W], capacity [J/K], levelled in cells [J]
-  mpm::NodeRecords<Dim, Real, 2> capacity;  // with the secant capacity: [J/K], levelled in cells [J]
+  mpm::NodeRecords<Dim, Real, 4> capacity;  // the last two, with the secant capacity, where temperatures change
   mpm::NodeRecords<Dim, Real, 3> state;     // temperature [C], pore pressure [Pa], rate of temperature [K/s]
   mpm::NodeRecords<Dim, Real, 1> orphan;    // friction heat of nodes without hat weight, per mass [W/kg]
   bool any_orphan = false;
+  std::vector<std::uint8_t> changing_tiles, changing_blocks;  // where temperatures change
 };
 
 // Heat content, temperature and saturation of all particles after dt; work.state must hold what average_on_grid made of

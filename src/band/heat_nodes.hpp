@@ -55,18 +55,18 @@ void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim,
 }
 
 // The nodal rate of temperature with what `stored_at` gives: the capacity, and the heat that particles took by
-// levelling within cells; friction heat and face conditions come in here. summed: records whose patches are summed
-// first.
-template <int Dim, class Real, int Components, class StoredAt>
+// levelling within cells; friction heat and face conditions come in here. sum_block(b) comes first and makes the sums
+// of a block that stored_at reads.
+template <int Dim, class Real, class SumBlock, class StoredAt>
 HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                           bool first_step, const mpm::Nodes<Dim, Real>& nodes,
-                           mpm::NodeRecords<Dim, Real, Components>& summed, const StoredAt& stored_at,
-                           HeatNodes<Dim, Real>& work) {
+                           bool first_step, const mpm::Nodes<Dim, Real>& nodes, const SumBlock& sum_block,
+                           const StoredAt& stored_at, HeatNodes<Dim, Real>& work) {
   std::vector<HeatGain<Real>> gains(grid.blocks().size());
   std::vector<std::uint8_t> orphans(grid.blocks().size(), 0);
   work.orphan.resize(grid.blocks().size());
   const bool has_faces = any_face_condition(model);
-  sum_patches(grid, summed, [&](std::size_t b) {
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    sum_block(b);
     HeatGain<Real>& gain = gains[b];
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       const auto& rates = work.rates(b, k);

@@ -14,8 +14,9 @@ namespace {
 using mpm::HatLayout;
 
 template <int Dim, class Real>
-LaneMask<Real> melted_before(const BandModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
-                             const mpm::Batch<Real>& batch) {
+THAWSLIDE_ALWAYS_INLINE LaneMask<Real> melted_before(const BandModel<Dim, Real>& model,
+                                                     const mpm::Particles<Dim, Real>& particles,
+                                                     const mpm::Batch<Real>& batch) {
   return particles.previous_temperature.load(batch) >= model.reference_temperature;
 }
 
@@ -96,7 +97,8 @@ bool find_seepage(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     const auto& batches = grid.batches(t);
     const auto seeps = [&](const mpm::Batch<Real>& batch) {
-      return any(melted_before(model, particles, batch) & (model.hydraulic(particles, batch) > Real(0)));
+      const auto melted = melted_before(model, particles, batch);
+      return any(melted) && any(melted & (model.hydraulic(particles, batch) > Real(0)));
     };
     work.seeping_tiles[t] = std::any_of(batches.begin(), batches.end(), seeps) ? 1 : 0;
   });

@@ -12,56 +12,87 @@ constexpr double trial_seconds = 0.02;  // some time slices of the operating sys
 constexpr std::int64_t trial_steps = 2;
 constexpr double first_pause = 0.1, longest_pause = 4;   // [s] between challenges, where steps are short
 constexpr double first_trials = 5, trials_between = 50;  // at least as many times a trial's length, where they are long
-constexpr double worth_it = 1.05;                        // a challenger must be faster by as much, since trials scatter
-constexpr double slowed_down = 0.7;                      // of the speed of the trial before: something has changed
+constexpr int most_rounds = 3;  // single trials on a busy machine scatter by half, so a challenger must win in all
+constexpr double hopeless = 0.8, worth_it = 1.05;  // times the speed of the best
+constexpr double slowed_down = 0.7;                // of the usual speed: something has changed
+constexpr int few_slow_trials = 3;
+constexpr double memory = 0.8;  // of the usual speed, a trial
 
 }  // namespace
 
 ThreadChoice::ThreadChoice(int most, double now)
-    : most_(most), best_(most), threads_(most), trial_begin_(now), pause_(first_pause), next_challenge_(now) {
+    : most_(most),
+      best_(most),
+      threads_(most),
+      challenger_(most),
+      trial_begin_(now),
+      pause_(first_pause),
+      next_challenge_(now) {
   THAWSLIDE_ASSERT(most >= 1, "{} threads", most);
 }
 
 int ThreadChoice::after_step(double now) {
   ++steps_;
-  const double length = now - trial_begin_;
-  if (most_ > 1 && steps_ >= trial_steps && length >= trial_seconds) {
-    end_trial(static_cast<double>(steps_) / length, length, now);
+  const double seconds = now - trial_begin_;
+  if (most_ > 1 && steps_ >= trial_steps && seconds >= trial_seconds) {
+    end_trial(static_cast<double>(steps_), seconds, now);
     trial_begin_ = now;
     steps_ = 0;
   }
   return threads_;
 }
 
-void ThreadChoice::end_trial(double speed, double length, double now) {
+void ThreadChoice::end_trial(double steps, double seconds, double now) {
   if (is_cold_) {  // memory was touched for the first time
     is_cold_ = false;
-    return;
-  }
-  if (threads_ != best_) {
-    const bool won = speed > worth_it * speed_of_best_;
-    threads_ = best_ = won ? threads_ : best_;
-    speed_of_best_ = won ? speed : speed_of_best_;
-    pause_ = won ? first_pause : std::min(2 * pause_, longest_pause);
-    next_challenge_ = now + std::max(pause_, (won ? first_trials : trials_between) * length);
-    return;
-  }
-  const bool slower = speed < slowed_down * speed_of_best_;
-  speed_of_best_ = speed;
-  if (slower || now >= next_challenge_) {
-    challenge();
+  } else if (challenger_ == best_) {
+    watch_best(steps, seconds, now);
+  } else {
+    go_on_with_challenge(steps, seconds, now);
   }
 }
 
-// One thread fewer or more, half or twice as many, in turn.
-void ThreadChoice::challenge() {
-  const int challengers[] = {best_ - 1, best_ + 1, best_ / 2, 2 * best_};
-  for (int k = 0; k < 4 && threads_ == best_; ++k) {
-    const int challenger = challengers[next_challenger_++ % 4];
-    if (challenger >= 1 && challenger <= most_) {
-      threads_ = challenger;
-    }
+void ThreadChoice::watch_best(double steps, double seconds, double now) {
+  const double speed = steps / seconds;
+  slow_trials_ = speed < slowed_down * usual_speed_ ? slow_trials_ + 1 : 0;
+  usual_speed_ = usual_speed_ > 0 ? memory * usual_speed_ + (1 - memory) * speed : speed;
+  if (slow_trials_ >= few_slow_trials || now >= next_challenge_) {
+    slow_trials_ = 0;
+    rounds_ = 0;
+    of_best_ = of_challenger_ = {};
+    of_best_.add(steps, seconds);
+    threads_ = challenger_ = next_challenger();
   }
+}
+
+// Best and challenger take turns.
+void ThreadChoice::go_on_with_challenge(double steps, double seconds, double now) {
+  if (threads_ == best_) {
+    of_best_.add(steps, seconds);
+    threads_ = challenger_;
+    return;
+  }
+  of_challenger_.add(steps, seconds);
+  const bool loses = of_challenger_.speed() < hopeless * of_best_.speed();
+  if (++rounds_ < most_rounds && !loses) {
+    threads_ = best_;
+    return;
+  }
+  const bool won = of_challenger_.speed() > worth_it * of_best_.speed();
+  usual_speed_ = (won ? of_challenger_ : of_best_).speed();
+  threads_ = best_ = challenger_ = won ? challenger_ : best_;
+  pause_ = won ? first_pause : std::min(2 * pause_, longest_pause);
+  next_challenge_ = now + std::max(pause_, (won ? first_trials : trials_between) * seconds);
+}
+
+// One thread fewer or more, half or twice as many, in turn.
+int ThreadChoice::next_challenger() {
+  const int challengers[] = {best_ - 1, best_ + 1, best_ / 2, 2 * best_};
+  int challenger = best_;
+  while (challenger == best_ || challenger < 1 || challenger > most_) {
+    challenger = challengers[next_challenger_++ % 4];
+  }
+  return challenger;
 }
 
 }  // namespace thawslide

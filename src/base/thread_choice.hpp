@@ -17,17 +17,34 @@ class ThreadChoice {
   [[nodiscard]] int threads() const { return threads_; }
 
  private:
-  void end_trial(double speed, double length, double now);
-  void challenge();
+  // What trials on some number of threads have brought.
+  struct Tally {
+    double steps = 0, seconds = 0;
+
+    void add(double more_steps, double more_seconds) {
+      steps += more_steps;
+      seconds += more_seconds;
+    }
+    [[nodiscard]] double speed() const { return steps / seconds; }
+  };
+
+  void end_trial(double steps, double seconds, double now);
+  void watch_best(double steps, double seconds, double now);
+  void go_on_with_challenge(double steps, double seconds, double now);
+  [[nodiscard]] int next_challenger();
 
   int most_;
-  int best_;     // of the trials so far
-  int threads_;  // in force: the best or its challenger
+  int best_;        // so far
+  int threads_;     // in force: the best or its challenger
+  int challenger_;  // the best where there is none
   int next_challenger_ = 0;
-  double speed_of_best_ = 0;  // [steps/s] in its last trial
+  Tally of_best_, of_challenger_;  // in this challenge
+  double usual_speed_ = 0;         // of the best [steps/s], its last trials counting most
+  int slow_trials_ = 0;            // of the best, one after another
   double trial_begin_;
   std::int64_t steps_ = 0;  // of this trial
   bool is_cold_ = true;     // the first trial does not count
+  int rounds_ = 0;          // of this challenge
   double pause_, next_challenge_;
 };
 

@@ -1,10 +1,10 @@
 // Prescribed motion at nodes: boundaries of the domain (fixed, roller, open) and rigid frames that move (Sec. 3.2).
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
-#include "base/linear.hpp"
-#include "base/portability.hpp"
+#include "mpm/nodes.hpp"
 
 namespace thawslide::mpm {
 
@@ -29,8 +29,9 @@ struct Constraints {
     apply_faces(position, momentum);
     bool in_frame = false;
     for (const RigidFrame<Dim, Real>& frame : frames) {
-      Vector<Real, Dim> place = position;
-      place[frame.axis] -= frame.velocity * time;
+      Vector<Real, Dim> shift = Vector<Real, Dim>::Zero();
+      shift[frame.axis] = frame.velocity * time;
+      const Vector<Real, Dim> place = position - shift;
       if ((place.array() >= frame.lower.array()).all() && (place.array() <= frame.upper.array()).all()) {
         momentum[frame.axis] = mass * frame.velocity;
         in_frame = true;
@@ -39,12 +40,31 @@ struct Constraints {
     return in_frame;
   }
 
+  // Whether apply might set anything at positions between two corners.
+  [[nodiscard]] bool may_apply(const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper, Real time) const {
+    for (int a = 0; a < Dim; ++a) {
+      if ((at_lower(lower[a], a) && faces[2 * a] != FaceKind::open) ||
+          (at_upper(upper[a], a) && faces[2 * a + 1] != FaceKind::open)) {
+        return true;
+      }
+    }
+    return std::any_of(frames.begin(), frames.end(), [&](const RigidFrame<Dim, Real>& frame) {
+      Vector<Real, Dim> shift = Vector<Real, Dim>::Zero();
+      shift[frame.axis] = frame.velocity * time;
+      return ((upper - shift).array() >= frame.lower.array()).all() &&
+             ((lower - shift).array() <= frame.upper.array()).all();
+    });
+  }
+
  private:
+  [[nodiscard]] bool at_lower(Real along, int a) const { return along <= round_off<Real> * extent[a]; }
+  [[nodiscard]] bool at_upper(Real along, int a) const { return along >= extent[a] * (Real(1) - round_off<Real>); }
+
   void apply_faces(const Vector<Real, Dim>& position, Vector<Real, Dim>& momentum) const {
     for (int a = 0; a < Dim; ++a) {
-      const bool at_lower = position[a] <= round_off<Real> * extent[a];
-      const bool at_upper = position[a] >= extent[a] * (Real(1) - round_off<Real>);
-      const FaceKind kind = at_lower ? faces[2 * a] : at_upper ? faces[2 * a + 1] : FaceKind::open;
+      const FaceKind kind = at_lower(position[a], a)   ? faces[2 * a]
+                            : at_upper(position[a], a) ? faces[2 * a + 1]
+                                                       : FaceKind::open;
       if (kind == FaceKind::fixed) {
         momentum.setZero();
       } else if (kind == FaceKind::roller) {
@@ -52,6 +72,33 @@ struct Constraints {
       }
     }
   }
+};
+
+// The constraints on the nodes of one block: on most blocks, none.
+template <int Dim, class Real>
+class BlockConstraints {
+ public:
+  BlockConstraints(const SparseGrid<Dim, Real>& grid, const Constraints<Dim, Real>& constraints, std::size_t block,
+                   Real time)
+      : grid_(&grid),
+        constraints_(&constraints),
+        block_(block),
+        time_(time),
+        any_(constraints.may_apply(node_position(grid, block, 0),
+                                   node_position(grid, block, static_cast<std::size_t>(Tile<Dim>::nodes) - 1), time)) {}
+
+  [[nodiscard]] bool any() const { return any_; }
+  // Constraints::apply at a node of the block.
+  bool apply(std::size_t node, Real mass, Vector<Real, Dim>& momentum) const {
+    return any_ && constraints_->apply(node_position(*grid_, block_, node), mass, time_, momentum);
+  }
+
+ private:
+  const SparseGrid<Dim, Real>* grid_;
+  const Constraints<Dim, Real>* constraints_;
+  std::size_t block_;
+  Real time_;
+  bool any_;
 };
 
 }  // namespace thawslide::mpm

@@ -103,6 +103,25 @@ class Field final : public FieldBase {
       (*this)(batch.particle[lane], component) = values[lane];
     }
   }
+  // One value for all particles of a batch.
+  template <class Real>
+  THAWSLIDE_ALWAYS_INLINE void fill(const Batch<Real>& batch, T value) {
+    if (batch.whole) {
+      std::fill_n(&(*this)(batch.particle[0]), Batch<Real>::most, value);
+      return;
+    }
+    for (std::size_t lane = 0; lane < batch.count; ++lane) {
+      (*this)(batch.particle[lane]) = value;
+    }
+  }
+  // Whole numbers, as lanes of a real type.
+  template <class Real>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<Real> load_whole(const Batch<Real>& batch) const {
+    if (batch.whole) {
+      return Lanes<Real>::load_whole(&(*this)(batch.particle[0]));
+    }
+    return Lanes<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
+  }
   // Whole vectors and tensors.
   template <int Size>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Vector<Lanes<T>, Size> load_vector(const Batch<T>& batch) const {

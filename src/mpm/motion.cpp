@@ -223,7 +223,6 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
       kinetic[t] = move_tile<decltype(shape)>(grid, t, model, transfer, dt, motion, particles, patches[t]);
     });
   });
-  sum_patches(grid, nodes.velocity);
   MoveWork<Real> sum;
   for (const Real energy : kinetic) {
     sum.particle_kinetic += energy;
@@ -261,26 +260,25 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
     const std::size_t last = std::min(particles.size(), (task + 1) * chunk);
     for (std::size_t p = task * chunk; p < last; p += Batch<Real>::most) {
       const auto batch = batch_in_memory<Real>(p, last);
-      const LanesVector step = particles.step_displacement.template load_vector<Dim>(batch);
+      LanesVector step = particles.step_displacement.template load_vector<Dim>(batch);
       const LanesVector old = particles.position.template load_vector<Dim>(batch);
-      const LanesVector position = old + step;
       // Not a number is in no range.
       const Lanes<Real> state =
           particles.temperature.load(batch) + particles.pore_pressure.load(batch) + particles.stress.load(batch);
       auto well = abs(state) <= Lanes<Real>(std::numeric_limits<Real>::max());
       for (int a = 0; a < Dim; ++a) {
-        well = well & (position[a] >= Real(0)) & (position[a] <= extent[a]);
+        well = well & (old[a] + step[a] >= Real(0)) & (old[a] + step[a] <= extent[a]);
       }
       if (any(!well)) {
         note_faults(particles, batch, well, bads[task]);
+        for (int a = 0; a < Dim; ++a) {
+          step[a] = select(well, step[a], Lanes<Real>(Real(0)));
+        }
       }
-      for (int a = 0; a < Dim; ++a) {
-        particles.position.store(batch, select(well, position[a], old[a]), a);
-        const Lanes<Real> displacement = particles.displacement.load(batch, a);
-        particles.displacement.store(batch, select(well, displacement + step[a], displacement), a);
-      }
-      const Lanes<Real> path = particles.path_length.load(batch);
-      particles.path_length.store(batch, select(well, path + sqrt(step.squaredNorm()), path));
+      particles.position.store_vector(batch, LanesVector(old + step));
+      particles.displacement.store_vector(batch,
+                                          LanesVector(particles.displacement.template load_vector<Dim>(batch) + step));
+      particles.path_length.store(batch, particles.path_length.load(batch) + sqrt(step.squaredNorm()));
     }
   });
   for (const BadParticle& one : bads) {

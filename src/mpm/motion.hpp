@@ -114,7 +114,8 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes);
 
 // New velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with the sum sign it lost) from node motion;
-// then the moved particles' momentum back to the nodes (MUSL). The displacement takes effect in take_new_positions.
+// then the moved particles' momentum to the patches of nodes.velocity (MUSL), not yet summed. The displacement takes
+// effect in take_new_positions.
 template <int Dim, class Real>
 MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                               const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes);

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t keys_per_task = 1024;
 constexpr std::int32_t never = std::numeric_limits<std::int32_t>::min();  // the number of a nearest node
+constexpr std::uint64_t no_key = ~std::uint64_t{0};
+constexpr std::size_t none = ~std::size_t{0};
 
 template <int Dim>
 typename Tile<Dim>::Index neighbour(const typename Tile<Dim>::Index& tile, int direction) {
@@ -52,50 +54,59 @@ BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Di
 
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval) {
-  const std::size_t count = particles.size();
-  const bool first_call = order_.size() != count;
+  const bool first_call = order_.size() != particles.size();
   if (first_call) {
-    keys_.assign(count, ~std::uint64_t{0});
-    moved_.assign(count + Batch<Real>::most, 0);
-    forget_nearest(count);
-    one_material_ = true;
-    for (std::size_t p = 0; p < count; ++p) {
-      one_material_ = one_material_ && particles.material(p) == particles.material(0);
-    }
-    order_.resize(count);
-    std::iota(order_.begin(), order_.end(), 0u);
+    start(particles);
   }
-  const bool any_moved = compute_keys(particles);
-  if (any_moved) {
+  blocks_changed_ = false;
+  stale_.assign(tiles_.size(), 0);
+  if (compute_keys(particles)) {
     merge_moved(particles);
   }
   if (first_call || ++calls_ >= interval) {
     calls_ = 0;
-    particles.reorder(order_);
-    std::vector<std::uint64_t> keys(count);
-    std::vector<std::int32_t> nearest(nearest_.size(), never);
-    for (std::size_t k = 0; k < count; ++k) {
-      keys[k] = keys_[order_[k]];
-      for (std::size_t a = 0; a < Dim; ++a) {
-        nearest[in_nearest<Dim, Real>(k, a)] = nearest_[in_nearest<Dim, Real>(order_[k], a)];
-      }
-    }
-    keys_.swap(keys);
-    nearest_.swap(nearest);
-    std::iota(order_.begin(), order_.end(), 0u);
-  }
-  blocks_changed_ = false;
-  if (any_moved || first_call) {
-    find_tiles();
+    reorder(particles);
   }
   batches_.resize(tiles_.size());
-  parallel_for(tiles_.size(), [&](std::size_t t) { make_batches(particles, t); });
+  parallel_for(tiles_.size(), [&](std::size_t t) {
+    if (stale_[t] != 0) {
+      make_batches(particles, t);
+    }
+    find_hats(particles, t);
+  });
 }
 
-// The next keys are computed whether or not particles have moved.
+// All particles are new.
 template <int Dim, class Real>
-void SparseGrid<Dim, Real>::forget_nearest(std::size_t count) {
+void SparseGrid<Dim, Real>::start(const Particles<Dim, Real>& particles) {
+  const std::size_t count = particles.size();
+  keys_.assign(count, no_key);
+  moved_.assign(count + Batch<Real>::most, 0);
   nearest_.assign((count + Batch<Real>::most) * Dim, never);
+  order_.resize(count);
+  tiles_.clear();
+  one_material_ = true;
+  for (std::size_t p = 0; p < count; ++p) {
+    one_material_ = one_material_ && particles.material(p) == particles.material(0);
+  }
+}
+
+// Particles move in memory to stand in canonical order.
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
+  particles.reorder(order_);
+  std::vector<std::uint64_t> keys(keys_.size());
+  std::vector<std::int32_t> nearest(nearest_.size(), never);
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    keys[k] = keys_[order_[k]];
+    for (std::size_t a = 0; a < Dim; ++a) {
+      nearest[in_nearest<Dim, Real>(k, a)] = nearest_[in_nearest<Dim, Real>(order_[k], a)];
+    }
+  }
+  keys_.swap(keys);
+  nearest_.swap(nearest);
+  std::iota(order_.begin(), order_.end(), 0u);
+  std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
 }
 
 // Most particles have the nearest node that they had before, and nothing to do.
@@ -103,53 +114,144 @@ template <int Dim, class Real>
 bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) {
   const std::size_t count = particles.size();
   const std::size_t tasks = (count + keys_per_task - 1) / keys_per_task;
-  std::vector<std::uint8_t> task_moved(tasks, 0);
+  task_movers_.resize(tasks);
   parallel_for(tasks, [&](std::size_t task) {
+    constexpr std::size_t most = Batch<Real>::most;
     const std::size_t last = std::min(count, (task + 1) * keys_per_task);
-    for (std::size_t first = task * keys_per_task; first < last; first += Batch<Real>::most) {
+    task_movers_[task].clear();
+    for (std::size_t first = task * keys_per_task; first < last; first += most) {
       const auto batch = batch_in_memory<Real>(first, last);
-      constexpr std::size_t most = Batch<Real>::most;
       std::int32_t nearest[Dim * most];
       for (int a = 0; a < Dim; ++a) {
         floor(particles.position.load(batch, a) * inverse_cell_ + Real(0.5))
             .store_whole(nearest + static_cast<std::size_t>(a) * most);
       }
       std::fill_n(&moved_[first], most, std::uint8_t{0});
-      if (std::memcmp(nearest, &nearest_[first * Dim], sizeof nearest) == 0) {
-        continue;
-      }
-      std::copy_n(nearest, Dim * most, &nearest_[first * Dim]);
-      for (std::size_t lane = 0; lane < batch.count; ++lane) {
-        Index node{}, tile{};
-        int local = 0;
-        for (std::size_t a = 0; a < Dim; ++a) {
-          node[a] = nearest[a * most + lane];
-        }
-        T::split(node, tile, local);
-        const std::uint64_t key = (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
-        const std::size_t p = first + lane;
-        moved_[p] = key != keys_[p] ? 1 : 0;
-        keys_[p] = key;
-        task_moved[task] |= moved_[p];
+      if (std::memcmp(nearest, &nearest_[first * Dim], sizeof nearest) != 0) {
+        std::copy_n(nearest, Dim * most, &nearest_[first * Dim]);
+        note_movers(first, batch.count, task_movers_[task]);
       }
     }
   });
-  return std::any_of(task_moved.begin(), task_moved.end(), [](std::uint8_t moved) { return moved != 0; });
+  movers_.clear();
+  for (const std::vector<Mover>& movers : task_movers_) {
+    movers_.insert(movers_.end(), movers.begin(), movers.end());
+  }
+  return !movers_.empty();
 }
 
-// Those that stayed are still in order; those that moved are sorted and merged in.
+// The keys of `count` particles from `first` on, from their nearest nodes.
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::note_movers(std::size_t first, std::size_t count, std::vector<Mover>& movers) {
+  for (std::size_t p = first; p < first + count; ++p) {
+    Index node{}, tile{};
+    int local = 0;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      node[a] = nearest_[in_nearest<Dim, Real>(p, a)];
+    }
+    T::split(node, tile, local);
+    const std::uint64_t key = (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
+    if (key != keys_[p]) {
+      movers.push_back({static_cast<std::uint32_t>(p), keys_[p] == no_key ? no_key : keys_[p] >> T::node_bits});
+      moved_[p] = 1;
+      keys_[p] = key;
+    }
+  }
+}
+
+// Those that stayed are still in order; those that moved are sorted and merged in, in the tiles that they came from and
+// went to.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
     return keys_[a] != keys_[b] ? keys_[a] < keys_[b] : particles.id(a) < particles.id(b);
   };
-  std::vector<std::uint32_t> movers;
-  spare_order_.clear();
-  for (const std::uint32_t p : order_) {
-    (moved_[p] != 0 ? movers : spare_order_).push_back(p);
+  std::sort(movers_.begin(), movers_.end(),
+            [&](const Mover& a, const Mover& b) { return before(a.particle, b.particle); });
+  count_leaving();
+  list_tiles();
+  former_order_.swap(order_);
+  order_.resize(former_order_.size());
+  parallel_for(tiles_.size(), [&](std::size_t t) {
+    const TileChange& change = changes_[t];
+    auto to = order_.begin() + tiles_[t].first;
+    auto mover = movers_.begin() + static_cast<std::ptrdiff_t>(change.first_mover);
+    const auto last_mover = movers_.begin() + static_cast<std::ptrdiff_t>(change.last_mover);
+    if (change.former != none) {
+      const OccupiedTile& former = former_tiles_[change.former];
+      const auto from = former_order_.begin() + former.first, end = former_order_.begin() + former.last;
+      if (!change.changed) {
+        std::copy(from, end, to);
+        return;
+      }
+      for (auto stayed = from; stayed != end; ++stayed) {
+        if (moved_[*stayed] != 0) {
+          continue;
+        }
+        for (; mover != last_mover && before(mover->particle, *stayed); ++mover) {
+          *to++ = mover->particle;
+        }
+        *to++ = *stayed;
+      }
+    }
+    for (; mover != last_mover; ++mover) {
+      *to++ = mover->particle;
+    }
+  });
+}
+
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::count_leaving() {
+  leaving_.assign(tiles_.size(), 0);
+  for (const Mover& mover : movers_) {
+    if (mover.former_tile != no_key) {
+      const auto tile = std::lower_bound(tiles_.begin(), tiles_.end(), mover.former_tile,
+                                         [](const OccupiedTile& a, std::uint64_t key) { return a.key < key; });
+      ++leaving_[static_cast<std::size_t>(tile - tiles_.begin())];
+    }
   }
-  std::sort(movers.begin(), movers.end(), before);
-  std::merge(spare_order_.begin(), spare_order_.end(), movers.begin(), movers.end(), order_.begin(), before);
+}
+
+// The tiles that hold particles now, from those that did and what the movers left and entered.
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::list_tiles() {
+  former_tiles_.swap(tiles_);
+  tiles_.clear();
+  changes_.clear();
+  bool same = true;
+  std::uint32_t placed = 0;
+  std::size_t former = 0, mover = 0;
+  const auto tile_of = [&](const Mover& one) { return keys_[one.particle] >> T::node_bits; };
+  while (former < former_tiles_.size() || mover < movers_.size()) {
+    const std::uint64_t key = std::min(former < former_tiles_.size() ? former_tiles_[former].key : no_key,
+                                       mover < movers_.size() ? tile_of(movers_[mover]) : no_key);
+    TileChange change{none, mover, mover, false};
+    std::uint32_t held = 0;
+    if (former < former_tiles_.size() && former_tiles_[former].key == key) {
+      held = former_tiles_[former].last - former_tiles_[former].first - leaving_[former];
+      change.changed = leaving_[former] > 0;
+      change.former = former++;
+    }
+    for (; mover < movers_.size() && tile_of(movers_[mover]) == key; ++mover) {
+      ++held;
+    }
+    change.last_mover = mover;
+    change.changed = change.changed || change.first_mover < change.last_mover;
+    same = same && change.former != none && held > 0;
+    if (held > 0) {
+      tiles_.push_back({key, placed, placed + held});
+      changes_.push_back(change);
+      placed += held;
+    }
+  }
+  stale_.resize(tiles_.size());
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    stale_[t] = !same || changes_[t].changed ? 1 : 0;
+  }
+  if (!same) {
+    connect_blocks();
+    blocks_changed_ = true;
+  }
 }
 
 template <int Dim, class Real>
@@ -160,25 +262,6 @@ void SparseGrid<Dim, Real>::mark_blocks_about(const std::vector<std::uint8_t>& t
     for (std::size_t d = 0; d < stencil && tiles[t] != 0; ++d) {
       blocks[static_cast<std::size_t>(blocks_about_tile(t)[d])] = 1;
     }
-  }
-}
-
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::find_tiles() {
-  tiles_.clear();
-  const std::vector<std::uint64_t> old_keys = std::move(tile_keys_);
-  tile_keys_.clear();
-  for (std::uint32_t k = 0; k < order_.size(); ++k) {
-    const std::uint64_t key = keys_[order_[k]] >> T::node_bits;
-    if (tiles_.empty() || tiles_.back().key != key) {
-      tiles_.push_back({key, k, k});
-      tile_keys_.push_back(key);
-    }
-    tiles_.back().last = k + 1;
-  }
-  if (tile_keys_ != old_keys) {
-    connect_blocks();
-    blocks_changed_ = true;
   }
 }
 
@@ -209,7 +292,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
     for (std::size_t lane = batch.count; lane < most; ++lane) {
       batch.particle[lane] = batch.particle[batch.count - 1];
     }
-    Vector<Lanes<Real>, Dim> before_nearest, corner;
+    Vector<Lanes<Real>, Dim> before_nearest;
     for (int a = 0; a < Dim; ++a) {
       auto& nearest = batch.nearest[static_cast<std::size_t>(a)];
       if (batch.whole) {
@@ -220,11 +303,20 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
         nearest[lane] = nearest_[in_nearest<Dim, Real>(batch.particle[lane], static_cast<std::size_t>(a))];
       }
       before_nearest[a] = Lanes<Real>::load_whole(nearest.data()) - Real(1);
-      corner[a] = floor(particles.position.load(batch, a) * inverse_cell_);
     }
     batch.nodes = nodes_from<Dim, Real>(tile.key, before_nearest);
-    batch.hats = nodes_from<Dim, Real>(tile.key, corner);
     batches.push_back(batch);
+  }
+}
+
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::find_hats(const Particles<Dim, Real>& particles, std::size_t t) {
+  for (TileBatch<Dim, Real>& batch : batches_[t]) {
+    Vector<Lanes<Real>, Dim> corner;
+    for (int a = 0; a < Dim; ++a) {
+      corner[a] = floor(particles.position.load(batch, a) * inverse_cell_);
+    }
+    batch.hats = nodes_from<Dim, Real>(tiles_[t].key, corner);
   }
 }
 

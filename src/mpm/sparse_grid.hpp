@@ -65,22 +65,41 @@ class SparseGrid {
  private:
   static constexpr std::size_t stencil = static_cast<std::size_t>(T::stencil);
 
-  void forget_nearest(std::size_t count);
+  // A particle that has another nearest node than at the last call, and the tile that it was in then.
+  struct Mover {
+    std::uint32_t particle;
+    std::uint64_t former_tile;
+  };
+  // What becomes of a tile: its former number, or none, and the movers it gets.
+  struct TileChange {
+    std::size_t former, first_mover, last_mover;
+    bool changed;  // some of its particles came, left or moved within
+  };
+
+  void start(const Particles<Dim, Real>& particles);
   bool compute_keys(const Particles<Dim, Real>& particles);
+  void note_movers(std::size_t first, std::size_t count, std::vector<Mover>& movers);
   void merge_moved(const Particles<Dim, Real>& particles);
-  void find_tiles();
+  void count_leaving();
+  void list_tiles();
+  void reorder(Particles<Dim, Real>& particles);
   void connect_blocks();
   void make_batches(const Particles<Dim, Real>& particles, std::size_t t);
+  void find_hats(const Particles<Dim, Real>& particles, std::size_t t);
 
   Real cell_, inverse_cell_;
   std::vector<std::uint64_t> keys_;    // by particle: tile key, then place in the tile
   std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: the nearest node
   bool one_material_ = true;
   std::vector<std::uint8_t> moved_;
-  std::vector<std::uint32_t> order_, spare_order_;
-  std::vector<OccupiedTile> tiles_;
+  std::vector<std::vector<Mover>> task_movers_;
+  std::vector<Mover> movers_;
+  std::vector<std::uint32_t> order_, former_order_;
+  std::vector<OccupiedTile> tiles_, former_tiles_;
+  std::vector<std::uint32_t> leaving_;                      // movers by former tile
+  std::vector<TileChange> changes_;                         // by tile
   std::vector<std::vector<TileBatch<Dim, Real>>> batches_;  // by tile
-  std::vector<std::uint64_t> tile_keys_;
+  std::vector<std::uint8_t> stale_;                         // by tile: its batches are to be made anew
   std::vector<std::uint64_t> blocks_;
   std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;
   bool blocks_changed_ = true;

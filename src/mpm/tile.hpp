@@ -52,6 +52,16 @@ struct Tile {
       local = local * edge + (i & (edge - 1));
     }
   }
+  // The node `shift` nodes further along an axis from the local node of a tile, |shift| < edge: the tile it lies in, by
+  // its direction from this one, and its place there.
+  struct Beside {
+    int direction, local;
+  };
+  static Beside beside(int local, int axis, int shift) {
+    const int along = ((local >> (axis * edge_bits)) & (edge - 1)) + shift;
+    const int tile = along >> edge_bits;  // rounds down
+    return {stencil / 2 + tile * power(3, axis), local + (shift - tile * edge) * power(edge, axis)};
+  }
   // Index of the local node of a tile.
   static Index node(const Index& tile, int local) {
     Index n{};

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "base/aligned.hpp"
@@ -137,28 +138,36 @@ THAWSLIDE_ALWAYS_INLINE void for_shared_nodes(const Visit& visit) {
   });
 }
 
-// Sums at the nodes of one block of what the patches of the tiles hold, always in the same order of tiles.
+// Sums at the nodes of one block of what the patches of the tiles hold, always in the same order: the block's own tile,
+// then those about it.
 template <int Dim, class Real, int Components>
 void sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
                           std::span<Patch<Dim, Real, Components>> patches, NodeRecords<Dim, Real, Components>& nodes) {
   using Record = typename NodeRecords<Dim, Real, Components>::Record;
   constexpr std::size_t size = std::tuple_size_v<Record>;
+  constexpr std::size_t own = static_cast<std::size_t>(Tile<Dim>::stencil) / 2;
   Record* records = &nodes(block, 0);
-  std::fill_n(records->data(), size * NodeRecords<Dim, Real, Components>::nodes, Real(0));
   const std::int32_t* tiles = grid.tiles_about_block(block);
-  for_each_direction<Dim>([&](auto d) {
-    if (tiles[d] == KeyIndex::absent) {
-      return;
-    }
+  // Calls visit(sums, parts) for each register of the records that the block shares with the tile in direction d.
+  const auto for_registers = [&](auto d, const auto& visit) THAWSLIDE_INLINE_LAMBDA {
     const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
-    const auto add_row = [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
-      Real* sums = records[in_block].data();
-      const Real* parts = patch.records[in_patch].data();
+    for_shared_rows<Dim, opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
       for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
-        (Lanes<Real>::load(sums + c) + Lanes<Real>::load(parts + c)).store(sums + c);
+        visit(records[in_block].data() + c, patch.records[in_patch].data() + c);
       }
-    };
-    for_shared_rows<Dim, opposite<Dim>(d)>(add_row);
+    });
+  };
+  if (tiles[own] == KeyIndex::absent) {
+    std::fill_n(records->data(), size * NodeRecords<Dim, Real, Components>::nodes, Real(0));
+  } else {
+    for_registers(std::integral_constant<std::size_t, own>(),
+                  [](Real* sums, const Real* parts) { Lanes<Real>::load(parts).store(sums); });
+  }
+  for_each_direction<Dim>([&](auto d) {
+    if (d != own && tiles[d] != KeyIndex::absent) {
+      for_registers(
+          d, [](Real* sums, const Real* parts) { (Lanes<Real>::load(sums) + Lanes<Real>::load(parts)).store(sums); });
+    }
   });
 }
 

@@ -19,15 +19,22 @@ struct CurveValues {
   Value saturation, derivative, integral;
 };
 
-// base^exponent; whole exponents up to 16, the usual ones, by multiplication.
+// A whole exponent up to 16, the usual ones, else -1.
+template <class Real>
+THAWSLIDE_HD int whole_exponent(Real exponent) {
+  constexpr Real largest = 16;
+  const bool whole = exponent >= Real(0) && exponent <= largest && exponent == std::floor(exponent);
+  return whole ? static_cast<int>(exponent) : -1;
+}
+
+// base^exponent; by multiplication if that is `whole`, and not -1.
 template <class Value, class Real>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent) {
-  constexpr Real largest_whole = 16;
-  if (!(exponent >= Real(0) && exponent <= largest_whole) || exponent != std::floor(exponent)) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent, int whole) {
+  if (whole < 0) {
     return rarely(base, [&](Real number) { return std::pow(number, exponent); });
   }
   Value result = 1;
-  for (int k = static_cast<int>(exponent); k > 0; k >>= 1) {
+  for (int k = whole; k > 0; k >>= 1) {
     if ((k & 1) != 0) {
       result *= base;
     }
@@ -36,10 +43,16 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent) {
   return result;
 }
 
+template <class Value, class Real>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent) {
+  return power(base, exponent, whole_exponent(exponent));
+}
+
 template <class Real>
 struct PowerLawCurve {
   Real reference_temperature;  // Tref [C]
   Real exponent;               // m
+  int whole = whole_exponent(exponent);
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CurveValues<Value> at(Value temperature) const {
@@ -47,7 +60,7 @@ struct PowerLawCurve {
     const Value above = temperature - reference_temperature;
     const Value base = Real(1) - min(above, Value(0));
     const Value inverse = Real(1) / base;
-    const Value s = power(inverse, exponent);
+    const Value s = power(inverse, exponent, whole);
     const Value frozen_integral = exponent == Real(1) ? -each_lane(base, [](Real number) { return std::log(number); })
                                                       : (base * s - Real(1)) / (exponent - Real(1));
     return {s, select(above > Real(0), Value(0), exponent * s * inverse),
@@ -56,7 +69,7 @@ struct PowerLawCurve {
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value saturation(Value temperature) const {
     using std::min;
-    return Real(1) / power(Real(1) - min(temperature - reference_temperature, Value(0)), exponent);
+    return Real(1) / power(Real(1) - min(temperature - reference_temperature, Value(0)), exponent, whole);
   }
 };
 

@@ -27,9 +27,19 @@ constexpr double smallest_area = 1e-6;
 template <int Dim, class Real>
 struct NodeState {
   Real mass;
-  Vector<Real, Dim> old_momentum, trial, momentum;
-  bool in_frame = false;
+  Vector<Real, Dim> old_momentum, momentum;
+  Vector<Real, Dim> constraint_impulse;  // of walls and frames [N s]
+  bool in_frame;
 };
+
+template <int Dim, class Real>
+void constrain(const mpm::BlockConstraints<Dim, Real>& constraints, std::size_t k, NodeState<Dim, Real>& state) {
+  if (constraints.any()) {
+    const Vector<Real, Dim> before = state.momentum;
+    state.in_frame = constraints.apply(k, state.mass, state.momentum);
+    state.constraint_impulse += state.momentum - before;
+  }
+}
 
 // Momentum with which a node runs into the ground in this step, less what closes the clearance before it.
 template <int Dim, class Real>
@@ -42,15 +52,16 @@ Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t 
 
 template <int Dim, class Real>
 NodeState<Dim, Real> trial_state(
-    const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& position, Real time, Real dt, Real damping,
+    const mpm::BlockConstraints<Dim, Real>& constraints, std::size_t k, Real dt, Real damping,
     const typename mpm::NodeRecords<Dim, Real, MomentumLayout<Dim>::size>::Record& record) {
   NodeState<Dim, Real> state;
   state.mass = record[MomentumLayout<Dim>::mass];
   state.old_momentum = mpm::vector_at<Dim, Real>(record, MomentumLayout<Dim>::momentum);
-  state.trial = state.old_momentum + dt * mpm::vector_at<Dim, Real>(record, MomentumLayout<Dim>::force) -
-                damping * dt * state.old_momentum;
-  state.momentum = state.trial;
-  state.in_frame = constraints.apply(position, state.mass, time, state.momentum);
+  state.momentum = state.old_momentum + dt * mpm::vector_at<Dim, Real>(record, MomentumLayout<Dim>::force) -
+                   damping * dt * state.old_momentum;
+  state.constraint_impulse.setZero();
+  state.in_frame = false;
+  constrain(constraints, k, state);
   return state;
 }
 
@@ -66,9 +77,13 @@ Real at_base(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, R
 // The contact nodes of one block, with what the basal law needs of them.
 template <int Dim, class Real>
 struct BlockContact {
+  template <class T>
+  using Column = typename BasalNodes<Real>::template Column<T>;
+
   BasalNodes<Real> basal;
-  std::array<std::size_t, BasalNodes<Real>::capacity> node;
-  std::array<Real, BasalNodes<Real>::capacity> area;
+  Column<std::size_t> node;
+  Column<Real> area;
+  Column<NodeState<Dim, Real>> state;
 };
 
 template <int Dim, class Real>
@@ -87,6 +102,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   const Real area = load / (pressure * dt);  // the base is shared among nodes by the load they carry
   contact.node[c] = k;
   contact.area[c] = area;
+  contact.state[c] = state;
   basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
       model.pore_pressure ? average(hats[HatLayout::pore_pressure], Layout::pore_pressure) : Real(0);
@@ -117,21 +133,14 @@ Real covered_share(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Di
   const Vector<Real, Dim>& into_ground = ground.block(b)[k].normal;
   int axis = 0;
   into_ground.cwiseAbs().maxCoeff(&axis);
-  typename T::Index further = T::node({}, static_cast<int>(k));
+  const int outward = into_ground[axis] > Real(0) ? -1 : 1;
   Real share = filled_share(grid, ground, nodes, b, k);
-  for (int step = 0; step < 2; ++step) {
-    further[static_cast<std::size_t>(axis)] += into_ground[axis] > Real(0) ? -1 : 1;
-    typename T::Index tile{};
-    int place = 0;
-    T::split(further, tile, place);
-    int direction = 0;
-    for (int a = Dim - 1; a >= 0; --a) {
-      direction = 3 * direction + tile[static_cast<std::size_t>(a)] + 1;
-    }
-    const std::int32_t block = grid.blocks_about_block(b)[direction];
+  for (int step = 1; step <= 2; ++step) {
+    const typename T::Beside further = T::beside(static_cast<int>(k), axis, step * outward);
+    const std::int32_t block = grid.blocks_about_block(b)[further.direction];
     if (block != KeyIndex::absent) {
-      share = std::max(
-          share, filled_share(grid, ground, nodes, static_cast<std::size_t>(block), static_cast<std::size_t>(place)));
+      share = std::max(share, filled_share(grid, ground, nodes, static_cast<std::size_t>(block),
+                                           static_cast<std::size_t>(further.local)));
     }
   }
   return share;
@@ -148,6 +157,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
     if (!ground.any_candidate(b)) {
       return;
     }
+    const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       auto& base = nodes.base(b, k);
       base.fill(Real(0));
@@ -157,8 +167,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
       const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
       const auto& record = nodes.momentum(b, k);
       if (record[MomentumLayout<Dim>::mass] > Real(0)) {
-        const auto state =
-            trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping, record);
+        const auto state = trial_state(on_block, k, dt, model.mass_damping, record);
         base[BaseLayout::load] =
             approach_of(nodes, b, k, model.distance_check, dt, state.mass, state.momentum.dot(known.normal));
       }
@@ -170,9 +179,9 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
 
 // Applies the contact impulse of one node; returns its work. state.momentum goes from trial to final.
 template <int Dim, class Real>
-void apply_contact(const mpm::Constraints<Dim, Real>& constraints, const Vector<Real, Dim>& position,
-                   const Vector<Real, Dim>& normal, Real load, Real area, Real strength, Real friction,
-                   Real heat_fraction, Real time, Real dt, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
+void apply_contact(const mpm::BlockConstraints<Dim, Real>& constraints, std::size_t k, const Vector<Real, Dim>& normal,
+                   Real load, Real area, Real strength, Real friction, Real heat_fraction, Real dt,
+                   NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
                    typename mpm::NodeRecords<Dim, Real, ContactLayout::size>::Record& left) {
   const Vector<Real, Dim> tangential = state.momentum - state.momentum.dot(normal) * normal;
   const Real tangential_size = tangential.norm();
@@ -183,7 +192,7 @@ void apply_contact(const mpm::Constraints<Dim, Real>& constraints, const Vector<
   }
   const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
   state.momentum += total;
-  constraints.apply(position, state.mass, time, state.momentum);  // walls and frames outrank the ground
+  constrain(constraints, k, state);  // walls and frames outrank the ground
   const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
   const Real slip_speed = std::max(Real(0), middle.dot(along));
   const Real friction_work = impulse.slides ? impulse.tangential * slip_speed : Real(0);
@@ -200,22 +209,25 @@ void apply_contact(const mpm::Constraints<Dim, Real>& constraints, const Vector<
 
 // Records the motion of a node and the energies that constraints, damping and FLIP take.
 template <int Dim, class Real>
-void finish_node(const NodeState<Dim, Real>& state, const Vector<Real, Dim>& contact_impulse, Real damping, Real dt,
+void finish_node(const NodeState<Dim, Real>& state, bool constrained, Real damping, Real dt,
                  ContactWork<Dim, Real>& work,
                  typename mpm::NodeRecords<Dim, Real, MotionLayout<Dim>::size>::Record& motion) {
+  const Real inverse_mass = Real(1) / state.mass;
   const Vector<Real, Dim> change = state.momentum - state.old_momentum;
-  const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
-  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change / (state.mass * dt));
+  const Vector<Real, Dim> middle = (Real(0.5) * inverse_mass) * (state.old_momentum + state.momentum);
+  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change * (inverse_mass / dt));
   mpm::set_vector<Dim>(motion, MotionLayout<Dim>::middle_velocity, middle);
-  const Vector<Real, Dim> constraint_impulse = state.momentum - state.trial - contact_impulse;
-  work.constraint_impulse += constraint_impulse - damping * dt * state.old_momentum;
-  if (state.in_frame) {
-    work.frame_work += constraint_impulse.dot(middle);
-  } else {
-    work.loss -= constraint_impulse.dot(middle);
+  work.node_kinetic += Real(0.5) * change.squaredNorm() * inverse_mass;
+  if (damping > Real(0)) {
+    work.constraint_impulse -= damping * dt * state.old_momentum;
+    work.damping += damping * dt * state.old_momentum.dot(middle);
   }
-  work.damping += damping * dt * state.old_momentum.dot(middle);
-  work.node_kinetic += Real(0.5) * change.squaredNorm() / state.mass;
+  if (constrained) {
+    const Real constraint_work = state.constraint_impulse.dot(middle);
+    work.constraint_impulse += state.constraint_impulse;
+    work.frame_work += state.in_frame ? constraint_work : Real(0);
+    work.loss -= state.in_frame ? Real(0) : constraint_work;
+  }
 }
 
 template <int Dim, class Real>
@@ -248,42 +260,37 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
     press_on_ground(grid, *ground, constraints, model, time, dt, nodes);
   }
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
-    BlockContact<Dim, Real> contact;
-    std::array<NodeState<Dim, Real>, block_nodes> states;
+    const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
     const auto* known = ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
     std::array<Real, block_nodes> pressure{};
     if (known != nullptr) {
       pressure = base_pressure(grid, *ground, nodes, b, dt, smallest);
     }
+    const auto finish = [&](const NodeState<Dim, Real>& state, std::size_t k) {
+      finish_node(state, on_block.any(), model.mass_damping, dt, works[b], nodes.motion(b, k));
+    };
+    BlockContact<Dim, Real> contact;
     for (std::size_t k = 0; k < block_nodes; ++k) {
       nodes.contact(b, k).fill(Real(0));
       nodes.motion(b, k).fill(Real(0));
-      states[k].mass = nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
-      if (!(states[k].mass > Real(0))) {
+      if (!(nodes.momentum(b, k)[MomentumLayout<Dim>::mass] > Real(0))) {
         continue;
       }
-      states[k] =
-          trial_state(constraints, mpm::node_position(grid, b, k), time, dt, model.mass_damping, nodes.momentum(b, k));
+      const auto state = trial_state(on_block, k, dt, model.mass_damping, nodes.momentum(b, k));
       if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
-        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k].normal, states[k], contact);
+        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k].normal, state, contact);
+      } else {
+        finish(state, k);
       }
     }
     evaluate_basal_law(model.law, time, contact.basal);
-    std::array<Vector<Real, Dim>, block_nodes> impulse;
-    impulse.fill(Vector<Real, Dim>::Zero());
     for (std::size_t c = 0; c < contact.basal.count; ++c) {
       const std::size_t k = contact.node[c];
       const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
-      const Vector<Real, Dim> force_before = works[b].force;
-      apply_contact(constraints, mpm::node_position(grid, b, k), (*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
-                    contact.area[c], strength, contact.basal.friction[c], model.law.heat_fraction, time, dt, states[k],
-                    works[b], nodes.contact(b, k));
-      impulse[k] = dt * (force_before - works[b].force);
-    }
-    for (std::size_t k = 0; k < block_nodes; ++k) {
-      if (states[k].mass > Real(0)) {
-        finish_node(states[k], impulse[k], model.mass_damping, dt, works[b], nodes.motion(b, k));
-      }
+      apply_contact(on_block, k, (*known)[k].normal, nodes.base(b, k)[BaseLayout::load], contact.area[c], strength,
+                    contact.basal.friction[c], model.law.heat_fraction, dt, contact.state[c], works[b],
+                    nodes.contact(b, k));
+      finish(contact.state[c], k);
     }
   });
   ContactWork<Dim, Real> sum;
@@ -299,7 +306,8 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
                            const Vector<Real, Dim>& gravity, Real time, Real dt, mpm::Nodes<Dim, Real>& nodes) {
   using Layout = MomentumLayout<Dim>;
   std::vector<Real> works(grid.blocks().size(), Real(0));
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+  sum_patches(grid, nodes.velocity, [&](std::size_t b) {
+    const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       const auto& record = nodes.momentum(b, k);
       const Real mass = record[Layout::mass];
@@ -311,7 +319,7 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
         const Vector<Real, Dim>& normal = ground->block(b)[k].normal;
         momentum -= approach_of(nodes, b, k, model.distance_check, dt, mass, momentum.dot(normal)) * normal;
       }
-      constraints.apply(mpm::node_position(grid, b, k), mass, time, momentum);
+      on_block.apply(k, mass, momentum);
       const Vector<Real, Dim> velocity = momentum / mass;
       mpm::set_vector<Dim>(nodes.velocity(b, k), 0, velocity);
       const Vector<Real, Dim> internal_force = mpm::vector_at<Dim, Real>(record, Layout::force) - mass * gravity;
@@ -331,9 +339,8 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
                         const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     if (!ground.any_near(t)) {
-      const auto& tile = grid.tiles()[t];
-      for (std::uint32_t k = tile.first; k < tile.last; ++k) {
-        particles.in_band(grid.order()[k]) = 0;
+      for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
+        particles.in_band.fill(batch, 0);
       }
       return;
     }
@@ -351,9 +358,7 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
     });
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       if (!ground.any_near(t, batch)) {
-        for (std::size_t lane = 0; lane < batch.count; ++lane) {
-          particles.in_band(batch.particle[lane]) = 0;
-        }
+        particles.in_band.fill(batch, 0);
         continue;
       }
       const auto seen = mpm::read_nodes<3>(hat_stencil(grid, particles, batch), patch).value;

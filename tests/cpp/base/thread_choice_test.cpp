@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <random>
+#include <vector>
 
 namespace thawslide {
 namespace {
@@ -70,6 +72,21 @@ TEST(ThreadChoice, LosesLittleWhereStepsAreLong) {
   run.until(1000.0, [](int threads, double /*time*/) { return 2.0 / threads; });
   EXPECT_EQ(run.choice.threads(), 2);
   EXPECT_GT(static_cast<double>(run.steps), 0.95 * 1000.0);
+}
+
+TEST(ThreadChoice, KeepsTheFasterNumberWhereTrialsScatter) {
+  // Two threads are a third faster, but the machine goes at another speed every thirtieth of a second, a third to full.
+  std::mt19937 random(1);
+  std::vector<double> pace(3000);
+  std::generate(pace.begin(), pace.end(), [&] { return std::uniform_real_distribution<double>(1.0, 3.0)(random); });
+  double with_two = 0.0;
+  TimedRun run(2);
+  run.until(90.0, [&](int threads, double time) {
+    const double seconds = pace[static_cast<std::size_t>(30.0 * time)] * (threads == 2 ? 0.75 : 1.0) * step;
+    with_two += threads == 2 ? seconds : 0.0;
+    return seconds;
+  });
+  EXPECT_GT(with_two, 0.9 * 90.0);
 }
 
 TEST(ThreadChoice, LeavesOneThreadAlone) {
