@@ -18,16 +18,10 @@ std::size_t written_components(mpm::FieldShape shape) {
 SnapshotField take_field(const mpm::FieldBase& field, const std::vector<std::size_t>& order) {
   SnapshotField taken{
       field.info().name, field.info().unit, written_components(field.info().shape), field.is_integer(), {}, {}};
-  for (const std::size_t p : order) {
-    for (std::size_t c = 0; c < taken.components; ++c) {
-      const int component = static_cast<int>(c);
-      const double value = component < field.components() ? field.value(p, component) : 0.0;
-      if (taken.integer) {
-        taken.integers.push_back(static_cast<std::int64_t>(value));
-      } else {
-        taken.numbers.push_back(value);
-      }
-    }
+  field.append_values(order, taken.components, taken.numbers);
+  if (taken.integer) {
+    taken.integers.assign(taken.numbers.begin(), taken.numbers.end());
+    taken.numbers.clear();
   }
   return taken;
 }
@@ -48,6 +42,7 @@ Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<
                        std::int64_t step) {
   const std::vector<std::size_t> order = order_by_id(particles);
   Snapshot snapshot{time, step, {}, {}};
+  snapshot.points.reserve(3 * order.size());
   for (const std::size_t p : order) {
     for (int a = 0; a < 3; ++a) {
       snapshot.points.push_back(a < Dim ? static_cast<double>(particles.position(p, a)) + origin[std::min(a, Dim - 1)]

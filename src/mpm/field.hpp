@@ -39,6 +39,10 @@ class FieldBase {
   [[nodiscard]] virtual int components() const = 0;
   [[nodiscard]] virtual bool is_integer() const = 0;
   [[nodiscard]] virtual double value(std::size_t particle, int component) const = 0;
+  // Appends the first `components` components (0 beyond the field's own) of the particles order[0], order[1], ..., one
+  // particle after another.
+  virtual void append_values(const std::vector<std::size_t>& order, std::size_t components,
+                             std::vector<double>& to) const = 0;
   virtual void resize(std::size_t particles) = 0;
   // Particle k becomes the one that stood at order[k]. scratch: room for the work, kept between calls.
   virtual void reorder(const std::vector<std::uint32_t>& order, AlignedVector<std::byte>& scratch) = 0;
@@ -103,24 +107,23 @@ class Field final : public FieldBase {
       (*this)(batch.particle[lane], component) = values[lane];
     }
   }
-  // One value for all particles of a batch.
-  template <class Real>
-  THAWSLIDE_ALWAYS_INLINE void fill(const Batch<Real>& batch, T value) {
-    if (batch.whole) {
-      std::fill_n(&(*this)(batch.particle[0]), Batch<Real>::most, value);
-      return;
-    }
-    for (std::size_t lane = 0; lane < batch.count; ++lane) {
-      (*this)(batch.particle[lane]) = value;
-    }
-  }
-  // Whole numbers, as lanes of a real type.
+  // Whole numbers, from and to lanes of a real type.
   template <class Real>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<Real> load_whole(const Batch<Real>& batch) const {
     if (batch.whole) {
       return Lanes<Real>::load_whole(&(*this)(batch.particle[0]));
     }
     return Lanes<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
+  }
+  template <class Real>
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const Batch<Real>& batch, const Lanes<Real>& values) {
+    if (batch.whole) {
+      values.store_whole(&(*this)(batch.particle[0]));
+      return;
+    }
+    for (std::size_t lane = 0; lane < batch.count; ++lane) {
+      (*this)(batch.particle[lane]) = static_cast<T>(values[lane]);
+    }
   }
   // Whole vectors and tensors.
   template <int Size>
@@ -144,6 +147,17 @@ class Field final : public FieldBase {
   [[nodiscard]] bool is_integer() const override { return std::is_integral_v<T>; }
   [[nodiscard]] double value(std::size_t particle, int component) const override {
     return kept_ ? static_cast<double>((*this)(particle, component)) : 0.0;
+  }
+
+  void append_values(const std::vector<std::size_t>& order, std::size_t components,
+                     std::vector<double>& to) const override {
+    to.reserve(to.size() + order.size() * components);
+    for (const std::size_t particle : order) {
+      for (std::size_t c = 0; c < components; ++c) {
+        const bool known = kept_ && c < static_cast<std::size_t>(Components);
+        to.push_back(known ? static_cast<double>((*this)(particle, static_cast<int>(c))) : 0.0);
+      }
+    }
   }
 
   // Whether the field is stored at all, from the next resize on. One that is not must not be touched; to the list of

@@ -159,8 +159,7 @@ void SparseGrid<Dim, Real>::note_movers(std::size_t first, std::size_t count, st
   }
 }
 
-// Those that stayed are still in order; those that moved are sorted and merged in, in the tiles that they came from and
-// went to.
+// Those that stayed are still in order; those that moved are sorted and merged in.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
@@ -172,32 +171,35 @@ void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
   list_tiles();
   former_order_.swap(order_);
   order_.resize(former_order_.size());
-  parallel_for(tiles_.size(), [&](std::size_t t) {
-    const TileChange& change = changes_[t];
-    auto to = order_.begin() + tiles_[t].first;
-    auto mover = movers_.begin() + static_cast<std::ptrdiff_t>(change.first_mover);
-    const auto last_mover = movers_.begin() + static_cast<std::ptrdiff_t>(change.last_mover);
-    if (change.former != none) {
-      const OccupiedTile& former = former_tiles_[change.former];
-      const auto from = former_order_.begin() + former.first, end = former_order_.begin() + former.last;
-      if (!change.changed) {
-        std::copy(from, end, to);
-        return;
-      }
-      for (auto stayed = from; stayed != end; ++stayed) {
-        if (moved_[*stayed] != 0) {
-          continue;
-        }
-        for (; mover != last_mover && before(mover->particle, *stayed); ++mover) {
-          *to++ = mover->particle;
-        }
-        *to++ = *stayed;
-      }
+  parallel_for(tiles_.size(), [&](std::size_t t) { merge_tile(t, before); });
+}
+
+// The order of one tile's particles, from those that stayed in it and those that moved into or within it.
+template <int Dim, class Real>
+template <class Before>
+void SparseGrid<Dim, Real>::merge_tile(std::size_t t, const Before& before) {
+  const TileChange& change = changes_[t];
+  auto to = order_.begin() + tiles_[t].first;
+  auto mover = movers_.begin() + static_cast<std::ptrdiff_t>(change.first_mover);
+  const auto last_mover = movers_.begin() + static_cast<std::ptrdiff_t>(change.last_mover);
+  const OccupiedTile former = change.former != none ? former_tiles_[change.former] : OccupiedTile{};
+  const auto from = former_order_.begin() + former.first, end = former_order_.begin() + former.last;
+  if (!change.changed) {
+    std::copy(from, end, to);
+    return;
+  }
+  for (auto stayed = from; stayed != end; ++stayed) {
+    if (moved_[*stayed] != 0) {
+      continue;
     }
-    for (; mover != last_mover; ++mover) {
+    for (; mover != last_mover && before(mover->particle, *stayed); ++mover) {
       *to++ = mover->particle;
     }
-  });
+    *to++ = *stayed;
+  }
+  for (; mover != last_mover; ++mover) {
+    *to++ = mover->particle;
+  }
 }
 
 template <int Dim, class Real>

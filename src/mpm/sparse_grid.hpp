@@ -80,6 +80,8 @@ class SparseGrid {
   bool compute_keys(const Particles<Dim, Real>& particles);
   void note_movers(std::size_t first, std::size_t count, std::vector<Mover>& movers);
   void merge_moved(const Particles<Dim, Real>& particles);
+  template <class Before>
+  void merge_tile(std::size_t t, const Before& before);
   void count_leaving();
   void list_tiles();
   void reorder(Particles<Dim, Real>& particles);

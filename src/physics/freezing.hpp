@@ -33,6 +33,11 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent, int 
   if (whole < 0) {
     return rarely(base, [&](Real number) { return std::pow(number, exponent); });
   }
+  constexpr int usual = 5;  // Eq. 24
+  if (whole == usual) {
+    const Value square = base * base;
+    return square * square * base;
+  }
   Value result = 1;
   for (int k = whole; k > 0; k >>= 1) {
     if ((k & 1) != 0) {

@@ -44,6 +44,7 @@ class Simulation {
   [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const { return particles_; }
   [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const { return grid_; }
   [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const { return nodes_; }
+  [[nodiscard]] const band::HeatNodes<Dim, Real>& heat_nodes() const { return heat_nodes_; }
   // Null without terrain.
   [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
   [[nodiscard]] const Ledger<Dim, Real>& ledger() const { return ledger_; }

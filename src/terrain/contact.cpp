@@ -135,7 +135,7 @@ Real covered_share(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Di
   into_ground.cwiseAbs().maxCoeff(&axis);
   const int outward = into_ground[axis] > Real(0) ? -1 : 1;
   Real share = filled_share(grid, ground, nodes, b, k);
-  for (int step = 1; step <= 2; ++step) {
+  for (int step = 1; step <= 2 && share < Real(1); ++step) {
     const typename T::Beside further = T::beside(static_cast<int>(k), axis, step * outward);
     const std::int32_t block = grid.blocks_about_block(b)[further.direction];
     if (block != KeyIndex::absent) {
@@ -337,10 +337,11 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
 template <int Dim, class Real>
 void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
                         const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
+  const Lanes<Real> zero = Real(0);
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     if (!ground.any_near(t)) {
       for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-        particles.in_band.fill(batch, 0);
+        particles.in_band.store_whole(batch, zero);
       }
       return;
     }
@@ -358,13 +359,11 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
     });
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       if (!ground.any_near(t, batch)) {
-        particles.in_band.fill(batch, 0);
+        particles.in_band.store_whole(batch, zero);
         continue;
       }
       const auto seen = mpm::read_nodes<3>(hat_stencil(grid, particles, batch), patch).value;
-      for (std::size_t lane = 0; lane < batch.count; ++lane) {
-        particles.in_band(batch.particle[lane]) = seen[0][lane] > Real(0) ? 1 : 0;
-      }
+      particles.in_band.store_whole(batch, select(seen[0] > Real(0), Lanes<Real>(Real(1)), zero));
       const auto touches = seen[1] > Real(0);
       if (any(touches)) {
         const Lanes<Real> slip_speed = seen[2] / select(touches, seen[1], Lanes<Real>(Real(1)));

@@ -52,8 +52,9 @@ class GroundOnGrid {
   [[nodiscard]] bool any_near(std::size_t t) const { return any_near_[t] != 0; }
   // The same for those of one of its batches.
   [[nodiscard]] bool any_near(std::size_t t, const mpm::TileBatch<Dim, Real>& batch) const {
-    return std::any_of(batch.nodes.first.begin(), batch.nodes.first.end(),
-                       [&](std::int32_t lowest) { return near_[t][static_cast<std::size_t>(lowest)] != 0; });
+    const auto& lowest = batch.nodes.first;
+    const auto is_near = [&](std::int32_t node) { return near_[t][static_cast<std::size_t>(node)] != 0; };
+    return batch.nodes.shared ? is_near(lowest[0]) : std::any_of(lowest.begin(), lowest.end(), is_near);
   }
 
   // What the nodes of active block b know.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -169,6 +170,11 @@ void expect_the_scalar_step(double cohesion, bool yields) {
   }
   EXPECT_EQ(yielding > now.size() / 20, yields) << yielding << " of " << now.size();
   EXPECT_GT(warmed, now.size() / 20);
+  // Tiles whose temperatures change and tiles whose do not, which spare themselves the secant capacity.
+  const auto& changing = simulation.heat_nodes().changing_tiles;
+  const auto count = std::count(changing.begin(), changing.end(), 1);
+  EXPECT_GT(count, 0);
+  EXPECT_LT(static_cast<std::size_t>(count), changing.size());
 }
 
 TEST(ScalarStep, IsThatOfTheBatchesInThePlaneElastic) { expect_the_scalar_step<2>(1e7, false); }

@@ -1,0 +1,192 @@
+// The sparse grid as particles move, against what follows from their positions alone; what blocks know of the nodes
+// beside them and of constraints.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "mpm/constraints.hpp"
+
+namespace thawslide::mpm {
+namespace {
+
+constexpr double cell = 5.0;
+
+// Particles of two materials in a box; those on one side move much, the others little.
+template <int Dim>
+class Crowd {
+ public:
+  explicit Crowd(std::size_t count) {
+    particles.resize(count);
+    std::uniform_real_distribution<double> place(10.0, 60.0);
+    for (std::size_t p = 0; p < count; ++p) {
+      particles.id(p) = static_cast<std::int64_t>(p);
+      particles.material(p) = p % 5 == 0 ? 1 : 0;
+      for (int a = 0; a < Dim; ++a) {
+        particles.position(p, a) = place(random_);
+      }
+    }
+  }
+
+  void move(double most) {
+    std::uniform_real_distribution<double> step(-most, most);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double pace = particles.position(p, 0) < 30.0 ? 1.0 : 1e-3;
+      for (int a = 0; a < Dim; ++a) {
+        particles.position(p, a) = std::clamp(particles.position(p, a) + pace * step(random_), 1.0, 69.0);
+      }
+    }
+  }
+
+  Particles<Dim, double> particles;
+
+ private:
+  std::mt19937 random_{7};
+};
+
+// Tile and place in it of a particle's nearest node, and the particle's id: what the canonical order goes by.
+template <int Dim>
+std::tuple<std::uint64_t, int, std::int64_t> canonical(const Particles<Dim, double>& particles, std::size_t p) {
+  typename Tile<Dim>::Index node{}, tile{};
+  int local = 0;
+  for (int a = 0; a < Dim; ++a) {
+    node[static_cast<std::size_t>(a)] = static_cast<int>(std::lround(particles.position(p, a) / cell));
+  }
+  Tile<Dim>::split(node, tile, local);
+  return {Tile<Dim>::key(tile), local, particles.id(p)};
+}
+
+// Place in the patch of a tile of the node with the numbers number(axis).
+template <int Dim, class Number>
+int place_in_patch(std::uint64_t tile_key, const Number& number) {
+  typename Tile<Dim>::Index relative = Tile<Dim>::index(tile_key);
+  for (int a = 0; a < Dim; ++a) {
+    auto& along = relative[static_cast<std::size_t>(a)];
+    along = number(a) - along * Tile<Dim>::edge;
+  }
+  return Tile<Dim>::in_patch(relative);
+}
+
+template <int Dim>
+void expect_tiles_and_blocks(const Particles<Dim, double>& particles, const SparseGrid<Dim, double>& grid) {
+  using T = Tile<Dim>;
+  const auto key_of = [&](std::uint32_t p) { return std::get<0>(canonical(particles, p)); };
+  const auto& order = grid.order();
+  ASSERT_EQ(order.size(), particles.size());
+  std::set<std::uint64_t> blocks;
+  std::uint32_t placed = 0;
+  for (const auto& tile : grid.tiles()) {
+    EXPECT_EQ(tile.first, placed);
+    placed = tile.last;
+    EXPECT_TRUE(std::all_of(order.begin() + tile.first, order.begin() + tile.last,
+                            [&](std::uint32_t p) { return key_of(p) == tile.key; }));
+    for (int d = 0; d < T::stencil; ++d) {
+      auto index = T::index(tile.key);
+      for (int a = 0, rest = d; a < Dim; ++a, rest /= 3) {
+        index[static_cast<std::size_t>(a)] += rest % 3 - 1;
+      }
+      blocks.insert(T::key(index));
+    }
+  }
+  EXPECT_EQ(placed, order.size());
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return canonical(particles, a) < canonical(particles, b);
+  }));
+  EXPECT_TRUE(std::equal(blocks.begin(), blocks.end(), grid.blocks().begin(), grid.blocks().end()));
+}
+
+template <int Dim>
+void expect_batches(const Particles<Dim, double>& particles, const SparseGrid<Dim, double>& grid) {
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    const auto& tile = grid.tiles()[t];
+    std::uint32_t place = tile.first;
+    for (const TileBatch<Dim, double>& batch : grid.batches(t)) {
+      for (std::size_t lane = 0; lane < batch.count; ++lane, ++place) {
+        const std::uint32_t p = batch.particle[lane];
+        EXPECT_EQ(p, grid.order()[place]);
+        EXPECT_EQ(particles.material(p), particles.material(batch.particle[0]));
+        const auto nearest = [&](int a) { return static_cast<int>(std::lround(particles.position(p, a) / cell)); };
+        const auto corner = [&](int a) { return static_cast<int>(std::floor(particles.position(p, a) / cell)); };
+        for (int a = 0; a < Dim; ++a) {
+          EXPECT_EQ(batch.nearest[static_cast<std::size_t>(a)][lane], nearest(a));
+        }
+        EXPECT_EQ(batch.nodes.first[lane], place_in_patch<Dim>(tile.key, [&](int a) { return nearest(a) - 1; }));
+        EXPECT_EQ(batch.hats.first[lane], place_in_patch<Dim>(tile.key, corner));
+        EXPECT_TRUE(!batch.whole || p == batch.particle[0] + lane);
+        EXPECT_TRUE(!batch.nodes.shared || batch.nodes.first[lane] == batch.nodes.first[0]);
+        EXPECT_TRUE(!batch.hats.shared || batch.hats.first[lane] == batch.hats.first[0]);
+      }
+    }
+    EXPECT_EQ(place, tile.last);
+  }
+}
+
+template <int Dim>
+void expect_the_grid_to_follow() {
+  Crowd<Dim> crowd(Dim == 2 ? 60 : 900);
+  SparseGrid<Dim, double> grid(cell);
+  int changes_of_blocks = 0;
+  for (int step = 0; step < 60 && !testing::Test::HasFailure(); ++step) {
+    SCOPED_TRACE(step);
+    grid.update(crowd.particles, 17);
+    changes_of_blocks += grid.blocks_changed() ? 1 : 0;
+    expect_tiles_and_blocks(crowd.particles, grid);
+    expect_batches(crowd.particles, grid);
+    crowd.move(step % 3 == 0 ? 3.0 : step % 3 == 1 ? 0.1 : 0.0);
+  }
+  EXPECT_GT(changes_of_blocks, 3);
+  EXPECT_LT(changes_of_blocks, 40);
+}
+
+TEST(SparseGrid, FollowsParticlesInThePlane) { expect_the_grid_to_follow<2>(); }
+TEST(SparseGrid, FollowsParticlesInSpace) { expect_the_grid_to_follow<3>(); }
+
+TEST(Tile, FindsTheNodeBesideAnother) {
+  using T = Tile<3>;
+  for (int local = 0; local < T::nodes; ++local) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int shift = -3; shift <= 3; ++shift) {
+        T::Index node = T::node({}, local), tile{};
+        node[static_cast<std::size_t>(axis)] += shift;
+        int place = 0;
+        T::split(node, tile, place);
+        const auto beside = T::beside(local, axis, shift);
+        EXPECT_EQ(beside.local, place);
+        EXPECT_EQ(beside.direction, ((tile[2] + 1) * 3 + tile[1] + 1) * 3 + tile[0] + 1);
+      }
+    }
+  }
+}
+
+// A block that says it has no constraints has none, and most blocks say so.
+TEST(BlockConstraints, AreTheOnesOfTheirNodes) {
+  Constraints<2, double> constraints;
+  constraints.extent = {70.0, 70.0};
+  constraints.faces[0] = FaceKind::fixed;
+  constraints.faces[3] = FaceKind::roller;
+  constraints.frames.push_back({{30.0, 22.0}, {33.0, 38.0}, 0, 4.0});
+  Crowd<2> crowd(3000);
+  SparseGrid<2, double> grid(cell);
+  grid.update(crowd.particles, 64);
+  for (const double time : {0.0, 1.0, 2.75}) {
+    std::size_t blocks_without = 0, nodes_with = 0;
+    for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+      const BlockConstraints<2, double> on_block(grid, constraints, b, time);
+      blocks_without += on_block.any() ? 0 : 1;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(Tile<2>::nodes); ++k) {
+        Vector<double, 2> free(3.0, 5.0), held = free;
+        const bool in_frame = constraints.apply(node_position(grid, b, k), 2.0, time, free);
+        EXPECT_EQ(on_block.apply(k, 2.0, held), in_frame);
+        EXPECT_EQ(held, free);
+        nodes_with += held != Vector<double, 2>(3.0, 5.0) ? 1 : 0;
+      }
+    }
+    EXPECT_GT(nodes_with, 20u);
+    EXPECT_GT(blocks_without, grid.blocks().size() / 4);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::mpm
