@@ -28,7 +28,7 @@ struct HeatNodes {
   explicit HeatNodes(const std::shared_ptr<mpm::PatchRoom>& room) : rates(room) {}
 
   mpm::NodeRecords<Dim, Real, 4> rates;     // heat flow in [W], advection [W], capacity [J/K], levelled in cells [J]
-  mpm::NodeRecords<Dim, Real, 4> capacity;  // the last two, with the secant capacity, where temperatures change
+  mpm::NodeRecords<Dim, Real, 4> capacity;  // its last two, with the secant capacity, where temperatures change
   mpm::NodeRecords<Dim, Real, 3> state;     // temperature [C], pore pressure [Pa], rate of temperature [K/s]
   mpm::NodeRecords<Dim, Real, 1> orphan;    // friction heat of nodes without hat weight, per mass [W/kg]
   bool any_orphan = false;

@@ -12,7 +12,7 @@ constexpr double trial_seconds = 0.02;  // some time slices of the operating sys
 constexpr std::int64_t trial_steps = 2;
 constexpr double first_pause = 0.1, longest_pause = 4;   // [s] between challenges, where steps are short
 constexpr double first_trials = 5, trials_between = 50;  // at least as many times a trial's length, where they are long
-constexpr int most_rounds = 3;  // single trials on a busy machine scatter by half, so a challenger must win in all
+constexpr int most_rounds = 3;  // single trials on a busy machine scatter by half, so a challenger must win in total
 constexpr double hopeless = 0.8, worth_it = 1.05;  // times the speed of the best
 constexpr double slowed_down = 0.7;                // of the usual speed: something has changed
 constexpr int few_slow_trials = 3;
@@ -54,11 +54,14 @@ void ThreadChoice::end_trial(double steps, double seconds, double now) {
 
 void ThreadChoice::watch_best(double steps, double seconds, double now) {
   const double speed = steps / seconds;
-  slow_trials_ = speed < slowed_down * usual_speed_ ? slow_trials_ + 1 : 0;
-  usual_speed_ = usual_speed_ > 0 ? memory * usual_speed_ + (1 - memory) * speed : speed;
-  if (slow_trials_ >= few_slow_trials || now >= next_challenge_) {
+  if (speed < slowed_down * usual_speed_) {
+    ++slow_trials_;
+  } else {
     slow_trials_ = 0;
-    rounds_ = 0;
+    usual_speed_ = usual_speed_ > 0 ? memory * usual_speed_ + (1 - memory) * speed : speed;
+  }
+  if (slow_trials_ >= few_slow_trials || now >= next_challenge_) {
+    slow_trials_ = rounds_ = 0;
     of_best_ = of_challenger_ = {};
     of_best_.add(steps, seconds);
     threads_ = challenger_ = next_challenger();

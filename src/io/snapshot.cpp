@@ -18,10 +18,12 @@ std::size_t written_components(mpm::FieldShape shape) {
 SnapshotField take_field(const mpm::FieldBase& field, const std::vector<std::size_t>& order) {
   SnapshotField taken{
       field.info().name, field.info().unit, written_components(field.info().shape), field.is_integer(), {}, {}};
-  field.append_values(order, taken.components, taken.numbers);
+  std::vector<double> values;
+  field.append_values(order, taken.components, values);
   if (taken.integer) {
-    taken.integers.assign(taken.numbers.begin(), taken.numbers.end());
-    taken.numbers.clear();
+    taken.integers.assign(values.begin(), values.end());
+  } else {
+    taken.numbers = std::move(values);
   }
   return taken;
 }

@@ -49,7 +49,8 @@ struct BatchNodes {
   bool shared;                                       // all lanes see the same nodes
 };
 
-// A batch of one tile and one material, and its nodes while the particles stay where they are.
+// A batch of one tile and one material. It and its nodes hold until some particle of the tile has another nearest node;
+// the hats are found every step.
 template <int Dim, class Real>
 struct TileBatch : Batch<Real> {
   std::array<std::array<std::int32_t, lane_count<Real>>, Dim> nearest;  // numbers of the nearest node, by axis

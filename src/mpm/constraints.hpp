@@ -16,6 +16,12 @@ struct RigidFrame {
   Vector<Real, Dim> lower, upper;  // at t = 0 [m], relative to the domain's lower corner
   int axis = 0;
   Real velocity = 0;  // [m/s]
+
+  [[nodiscard]] Vector<Real, Dim> shift(Real time) const {
+    Vector<Real, Dim> moved = Vector<Real, Dim>::Zero();
+    moved[axis] = velocity * time;
+    return moved;
+  }
 };
 
 template <int Dim, class Real>
@@ -29,9 +35,7 @@ struct Constraints {
     apply_faces(position, momentum);
     bool in_frame = false;
     for (const RigidFrame<Dim, Real>& frame : frames) {
-      Vector<Real, Dim> shift = Vector<Real, Dim>::Zero();
-      shift[frame.axis] = frame.velocity * time;
-      const Vector<Real, Dim> place = position - shift;
+      const Vector<Real, Dim> place = position - frame.shift(time);
       if ((place.array() >= frame.lower.array()).all() && (place.array() <= frame.upper.array()).all()) {
         momentum[frame.axis] = mass * frame.velocity;
         in_frame = true;
@@ -49,8 +53,7 @@ struct Constraints {
       }
     }
     return std::any_of(frames.begin(), frames.end(), [&](const RigidFrame<Dim, Real>& frame) {
-      Vector<Real, Dim> shift = Vector<Real, Dim>::Zero();
-      shift[frame.axis] = frame.velocity * time;
+      const Vector<Real, Dim> shift = frame.shift(time);
       return ((upper - shift).array() >= frame.lower.array()).all() &&
              ((lower - shift).array() <= frame.upper.array()).all();
     });

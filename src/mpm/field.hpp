@@ -36,9 +36,8 @@ class FieldBase {
   FieldBase& operator=(const FieldBase&) = delete;
 
   [[nodiscard]] const FieldInfo& info() const { return info_; }
-  [[nodiscard]] virtual int components() const = 0;
+  [[nodiscard]] virtual std::size_t components() const = 0;
   [[nodiscard]] virtual bool is_integer() const = 0;
-  [[nodiscard]] virtual double value(std::size_t particle, int component) const = 0;
   // Appends the first `components` components (0 beyond the field's own) of the particles order[0], order[1], ..., one
   // particle after another.
   virtual void append_values(const std::vector<std::size_t>& order, std::size_t components,
@@ -143,12 +142,8 @@ class Field final : public FieldBase {
     });
   }
 
-  [[nodiscard]] int components() const override { return Components; }
+  [[nodiscard]] std::size_t components() const override { return static_cast<std::size_t>(Components); }
   [[nodiscard]] bool is_integer() const override { return std::is_integral_v<T>; }
-  [[nodiscard]] double value(std::size_t particle, int component) const override {
-    return kept_ ? static_cast<double>((*this)(particle, component)) : 0.0;
-  }
-
   void append_values(const std::vector<std::size_t>& order, std::size_t components,
                      std::vector<double>& to) const override {
     to.reserve(to.size() + order.size() * components);

@@ -63,6 +63,10 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
   if (compute_keys(particles)) {
     merge_moved(particles);
   }
+  if (first_call) {  // never again do all particles move
+    task_movers_ = std::vector<std::vector<Mover>>();
+    movers_ = std::vector<Mover>();
+  }
   if (first_call || ++calls_ >= interval) {
     calls_ = 0;
     reorder(particles);

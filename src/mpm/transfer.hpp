@@ -59,7 +59,7 @@ class NodeRecords {
   using Record = std::array<Real, record_size<Real>(Components)>;
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
-  // Without room for patches: what nodes work out for themselves.
+  // Without room for patches: what nodes work out for themselves, or sum from the patches of others.
   NodeRecords() = default;
   explicit NodeRecords(std::shared_ptr<PatchRoom> room) : room_(std::move(room)) {}
 

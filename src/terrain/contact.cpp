@@ -177,7 +177,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
   });
 }
 
-// Applies the contact impulse of one node; returns its work. state.momentum goes from trial to final.
+// Applies the contact impulse of one node and adds its work. state.momentum goes from trial to final.
 template <int Dim, class Real>
 void apply_contact(const mpm::BlockConstraints<Dim, Real>& constraints, std::size_t k, const Vector<Real, Dim>& normal,
                    Real load, Real area, Real strength, Real friction, Real heat_fraction, Real dt,
@@ -214,8 +214,8 @@ void finish_node(const NodeState<Dim, Real>& state, bool constrained, Real dampi
                  typename mpm::NodeRecords<Dim, Real, MotionLayout<Dim>::size>::Record& motion) {
   const Real inverse_mass = Real(1) / state.mass;
   const Vector<Real, Dim> change = state.momentum - state.old_momentum;
-  const Vector<Real, Dim> middle = (Real(0.5) * inverse_mass) * (state.old_momentum + state.momentum);
-  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change * (inverse_mass / dt));
+  const Vector<Real, Dim> middle = Real(0.5) * inverse_mass * (state.old_momentum + state.momentum);
+  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change * inverse_mass / dt);
   mpm::set_vector<Dim>(motion, MotionLayout<Dim>::middle_velocity, middle);
   work.node_kinetic += Real(0.5) * change.squaredNorm() * inverse_mass;
   if (damping > Real(0)) {

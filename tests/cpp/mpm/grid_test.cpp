@@ -160,7 +160,7 @@ TEST(Tile, FindsTheNodeBesideAnother) {
   }
 }
 
-// A block that says it has no constraints has none, and most blocks say so.
+// A block that says it has no constraints has none, and many say so.
 TEST(BlockConstraints, AreTheOnesOfTheirNodes) {
   Constraints<2, double> constraints;
   constraints.extent = {70.0, 70.0};

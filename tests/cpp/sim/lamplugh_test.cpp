@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <map>
 
 #include "../support/case_from_text.hpp"
+#include "../support/fields.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "physics/mixture.hpp"
@@ -65,41 +66,22 @@ TEST(Ledger, HeatOfAThickeningBandIsReported) {
 }
 
 TEST(Threads, GiveTheSameBits) {
-  std::vector<std::vector<std::byte>> first;
+  std::map<std::string, std::vector<double>> first;
   const int before = thread_count();
   for (const int threads : {1, 2, 3}) {
     set_thread_count(threads);
     Simulation<2, double> simulation(lamplugh(hasty));
     simulation.set_sorting_interval(7 * threads);  // nor may the storage order matter
     run_until(simulation, 2.0);
-    std::vector<std::size_t> by_id(simulation.particles().size());
-    for (std::size_t p = 0; p < by_id.size(); ++p) {
-      by_id[static_cast<std::size_t>(simulation.particles().id(p))] = p;
+    auto fields = fields_by_id(simulation.particles());
+    for (const auto& [name, value] : history_row(simulation)) {
+      fields[fmt::format("history of {}", name)] = {value};
     }
-    std::vector<std::vector<std::byte>> fields;
-    for (const auto* field : simulation.particles().fields.all()) {
-      std::vector<std::byte> bytes;
-      for (const std::size_t p : by_id) {
-        for (int c = 0; c < field->components(); ++c) {
-          const double value = field->value(p, c);
-          const auto* raw = reinterpret_cast<const std::byte*>(&value);
-          bytes.insert(bytes.end(), raw, raw + sizeof value);
-        }
-      }
-      fields.push_back(std::move(bytes));
-    }
-    const auto row = history_row(simulation);
-    std::vector<std::byte> numbers;
-    for (const auto& [name, value] : row) {
-      const auto* raw = reinterpret_cast<const std::byte*>(&value);
-      numbers.insert(numbers.end(), raw, raw + sizeof value);
-    }
-    fields.push_back(numbers);
     if (first.empty()) {
       first = fields;
     } else {
-      for (std::size_t f = 0; f < fields.size(); ++f) {
-        EXPECT_EQ(fields[f], first[f]) << threads << " threads, field " << f;
+      for (const auto& [name, values] : fields) {
+        EXPECT_EQ(values, first.at(name)) << name << " with " << threads << " threads";
       }
     }
   }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "../support/case_from_text.hpp"
+#include "../support/fields.hpp"
 #include "base/parallel.hpp"
 
 namespace thawslide::sim {
@@ -192,20 +193,7 @@ std::map<std::string, std::vector<double>> fields_after(int steps, int threads, 
   for (int k = 0; k < steps; ++k) {
     simulation.step(0.002);
   }
-  const auto& particles = simulation.particles();
-  std::vector<std::size_t> by_id(particles.size());
-  for (std::size_t p = 0; p < by_id.size(); ++p) {
-    by_id[static_cast<std::size_t>(particles.id(p))] = p;
-  }
-  std::map<std::string, std::vector<double>> fields;
-  for (const auto* field : particles.fields.all()) {
-    for (const std::size_t p : by_id) {
-      for (int c = 0; c < field->components(); ++c) {
-        fields[field->info().name].push_back(field->value(p, c));
-      }
-    }
-  }
-  return fields;
+  return fields_by_id(simulation.particles());
 }
 
 template <int Dim>
