@@ -27,7 +27,7 @@ THAWSLIDE_HD int whole_exponent(Real exponent) {
   return whole ? static_cast<int>(exponent) : -1;
 }
 
-// base^exponent; by multiplication if that is `whole`, and not -1.
+// base^exponent; by multiplication unless `whole`, the exponent's whole_exponent, is -1.
 template <class Value, class Real>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent, int whole) {
   if (whole < 0) {
@@ -57,7 +57,7 @@ template <class Real>
 struct PowerLawCurve {
   Real reference_temperature;  // Tref [C]
   Real exponent;               // m
-  int whole = whole_exponent(exponent);
+  int whole = whole_exponent(exponent);  // follows from m
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CurveValues<Value> at(Value temperature) const {
