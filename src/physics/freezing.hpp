@@ -55,8 +55,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent) {
 
 template <class Real>
 struct PowerLawCurve {
-  Real reference_temperature;  // Tref [C]
-  Real exponent;               // m
+  Real reference_temperature;            // Tref [C]
+  Real exponent;                         // m
   int whole = whole_exponent(exponent);  // follows from m
 
   template <class Value>
