@@ -88,7 +88,7 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
 
 // The change of temperature [K] of a step, at the particles' places and within their cells.
 template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE Lanes<Real> change_of_temperature(const mpm::BatchStencil<Dim, Real, 2>& stencil,
+THAWSLIDE_ALWAYS_INLINE Lanes<Real> change_of_temperature(const mpm::HatStencil<Dim, Real>& stencil,
                                                           const mpm::Patch<Dim, Real, 3>& state, Real dt,
                                                           const mpm::Batch<Real>& batch,
                                                           const mpm::Particles<Dim, Real>& particles) {
@@ -162,18 +162,12 @@ Lanes<Real> orphan_heating(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
 template <int Dim, class Real, class OfParticles>
 Real sum_of_heat(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
                  const OfParticles& of_particles) {
-  std::vector<Real> sums(grid.tiles().size(), Real(0));
-  parallel_for(grid.tiles().size(), [&](std::size_t t) {
+  return parallel_sum<Real>(grid.tiles().size(), [&](std::size_t t, Real& sum) {
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const Lanes<Real> volume = particles.initial_volume.load(batch) / particles.thermal_scaling.load(batch);
-      batch.add_to(sums[t], volume * of_particles(batch));
+      batch.add_to(sum, volume * of_particles(batch));
     }
   });
-  Real sum = 0;
-  for (const Real part : sums) {
-    sum += part;
-  }
-  return sum;
 }
 
 // What the nodes give goes into the particles by take(batch, gain [J/m3]), which says whose temperature changed;

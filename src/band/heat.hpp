@@ -20,6 +20,15 @@ struct HeatGain {
   Real advection = 0;
   Real capacity = 0;  // made by updating with the old apparent capacity
   Real porosity = 0;  // made by counting masses from the current porosity and volume
+
+  HeatGain& operator+=(const HeatGain& part) {
+    friction += part.friction;
+    boundary += part.boundary;
+    advection += part.advection;
+    capacity += part.capacity;
+    porosity += part.porosity;
+    return *this;
+  }
 };
 
 // Records of the heat stage at a node.

@@ -54,6 +54,19 @@ void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim,
   }
 }
 
+// What comes of some nodes.
+template <class Real>
+struct NodalHeat {
+  HeatGain<Real> gain;
+  bool any_orphan = false;  // heat at a node without hat weight
+
+  NodalHeat& operator+=(const NodalHeat& part) {
+    gain += part.gain;
+    any_orphan = any_orphan || part.any_orphan;
+    return *this;
+  }
+};
+
 // The nodal rate of temperature with what `stored_at` gives: the capacity, and the heat that particles took by
 // levelling within cells; friction heat and face conditions come in here. sum_block(b) comes first and makes the sums
 // of a block that stored_at reads.
@@ -61,13 +74,11 @@ template <int Dim, class Real, class SumBlock, class StoredAt>
 HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                            bool first_step, const mpm::Nodes<Dim, Real>& nodes, const SumBlock& sum_block,
                            const StoredAt& stored_at, HeatNodes<Dim, Real>& work) {
-  std::vector<HeatGain<Real>> gains(grid.blocks().size());
-  std::vector<std::uint8_t> orphans(grid.blocks().size(), 0);
   work.orphan.resize(grid.blocks().size());
   const bool has_faces = any_face_condition(model);
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+  const auto solved = parallel_sum<NodalHeat<Real>>(grid.blocks().size(), [&](std::size_t b, NodalHeat<Real>& sum) {
     sum_block(b);
-    HeatGain<Real>& gain = gains[b];
+    HeatGain<Real>& gain = sum.gain;
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       const auto& rates = work.rates(b, k);
       const Real friction = nodes.contact(b, k)[mpm::ContactLayout::friction_heat];
@@ -79,7 +90,7 @@ HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
       if (!(capacity > Real(0))) {
         if (friction > Real(0)) {
           work.orphan(b, k)[0] = friction / nodes.momentum(b, k)[mpm::MomentumLayout<Dim>::mass];
-          orphans[b] = 1;
+          sum.any_orphan = true;
         }
         continue;
       }
@@ -102,15 +113,8 @@ HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
       rate = power / capacity;
     }
   });
-  HeatGain<Real> sum;
-  work.any_orphan = false;
-  for (std::size_t b = 0; b < gains.size(); ++b) {
-    sum.friction += gains[b].friction;
-    sum.boundary += gains[b].boundary;
-    sum.advection += gains[b].advection;
-    work.any_orphan = work.any_orphan || orphans[b] != 0;
-  }
-  return sum;
+  work.any_orphan = solved.any_orphan;
+  return solved.gain;
 }
 
 }  // namespace thawslide::band

@@ -4,12 +4,17 @@
 // g++ keeps an array of registers in registers only if it is never indexed by a variable: hence `unrolled`.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
 #include <utility>
+
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
 
 #include "base/linear.hpp"
 #include "base/portability.hpp"
@@ -25,35 +30,39 @@ THAWSLIDE_ALWAYS_INLINE void unrolled(const Body& body) {
   (std::make_index_sequence<Count>());
 }
 
-// The vector register of a real type, and that of its comparisons.
-template <class Real>
-struct LaneRegister;
-template <>
-struct LaneRegister<double> {
-  using Flag = std::int64_t;
-  using Numbers = double __attribute__((vector_size(32)));
-  using Stored = double __attribute__((vector_size(32), may_alias));  // among single numbers in memory
-  using Flags = std::int64_t __attribute__((vector_size(32)));
-  using Whole = std::int32_t __attribute__((vector_size(16)));
+// Numbers of a real type side by side in one vector register, and what belongs to them.
+template <class Real, std::size_t Count>
+struct LaneRegister {
+  using Flag = std::conditional_t<sizeof(Real) == sizeof(std::int64_t), std::int64_t, std::int32_t>;
+  using Numbers [[gnu::vector_size(Count * sizeof(Real))]] = Real;
+  using Stored [[gnu::vector_size(Count * sizeof(Real)), gnu::may_alias]] = Real;  // among single numbers in memory
+  using Flags [[gnu::vector_size(Count * sizeof(Real))]] = Flag;                   // of comparisons
+  using Whole [[gnu::vector_size(Count * sizeof(std::int32_t))]] = std::int32_t;
 };
 
-template <>
-struct LaneRegister<float> {
-  using Flag = std::int32_t;
-  using Numbers = float __attribute__((vector_size(32)));
-  using Stored = float __attribute__((vector_size(32), may_alias));
-  using Flags = std::int32_t __attribute__((vector_size(32)));
-  using Whole = std::int32_t __attribute__((vector_size(32)));
-};
-
+// As many as the widest register of the processor holds, but no more than eight: the blocks of fields.
+#ifdef __AVX512F__
+inline constexpr std::size_t register_bytes = 64;
+#else
+inline constexpr std::size_t register_bytes = 32;
+#endif
 template <class Real>
-inline constexpr std::size_t lane_count = sizeof(typename LaneRegister<Real>::Numbers) / sizeof(Real);
+inline constexpr std::size_t lane_count = std::min<std::size_t>(register_bytes / sizeof(Real), 8);
+
+// Whole numbers side by side in memory.
+template <class Real, std::size_t Count = lane_count<Real>, class Number>
+THAWSLIDE_ALWAYS_INLINE typename LaneRegister<Real, Count>::Whole whole_lanes(const Number* numbers) {
+  static_assert(sizeof(Number) == sizeof(std::int32_t));
+  typename LaneRegister<Real, Count>::Whole whole;
+  std::memcpy(&whole, numbers, sizeof whole);
+  return whole;
+}
 
 // One yes or no a lane.
-template <class Real>
+template <class Real, std::size_t Count = lane_count<Real>>
 class LaneMask {
  public:
-  using Native = typename LaneRegister<Real>::Flags;
+  using Native = typename LaneRegister<Real, Count>::Flags;
 
   LaneMask() = default;
   THAWSLIDE_ALWAYS_INLINE explicit LaneMask(Native native) : native_(native) {}
@@ -65,28 +74,35 @@ class LaneMask {
   THAWSLIDE_ALWAYS_INLINE friend LaneMask operator|(LaneMask a, LaneMask b) { return LaneMask(a.native_ | b.native_); }
   THAWSLIDE_ALWAYS_INLINE friend LaneMask operator!(LaneMask a) { return LaneMask(~a.native_); }
   THAWSLIDE_ALWAYS_INLINE friend bool any(LaneMask a) {
+#ifdef __AVX512F__
+    if constexpr (sizeof(Native) == 64) {
+      return _mm512_test_epi64_mask(__m512i(a.native_), __m512i(a.native_)) != 0;
+    }
+#endif
 #ifdef __AVX__
-    using Bits = long long __attribute__((vector_size(32)));
-    return __builtin_ia32_ptestz256(Bits(a.native_), Bits(a.native_)) == 0;
-#else
-    typename LaneRegister<Real>::Flag flags = 0;
-    for (std::size_t k = 0; k < lane_count<Real>; ++k) {
+    if constexpr (sizeof(Native) == 32) {
+      using Bits = long long __attribute__((vector_size(32)));
+      return __builtin_ia32_ptestz256(Bits(a.native_), Bits(a.native_)) == 0;
+    }
+#endif
+    typename LaneRegister<Real, Count>::Flag flags = 0;
+    for (std::size_t k = 0; k < Count; ++k) {
       flags |= a.native_[k];
     }
     return flags != 0;
-#endif
   }
 
  private:
   Native native_;
 };
 
-template <class Real>
+template <class Real, std::size_t Count = lane_count<Real>>
 class Lanes {
  public:
-  static constexpr std::size_t count = lane_count<Real>;
-  using Native = typename LaneRegister<Real>::Numbers;
-  using Mask = LaneMask<Real>;
+  static constexpr std::size_t count = Count;
+  using Native = typename LaneRegister<Real, Count>::Numbers;
+  using Mask = LaneMask<Real, Count>;
+  using Whole = typename LaneRegister<Real, Count>::Whole;
 
   Lanes() = default;
   // The same number in all lanes.
@@ -95,20 +111,18 @@ class Lanes {
 
   // From and to `count` numbers side by side, on a boundary of their size.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes load(const Real* numbers) {
-    return Lanes(Native(*reinterpret_cast<const typename LaneRegister<Real>::Stored*>(numbers)));
+    return Lanes(Native(*reinterpret_cast<const typename LaneRegister<Real, Count>::Stored*>(numbers)));
   }
   THAWSLIDE_ALWAYS_INLINE void store(Real* numbers) const {
-    *reinterpret_cast<typename LaneRegister<Real>::Stored*>(numbers) = native_;
+    *reinterpret_cast<typename LaneRegister<Real, Count>::Stored*>(numbers) = native_;
   }
 
   // Whole numbers, from and to `count` places side by side.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes load_whole(const std::int32_t* numbers) {
-    typename LaneRegister<Real>::Whole whole;
-    std::memcpy(&whole, numbers, sizeof whole);
-    return Lanes(__builtin_convertvector(whole, Native));
+    return Lanes(__builtin_convertvector(whole_lanes<Real, Count>(numbers), Native));
   }
   THAWSLIDE_ALWAYS_INLINE void store_whole(std::int32_t* numbers) const {
-    const auto whole = __builtin_convertvector(native_, typename LaneRegister<Real>::Whole);
+    const auto whole = __builtin_convertvector(native_, Whole);
     std::memcpy(numbers, &whole, sizeof whole);
   }
 
@@ -118,7 +132,31 @@ class Lanes {
     return [&]<std::size_t... K>(std::index_sequence<K...>) THAWSLIDE_INLINE_LAMBDA {
       return Lanes(Native{static_cast<Real>(number(K))...});
     }
-    (std::make_index_sequence<count>());
+    (std::make_index_sequence<Count>());
+  }
+
+  // Lane k is numbers[places[k]].
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes gather(const Real* numbers, Whole places) {
+#ifdef __AVX512F__
+    if constexpr (sizeof(Native) == 64) {
+      return Lanes(Native(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(places),
+                                                   numbers, sizeof(Real))));
+    }
+#endif
+    return of([&](std::size_t lane) { return numbers[places[lane]]; });
+  }
+  // The way back for the first `count` lanes.
+  THAWSLIDE_ALWAYS_INLINE void scatter(Real* numbers, Whole places, std::size_t lanes) const {
+#ifdef __AVX512F__
+    if constexpr (sizeof(Native) == 64) {
+      const auto mask = static_cast<__mmask8>((1u << lanes) - 1u);
+      _mm512_mask_i32scatter_pd(numbers, mask, reinterpret_cast<__m256i>(places), __m512d(native_), sizeof(Real));
+      return;
+    }
+#endif
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      numbers[places[lane]] = native_[lane];
+    }
   }
 
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real operator[](std::size_t lane) const { return native_[lane]; }
@@ -166,6 +204,12 @@ class Lanes {
  private:
   Native native_;
 };
+
+// Yes in the lanes 0 .. count-1.
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE LaneMask<Real> lanes_before(std::size_t count) {
+  return Lanes<Real>::of([](std::size_t lane) { return lane; }) < Lanes<Real>(static_cast<Real>(count));
+}
 
 // The type of a number, or of one lane.
 template <class Value>
@@ -229,31 +273,71 @@ template <class Value, class Function>
 }
 
 // Lanes of `a` where bit Half of the lane is 0 and of `b` moved up by Half elsewhere; the rest of both likewise.
-template <std::size_t Half, class Real, std::size_t... K>
-THAWSLIDE_ALWAYS_INLINE void exchange(Lanes<Real>& a, Lanes<Real>& b, std::index_sequence<K...> /*lanes*/) {
-  constexpr std::size_t count = sizeof...(K);
-  const auto kept = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? K : count + (K ^ Half))...);
-  const auto moved = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? (K | Half) : count + K)...);
-  a = Lanes<Real>(kept);
-  b = Lanes<Real>(moved);
+template <std::size_t Half, class Real, std::size_t Count, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE void exchange(Lanes<Real, Count>& a, Lanes<Real, Count>& b,
+                                      std::index_sequence<K...> /*lanes*/) {
+  const auto kept = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? K : Count + (K ^ Half))...);
+  const auto moved = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? (K | Half) : Count + K)...);
+  a = Lanes<Real, Count>(kept);
+  b = Lanes<Real, Count>(moved);
 }
 
 // Rows become columns: lane j of rows[k] is lane k of the former rows[j]. As many rows as lanes.
-template <std::size_t Half, class Real>
-THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Lanes<Real>* rows) {
-  constexpr std::size_t count = lane_count<Real>;
-  unrolled<count>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+template <std::size_t Half, class Real, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Lanes<Real, Count>* rows) {
+  unrolled<Count>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
     if constexpr ((k & Half) == 0) {
-      exchange<Half>(rows[k], rows[k | Half], std::make_index_sequence<count>());
+      exchange<Half>(rows[k], rows[k | Half], std::make_index_sequence<Count>());
     }
   });
   if constexpr (Half > 1) {
     transpose_blocks<Half / 2>(rows);
   }
 }
-template <class Real>
-THAWSLIDE_ALWAYS_INLINE void transpose(Lanes<Real>* rows) {
-  transpose_blocks<lane_count<Real> / 2>(rows);
+template <class Real, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE void transpose(Lanes<Real, Count>* rows) {
+  transpose_blocks<Count / 2>(rows);
+}
+
+// Lanes First, First + 1, ... of a register, and two registers side by side.
+template <std::size_t First, class Real, std::size_t Count, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE Lanes<Real, sizeof...(K)> part_of(const Lanes<Real, Count>& whole,
+                                                          std::index_sequence<K...> /*lanes*/) {
+  return Lanes<Real, sizeof...(K)>(__builtin_shufflevector(whole.native(), whole.native(), (First + K)...));
+}
+template <class Real, std::size_t Count, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE Lanes<Real, sizeof...(K)> joined(const Lanes<Real, Count>& a, const Lanes<Real, Count>& b,
+                                                         std::index_sequence<K...> /*lanes*/) {
+  return Lanes<Real, sizeof...(K)>(__builtin_shufflevector(a.native(), b.native(), K...));
+}
+
+// From `Width` quantities, a lane a particle, to a row of `Width` numbers a particle.
+template <class Real, std::size_t Width>
+THAWSLIDE_ALWAYS_INLINE void by_particle(const Lanes<Real>* quantities, Lanes<Real, Width>* rows) {
+  constexpr std::size_t parts = lane_count<Real> / Width;
+  static_assert(parts * Width == lane_count<Real>);
+  unrolled<parts>([&](auto part) THAWSLIDE_INLINE_LAMBDA {
+    constexpr std::size_t first = part() * Width;
+    unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+      rows[first + k] = part_of<first>(quantities[k], std::make_index_sequence<Width>());
+    });
+    transpose(rows + first);
+  });
+}
+
+// The way back; `rows` are spent.
+template <class Real, std::size_t Width>
+THAWSLIDE_ALWAYS_INLINE void by_quantity(Lanes<Real, Width>* rows, Lanes<Real>* quantities) {
+  constexpr std::size_t parts = lane_count<Real> / Width;
+  static_assert(parts * Width == lane_count<Real> && parts <= 2);
+  unrolled<parts>([&](auto part) THAWSLIDE_INLINE_LAMBDA { transpose(rows + part * Width); });
+  unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+    if constexpr (parts == 1) {
+      quantities[k] = rows[k];
+    } else {
+      quantities[k] = joined(rows[k], rows[Width + k], std::make_index_sequence<2 * Width>());
+    }
+  });
 }
 
 }  // namespace thawslide

@@ -3,11 +3,34 @@
 #include <omp.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cstdlib>
+#include <exception>
 
+#include "base/aligned.hpp"
 #include "base/error.hpp"
 
 namespace thawslide {
+
+namespace {
+
+constexpr std::size_t most_shares = 64;
+
+// The calls next, next + 1, ..., last-1 are still to be taken.
+struct alignas(cache_line) Share {
+  std::atomic<std::size_t> next;
+  std::size_t last;
+};
+
+// Calls a thread takes at a time: few enough for threads to end together, enough for the handing out not to count.
+std::size_t calls_at_a_time(std::size_t count, std::size_t threads) {
+  constexpr std::size_t most = 16, parts = 8;  // of a thread's share
+  return std::clamp<std::size_t>(count / (parts * threads), 1, most);
+}
+
+}  // namespace
 
 int thread_count() { return omp_get_max_threads(); }
 
@@ -17,6 +40,42 @@ void set_thread_count(int threads) {
 }
 
 int available_cores() { return omp_get_num_procs(); }
+
+void share_out(std::size_t count, void (*run)(const void* body, std::size_t first, std::size_t last),
+               const void* body) {
+  const auto threads = static_cast<std::size_t>(thread_count());
+  if (threads == 1 || count < fewest_shared_calls) {
+    run(body, 0, count);
+    return;
+  }
+  const std::size_t at_a_time = calls_at_a_time(count, threads), shares = std::min(threads, most_shares);
+  std::array<Share, most_shares> of_thread;
+  for (std::size_t s = 0; s < shares; ++s) {
+    of_thread[s].next.store(s * count / shares, std::memory_order_relaxed);
+    of_thread[s].last = (s + 1) * count / shares;
+  }
+  std::exception_ptr failure;
+#pragma omp parallel
+  try {
+    for (std::size_t s = 0; s < shares; ++s) {
+      Share& share = of_thread[(static_cast<std::size_t>(omp_get_thread_num()) + s) % shares];
+      while (share.next.load(std::memory_order_relaxed) < share.last) {
+        const std::size_t first = share.next.fetch_add(at_a_time, std::memory_order_relaxed);
+        if (first < share.last) {
+          run(body, first, std::min(first + at_a_time, share.last));
+        }
+      }
+    }
+  } catch (...) {
+#pragma omp critical(thawslide_parallel_failure)
+    if (!failure) {
+      failure = std::current_exception();
+    }
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+}
 
 void let_threads_wait_passively(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") == nullptr) {

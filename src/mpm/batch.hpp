@@ -45,17 +45,18 @@ THAWSLIDE_ALWAYS_INLINE Batch<Real> batch_in_memory(std::size_t first, std::size
 // The nodes that the particles of a batch see: the places of the lowest ones in their tile's patch.
 template <class Real>
 struct BatchNodes {
+  static constexpr std::uint8_t many_runs = 3;
+
   std::array<std::int32_t, lane_count<Real>> first;  // by lane
-  bool shared;                                       // all lanes see the same nodes
+  std::uint8_t runs;                                 // of lanes that see the same nodes: 1, 2 or many
+  std::uint8_t second_run;                           // first lane of the second of two
 };
 
-// A batch of one tile and one material. It and its nodes hold until some particle of the tile has another nearest node;
-// the hats are found every step.
+// A batch of one tile and one material. It and its nodes hold until some particle of the tile has another nearest node.
 template <int Dim, class Real>
 struct TileBatch : Batch<Real> {
   std::array<std::array<std::int32_t, lane_count<Real>>, Dim> nearest;  // numbers of the nearest node, by axis
   BatchNodes<Real> nodes;                                               // 3 an axis, from the one before the nearest
-  BatchNodes<Real> hats;                                                // the corners of the particle's cell
 };
 
 }  // namespace thawslide::mpm

@@ -61,17 +61,40 @@ THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Di
           })};
 }
 
-// The corners of the particles' cells with their linear hats.
+// The linear hats of a batch's cells: at their corners, to which particles add, and at all nodes about their nearest
+// ones, of which they read, since neighbours share these more often than corners.
 template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real, 2> hat_stencil(const SparseGrid<Dim, Real>& grid,
-                                                               const Particles<Dim, Real>& particles,
-                                                               const TileBatch<Dim, Real>& batch) {
-  const Lanes<Real> slope = grid.inverse_cell();
-  return {batch.hats, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
-            const Lanes<Real> in_cells = particles.position.load(batch, a) * grid.inverse_cell();
-            const Lanes<Real> along = in_cells - floor(in_cells);
-            return AxisWeights<Lanes<Real>, 2>{{Real(1) - along, along}, {-slope, slope}};
-          })};
+struct HatStencil {
+  const BatchNodes<Real>& nodes;
+  Vector<Lanes<Real>, Dim> offset;  // from the nearest node, in cells
+  Real inverse_cell;
+
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real, 2> corners() const {
+    const Lanes<Real> zero = Real(0), one = Real(1), slope = inverse_cell;
+    Lanes<Real> place = Lanes<Real>::load_whole(nodes.first.data());
+    for (int a = 0; a < Dim; ++a) {
+      place += select(offset[a] >= zero, Lanes<Real>(Real(power(Tile<Dim>::patch_edge, a))), zero);
+    }
+    BatchNodes<Real> corner_nodes;
+    place.store_whole(corner_nodes.first.data());
+    corner_nodes.runs = BatchNodes<Real>::many_runs;
+    return {corner_nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
+              const Lanes<Real> along = select(offset[a] >= zero, offset[a], one + offset[a]);
+              const Lanes<Real> back = select(offset[a] >= zero, one - offset[a], -offset[a]);
+              return AxisWeights<Lanes<Real>, 2>{{back, along}, {-slope, slope}};
+            })};
+  }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> about() const {
+    return {nodes,
+            for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA { return linear_weights(offset[a], inverse_cell); })};
+  }
+};
+
+template <int Dim, class Real>
+THAWSLIDE_ALWAYS_INLINE HatStencil<Dim, Real> hat_stencil(const SparseGrid<Dim, Real>& grid,
+                                                          const Particles<Dim, Real>& particles,
+                                                          const TileBatch<Dim, Real>& batch) {
+  return {batch.nodes, place_of(grid, particles, batch).offset, grid.inverse_cell()};
 }
 
 // The same nodes and weights for APIC: in place of the gradient G_i stands S_i (x_i - x_p)/D, with which node
@@ -99,7 +122,8 @@ THAWSLIDE_ALWAYS_INLINE AffineBatch<Dim, Real> make_affine(const SparseGrid<Dim,
   return affine;
 }
 
-// Fetch(place, component) for read_nodes: one number for all lanes where they see the same nodes, else one by one.
+// Fetch(place, component) for read_nodes: one number for all lanes where they see the same nodes, two where there are
+// two runs of such lanes, else one by one.
 template <int Dim, class Real, int Components>
 struct SharedNodes {
   const Patch<Dim, Real, Components>& patch;
@@ -110,34 +134,71 @@ struct SharedNodes {
   }
 };
 template <int Dim, class Real, int Components>
-struct OwnNodes {
+struct NodesOfTwoRuns {
   const Patch<Dim, Real, Components>& patch;
-  const std::array<std::int32_t, lane_count<Real>>& first;
+  std::size_t first, second;
+  LaneMask<Real> in_first;
 
   THAWSLIDE_ALWAYS_INLINE Lanes<Real> operator()(std::size_t offset, std::size_t component) const {
-    return Lanes<Real>::of(
-        [&](std::size_t lane) { return patch.records[static_cast<std::size_t>(first[lane]) + offset][component]; });
+    return select(in_first, Lanes<Real>(patch.records[first + offset][component]),
+                  Lanes<Real>(patch.records[second + offset][component]));
   }
 };
+template <int Dim, class Real, int Components>
+struct OwnNodes {
+  const Patch<Dim, Real, Components>& patch;
+  typename Lanes<Real>::Whole first;  // places of numbers
+
+  OwnNodes(const Patch<Dim, Real, Components>& from, const BatchNodes<Real>& nodes)
+      : patch(from),
+        first(whole_lanes<Real>(nodes.first.data()) * static_cast<std::int32_t>(record_size(Components))) {}
+
+  THAWSLIDE_ALWAYS_INLINE Lanes<Real> operator()(std::size_t offset, std::size_t component) const {
+    return Lanes<Real>::gather(&patch.records[offset][component], first);
+  }
+};
+
+// Calls read(fetch) with the fetch that fits the nodes of a batch.
+template <int Dim, class Real, int Components, class Read>
+THAWSLIDE_ALWAYS_INLINE auto with_fetch(const BatchNodes<Real>& nodes, const Patch<Dim, Real, Components>& patch,
+                                        const Read& read) {
+  const auto first = static_cast<std::size_t>(nodes.first[0]);
+  if (nodes.runs == 1) {
+    return read(SharedNodes<Dim, Real, Components>{patch, first});
+  }
+  if (nodes.runs == 2) {
+    const auto second = static_cast<std::size_t>(nodes.first[lane_count<Real> - 1]);
+    return read(NodesOfTwoRuns<Dim, Real, Components>{patch, first, second, lanes_before<Real>(nodes.second_run)});
+  }
+  return read(OwnNodes<Dim, Real, Components>(patch, nodes));
+}
 
 // What the particles read of `Count` numbers of the records about them.
 template <std::size_t Count, int Dim, class Real, std::size_t Width, int Components>
 THAWSLIDE_ALWAYS_INLINE Reading<Dim, Lanes<Real>, Count> read_nodes(const BatchStencil<Dim, Real, Width>& stencil,
                                                                     const Patch<Dim, Real, Components>& patch,
                                                                     std::size_t first_component = 0) {
-  if (stencil.nodes.shared) {
-    const SharedNodes<Dim, Real, Components> nodes{patch, static_cast<std::size_t>(stencil.nodes.first[0])};
-    return read_along_axes<Count>(stencil.axis, nodes, first_component);
+  return with_fetch(stencil.nodes, patch, [&](const auto& fetch) THAWSLIDE_INLINE_LAMBDA {
+    return read_along_axes<Count>(stencil.axis, fetch, first_component);
+  });
+}
+template <std::size_t Count, int Dim, class Real, int Components>
+THAWSLIDE_ALWAYS_INLINE Reading<Dim, Lanes<Real>, Count> read_nodes(const HatStencil<Dim, Real>& hats,
+                                                                    const Patch<Dim, Real, Components>& patch,
+                                                                    std::size_t first_component = 0) {
+  if (hats.nodes.runs == BatchNodes<Real>::many_runs) {
+    const auto corners = hats.corners();
+    return read_along_axes<Count>(corners.axis, OwnNodes<Dim, Real, Components>(patch, corners.nodes), first_component);
   }
-  const OwnNodes<Dim, Real, Components> nodes{patch, stencil.nodes.first};
-  return read_along_axes<Count>(stencil.axis, nodes, first_component);
+  return read_nodes<Count>(hats.about(), patch, first_component);
 }
 
-// One particle's weights, each in all lanes.
-template <int Dim, class Real, std::size_t Width>
+// One particle's weights, each in all lanes of a record's register.
+template <int Dim, class Register, std::size_t Width>
 struct SpreadWeights {
-  Lanes<Real> weight[Dim][Width], slope[Dim][Width];
+  Register weight[Dim][Width], slope[Dim][Width];
 
+  template <class Real>
   THAWSLIDE_ALWAYS_INLINE SpreadWeights(const BatchStencil<Dim, Real, Width>& stencil, std::size_t lane) {
     unrolled<Dim * Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       weight[k / Width][k % Width] = stencil.axis[k / Width].weight[k % Width][lane];
@@ -147,15 +208,15 @@ struct SpreadWeights {
 };
 
 // What one particle reads of one register of every record about it.
-template <int Axis, int Dim, class Real, std::size_t Width>
-THAWSLIDE_ALWAYS_INLINE Lanes<Real> sum_along_axes(const SpreadWeights<Dim, Real, Width>& spread,
-                                                   std::size_t record_size, const Real* records) {
+template <int Axis, int Dim, class Register, std::size_t Width, class Real>
+THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Register, Width>& spread,
+                                                std::size_t record_size, const Real* records) {
   constexpr auto stride = static_cast<std::size_t>(power(Tile<Dim>::patch_edge, Axis));
-  Lanes<Real> sum = Real(0);
+  Register sum = Real(0);
   unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
     const Real* place = records + k * stride * record_size;
     if constexpr (Axis == 0) {
-      sum += spread.weight[0][k] * Lanes<Real>::load(place);
+      sum += spread.weight[0][k] * Register::load(place);
     } else {
       sum += spread.weight[Axis][k] * sum_along_axes<Axis - 1>(spread, record_size, place);
     }
@@ -163,27 +224,28 @@ THAWSLIDE_ALWAYS_INLINE Lanes<Real> sum_along_axes(const SpreadWeights<Dim, Real
   return sum;
 }
 
-// The values, without gradients, of all components of the records about a batch: particle by particle, a register of
-// components at a time, wherever their nodes are.
+// The values, without gradients, of all components of the records about a batch. Where it sees many nodes, particle by
+// particle, a register of components at a time.
 template <int Dim, class Real, std::size_t Width, int Components>
-THAWSLIDE_ALWAYS_INLINE std::array<Lanes<Real>, record_size<Real>(Components)> read_values(
+THAWSLIDE_ALWAYS_INLINE std::array<Lanes<Real>, record_size(Components)> read_values(
     const BatchStencil<Dim, Real, Width>& stencil, const Patch<Dim, Real, Components>& patch) {
-  constexpr std::size_t lanes = lane_count<Real>, size = record_size<Real>(Components);
-  alignas(sizeof(Lanes<Real>)) Real of_lane[size / lanes][lanes * lanes];
+  using Register = RecordRegister<Real, Components>;
+  constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components), width = Register::count;
+  std::array<Lanes<Real>, size> values;
+  if (stencil.nodes.runs != BatchNodes<Real>::many_runs) {
+    const auto seen = read_nodes<static_cast<std::size_t>(Components)>(stencil, patch);
+    unrolled<static_cast<std::size_t>(Components)>([&](auto c) THAWSLIDE_INLINE_LAMBDA { values[c] = seen.value[c]; });
+    return values;
+  }
+  Register of_lane[size / width][lanes];
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const SpreadWeights<Dim, Real, Width> spread(stencil, lane);
+    const SpreadWeights<Dim, Register, Width> spread(stencil, lane);
     const Real* records = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane])].data();
-    unrolled<size / lanes>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
-      sum_along_axes<Dim - 1>(spread, size, records + g * lanes).store(&of_lane[g][lane * lanes]);
+    unrolled<size / width>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
+      of_lane[g][lane] = sum_along_axes<Dim - 1>(spread, size, records + g * width);
     });
   }
-  std::array<Lanes<Real>, size> values;
-  unrolled<size / lanes>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
-    unrolled<lanes>([&](auto lane) THAWSLIDE_INLINE_LAMBDA {
-      values[g * lanes + lane] = Lanes<Real>::load(&of_lane[g][lane * lanes]);
-    });
-    transpose(&values[g * lanes]);
-  });
+  unrolled<size / width>([&](auto g) THAWSLIDE_INLINE_LAMBDA { by_quantity(of_lane[g], &values[g * width]); });
   return values;
 }
 
@@ -191,49 +253,63 @@ THAWSLIDE_ALWAYS_INLINE std::array<Lanes<Real>, record_size<Real>(Components)> r
 // gradient . flux.
 template <int Dim, class Real, std::size_t Components>
 struct Contribution {
-  static constexpr std::size_t lanes = lane_count<Real>;
-  static constexpr std::size_t groups = record_size<Real>(static_cast<int>(Components)) / lanes;  // of registers
+  using Register = RecordRegister<Real, static_cast<int>(Components)>;
+  static constexpr std::size_t width = Register::count;  // components of a register
+  static constexpr std::size_t groups = record_size(static_cast<int>(Components)) / width;
 
-  Lanes<Real> value[groups * lanes];
-  Lanes<Real> flux[Dim][lanes];  // by axis
+  Lanes<Real> value[groups * width];
+  Lanes<Real> flux[Dim][width];  // by axis
 
   Contribution() {
-    unrolled<groups * lanes>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = Real(0); });
-    unrolled<Dim * lanes>([&](auto c) THAWSLIDE_INLINE_LAMBDA { flux[c / lanes][c % lanes] = Real(0); });
-  }
-
-  // From a row a component to a row a particle: row k of a register's components becomes what lane k adds to them.
-  template <bool HasFlux>
-  THAWSLIDE_ALWAYS_INLINE void by_particle() {
-    unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { transpose(&value[g * lanes]); });
-    unrolled<HasFlux ? Dim : 0>([&](auto a) THAWSLIDE_INLINE_LAMBDA { transpose(flux[a]); });
+    unrolled<groups * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = Real(0); });
+    unrolled<Dim * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { flux[c / width][c % width] = Real(0); });
   }
 };
 
-// What a particle adds to one register of every record about it, axis by axis, the last one first: fewer products than
-// node by node. along: flux along this axis and the ones before it.
-template <int Axis, bool HasFlux, int Dim, class Real, std::size_t Width>
-THAWSLIDE_ALWAYS_INLINE void add_along_axes(const SpreadWeights<Dim, Real, Width>& spread, Lanes<Real> value,
-                                            Lanes<Real> along_0, Lanes<Real> along_1, Lanes<Real> along_2,
-                                            std::size_t record_size, Real* records) {
-  constexpr auto stride = static_cast<std::size_t>(power(Tile<Dim>::patch_edge, Axis));
-  const Lanes<Real> along = Axis == 0 ? along_0 : Axis == 1 ? along_1 : along_2;
-  unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-    const Lanes<Real>& weight = spread.weight[Axis][k];
-    Real* place = records + k * stride * record_size;
-    if constexpr (Axis == 0) {
-      Lanes<Real> sum = Lanes<Real>::load(place) + weight * value;
-      if constexpr (HasFlux) {
-        sum += spread.slope[0][k] * along;
+// What the particles first ... last-1 of a batch, which see the same nodes, add to one register of the records there:
+// the sums stay in registers, a layer of nodes at a time, while particle after particle adds to them. Axis by axis, the
+// last one first: fewer products than node by node. value, flux: a row a particle.
+template <bool HasFlux, int Dim, class Real, std::size_t Width, class Register, std::size_t Size>
+THAWSLIDE_ALWAYS_INLINE void add_run(const BatchStencil<Dim, Real, Width>& stencil, std::size_t first, std::size_t last,
+                                     const Register (&value)[Size], const Register (&flux)[Dim][Size],
+                                     std::size_t record_size, Real* records) {
+  constexpr auto edge = static_cast<std::size_t>(Tile<Dim>::patch_edge);
+  unrolled<Dim == 3 ? Width : 1>([&](auto layer) THAWSLIDE_INLINE_LAMBDA {
+    const auto place = [&](std::size_t k) {
+      return records + ((layer * edge + k / Width) * edge + k % Width) * record_size;
+    };
+    Register sums[Width * Width];
+    unrolled<Width * Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA { sums[k] = Register::load(place(k)); });
+    for (std::size_t lane = first; lane < last; ++lane) {
+      const auto weight = [&](std::size_t axis, std::size_t k)
+                              THAWSLIDE_INLINE_LAMBDA { return Register(stencil.axis[axis].weight[k][lane]); };
+      const auto slope = [&](std::size_t axis, std::size_t k)
+                             THAWSLIDE_INLINE_LAMBDA { return Register(stencil.axis[axis].slope[k][lane]); };
+      Register in_layer = value[lane], along_0 = flux[0][lane], along_1 = flux[1][lane];
+      if constexpr (Dim == 3) {
+        in_layer *= weight(2, layer);
+        if constexpr (HasFlux) {
+          in_layer += slope(2, layer) * flux[2][lane];
+          along_0 *= weight(2, layer);
+          along_1 *= weight(2, layer);
+        }
       }
-      sum.store(place);
-    } else {
-      Lanes<Real> part = weight * value;
-      if constexpr (HasFlux) {
-        part += spread.slope[Axis][k] * along;
-      }
-      add_along_axes<Axis - 1, HasFlux>(spread, part, weight * along_0, weight * along_1, along_2, record_size, place);
+      unrolled<Width>([&](auto j) THAWSLIDE_INLINE_LAMBDA {
+        Register in_row = weight(1, j) * in_layer;
+        if constexpr (HasFlux) {
+          in_row += slope(1, j) * along_1;
+        }
+        const Register along = weight(1, j) * along_0;
+        unrolled<Width>([&](auto i) THAWSLIDE_INLINE_LAMBDA {
+          Register& sum = sums[j * Width + i];
+          sum += weight(0, i) * in_row;
+          if constexpr (HasFlux) {
+            sum += slope(0, i) * along;
+          }
+        });
+      });
     }
+    unrolled<Width * Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA { sums[k].store(place(k)); });
   });
 }
 
@@ -244,21 +320,33 @@ constexpr int no_flux = -1;
 template <int FluxGroup, std::size_t First = 0, int Dim, class Real, std::size_t Width, int Components,
           std::size_t Carried>
 THAWSLIDE_ALWAYS_INLINE void add_to_nodes(const BatchStencil<Dim, Real, Width>& stencil, std::size_t count,
-                                          Contribution<Dim, Real, Carried>& rows, Patch<Dim, Real, Components>& patch) {
-  constexpr std::size_t lanes = lane_count<Real>;
-  constexpr std::size_t size = record_size<Real>(Components);
-  constexpr std::size_t groups = Contribution<Dim, Real, Carried>::groups;
-  static_assert(First % lanes == 0 && First + groups * lanes <= size);
-  rows.template by_particle<FluxGroup != no_flux>();
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    const SpreadWeights<Dim, Real, Width> spread(stencil, lane);
-    Real* records = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane])].data() + First;
+                                          const Contribution<Dim, Real, Carried>& carried,
+                                          Patch<Dim, Real, Components>& patch) {
+  using Added = Contribution<Dim, Real, Carried>;
+  using Register = typename Added::Register;
+  constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components);
+  constexpr std::size_t groups = Added::groups, width = Added::width;
+  static_assert(size % width == 0 && First % width == 0 && First + groups * width <= size);
+  Register value[groups][lanes], flux[Dim][lanes];
+  unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { by_particle(&carried.value[g * width], value[g]); });
+  unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
+                                              THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
+  const auto& nodes = stencil.nodes.first;
+  for (std::size_t first = 0, last = 0; first < count; first = last) {
+    while (last < count && nodes[last] == nodes[first]) {
+      ++last;
+    }
+    Real* records = patch.records[static_cast<std::size_t>(nodes[first])].data() + First;
     unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
-      constexpr bool has_flux = static_cast<int>(g()) == FluxGroup;
-      add_along_axes<Dim - 1, has_flux>(spread, rows.value[g * lanes + lane], rows.flux[0][lane], rows.flux[1][lane],
-                                        rows.flux[Dim - 1][lane], size, records + g * lanes);
+      add_run<static_cast<int>(g()) == FluxGroup>(stencil, first, last, value[g], flux, size, records + g * width);
     });
   }
+}
+template <int FluxGroup, std::size_t First = 0, int Dim, class Real, int Components, std::size_t Carried>
+THAWSLIDE_ALWAYS_INLINE void add_to_nodes(const HatStencil<Dim, Real>& hats, std::size_t count,
+                                          const Contribution<Dim, Real, Carried>& carried,
+                                          Patch<Dim, Real, Components>& patch) {
+  add_to_nodes<FluxGroup, First>(hats.corners(), count, carried, patch);
 }
 
 }  // namespace thawslide::mpm

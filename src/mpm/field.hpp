@@ -95,16 +95,14 @@ class Field final : public FieldBase {
     if (batch.whole) {
       return Lanes<T>::load(&(*this)(batch.particle[0], component));
     }
-    return Lanes<T>::of([&](std::size_t lane) { return (*this)(batch.particle[lane], component); });
+    return Lanes<T>::gather(&data_[position(0, component)], places(batch));
   }
   THAWSLIDE_ALWAYS_INLINE void store(const Batch<T>& batch, const Lanes<T>& values, int component = 0) {
     if (batch.whole) {
       values.store(&(*this)(batch.particle[0], component));
       return;
     }
-    for (std::size_t lane = 0; lane < batch.count; ++lane) {
-      (*this)(batch.particle[lane], component) = values[lane];
-    }
+    values.scatter(&data_[position(0, component)], places(batch), batch.count);
   }
   // Whole numbers, from and to lanes of a real type.
   template <class Real>
@@ -203,6 +201,12 @@ class Field final : public FieldBase {
  private:
   static std::size_t position(std::size_t particle, int component) {
     return (particle / lanes * Components + static_cast<std::size_t>(component)) * lanes + particle % lanes;
+  }
+  // position(particle, 0), by lane.
+  THAWSLIDE_ALWAYS_INLINE static typename Lanes<T>::Whole places(const Batch<T>& batch) {
+    constexpr auto within = static_cast<std::int32_t>(lanes) - 1;
+    const auto particle = whole_lanes<T>(batch.particle.data());
+    return particle + (particle & ~within) * (Components - 1);
   }
 
   std::size_t particles_ = 0;

@@ -50,14 +50,14 @@ AffineBatch<Dim, Real> affine_stencil(const SparseGrid<Dim, Real>& grid, const P
 template <std::size_t First, int Dim, class Real, int Components>
 void add_affine_momentum(const AffineBatch<Dim, Real>& affine, const Particles<Dim, Real>& particles,
                          const Batch<Real>& batch, Patch<Dim, Real, Components>& patch) {
-  constexpr std::size_t lanes = lane_count<Real>;
+  constexpr std::size_t width = Contribution<Dim, Real, Dim>::width;
   const Lanes<Real> mass = particles.mass.load(batch);
   const Matrix<Lanes<Real>, Dim> moment = mass * affine_velocity(particles, batch) * affine.moment.asDiagonal();
-  Contribution<Dim, Real, lanes> carried;
+  Contribution<Dim, Real, Dim> carried;
   unrolled<static_cast<std::size_t>(Dim * Dim)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-    carried.flux[k / Dim][First % lanes + k % Dim] = moment(static_cast<int>(k) % Dim, static_cast<int>(k) / Dim);
+    carried.flux[k / Dim][First % width + k % Dim] = moment(static_cast<int>(k) % Dim, static_cast<int>(k) / Dim);
   });
-  add_to_nodes<0, First / lanes * lanes>(affine.nodes, batch.count, carried, patch);
+  add_to_nodes<0, First / width * width>(affine.nodes, batch.count, carried, patch);
 }
 
 // V sigma [J] that Eq. 12 sees.
@@ -214,20 +214,16 @@ template <int Dim, class Real>
 MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                               const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes) {
   const auto patches = nodes.velocity.patches(grid.tiles().size());
-  std::vector<Real> kinetic(grid.tiles().size());
+  MoveWork<Real> work;
   with_transfer(model, [&](auto shape, auto transfer) {
-    parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    work.particle_kinetic = parallel_sum<Real>(grid.tiles().size(), [&](std::size_t t, Real& kinetic) {
       patches[t].clear();
       MotionPatch<Dim, Real> motion;
       load_patch(grid, t, nodes.motion, motion);
-      kinetic[t] = move_tile<decltype(shape)>(grid, t, model, transfer, dt, motion, particles, patches[t]);
+      kinetic += move_tile<decltype(shape)>(grid, t, model, transfer, dt, motion, particles, patches[t]);
     });
   });
-  MoveWork<Real> sum;
-  for (const Real energy : kinetic) {
-    sum.particle_kinetic += energy;
-  }
-  return sum;
+  return work;
 }
 
 namespace {
@@ -255,8 +251,7 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
   using LanesVector = Vector<Lanes<Real>, Dim>;
   constexpr std::size_t chunk = 1024;
   const std::size_t tasks = (particles.size() + chunk - 1) / chunk;
-  std::vector<BadParticle> bads(tasks);
-  parallel_for(tasks, [&](std::size_t task) {
+  bad += parallel_sum<BadParticle>(tasks, [&](std::size_t task, BadParticle& found) {
     const std::size_t last = std::min(particles.size(), (task + 1) * chunk);
     for (std::size_t p = task * chunk; p < last; p += Batch<Real>::most) {
       const auto batch = batch_in_memory<Real>(p, last);
@@ -270,7 +265,7 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
         well = well & (old[a] + step[a] >= Real(0)) & (old[a] + step[a] <= extent[a]);
       }
       if (any(!well)) {
-        note_faults(particles, batch, well, bads[task]);
+        note_faults(particles, batch, well, found);
         for (int a = 0; a < Dim; ++a) {
           step[a] = select(well, step[a], Lanes<Real>(Real(0)));
         }
@@ -281,9 +276,6 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
       particles.path_length.store(batch, particles.path_length.load(batch) + sqrt(step.squaredNorm()));
     }
   });
-  for (const BadParticle& one : bads) {
-    bad.note(one.id, one.fault);
-  }
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \

@@ -68,6 +68,14 @@ struct StressWork {
   Real plastic = 0;  // dissipated in plastic strain
   Real viscous = 0;  // dissipated by viscosity
   Real pore = 0;     // of the pore pressure on the volume, where it acts inside the body
+
+  StressWork& operator+=(const StressWork& part) {
+    total += part.total;
+    plastic += part.plastic;
+    viscous += part.viscous;
+    pore += part.pore;
+    return *this;
+  }
 };
 
 // What moving the particles cost.
@@ -91,6 +99,10 @@ struct BadParticle {
       id = other;
       fault = found;
     }
+  }
+  BadParticle& operator+=(const BadParticle& part) {
+    note(part.id, part.fault);
+    return *this;
   }
 };
 

@@ -34,7 +34,6 @@ struct HatLayout {
 
 // What the particles near the ground tell its candidate nodes: sums S m X with the momentum shape functions, for nodes
 // without hat weight and for the slip; sums S V X with the hats; the smallest distance left to the ground.
-template <class Real>
 struct NearBaseLayout {
   static constexpr std::size_t temperature = 0;
   static constexpr std::size_t pore_pressure = 1;
@@ -43,13 +42,10 @@ struct NearBaseLayout {
   static constexpr std::size_t slip = 4;            // [kg m]
   static constexpr std::size_t by_mass = 5;         // those above
 
-  static constexpr std::size_t first_by_hats = record_size<Real>(by_mass);
-  static constexpr std::size_t saturation_by_hats = first_by_hats;
-  static constexpr std::size_t solid_fraction_by_hats = first_by_hats + 1;
-  static constexpr std::size_t by_hats = 2;
-
-  static constexpr std::size_t clearance = first_by_hats + by_hats;  // [m], beyond all bounds where there is none
-  static constexpr int size = clearance + 1;
+  static constexpr std::size_t saturation_by_hats = 5;
+  static constexpr std::size_t solid_fraction_by_hats = 6;
+  static constexpr std::size_t clearance = 7;  // [m], beyond all bounds where there is none
+  static constexpr int size = 8;
 };
 
 // Candidate nodes: how they press on the ground, and what of it they have.
@@ -76,7 +72,7 @@ struct Nodes {
   NodeRecords<Dim, Real, HatLayout::size> hats{room};
   NodeRecords<Dim, Real, BaseLayout::size> base;
   NodeRecords<Dim, Real, ContactLayout::size> contact;
-  NodeRecords<Dim, Real, NearBaseLayout<Real>::size> near_base{room};  // of candidate nodes alone
+  NodeRecords<Dim, Real, NearBaseLayout::size> near_base{room};  // of candidate nodes alone
 };
 
 // Position [m, relative to the domain's lower corner] of a node of a block.

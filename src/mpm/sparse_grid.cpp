@@ -13,6 +13,8 @@ namespace thawslide::mpm {
 namespace {
 
 constexpr std::size_t keys_per_task = 1024;
+// Sorting takes about as long as this many steps lose with all particles out of order.
+constexpr double most_scattered = 4;
 constexpr std::int32_t never = std::numeric_limits<std::int32_t>::min();  // the number of a nearest node
 constexpr std::uint64_t no_key = ~std::uint64_t{0};
 constexpr std::size_t none = ~std::size_t{0};
@@ -46,7 +48,14 @@ BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Di
   }
   BatchNodes<Real> nodes;
   place.store_whole(nodes.first.data());
-  nodes.shared = !any(place != Lanes<Real>(place[0]));
+  nodes.runs = 1;
+  nodes.second_run = 0;
+  for (std::uint8_t lane = 1; lane < lane_count<Real>; ++lane) {
+    if (nodes.first[lane] != nodes.first[lane - 1u]) {
+      nodes.second_run = nodes.runs == 1 ? lane : nodes.second_run;
+      nodes.runs = nodes.runs == 1 ? 2 : BatchNodes<Real>::many_runs;
+    }
+  }
   return nodes;
 }
 
@@ -67,17 +76,33 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
     task_movers_ = std::vector<std::vector<Mover>>();
     movers_ = std::vector<Mover>();
   }
-  if (first_call || ++calls_ >= interval) {
-    calls_ = 0;
+  const bool sorts = first_call || ++calls_ >= interval || scattered_ >= most_scattered;
+  if (sorts) {
     reorder(particles);
   }
   batches_.resize(tiles_.size());
+  broken_.resize(tiles_.size());
   parallel_for(tiles_.size(), [&](std::size_t t) {
     if (stale_[t] != 0) {
       make_batches(particles, t);
     }
-    find_hats(particles, t);
   });
+  note_order(sorts);
+}
+
+// How much the order in memory costs: batches that are not whole, beyond those that never are, over the steps since
+// the last sorting.
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::note_order(bool sorted) {
+  const std::size_t broken = std::accumulate(broken_.begin(), broken_.end(), std::size_t{0});
+  if (sorted) {
+    calls_ = 0;
+    scattered_ = 0;
+    fewest_broken_ = broken;
+  } else if (broken > fewest_broken_) {
+    const std::size_t whole = order_.size() / Batch<Real>::most + 1;
+    scattered_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(whole);
+  }
 }
 
 // All particles are new.
@@ -99,16 +124,18 @@ void SparseGrid<Dim, Real>::start(const Particles<Dim, Real>& particles) {
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
   particles.reorder(order_);
-  std::vector<std::uint64_t> keys(keys_.size());
-  std::vector<std::int32_t> nearest(nearest_.size(), never);
-  for (std::size_t k = 0; k < order_.size(); ++k) {
-    keys[k] = keys_[order_[k]];
-    for (std::size_t a = 0; a < Dim; ++a) {
-      nearest[in_nearest<Dim, Real>(k, a)] = nearest_[in_nearest<Dim, Real>(order_[k], a)];
+  former_numbers_.resize(order_.size());
+  for (std::size_t a = 0; a < Dim; ++a) {
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+      former_numbers_[k] = nearest_[in_nearest<Dim, Real>(order_[k], a)];
+    }
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+      nearest_[in_nearest<Dim, Real>(k, a)] = former_numbers_[k];
     }
   }
-  keys_.swap(keys);
-  nearest_.swap(nearest);
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    keys_[k] = key_of(k);
+  }
   std::iota(order_.begin(), order_.end(), 0u);
   std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
 }
@@ -144,17 +171,23 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
   return !movers_.empty();
 }
 
+// The key of a particle, from its nearest node.
+template <int Dim, class Real>
+std::uint64_t SparseGrid<Dim, Real>::key_of(std::size_t particle) const {
+  Index node{}, tile{};
+  int local = 0;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    node[a] = nearest_[in_nearest<Dim, Real>(particle, a)];
+  }
+  T::split(node, tile, local);
+  return (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
+}
+
 // The keys of `count` particles from `first` on, from their nearest nodes.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::note_movers(std::size_t first, std::size_t count, std::vector<Mover>& movers) {
   for (std::size_t p = first; p < first + count; ++p) {
-    Index node{}, tile{};
-    int local = 0;
-    for (std::size_t a = 0; a < Dim; ++a) {
-      node[a] = nearest_[in_nearest<Dim, Real>(p, a)];
-    }
-    T::split(node, tile, local);
-    const std::uint64_t key = (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
+    const std::uint64_t key = key_of(p);
     if (key != keys_[p]) {
       movers.push_back({static_cast<std::uint32_t>(p), keys_[p] == no_key ? no_key : keys_[p] >> T::node_bits});
       moved_[p] = 1;
@@ -271,7 +304,7 @@ void SparseGrid<Dim, Real>::mark_blocks_about(const std::vector<std::uint8_t>& t
   }
 }
 
-// Four particles (as many as lanes) that stand side by side in memory go together, the others fill up batches.
+// Particles, as many as lanes, that stand side by side in memory go together, the others fill up batches.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, std::size_t t) {
   constexpr std::size_t most = Batch<Real>::most;
@@ -286,6 +319,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   };
   auto& batches = batches_[t];
   batches.clear();
+  broken_[t] = 0;
   for (std::uint32_t k = tile.first; k < tile.last;) {
     TileBatch<Dim, Real> batch;
     batch.whole = side_by_side(k);
@@ -312,17 +346,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
     }
     batch.nodes = nodes_from<Dim, Real>(tile.key, before_nearest);
     batches.push_back(batch);
-  }
-}
-
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::find_hats(const Particles<Dim, Real>& particles, std::size_t t) {
-  for (TileBatch<Dim, Real>& batch : batches_[t]) {
-    Vector<Lanes<Real>, Dim> corner;
-    for (int a = 0; a < Dim; ++a) {
-      corner[a] = floor(particles.position.load(batch, a) * inverse_cell_);
-    }
-    batch.hats = nodes_from<Dim, Real>(tiles_[t].key, corner);
+    broken_[t] += batch.whole ? 0 : 1;
   }
 }
 

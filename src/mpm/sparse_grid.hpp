@@ -30,8 +30,8 @@ class SparseGrid {
   [[nodiscard]] Real inverse_cell() const { return inverse_cell_; }
 
   // Brings order, tiles, batches and blocks up to date with the particles' positions. Particles stand by nearest node,
-  // then by id, whatever their place in memory. Every `interval` calls particles are also moved in memory to stand in
-  // this order.
+  // then by id, whatever their place in memory. When many no longer stand in memory in this order, and every `interval`
+  // calls, they are moved to do so.
   void update(Particles<Dim, Real>& particles, int interval);
 
   // Particle indices in canonical order.
@@ -78,6 +78,7 @@ class SparseGrid {
 
   void start(const Particles<Dim, Real>& particles);
   bool compute_keys(const Particles<Dim, Real>& particles);
+  [[nodiscard]] std::uint64_t key_of(std::size_t particle) const;
   void note_movers(std::size_t first, std::size_t count, std::vector<Mover>& movers);
   void merge_moved(const Particles<Dim, Real>& particles);
   template <class Before>
@@ -85,13 +86,14 @@ class SparseGrid {
   void count_leaving();
   void list_tiles();
   void reorder(Particles<Dim, Real>& particles);
+  void note_order(bool sorted);
   void connect_blocks();
   void make_batches(const Particles<Dim, Real>& particles, std::size_t t);
-  void find_hats(const Particles<Dim, Real>& particles, std::size_t t);
 
   Real cell_, inverse_cell_;
   std::vector<std::uint64_t> keys_;    // by particle: tile key, then place in the tile
   std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: the nearest node
+  std::vector<std::int32_t> former_numbers_;
   bool one_material_ = true;
   std::vector<std::uint8_t> moved_;
   std::vector<std::vector<Mover>> task_movers_;
@@ -105,7 +107,10 @@ class SparseGrid {
   std::vector<std::uint64_t> blocks_;
   std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;
   bool blocks_changed_ = true;
-  int calls_ = 0;
+  int calls_ = 0;                      // since particles were sorted in memory
+  std::vector<std::uint32_t> broken_;  // by tile: batches that are not whole
+  std::size_t fewest_broken_ = 0;
+  double scattered_ = 0;
 };
 
 }  // namespace thawslide::mpm

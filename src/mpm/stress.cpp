@@ -121,32 +121,35 @@ StressWork<Real> deform_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, c
   return sum;
 }
 
+// What comes of the particles of some tiles.
+template <class Real>
+struct Deformed {
+  StressWork<Real> work;
+  BadParticle bad;
+
+  Deformed& operator+=(const Deformed& part) {
+    work += part.work;
+    bad += part.bad;
+    return *this;
+  }
+};
+
 }  // namespace
 
 template <int Dim, class Real>
 StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                                             const MotionModel<Dim, Real>& model, Real dt, const Nodes<Dim, Real>& nodes,
                                             BadParticle& bad) {
-  std::vector<StressWork<Real>> works(grid.tiles().size());
-  std::vector<BadParticle> bads(grid.tiles().size());
+  Deformed<Real> sum;
   with_shape<Real>(model.shape, [&](auto shape) {
-    parallel_for(grid.tiles().size(), [&](std::size_t t) {
+    sum = parallel_sum<Deformed<Real>>(grid.tiles().size(), [&](std::size_t t, Deformed<Real>& part) {
       Patch<Dim, Real, Dim> velocity;
       load_patch(grid, t, nodes.velocity, velocity);
-      works[t] = deform_tile<decltype(shape)>(grid, t, model, dt, velocity, particles, bads[t]);
+      part.work += deform_tile<decltype(shape)>(grid, t, model, dt, velocity, particles, part.bad);
     });
   });
-  StressWork<Real> sum;
-  for (const StressWork<Real>& work : works) {
-    sum.total += work.total;
-    sum.plastic += work.plastic;
-    sum.viscous += work.viscous;
-    sum.pore += work.pore;
-  }
-  for (const BadParticle& one : bads) {
-    bad.note(one.id, one.fault);
-  }
-  return sum;
+  bad += sum.bad;
+  return sum.work;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \

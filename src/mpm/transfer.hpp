@@ -21,17 +21,16 @@
 
 namespace thawslide::mpm {
 
-// A record fills whole vector registers.
-template <class Real>
-constexpr std::size_t record_size(int components) {
-  const auto count = static_cast<std::size_t>(components);
-  return (count + lane_count<Real> - 1) / lane_count<Real> * lane_count<Real>;
-}
+// A record is filled up to a multiple of four numbers, and goes by the widest registers that it fills.
+constexpr std::size_t record_size(int components) { return (static_cast<std::size_t>(components) + 3) / 4 * 4; }
+
+template <class Real, int Components>
+using RecordRegister = Lanes<Real, record_size(Components) % lane_count<Real> == 0 ? lane_count<Real> : 4>;
 
 // The records about one tile, with a margin of one node.
 template <int Dim, class Real, int Components>
 struct Patch {
-  using Record = std::array<Real, record_size<Real>(Components)>;
+  using Record = std::array<Real, record_size(Components)>;
   alignas(cache_line) std::array<Record, static_cast<std::size_t>(Tile<Dim>::patch_nodes)> records;
 
   void clear() { std::fill_n(records.front().data(), records.size() * records.front().size(), Real(0)); }
@@ -56,7 +55,7 @@ class PatchRoom {
 template <int Dim, class Real, int Components>
 class NodeRecords {
  public:
-  using Record = std::array<Real, record_size<Real>(Components)>;
+  using Record = std::array<Real, record_size(Components)>;
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
   // Without room for patches: what nodes work out for themselves, or sum from the patches of others.
@@ -144,6 +143,7 @@ template <int Dim, class Real, int Components>
 void sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
                           std::span<Patch<Dim, Real, Components>> patches, NodeRecords<Dim, Real, Components>& nodes) {
   using Record = typename NodeRecords<Dim, Real, Components>::Record;
+  using Register = RecordRegister<Real, Components>;
   constexpr std::size_t size = std::tuple_size_v<Record>;
   constexpr std::size_t own = static_cast<std::size_t>(Tile<Dim>::stencil) / 2;
   Record* records = &nodes(block, 0);
@@ -152,7 +152,7 @@ void sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
   const auto for_registers = [&](auto d, const auto& visit) THAWSLIDE_INLINE_LAMBDA {
     const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
     for_shared_rows<Dim, opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
-      for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
+      for (std::size_t c = 0; c < count * size; c += Register::count) {
         visit(records[in_block].data() + c, patch.records[in_patch].data() + c);
       }
     });
@@ -161,12 +161,12 @@ void sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
     std::fill_n(records->data(), size * NodeRecords<Dim, Real, Components>::nodes, Real(0));
   } else {
     for_registers(std::integral_constant<std::size_t, own>(),
-                  [](Real* sums, const Real* parts) { Lanes<Real>::load(parts).store(sums); });
+                  [](Real* sums, const Real* parts) { Register::load(parts).store(sums); });
   }
   for_each_direction<Dim>([&](auto d) {
     if (d != own && tiles[d] != KeyIndex::absent) {
-      for_registers(
-          d, [](Real* sums, const Real* parts) { (Lanes<Real>::load(sums) + Lanes<Real>::load(parts)).store(sums); });
+      for_registers(d,
+                    [](Real* sums, const Real* parts) { (Register::load(sums) + Register::load(parts)).store(sums); });
     }
   });
 }
@@ -190,15 +190,16 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
 template <int Dim, class Real, int Components>
 void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const NodeRecords<Dim, Real, Components>& nodes,
                 Patch<Dim, Real, Components>& patch) {
-  constexpr std::size_t size = std::tuple_size_v<typename NodeRecords<Dim, Real, Components>::Record>;
+  using Register = RecordRegister<Real, Components>;
+  constexpr std::size_t size = record_size(Components);
   const std::int32_t* blocks = grid.blocks_about_tile(t);
   for_each_direction<Dim>([&](auto d) {
     const auto block = static_cast<std::size_t>(blocks[d]);
     for_shared_rows<Dim, d>([&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
       const Real* from = nodes(block, in_block).data();
       Real* to = patch.records[in_patch].data();
-      for (std::size_t c = 0; c < count * size; c += lane_count<Real>) {
-        Lanes<Real>::load(from + c).store(to + c);
+      for (std::size_t c = 0; c < count * size; c += Register::count) {
+        Register::load(from + c).store(to + c);
       }
     });
   });

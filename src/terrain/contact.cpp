@@ -17,8 +17,7 @@ using mpm::ContactLayout;
 using mpm::HatLayout;
 using mpm::MomentumLayout;
 using mpm::MotionLayout;
-template <class Real>
-using NearBase = mpm::NearBaseLayout<Real>;
+using NearBase = mpm::NearBaseLayout;
 
 // The smallest contact area, as a share of a cell's face: keeps N = p.n / (A dt) finite where no ground is near.
 constexpr double smallest_area = 1e-6;
@@ -45,9 +44,8 @@ void constrain(const mpm::BlockConstraints<Dim, Real>& constraints, std::size_t 
 template <int Dim, class Real>
 Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, bool distance_check, Real dt,
                  Real mass, Real inward_momentum) {
-  return std::max(Real(0), distance_check
-                               ? inward_momentum - mass * (nodes.near_base(b, k)[NearBase<Real>::clearance] / dt)
-                               : inward_momentum);
+  return std::max(Real(0), distance_check ? inward_momentum - mass * (nodes.near_base(b, k)[NearBase::clearance] / dt)
+                                          : inward_momentum);
 }
 
 template <int Dim, class Real>
@@ -90,7 +88,7 @@ template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
                       const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
-  using Layout = NearBase<Real>;
+  using Layout = NearBase;
   const auto& hats = nodes.hats(b, k);
   const auto& near_base = nodes.near_base(b, k);
   const auto average = [&](Real sum_by_hats, std::size_t by_mass) {
@@ -230,20 +228,6 @@ void finish_node(const NodeState<Dim, Real>& state, bool constrained, Real dampi
   }
 }
 
-template <int Dim, class Real>
-void add(ContactWork<Dim, Real>& sum, const ContactWork<Dim, Real>& part) {
-  sum.friction_work += part.friction_work;
-  sum.converted += part.converted;
-  sum.loss += part.loss;
-  sum.frame_work += part.frame_work;
-  sum.damping += part.damping;
-  sum.node_kinetic += part.node_kinetic;
-  sum.area += part.area;
-  sum.friction_area += part.friction_area;
-  sum.force += part.force;
-  sum.constraint_impulse += part.constraint_impulse;
-}
-
 }  // namespace
 
 template <int Dim, class Real>
@@ -254,12 +238,12 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   nodes.motion.resize(grid.blocks().size());
   nodes.contact.resize(grid.blocks().size());
-  std::vector<ContactWork<Dim, Real>> works(grid.blocks().size());
   const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
   if (ground != nullptr) {
     press_on_ground(grid, *ground, constraints, model, time, dt, nodes);
   }
-  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+  using Work = ContactWork<Dim, Real>;
+  return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {
     const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
     const auto* known = ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
     std::array<Real, block_nodes> pressure{};
@@ -267,7 +251,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       pressure = base_pressure(grid, *ground, nodes, b, dt, smallest);
     }
     const auto finish = [&](const NodeState<Dim, Real>& state, std::size_t k) {
-      finish_node(state, on_block.any(), model.mass_damping, dt, works[b], nodes.motion(b, k));
+      finish_node(state, on_block.any(), model.mass_damping, dt, work, nodes.motion(b, k));
     };
     BlockContact<Dim, Real> contact;
     for (std::size_t k = 0; k < block_nodes; ++k) {
@@ -288,16 +272,11 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       const std::size_t k = contact.node[c];
       const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
       apply_contact(on_block, k, (*known)[k].normal, nodes.base(b, k)[BaseLayout::load], contact.area[c], strength,
-                    contact.basal.friction[c], model.law.heat_fraction, dt, contact.state[c], works[b],
+                    contact.basal.friction[c], model.law.heat_fraction, dt, contact.state[c], work,
                     nodes.contact(b, k));
       finish(contact.state[c], k);
     }
   });
-  ContactWork<Dim, Real> sum;
-  for (const ContactWork<Dim, Real>& work : works) {
-    add(sum, work);
-  }
-  return sum;
 }
 
 template <int Dim, class Real>
@@ -305,8 +284,10 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
                            const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model,
                            const Vector<Real, Dim>& gravity, Real time, Real dt, mpm::Nodes<Dim, Real>& nodes) {
   using Layout = MomentumLayout<Dim>;
-  std::vector<Real> works(grid.blocks().size(), Real(0));
-  sum_patches(grid, nodes.velocity, [&](std::size_t b) {
+  nodes.velocity.resize(grid.blocks().size());
+  const auto patches = nodes.velocity.patches(grid.tiles().size());
+  return parallel_sum<Real>(grid.blocks().size(), [&](std::size_t b, Real& work) {
+    sum_patches_in_block(grid, b, patches, nodes.velocity);
     const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       const auto& record = nodes.momentum(b, k);
@@ -324,14 +305,9 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
       mpm::set_vector<Dim>(nodes.velocity(b, k), 0, velocity);
       const Vector<Real, Dim> internal_force = mpm::vector_at<Dim, Real>(record, Layout::force) - mass * gravity;
       const auto middle = mpm::vector_at<Dim, Real>(nodes.motion(b, k), MotionLayout<Dim>::middle_velocity);
-      works[b] += dt * internal_force.dot(middle - velocity);
+      work += dt * internal_force.dot(middle - velocity);
     }
   });
-  Real sum = 0;
-  for (const Real work : works) {
-    sum += work;
-  }
-  return sum;
 }
 
 template <int Dim, class Real>

@@ -25,6 +25,20 @@ struct ContactWork {
   Vector<Real, Dim> force = Vector<Real, Dim>::Zero();  // on the ground
   // On the slide, of walls, frames and mass damping [N s].
   Vector<Real, Dim> constraint_impulse = Vector<Real, Dim>::Zero();
+
+  ContactWork& operator+=(const ContactWork& part) {
+    friction_work += part.friction_work;
+    loss += part.loss;
+    frame_work += part.frame_work;
+    converted += part.converted;
+    damping += part.damping;
+    node_kinetic += part.node_kinetic;
+    area += part.area;
+    friction_area += part.friction_area;
+    force += part.force;
+    constraint_impulse += part.constraint_impulse;
+    return *this;
+  }
 };
 
 template <int Dim, class Real>

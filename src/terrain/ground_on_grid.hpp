@@ -54,7 +54,7 @@ class GroundOnGrid {
   [[nodiscard]] bool any_near(std::size_t t, const mpm::TileBatch<Dim, Real>& batch) const {
     const auto& lowest = batch.nodes.first;
     const auto is_near = [&](std::int32_t node) { return near_[t][static_cast<std::size_t>(node)] != 0; };
-    return batch.nodes.shared ? is_near(lowest[0]) : std::any_of(lowest.begin(), lowest.end(), is_near);
+    return batch.nodes.runs == 1 ? is_near(lowest[0]) : std::any_of(lowest.begin(), lowest.end(), is_near);
   }
 
   // What the nodes of active block b know.

@@ -41,7 +41,7 @@ Lanes<Real> reach_of_box(const mpm::Reading<Dim, Lanes<Real>, 1 + Dim>& seen, La
 }
 
 template <int Dim, class Real>
-using NearBasePatch = mpm::Patch<Dim, Real, mpm::NearBaseLayout<Real>::size>;
+using NearBasePatch = mpm::Patch<Dim, Real, mpm::NearBaseLayout::size>;
 
 // Lowers the clearance of the nodes that particles see.
 template <int Dim, class Real>
@@ -53,7 +53,7 @@ THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>&
         const Lanes<Real> seen = select(weight > Real(0), clearance, Lanes<Real>(far));
         for (std::size_t lane = 0; lane < count; ++lane) {
           auto& record = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane]) + offset];
-          Real& known = record[mpm::NearBaseLayout<Real>::clearance];
+          Real& known = record[mpm::NearBaseLayout::clearance];
           known = std::min(known, seen[lane]);
         }
       });
@@ -63,11 +63,10 @@ THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>&
 // hats.
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stencil,
-                                       const mpm::BatchStencil<Dim, Real, 2>& hats,
-                                       const mpm::MotionModel<Dim, Real>& model,
+                                       const mpm::HatStencil<Dim, Real>& hats, const mpm::MotionModel<Dim, Real>& model,
                                        const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch,
                                        NearBasePatch<Dim, Real>& patch) {
-  using Layout = mpm::NearBaseLayout<Real>;
+  using Layout = mpm::NearBaseLayout;
   const Lanes<Real> mass = particles.mass.load(batch), volume = particles.volume.load(batch);
   const Lanes<Real> saturation = particles.liquid_saturation.load(batch);
   const Lanes<Real> solid_fraction = mpm::basal_solid_fraction(particles, model.phases, model.lubrication, batch);
@@ -78,10 +77,11 @@ THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stenc
   by_mass.value[Layout::solid_fraction] = mass * solid_fraction;
   by_mass.value[Layout::slip] = mass * particles.slip.load(batch);
   add_to_nodes<mpm::no_flux>(stencil, batch.count, by_mass, patch);
-  mpm::Contribution<Dim, Real, Layout::by_hats> by_hats;
-  by_hats.value[Layout::saturation_by_hats - Layout::first_by_hats] = volume * saturation;
-  by_hats.value[Layout::solid_fraction_by_hats - Layout::first_by_hats] = volume * solid_fraction;
-  add_to_nodes<mpm::no_flux, Layout::first_by_hats>(hats, batch.count, by_hats, patch);
+  constexpr std::size_t first = Layout::saturation_by_hats / 4 * 4;  // of their register; what else is in it gets 0
+  mpm::Contribution<Dim, Real, Layout::size - first> by_hats;
+  by_hats.value[Layout::saturation_by_hats - first] = volume * saturation;
+  by_hats.value[Layout::solid_fraction_by_hats - first] = volume * solid_fraction;
+  add_to_nodes<mpm::no_flux, first>(hats, batch.count, by_hats, patch);
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ template <int Dim, class Real>
 void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                        const mpm::MotionModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
                        mpm::Nodes<Dim, Real>& nodes) {
-  constexpr std::size_t clearance_at = mpm::NearBaseLayout<Real>::clearance;
+  constexpr std::size_t clearance_at = mpm::NearBaseLayout::clearance;
   constexpr Real far = std::numeric_limits<Real>::max();
   const auto patches = nodes.near_base.patches(grid.tiles().size());
   mpm::with_shape<Real>(model.shape, [&](auto shape) {

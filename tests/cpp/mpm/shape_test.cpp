@@ -117,7 +117,7 @@ void expect_hats_reproduce_a_linear_field() {
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     const auto index = T::index(grid.tiles()[t].key);
     for (const auto& batch : grid.batches(t)) {
-      const auto stencil = hat_stencil(grid, particles, batch);
+      const auto stencil = hat_stencil(grid, particles, batch).corners();
       for (std::size_t lane = 0; lane < batch.count; ++lane, ++seen) {
         double sum = 0.0, x = 0.0;
         Vector<double, Dim> gradient = Vector<double, Dim>::Zero();

@@ -132,7 +132,7 @@ void expect_the_scalar_step(double cohesion, bool yields) {
   const auto candidates = [&](std::size_t b, std::size_t k) { return simulation.ground()->block(b)[k].candidate; };
   expect_same_sums(simulation.nodes().near_base, scalar, scalar.near_base_by_mass(), 0, candidates);
   expect_same_sums(simulation.nodes().near_base, scalar, scalar.near_base_by_hats(),
-                   mpm::NearBaseLayout<double>::first_by_hats, candidates);
+                   mpm::NearBaseLayout::saturation_by_hats, candidates);
   for (const auto& [node, momentum] : scalar.mapped()) {
     const auto [b, k] = scalar.at(node);
     const double mass = simulation.nodes().momentum(b, k)[mpm::MomentumLayout<Dim>::mass];

@@ -74,12 +74,12 @@ class ScalarStep {
     hats_ = add_up(2, mpm::HatLayout::size, [&](const Point<Dim>& p) {
       return Carried{{p.volume, p.volume * p.temperature, p.volume * p.pore_pressure}, {}};
     });
-    near_base_by_mass_ = add_up(3, mpm::NearBaseLayout<double>::by_mass, [&](const Point<Dim>& p) {
+    near_base_by_mass_ = add_up(3, mpm::NearBaseLayout::by_mass, [&](const Point<Dim>& p) {
       return Carried{{p.mass * p.temperature, p.mass * p.pore_pressure, p.mass * p.saturation,
                       p.mass * solid_fraction(p), p.mass * p.slip},
                      {}};
     });
-    near_base_by_hats_ = add_up(2, mpm::NearBaseLayout<double>::by_hats, [&](const Point<Dim>& p) {
+    near_base_by_hats_ = add_up(2, 2, [&](const Point<Dim>& p) {
       return Carried{{p.volume * p.saturation, p.volume * solid_fraction(p)}, {}};
     });
     for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
