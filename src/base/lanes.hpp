@@ -145,7 +145,7 @@ class Lanes {
 #endif
     return of([&](std::size_t lane) { return numbers[places[lane]]; });
   }
-  // The way back for the first `count` lanes.
+  // The way back for the lanes 0 .. lanes-1.
   THAWSLIDE_ALWAYS_INLINE void scatter(Real* numbers, Whole places, std::size_t lanes) const {
 #ifdef __AVX512F__
     if constexpr (sizeof(Native) == 64) {

@@ -24,12 +24,6 @@ struct alignas(cache_line) Share {
   std::size_t last;
 };
 
-// Calls a thread takes at a time: few enough for threads to end together, enough for the handing out not to count.
-std::size_t calls_at_a_time(std::size_t count, std::size_t threads) {
-  constexpr std::size_t most = 16, parts = 8;  // of a thread's share
-  return std::clamp<std::size_t>(count / (parts * threads), 1, most);
-}
-
 }  // namespace
 
 int thread_count() { return omp_get_max_threads(); }
@@ -41,14 +35,19 @@ void set_thread_count(int threads) {
 
 int available_cores() { return omp_get_num_procs(); }
 
-void share_out(std::size_t count, void (*run)(const void* body, std::size_t first, std::size_t last),
-               const void* body) {
+std::size_t calls_at_a_time(std::size_t count) {
+  constexpr std::size_t most = 16, parts = 8;  // of a thread's share
+  return std::clamp<std::size_t>(count / (parts * static_cast<std::size_t>(thread_count())), 1, most);
+}
+
+void share_out(std::size_t count, std::size_t at_a_time,
+               void (*run)(const void* body, std::size_t first, std::size_t last), const void* body) {
   const auto threads = static_cast<std::size_t>(thread_count());
   if (threads == 1 || count < fewest_shared_calls) {
     run(body, 0, count);
     return;
   }
-  const std::size_t at_a_time = calls_at_a_time(count, threads), shares = std::min(threads, most_shares);
+  const std::size_t shares = std::min(threads, most_shares);
   std::array<Share, most_shares> of_thread;
   for (std::size_t s = 0; s < shares; ++s) {
     of_thread[s].next.store(s * count / shares, std::memory_order_relaxed);

@@ -1,4 +1,4 @@
-// Parallel loops. The only place that names a parallel backend (OpenMP).
+// Parallel loops. Their backend is named in parallel.cpp alone.
 #pragma once
 
 #include <algorithm>
@@ -22,41 +22,51 @@ inline constexpr std::size_t fewest_shared_calls = 9;
 // begins: unless the user has chosen otherwise the program starts itself once more with it set.
 void let_threads_wait_passively(char** arguments);
 
-// Calls run(body, first, last) until the calls 0 .. count-1 have been run, each once. Every thread begins with a share
-// of its own, the same in every loop, so that it finds in its caches what it left there, and then takes from the
-// others'.
-void share_out(std::size_t count, void (*run)(const void* body, std::size_t first, std::size_t last), const void* body);
+// Calls a thread takes at a time: few enough for threads to end together, enough for the handing out not to count.
+[[nodiscard]] std::size_t calls_at_a_time(std::size_t count);
+
+// Calls run(body, first, last) until the calls 0 .. count-1 have been run, so many at a time. Every thread begins with
+// a share of its own, the same in every loop, so that it finds in its caches what it left there, and then takes from
+// the others'.
+void share_out(std::size_t count, std::size_t at_a_time,
+               void (*run)(const void* body, std::size_t first, std::size_t last), const void* body);
 
 // Calls body(k) for k = 0 .. count-1, each once, on any thread. Calls may not depend on one another: results must not
-// depend on which thread runs which k. The first exception thrown by a call is thrown again here.
+// depend on which thread runs which k. The first exception thrown by a call is thrown again here; calls that had not
+// begun by then may be left out.
 template <class Body>
-void parallel_for(std::size_t count, const Body& body) {
+void parallel_for(std::size_t count, std::size_t at_a_time, const Body& body) {
   const auto run = [](const void* calls, std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       (*static_cast<const Body*>(calls))(k);
     }
   };
-  share_out(count, run, &body);
+  share_out(count, at_a_time, run, &body);
+}
+template <class Body>
+void parallel_for(std::size_t count, const Body& body) {
+  parallel_for(count, calls_at_a_time(count), body);
 }
 
-// What body(k, sum) adds up for k = 0 .. count-1, each once, on any thread: within shares of the calls in order, then
-// share after share. The shares follow from `count` alone, and so does every bit of the sum.
+// What body(k, sum) adds up for k = 0 .. count-1, each once, on any thread: within parts of the calls in order, then
+// part after part. The parts follow from `count` alone, and so does every bit of the sum.
 template <class Sum, class Body>
 [[nodiscard]] Sum parallel_sum(std::size_t count, const Body& body) {
-  constexpr std::size_t most_shares = 256;
-  const std::size_t calls = std::max<std::size_t>(1, (count + most_shares - 1) / most_shares);  // of a share
-  std::array<Sum, most_shares> parts;
-  const std::size_t shares = (count + calls - 1) / calls;
-  parallel_for(shares, [&](std::size_t share) {
-    Sum part{};
-    for (std::size_t k = share * calls; k < std::min(count, (share + 1) * calls); ++k) {
-      body(k, part);
+  constexpr std::size_t most_parts = 256;
+  const std::size_t calls = std::max<std::size_t>(1, (count + most_parts - 1) / most_parts);  // of a part
+  std::array<Sum, most_parts> sums;
+  const std::size_t parts = (count + calls - 1) / calls;
+  const std::size_t at_a_time = std::max<std::size_t>(1, calls_at_a_time(count) / calls);
+  parallel_for(parts, at_a_time, [&](std::size_t part) {
+    Sum sum{};
+    for (std::size_t k = part * calls; k < std::min(count, (part + 1) * calls); ++k) {
+      body(k, sum);
     }
-    parts[share] = part;
+    sums[part] = sum;
   });
   Sum sum{};
-  for (std::size_t share = 0; share < shares; ++share) {
-    sum += parts[share];
+  for (std::size_t part = 0; part < parts; ++part) {
+    sum += sums[part];
   }
   return sum;
 }

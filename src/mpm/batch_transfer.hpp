@@ -196,13 +196,12 @@ THAWSLIDE_ALWAYS_INLINE Reading<Dim, Lanes<Real>, Count> read_nodes(const HatSte
 // One particle's weights, each in all lanes of a record's register.
 template <int Dim, class Register, std::size_t Width>
 struct SpreadWeights {
-  Register weight[Dim][Width], slope[Dim][Width];
+  Register weight[Dim][Width];
 
   template <class Real>
   THAWSLIDE_ALWAYS_INLINE SpreadWeights(const BatchStencil<Dim, Real, Width>& stencil, std::size_t lane) {
     unrolled<Dim * Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       weight[k / Width][k % Width] = stencil.axis[k / Width].weight[k % Width][lane];
-      slope[k / Width][k % Width] = stencil.axis[k / Width].slope[k % Width][lane];
     });
   }
 };

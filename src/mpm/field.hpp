@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -67,6 +68,8 @@ template <class T, int Components>
 class Field final : public FieldBase {
  public:
   static constexpr std::size_t lanes = 8;
+  static constexpr std::size_t most_numbers = std::numeric_limits<std::int32_t>::max();  // as far as places() count
+  static_assert(lanes % lane_count<double> == 0 && lanes % lane_count<float> == 0);
 
   Field(FieldList& list, const FieldInfo& info) : FieldBase(info) { list.add(this); }
 
@@ -158,6 +161,8 @@ class Field final : public FieldBase {
   void keep(bool kept) { kept_ = kept; }
 
   void resize(std::size_t particles) override {
+    THAWSLIDE_ASSERT(particles <= most_numbers / Components, "field {}: {} particles of {} numbers are too many",
+                     info().name, particles, Components);
     particles_ = particles;
     data_.assign(kept_ ? (particles + lanes - 1) / lanes * lanes * Components : 0, T{});
     data_.shrink_to_fit();

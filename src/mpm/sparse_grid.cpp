@@ -76,7 +76,7 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
     task_movers_ = std::vector<std::vector<Mover>>();
     movers_ = std::vector<Mover>();
   }
-  const bool sorts = first_call || ++calls_ >= interval || scattered_ >= most_scattered;
+  const bool sorts = first_call || (interval > 0 && (++calls_ >= interval || scattered_ >= most_scattered));
   if (sorts) {
     reorder(particles);
   }

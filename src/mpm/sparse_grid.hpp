@@ -31,7 +31,7 @@ class SparseGrid {
 
   // Brings order, tiles, batches and blocks up to date with the particles' positions. Particles stand by nearest node,
   // then by id, whatever their place in memory. When many no longer stand in memory in this order, and every `interval`
-  // calls, they are moved to do so.
+  // calls, they are moved to do so; with an interval of 0 at the first call only.
   void update(Particles<Dim, Real>& particles, int interval);
 
   // Particle indices in canonical order.
@@ -91,9 +91,9 @@ class SparseGrid {
   void make_batches(const Particles<Dim, Real>& particles, std::size_t t);
 
   Real cell_, inverse_cell_;
-  std::vector<std::uint64_t> keys_;    // by particle: tile key, then place in the tile
-  std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: the nearest node
-  std::vector<std::int32_t> former_numbers_;
+  std::vector<std::uint64_t> keys_;           // by particle: tile key, then place in the tile
+  std::vector<std::int32_t> nearest_;         // by batch in memory, axis and lane: the nearest node
+  std::vector<std::int32_t> former_numbers_;  // while particles are sorted in memory
   bool one_material_ = true;
   std::vector<std::uint8_t> moved_;
   std::vector<std::vector<Mover>> task_movers_;
@@ -109,8 +109,8 @@ class SparseGrid {
   bool blocks_changed_ = true;
   int calls_ = 0;                      // since particles were sorted in memory
   std::vector<std::uint32_t> broken_;  // by tile: batches that are not whole
-  std::size_t fewest_broken_ = 0;
-  double scattered_ = 0;
+  std::size_t fewest_broken_ = 0;      // right after the last sorting
+  double scattered_ = 0;               // what the order has cost since: see note_order
 };
 
 }  // namespace thawslide::mpm

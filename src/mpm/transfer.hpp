@@ -21,11 +21,14 @@
 
 namespace thawslide::mpm {
 
-// A record is filled up to a multiple of four numbers, and goes by the widest registers that it fills.
-constexpr std::size_t record_size(int components) { return (static_cast<std::size_t>(components) + 3) / 4 * 4; }
+// A record is filled up to a multiple of `record_step` numbers, and goes by the widest registers that it fills.
+inline constexpr std::size_t record_step = 4;
+constexpr std::size_t record_size(int components) {
+  return (static_cast<std::size_t>(components) + record_step - 1) / record_step * record_step;
+}
 
 template <class Real, int Components>
-using RecordRegister = Lanes<Real, record_size(Components) % lane_count<Real> == 0 ? lane_count<Real> : 4>;
+using RecordRegister = Lanes<Real, record_size(Components) % lane_count<Real> == 0 ? lane_count<Real> : record_step>;
 
 // The records about one tile, with a margin of one node.
 template <int Dim, class Real, int Components>

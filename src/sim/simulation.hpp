@@ -54,6 +54,7 @@ class Simulation {
   [[nodiscard]] StepLimit step_limit() const;
 
   // How many steps particles keep their place in memory; results do not depend on it.
+  // 0: only at the start.
   void set_sorting_interval(int steps) { sorting_interval_ = steps; }
 
   // Everything a checkpoint must hold beyond the particles' fields, as numbers; and its way back.

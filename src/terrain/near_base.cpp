@@ -77,7 +77,8 @@ THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stenc
   by_mass.value[Layout::solid_fraction] = mass * solid_fraction;
   by_mass.value[Layout::slip] = mass * particles.slip.load(batch);
   add_to_nodes<mpm::no_flux>(stencil, batch.count, by_mass, patch);
-  constexpr std::size_t first = Layout::saturation_by_hats / 4 * 4;  // of their register; what else is in it gets 0
+  constexpr std::size_t first =
+      Layout::saturation_by_hats / mpm::record_step * mpm::record_step;  // of their register; what else is in it gets 0
   mpm::Contribution<Dim, Real, Layout::size - first> by_hats;
   by_hats.value[Layout::saturation_by_hats - first] = volume * saturation;
   by_hats.value[Layout::solid_fraction_by_hats - first] = volume * solid_fraction;

@@ -50,5 +50,21 @@ TEST(ParallelFor, RunsEachOnceAndPassesFailuresOn) {
                std::runtime_error);
 }
 
+TEST(ParallelSum, AddsEachOnceAndInTheSameOrderOnAnyThreads) {
+  const int before = thread_count();
+  for (const std::size_t count : {0, 1, 8, 9, 255, 256, 257, 1000, 5003}) {
+    std::vector<double> sums;
+    for (const int threads : {1, 2, 3, 5}) {
+      set_thread_count(threads);
+      EXPECT_EQ(parallel_sum<std::size_t>(count, [](std::size_t k, std::size_t& sum) { sum += k + 1; }),
+                count * (count + 1) / 2);
+      sums.push_back(
+          parallel_sum<double>(count, [](std::size_t k, double& sum) { sum += 1.0 / static_cast<double>(3 * k + 1); }));
+    }
+    EXPECT_EQ(std::vector<double>(sums.size(), sums[0]), sums) << count;
+  }
+  set_thread_count(before);
+}
+
 }  // namespace
 }  // namespace thawslide

@@ -153,6 +153,30 @@ void expect_the_grid_to_follow() {
 TEST(SparseGrid, FollowsParticlesInThePlane) { expect_the_grid_to_follow<2>(); }
 TEST(SparseGrid, FollowsParticlesInSpace) { expect_the_grid_to_follow<3>(); }
 
+// Calls of update after a large move until particles stand in memory in canonical order, or `most` if they never do.
+int calls_until_sorted(int interval, int most) {
+  Crowd<2> crowd(5000);
+  SparseGrid<2, double> grid(cell);
+  grid.update(crowd.particles, interval);
+  EXPECT_TRUE(std::is_sorted(grid.order().begin(), grid.order().end()));
+  crowd.move(3.0);
+  for (int call = 0; call < most; ++call) {
+    grid.update(crowd.particles, interval);
+    if (std::is_sorted(grid.order().begin(), grid.order().end())) {
+      return call;
+    }
+  }
+  return most;
+}
+
+TEST(SparseGrid, SortsParticlesWhenTheyAreScatteredOrTheIntervalIsOver) {
+  EXPECT_EQ(calls_until_sorted(3, 100), 2);
+  const int when_scattered = calls_until_sorted(1'000'000, 100);
+  EXPECT_GT(when_scattered, 2);
+  EXPECT_LT(when_scattered, 20);
+  EXPECT_EQ(calls_until_sorted(0, 100), 100);
+}
+
 TEST(Tile, FindsTheNodeBesideAnother) {
   using T = Tile<3>;
   for (int local = 0; local < T::nodes; ++local) {

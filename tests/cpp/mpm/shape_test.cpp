@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
+#include <tuple>
 
 #include "mpm/batch_transfer.hpp"
 
@@ -143,6 +146,51 @@ void expect_hats_reproduce_a_linear_field() {
   }
   EXPECT_EQ(seen, particles.size());
 }
+
+// Whatever number of runs of lanes a batch has, it reads the same bits.
+template <int Dim>
+void expect_the_same_readings_by_runs(std::size_t count) {
+  Particles<Dim, double> particles;
+  fill<Dim>(particles, count);
+  SparseGrid<Dim, double> grid(5.0);
+  grid.update(particles, 64);
+  Patch<Dim, double, 3> patch;
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (auto& record : patch.records) {
+    std::generate(record.begin(), record.end(), [&] { return number(random); });
+  }
+  std::array<int, BatchNodes<double>::many_runs + 1> seen{};
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    for (TileBatch<Dim, double> batch : grid.batches(t)) {
+      const auto place = place_of(grid, particles, batch);
+      const auto read = [&] {
+        const auto stencil = make_stencil<Ugimp<double>>(grid, batch, place, Lanes<double>(0.25), HeldSides<Dim>());
+        return std::tuple(read_nodes<3>(hat_stencil(grid, particles, batch), patch), read_nodes<3>(stencil, patch),
+                          read_values(stencil, patch));
+      };
+      ++seen[batch.nodes.runs];
+      const auto [hats, nodes, values] = read();
+      batch.nodes.runs = BatchNodes<double>::many_runs;
+      const auto [hats_by_lane, nodes_by_lane, values_by_lane] = read();
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          EXPECT_EQ(hats.value[c][lane], hats_by_lane.value[c][lane]);
+          EXPECT_EQ(nodes.value[c][lane], nodes_by_lane.value[c][lane]);
+          EXPECT_EQ(values[c][lane], values_by_lane[c][lane]);
+          for (std::size_t a = 0; a < Dim; ++a) {
+            EXPECT_EQ(hats.gradient[a][c][lane], hats_by_lane.gradient[a][c][lane]);
+            EXPECT_EQ(nodes.gradient[a][c][lane], nodes_by_lane.gradient[a][c][lane]);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(*std::min_element(seen.begin() + 1, seen.end()), 0) << "one, two and many runs should all occur";
+}
+
+TEST(Transfer, ReadsTheSameByAnyRunsInThePlane) { expect_the_same_readings_by_runs<2>(3000); }
+TEST(Transfer, ReadsTheSameByAnyRunsInSpace) { expect_the_same_readings_by_runs<3>(40000); }
 
 TEST(Hats, ReproduceALinearFieldInThePlane) { expect_hats_reproduce_a_linear_field<2>(); }
 TEST(Hats, ReproduceALinearFieldInSpace) { expect_hats_reproduce_a_linear_field<3>(); }

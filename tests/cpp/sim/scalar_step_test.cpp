@@ -199,7 +199,7 @@ std::map<std::string, std::vector<double>> fields_after(int steps, int threads, 
 template <int Dim>
 void expect_the_same_bits(int steps) {
   const int before = thread_count();
-  const auto first = fields_after<Dim>(steps, 1, 1000);
+  const auto first = fields_after<Dim>(steps, 1, 0);
   for (const auto& [threads, interval] : {std::pair(1, 1), std::pair(2, 7), std::pair(3, 64), std::pair(4, 3)}) {
     EXPECT_TRUE((fields_after<Dim>(steps, threads, interval) == first))
         << threads << " threads, sorted every " << interval << " steps";
@@ -209,6 +209,8 @@ void expect_the_same_bits(int steps) {
 
 TEST(Bits, DependNeitherOnThreadsNorOnSortingInThePlane) { expect_the_same_bits<2>(80); }
 TEST(Bits, DependNeitherOnThreadsNorOnSortingInSpace) { expect_the_same_bits<3>(15); }
+
+#ifndef THAWSLIDE_DOUBLE_ONLY
 
 // The largest difference that single precision makes to a field, over the field's largest size.
 template <int Dim>
@@ -240,6 +242,8 @@ TEST(SinglePrecision, IsAsFarFromDoubleAsItsDigits) {
                                               {"temperature", 1e-3}, {"porosity", 1e-3},     {"pore_pressure", 5e-3}};
   expect_of_single_precision<2>(200, in_many);
 }
+
+#endif
 
 }  // namespace
 }  // namespace thawslide::sim

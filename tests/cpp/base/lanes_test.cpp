@@ -1,0 +1,86 @@
+// What lanes do beside arithmetic: between memory and registers, and from rows to columns.
+#include "base/lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace thawslide {
+namespace {
+
+template <class Real>
+class LanesTest : public testing::Test {};
+using Reals = testing::Types<double, float>;
+TYPED_TEST_SUITE(LanesTest, Reals);
+
+TYPED_TEST(LanesTest, GatherAndScatterGoByPlaces) {
+  using Real = TypeParam;
+  constexpr std::size_t count = lane_count<Real>;
+  std::array<Real, 3 * count> numbers{};
+  std::iota(numbers.begin(), numbers.end(), Real(0));
+  std::array<std::int32_t, count> places{};
+  for (std::size_t k = 0; k < count; ++k) {
+    places[k] = static_cast<std::int32_t>((5 * k + 2) % numbers.size());
+  }
+  const auto whole = whole_lanes<Real>(places.data());
+  const auto gathered = Lanes<Real>::gather(numbers.data(), whole);
+  for (std::size_t k = 0; k < count; ++k) {
+    EXPECT_EQ(gathered[k], static_cast<Real>(places[k]));
+  }
+  for (std::size_t stored = 0; stored <= count; ++stored) {
+    std::array<Real, 3 * count> to{};
+    (gathered + Real(100)).scatter(to.data(), whole, stored);
+    for (std::size_t k = 0; k < count; ++k) {
+      EXPECT_EQ(to[static_cast<std::size_t>(places[k])], k < stored ? gathered[k] + Real(100) : Real(0));
+    }
+    EXPECT_EQ(std::count(to.begin(), to.end(), Real(0)), static_cast<std::ptrdiff_t>(to.size() - stored));
+  }
+}
+
+template <class Real, std::size_t Width>
+void expect_rows_and_columns() {
+  constexpr std::size_t count = lane_count<Real>;
+  const auto number = [](std::size_t quantity, std::size_t particle) {
+    return static_cast<Real>(10 * quantity + particle + 1);
+  };
+  Lanes<Real> quantities[Width], back[Width];
+  for (std::size_t q = 0; q < Width; ++q) {
+    quantities[q] = Lanes<Real>::of([&](std::size_t lane) { return number(q, lane); });
+  }
+  Lanes<Real, Width> rows[count];
+  by_particle(quantities, rows);
+  for (std::size_t p = 0; p < count; ++p) {
+    for (std::size_t q = 0; q < Width; ++q) {
+      EXPECT_EQ(rows[p][q], number(q, p));
+    }
+  }
+  by_quantity(rows, back);
+  for (std::size_t q = 0; q < Width; ++q) {
+    for (std::size_t p = 0; p < count; ++p) {
+      EXPECT_EQ(back[q][p], number(q, p));
+    }
+  }
+}
+
+TYPED_TEST(LanesTest, RowsBecomeColumnsAndBack) {
+  expect_rows_and_columns<TypeParam, 4>();
+  expect_rows_and_columns<TypeParam, lane_count<TypeParam>>();
+}
+
+TYPED_TEST(LanesTest, MasksKnowTheirLanes) {
+  using Real = TypeParam;
+  EXPECT_FALSE(any(lanes_before<Real>(0)));
+  for (std::size_t count = 1; count <= lane_count<Real>; ++count) {
+    const auto before = lanes_before<Real>(count);
+    EXPECT_TRUE(any(before));
+    EXPECT_EQ(any(!before), count < lane_count<Real>);
+    for (std::size_t k = 0; k < lane_count<Real>; ++k) {
+      EXPECT_EQ(before[k], k < count);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace thawslide
