@@ -9,11 +9,11 @@
 #endif
 
 // A small function of the innermost loops that g++ leaves out of line on its own, at the price of passing its result
-// through memory.
+#ifndef THAWSLIDE_ALWAYS_INLINE  // through memory. Builds that check and need no speed say otherwise.
 #define THAWSLIDE_ALWAYS_INLINE [[gnu::always_inline]] inline
-
 // The same after a lambda's parameters.
 #define THAWSLIDE_INLINE_LAMBDA __attribute__((always_inline))
+#endif
 
 namespace thawslide {
 
