@@ -23,9 +23,9 @@ struct Overlap {
 };
 
 template <class Real>
-THAWSLIDE_ALWAYS_INLINE Overlap<Real> overlap(Lanes<Real> middle, Lanes<Real> half, int first_cell, Real cell,
-                                              Real inverse_cell) {
-  const Lanes<Real> begin = middle - half, end = middle + half, sliver = round_off<Real> * half;
+THAWSLIDE_ALWAYS_INLINE Overlap<Real> overlap(Lanes<Real> middle, const mpm::HalfSize<Lanes<Real>>& size,
+                                              int first_cell, Real cell, Real inverse_cell) {
+  const Lanes<Real> begin = middle - size.half, end = middle + size.half, sliver = round_off<Real> * size.half;
   const Lanes<Real> number = floor((begin + sliver) * inverse_cell);
   const Lanes<Real> border = (number + Real(1)) * cell;
   const auto crosses = end - sliver >= border;
@@ -35,7 +35,7 @@ THAWSLIDE_ALWAYS_INLINE Overlap<Real> overlap(Lanes<Real> middle, Lanes<Real> ha
   over.to[0] = min(end, border);
   over.from[1] = border;
   over.to[1] = select(crosses, end, border);
-  const Lanes<Real> inverse_width = Real(1) / (Real(2) * half);
+  const Lanes<Real> inverse_width = static_cast<Real>(0.5) * size.inverse;
   over.share[0] = (over.to[0] - over.from[0]) * inverse_width;
   over.share[1] = (over.to[1] - over.from[1]) * inverse_width;
   return over;
@@ -46,13 +46,13 @@ using Overlaps = std::array<Overlap<Real>, static_cast<std::size_t>(Dim) - 1>;
 
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, Real> overlaps(const std::array<int, Dim - 1>& first_cell, Real cell,
-                                                     const std::vector<Real>& half_size,
+                                                     Real inverse_cell, const mpm::BodySizes<Real>& sizes,
                                                      const mpm::Particles<Dim, Real>& particles,
                                                      const mpm::Batch<Real>& batch) {
-  const Lanes<Real> half = of_body(half_size, particles, batch);
+  const auto size = sizes.of(particles, batch);
   Overlaps<Dim, Real> along;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    along[a] = overlap(particles.position.load(batch, static_cast<int>(a)), half, first_cell[a], cell, Real(1) / cell);
+    along[a] = overlap(particles.position.load(batch, static_cast<int>(a)), size, first_cell[a], cell, inverse_cell);
     const auto inside = (along[a].lower >= Real(0)) & (along[a].lower <= Real(mpm::Tile<Dim>::edge));
     THAWSLIDE_ASSERT(!any(!inside), "of particles {} ... one lies outside its tile: cells {} ...",
                      particles.id(batch.particle[0]), along[a].lower[0]);
@@ -95,23 +95,21 @@ Lanes<Real> ColumnsOfTile<Dim, Real>::flow_depth(const mpm::Particles<Dim, Real>
   const auto in_band = particles.in_band.load_whole(batch) > Real(0);
   const bool any_in_band = any(in_band);
   Lanes<Real> depth = Real(0);
-  for_columns<Dim>(
-      overlaps<Dim>(first_cell_, cell_, *half_size_, particles, batch),
-      [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) THAWSLIDE_INLINE_LAMBDA {
-        if (!any(share > Real(0))) {
-          return;
-        }
-        std::array<std::int32_t, lane_count<Real>> places;
-        place.store_whole(places.data());
-        const auto at_place = [&](const std::array<Real, count>& known) THAWSLIDE_INLINE_LAMBDA {
-          return Lanes<Real>::of([&](std::size_t lane) { return known[static_cast<std::size_t>(places[lane])]; });
-        };
-        Lanes<Real> here = max(at_place(top_) - height, Lanes<Real>(Real(0)));
-        if (any_in_band) {
-          here = select(in_band, at_place(thickness_), here);
-        }
-        depth += share * at_place(cosine_) * here;
-      });
+  for_columns<Dim>(overlaps<Dim>(first_cell_, cell_, inverse_cell_, *sizes_, particles, batch),
+                   [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) THAWSLIDE_INLINE_LAMBDA {
+                     if (!any(share > Real(0))) {
+                       return;
+                     }
+                     const auto places = place.whole();
+                     const auto at_place = [&](const std::array<Real, count>& known) THAWSLIDE_INLINE_LAMBDA {
+                       return Lanes<Real>::gather(known.data(), places);
+                     };
+                     Lanes<Real> here = max(at_place(top_) - height, Lanes<Real>(Real(0)));
+                     if (any_in_band) {
+                       here = select(in_band, at_place(thickness_), here);
+                     }
+                     depth += share * at_place(cosine_) * here;
+                   });
   return depth;
 }
 
@@ -120,11 +118,10 @@ Lanes<Real> ColumnsOfTile<Dim, Real>::below_top(const mpm::Particles<Dim, Real>&
                                                 const mpm::Batch<Real>& batch) const {
   Lanes<Real> place = Real(0);
   for (std::size_t a = Dim - 1; a-- > 0;) {
-    const Lanes<Real> number = floor(particles.position.load(batch, static_cast<int>(a)) * (Real(1) / cell_));
+    const Lanes<Real> number = floor(particles.position.load(batch, static_cast<int>(a)) * inverse_cell_);
     place = place * Real(per_axis) + (number - static_cast<Real>(first_cell_[a]));
   }
-  return Lanes<Real>::of([&](std::size_t lane) { return top_[static_cast<std::size_t>(place[lane])]; }) -
-         particles.position.load(batch, Dim - 1);
+  return Lanes<Real>::gather(top_.data(), place.whole()) - particles.position.load(batch, Dim - 1);
 }
 
 template <int Dim, class Real>
@@ -201,9 +198,9 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
   part.top.fill(std::numeric_limits<Real>::lowest());
   const auto first_cell = first_cells(grid, t);
   for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-    const Lanes<Real> top = particles.position.load(batch, Dim - 1) + of_body(half_size_, particles, batch);
+    const Lanes<Real> top = particles.position.load(batch, Dim - 1) + sizes_.of(particles, batch).half;
     const Lanes<Real> volume = particles.volume.load(batch);
-    const auto along = overlaps<Dim>(first_cell, grid.cell(), half_size_, particles, batch);
+    const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_, particles, batch);
     std::array<std::array<std::int32_t, mpm::Batch<Real>::most>, corners> places;
     std::array<Lanes<Real>, corners> volumes;
     std::size_t seen = 0;
@@ -232,7 +229,7 @@ void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
   part.extent.fill({});
   const auto first_cell = first_cells(grid, t);
   for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-    const auto along = overlaps<Dim>(first_cell, grid.cell(), half_size_, particles, batch);
+    const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_, particles, batch);
     for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) {
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         if (share[lane] > Real(0)) {
@@ -307,13 +304,10 @@ template <int Dim, class Real>
 void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                                   const std::function<Real(Real)>& slope_cosine,
                                   const mpm::Particles<Dim, Real>& particles) {
-  half_size_ = model.half_size;
-  for (Real& half : half_size_) {
-    half *= grid.cell();
-  }
   const bool same_tiles = std::equal(numbered_.begin(), numbered_.end(), grid.tiles().begin(), grid.tiles().end(),
                                      [](std::uint64_t key, const auto& tile) { return key == tile.key; });
   if (!same_tiles) {
+    sizes_ = model.sizes.times(grid.cell());
     number_columns(grid, model.normal_thickness ? slope_cosine : std::function<Real(Real)>());
   }
   parallel_for(tiles_.size(), [&](std::size_t t) { add_tile(grid, particles, t); });
@@ -328,7 +322,8 @@ ColumnsOfTile<Dim, Real> FlowDepth<Dim, Real>::of_tile(const mpm::SparseGrid<Dim
   OfTile columns;
   columns.first_cell_ = first_cells(grid, t);
   columns.cell_ = grid.cell();
-  columns.half_size_ = &half_size_;
+  columns.inverse_cell_ = grid.inverse_cell();
+  columns.sizes_ = &sizes_;
   for (std::size_t place = 0; place < OfTile::count; ++place) {
     const Column& here = columns_[static_cast<std::size_t>(tiles_[t].number[place])];
     columns.thickness_[place] = here.volume > Real(0) ? here.volume / here.footprint : Real(0);

@@ -33,8 +33,8 @@ class ColumnsOfTile {
   friend class FlowDepth;
 
   std::array<int, Dim - 1> first_cell_;  // number along each horizontal axis
-  Real cell_;                            // [m]
-  const std::vector<Real>* half_size_;   // of each body's particles [m]
+  Real cell_, inverse_cell_;             // [m], [1/m]
+  const mpm::BodySizes<Real>* sizes_;    // of particles [m]
   std::array<Real, count> thickness_, top_, cosine_;
 };
 
@@ -94,7 +94,7 @@ class FlowDepth {
   std::vector<Column> columns_;
   std::vector<TilePart> tiles_;
   std::vector<std::size_t> edge_tiles_;
-  std::vector<Real> half_size_;  // of each body's particles [m]
+  mpm::BodySizes<Real> sizes_;  // of particles [m]
 };
 
 }  // namespace thawslide::band

@@ -51,7 +51,7 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 4> heat_flows(const mpm::Sp
     }
     if (levels) {
       in_cell = (seen.value[0] - particles.temperature.load(batch)) *
-                physics::share_levelled_within_cell(conductivity / tangent, grid.cell() / scaling, Dim, dt);
+                physics::share_levelled_within_cell(conductivity / tangent, grid.inverse_cell() * scaling, Dim, dt);
     }
   }
   particles.secant_capacity.store(batch, tangent);
@@ -147,11 +147,11 @@ template <int Dim, class Real>
 Lanes<Real> orphan_heating(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                            const mpm::Patch<Dim, Real, 1>& orphan, const mpm::Particles<Dim, Real>& particles,
                            const mpm::TileBatch<Dim, Real>& batch) {
-  const auto half = of_body(model.half_size, particles, batch);
+  const auto size = model.sizes.of(particles, batch);
   Lanes<Real> specific = Real(0);
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     const auto place = place_of(grid, particles, batch);
-    const auto stencil = mpm::make_stencil<decltype(shape)>(grid, batch, place, half, model.sides);
+    const auto stencil = mpm::make_stencil<decltype(shape)>(grid, batch, place, size, model.sides);
     specific = mpm::read_nodes<1>(stencil, orphan).value[0];
   });
   return specific;

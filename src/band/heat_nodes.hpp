@@ -44,8 +44,9 @@ void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim,
     auto& state = work.state(b, k);
     state.fill(Real(0));
     if (hats[mpm::HatLayout::volume] > Real(0)) {
-      state[0] = hats[mpm::HatLayout::temperature] / hats[mpm::HatLayout::volume];
-      state[1] = hats[mpm::HatLayout::pore_pressure] / hats[mpm::HatLayout::volume];
+      const Real inverse_volume = Real(1) / hats[mpm::HatLayout::volume];
+      state[0] = hats[mpm::HatLayout::temperature] * inverse_volume;
+      state[1] = hats[mpm::HatLayout::pore_pressure] * inverse_volume;
       const HeatFace<Real>* face = has_faces ? face_of(grid, model, b, k) : nullptr;
       if (face != nullptr && face->kind == FaceHeat::temperature) {
         state[0] = face->value;
@@ -76,6 +77,7 @@ HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
                            const StoredAt& stored_at, HeatNodes<Dim, Real>& work) {
   work.orphan.resize(grid.blocks().size());
   const bool has_faces = any_face_condition(model);
+  const Real inverse_dt = Real(1) / dt;
   const auto solved = parallel_sum<NodalHeat<Real>>(grid.blocks().size(), [&](std::size_t b, NodalHeat<Real>& sum) {
     sum_block(b);
     HeatGain<Real>& gain = sum.gain;
@@ -94,7 +96,7 @@ HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
         }
         continue;
       }
-      Real power = rates[0] + rates[1] + friction - levelled / dt;
+      Real power = rates[0] + rates[1] + friction - levelled * inverse_dt;
       gain.advection += dt * rates[1];
       const HeatFace<Real>* face = has_faces ? face_of(grid, model, b, k) : nullptr;
       if (face != nullptr && face->kind == FaceHeat::temperature) {

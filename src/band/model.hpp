@@ -51,7 +51,7 @@ struct BandModel {
   bool thickness_each_step = true;
   Real gravity = 0;                              // magnitude [m/s2]
   std::vector<Real> hydraulic_conductivity;      // by material [m/s]
-  std::vector<Real> half_size;                   // of a body's particles, in cells
+  mpm::BodySizes<Real> sizes;                    // of particles, in cells
   mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
   mpm::HeldSides<Dim> sides;
 

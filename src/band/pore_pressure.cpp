@@ -62,7 +62,8 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 3> seepage_flows(
     const Lanes<Real> diffusivity =
         scaling * pore_scaling *
         physics::hydraulic_diffusivity(model.phases, porosity, Lanes<Real>(Real(1)), hydraulic);
-    const Lanes<Real> share = physics::share_levelled_within_cell(diffusivity, Lanes<Real>(grid.cell()), Dim, dt);
+    const Lanes<Real> share =
+        physics::share_levelled_within_cell(diffusivity, Lanes<Real>(grid.inverse_cell()), Dim, dt);
     in_cell = select(flows, (seen.value[0] - particles.pore_pressure.load(batch)) * share, zero);
     const Lanes<Real> mobility = hydraulic / model.phases.water_unit_weight;
     const Lanes<Real> flow = select(flows, -volume * scaling * mobility * model.phases.water_bulk_modulus, zero);

@@ -122,9 +122,10 @@ class Lanes {
     return Lanes(__builtin_convertvector(whole_lanes<Real, Count>(numbers), Native));
   }
   THAWSLIDE_ALWAYS_INLINE void store_whole(std::int32_t* numbers) const {
-    const auto whole = __builtin_convertvector(native_, Whole);
-    std::memcpy(numbers, &whole, sizeof whole);
+    const Whole numbers_of_lanes = whole();
+    std::memcpy(numbers, &numbers_of_lanes, sizeof numbers_of_lanes);
   }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Whole whole() const { return __builtin_convertvector(native_, Whole); }
 
   // Lane k is number(k).
   template <class Number>
@@ -309,6 +310,17 @@ template <class Real, std::size_t Count, std::size_t... K>
 THAWSLIDE_ALWAYS_INLINE Lanes<Real, sizeof...(K)> joined(const Lanes<Real, Count>& a, const Lanes<Real, Count>& b,
                                                          std::index_sequence<K...> /*lanes*/) {
   return Lanes<Real, sizeof...(K)>(__builtin_shufflevector(a.native(), b.native(), K...));
+}
+
+// The smallest of all lanes.
+template <class Real, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE Real smallest(const Lanes<Real, Count>& lanes) {
+  if constexpr (Count == 2) {
+    return std::min(lanes[0], lanes[1]);
+  } else {
+    constexpr auto half = std::make_index_sequence<Count / 2>();
+    return smallest(min(part_of<0>(lanes, half), part_of<Count / 2>(lanes, half)));
+  }
 }
 
 // From `Width` quantities, a lane a particle, to a row of `Width` numbers a particle.

@@ -36,8 +36,9 @@ THAWSLIDE_ALWAYS_INLINE Batch<Real> batch_in_memory(std::size_t first, std::size
   Batch<Real> batch;
   batch.count = std::min(Batch<Real>::most, size - first);
   batch.whole = batch.count == Batch<Real>::most;
-  for (std::size_t lane = 0; lane < Batch<Real>::most; ++lane) {
-    batch.particle[lane] = static_cast<std::uint32_t>(first + (batch.whole ? lane : std::min(lane, batch.count - 1)));
+  const auto from = static_cast<std::uint32_t>(first), last = static_cast<std::uint32_t>(first + batch.count - 1);
+  for (std::uint32_t lane = 0; lane < Batch<Real>::most; ++lane) {
+    batch.particle[lane] = std::min(from + lane, last);
   }
   return batch;
 }

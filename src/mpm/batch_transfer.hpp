@@ -50,14 +50,15 @@ THAWSLIDE_ALWAYS_INLINE LaneMask<Real> at_side(const HeldSides<Dim>& sides, int 
   return (node == static_cast<Real>(sides.lower[a])) | (node == static_cast<Real>(sides.upper[a]));
 }
 
-// For shape functions Shape (Ugimp, Linear, Quadratic); half: half sizes of the particles in cells.
+// For shape functions Shape (Ugimp, Linear, Quadratic); size: of the particles, in cells.
 template <class Shape, int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid,
                                                              const TileBatch<Dim, Real>& batch,
-                                                             const BatchPlace<Dim, Real>& place, Lanes<Real> half,
+                                                             const BatchPlace<Dim, Real>& place,
+                                                             const HalfSize<Lanes<Real>>& size,
                                                              const HeldSides<Dim>& sides) {
   return {batch.nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
-            return Shape::weights(place.offset[a], half, at_side(sides, a, place.node[a]), grid.inverse_cell());
+            return Shape::weights(place.offset[a], size, at_side(sides, a, place.node[a]), grid.inverse_cell());
           })};
 }
 
@@ -65,8 +66,8 @@ THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Di
 // ones, of which they read, since neighbours share these more often than corners.
 template <int Dim, class Real>
 struct HatStencil {
-  const BatchNodes<Real>& nodes;
   Vector<Lanes<Real>, Dim> offset;  // from the nearest node, in cells
+  const BatchNodes<Real>& nodes;
   Real inverse_cell;
 
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real, 2> corners() const {
@@ -94,7 +95,7 @@ template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE HatStencil<Dim, Real> hat_stencil(const SparseGrid<Dim, Real>& grid,
                                                           const Particles<Dim, Real>& particles,
                                                           const TileBatch<Dim, Real>& batch) {
-  return {batch.nodes, place_of(grid, particles, batch).offset, grid.inverse_cell()};
+  return {place_of(grid, particles, batch).offset, batch.nodes, grid.inverse_cell()};
 }
 
 // The same nodes and weights for APIC: in place of the gradient G_i stands S_i (x_i - x_p)/D, with which node

@@ -42,8 +42,8 @@ template <class Shape, int Dim, class Real>
 AffineBatch<Dim, Real> affine_stencil(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
                                       const MotionModel<Dim, Real>& model, const TileBatch<Dim, Real>& batch) {
   const auto place = place_of(grid, particles, batch);
-  const auto half = model.half_sizes(particles, batch);
-  return make_affine<Shape>(grid, make_stencil<Shape>(grid, batch, place, half, model.sides), place, model.sides);
+  const auto size = model.sizes.of(particles, batch);
+  return make_affine<Shape>(grid, make_stencil<Shape>(grid, batch, place, size, model.sides), place, model.sides);
 }
 
 // Adds S m C (x_i - x_p), the momentum of the velocity about the particles, to components First ... of the nodes.
@@ -123,7 +123,7 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
       patch.clear();
       for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
         const auto place = place_of(grid, particles, batch);
-        const auto stencil = make_stencil<Shape>(grid, batch, place, model.half_sizes(particles, batch), model.sides);
+        const auto stencil = make_stencil<Shape>(grid, batch, place, model.sizes.of(particles, batch), model.sides);
         auto carried = momentum_contribution(particles, model, viscous, batch);
         add_to_nodes<0>(stencil, batch.count, carried, patch);
       }
@@ -183,7 +183,7 @@ Real move_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, const MotionMod
   Real kinetic = 0;
   for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
     const auto place = place_of(grid, particles, batch);
-    const auto stencil = make_stencil<Shape>(grid, batch, place, model.half_sizes(particles, batch), model.sides);
+    const auto stencil = make_stencil<Shape>(grid, batch, place, model.sizes.of(particles, batch), model.sides);
     const auto seen = read_values(stencil, motion);
     Vector<Lanes<Real>, Dim> acceleration, middle;
     for (std::size_t a = 0; a < Dim; ++a) {

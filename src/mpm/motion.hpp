@@ -18,12 +18,6 @@ namespace thawslide::mpm {
 // (PIC), or their velocities with the affine velocity about the particle (APIC; Jiang et al. 2015).
 enum class TransferKind { flip_pic, apic };
 
-// What a body's particles share.
-template <class Real>
-struct BodyModel {
-  Real half_size = 0;  // of a particle, in cells
-};
-
 // What a material's particles share.
 template <class Real>
 struct MaterialModel {
@@ -36,13 +30,6 @@ struct MaterialModel {
 
 template <int Dim, class Real>
 struct MotionModel {
-  // Half sizes of a batch's particles, in cells.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<Real> half_sizes(const Particles<Dim, Real>& particles,
-                                                               const Batch<Real>& batch) const {
-    return bodies.size() == 1 ? Lanes<Real>(bodies[0].half_size) : Lanes<Real>::of([&](std::size_t lane) {
-      return bodies[static_cast<std::size_t>(particles.body(batch.particle[lane]))].half_size;
-    });
-  }
   [[nodiscard]] bool viscous() const {
     return std::any_of(materials.begin(), materials.end(),
                        [](const MaterialModel<Real>& material) { return material.viscosity_time > Real(0); });
@@ -54,7 +41,7 @@ struct MotionModel {
   Real pic_share = 0;         // of TransferKind::flip_pic; 0: FLIP
   Vector<Real, Dim> gravity;  // [m/s2]
   Real mass_damping = 0;      // [1/s]
-  std::vector<BodyModel<Real>> bodies;
+  BodySizes<Real> sizes;      // of particles, in cells
   std::vector<MaterialModel<Real>> materials;
   physics::Phases<Real> phases;
   bool effective_stress = false;  // stress is effective: the pore pressure acts inside the body too

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
+#include <vector>
 
 #include "base/linear.hpp"
 #include "mpm/field.hpp"
+#include "mpm/shape.hpp"
 
 namespace thawslide::mpm {
 
@@ -101,6 +104,42 @@ THAWSLIDE_ALWAYS_INLINE Lanes<Real> of_body(const std::vector<Real>& by_body, co
     return by_body[static_cast<std::size_t>(particles.body(batch.particle[lane]))];
   });
 }
+
+// Half sizes of particles, body by body.
+template <class Real>
+class BodySizes {
+ public:
+  BodySizes() = default;
+  BodySizes(std::initializer_list<Real> halves) {
+    for (const Real half : halves) {
+      add(half);
+    }
+  }
+
+  void add(Real half) {
+    half_.push_back(half);
+    inverse_.push_back(Real(1) / half);
+  }
+  [[nodiscard]] Real half(std::size_t body) const { return half_[body]; }
+  // The same in another unit.
+  [[nodiscard]] BodySizes times(Real factor) const {
+    BodySizes other;
+    for (const Real half : half_) {
+      other.add(factor * half);
+    }
+    return other;
+  }
+
+  // Of a batch's particles, by lane.
+  template <int Dim>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE HalfSize<Lanes<Real>> of(const Particles<Dim, Real>& particles,
+                                                                 const Batch<Real>& batch) const {
+    return {of_body(half_, particles, batch), of_body(inverse_, particles, batch)};
+  }
+
+ private:
+  std::vector<Real> half_, inverse_;
+};
 
 // A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.
 template <int Dim, class Real>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include "base/lanes.hpp"
 #include "base/linear.hpp"
@@ -29,14 +30,27 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> linear_weights(Value off
           {select(right, zero, -slope), select(right, -slope, slope), select(right, slope, zero)}};
 }
 
-// uGIMP (Bardenhagen and Kober 2004): the hat averaged over the undeformed particle of half size `half` (in cells).
+// Half size of a particle, and what formulas divide by it.
+template <class Value>
+struct HalfSize {
+  Value half, inverse;  // inverse: 1/half
+
+  HalfSize() = default;
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE HalfSize(Value size) : half(size), inverse(Value(1) / size) {}
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE HalfSize(Value size, Value inverse_size) : half(size), inverse(inverse_size) {}
+};
+
+// uGIMP (Bardenhagen and Kober 2004): the hat averaged over the undeformed particle. size: in cells.
 template <class Value, class Real>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> ugimp_weights(Value offset, Value half, Real inverse_cell) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> ugimp_weights(Value offset,
+                                                                      const std::type_identity_t<HalfSize<Value>>& size,
+                                                                      Real inverse_cell) {
+  const Value half = size.half;
   const auto in_right_cell = offset >= half;
   const auto in_left_cell = offset <= -half;
   const Value zero = Real(0), slope = inverse_cell;
   const Value to_left = half - offset, to_right = half + offset;
-  const Value quarter = Real(1) / (Real(4) * half);
+  const Value quarter = static_cast<Real>(0.25) * size.inverse;
   const Value half_slope = Real(2) * inverse_cell * quarter;
   const Value left = select(in_right_cell, zero, select(in_left_cell, -offset, to_left * to_left * quarter));
   const Value right = select(in_left_cell, zero, select(in_right_cell, offset, to_right * to_right * quarter));
@@ -89,16 +103,16 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value, Width> select(const Cond
   return chosen;
 }
 
-// The shape functions a run may use for momentum; heat and pore pressure always use the hats. half: half size of the
-// particle in cells. at_side: the nearest node lies on a side of the domain that prescribes velocity.
+// The shape functions a run may use for momentum; heat and pore pressure always use the hats. size: of the particle, in
+// cells. at_side: the nearest node lies on a side of the domain that prescribes velocity.
 enum class ShapeKind { ugimp, linear, quadratic };
 
 template <class Real>
 struct Ugimp {
   template <class Value, class Condition>
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(Value offset, Value half,
-                                                                         Condition /*at_side*/, Real inverse_cell) {
-    return ugimp_weights(offset, half, inverse_cell);
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(
+      Value offset, const std::type_identity_t<HalfSize<Value>>& size, Condition /*at_side*/, Real inverse_cell) {
+    return ugimp_weights(offset, size, inverse_cell);
   }
   // D is at least half the particle's half size.
   template <class Value, class Condition>
@@ -111,8 +125,8 @@ struct Ugimp {
 template <class Real>
 struct Linear {
   template <class Value, class Condition>
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(Value offset, Value /*half*/,
-                                                                         Condition /*at_side*/, Real inverse_cell) {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(
+      Value offset, const std::type_identity_t<HalfSize<Value>>& /*size*/, Condition /*at_side*/, Real inverse_cell) {
     return linear_weights(offset, inverse_cell);
   }
 };
@@ -122,8 +136,8 @@ struct Linear {
 template <class Real>
 struct Quadratic {
   template <class Value, class Condition>
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(Value offset, Value /*half*/,
-                                                                         Condition at_side, Real inverse_cell) {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(
+      Value offset, const std::type_identity_t<HalfSize<Value>>& /*size*/, Condition at_side, Real inverse_cell) {
     return select(at_side, linear_weights(offset, inverse_cell), quadratic_weights(offset, inverse_cell));
   }
   // D is 1/4; by hats, w_k (x_k - x_p)/D is the slope.

@@ -56,7 +56,7 @@ THAWSLIDE_ALWAYS_INLINE void deform(Particles<Dim, Real>& particles, const Batch
   batch.add_to(work.total, volume * Real(0.5) * double_contraction<Lanes<Real>>(old_stress + stress, increment.strain));
   particles.stress.store_vector(batch, stress);
   if (Law::yields) {
-    const Lanes<Real> pressure = (stress[0] + stress[1] + stress[2]) / Real(3);
+    const Lanes<Real> pressure = (stress[0] + stress[1] + stress[2]) * (Real(1) / Real(3));
     batch.add_to(work.plastic, volume * (plastic_work_density - closing * pressure));
   }
   if (material.viscosity_time > Real(0)) {
@@ -109,7 +109,7 @@ StressWork<Real> deform_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, c
         [&](const auto& law) {
           for (auto batch = first; batch != last; ++batch) {
             const auto stencil = make_stencil<Shape>(grid, *batch, place_of(grid, particles, *batch),
-                                                     model.half_sizes(particles, *batch), model.sides);
+                                                     model.sizes.of(particles, *batch), model.sides);
             const Matrix<Lanes<Real>, Dim> gradient = Lanes<Real>(dt) * gradient_of(read_nodes<Dim>(stencil, velocity));
             deform<Dim, Real>(particles, *batch, gradient, law, chosen, model, dt, sum);
             note_bad_volumes(particles, *batch, bad);

@@ -40,12 +40,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases<Re
 }
 
 // Share of the difference between a particle's pressure and the one nodes see at its place that diffusion levels out
-// within a step: 1 - exp(-dt D sum_a 2/h_a^2), h the mesh size that D is meant for [m] (Gerya and Yuen 2003, Eq. 23).
-// Nodes do not see differences within a cell, and diffusion between nodes would leave them standing for ever.
+// within a step: 1 - exp(-dt D sum_a 2/h_a^2), h the mesh size that D is meant for (Gerya and Yuen 2003, Eq. 23).
+// inverse_mesh_size: 1/h [1/m]. Nodes do not see differences within a cell, and diffusion between nodes would leave
+// them standing for ever.
 template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_levelled_within_cell(Value diffusivity, Value mesh_size, int dimension,
-                                                                      Real dt) {
-  return -exponential_minus_one(-dt * diffusivity * Real(2 * dimension) / (mesh_size * mesh_size));
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_levelled_within_cell(Value diffusivity, Value inverse_mesh_size,
+                                                                      int dimension, Real dt) {
+  return -exponential_minus_one((-dt * Real(2 * dimension)) * (inverse_mesh_size * inverse_mesh_size) * diffusivity);
 }
 
 }  // namespace thawslide::physics

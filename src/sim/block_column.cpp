@@ -113,7 +113,7 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
         if (model_->secant_capacity) {
           row.conduction_in_cell =
               (seen - row.temperature) *
-              physics::share_levelled_within_cell(conductivity / row.secant_capacity, cell_ / scaling, 2, dt);
+              physics::share_levelled_within_cell(conductivity / row.secant_capacity, scaling / cell_, 2, dt);
         }
       }
       double advection = 0.0;
@@ -190,7 +190,8 @@ std::vector<double> BlockColumn::seepage_between_nodes(double scaling, double dt
       const double diffusivity =
           scaling * pore_scaling *
           physics::hydraulic_diffusivity(model_->phases, row.porosity, 1.0, hydraulic_conductivity_);
-      row.seepage_in_cell = (seen - row.pore_pressure) * physics::share_levelled_within_cell(diffusivity, cell_, 2, dt);
+      row.seepage_in_cell =
+          (seen - row.pore_pressure) * physics::share_levelled_within_cell(diffusivity, 1.0 / cell_, 2, dt);
     }
     const double pore_space = row_height_ / pore_scaling * row.porosity;
     inflow[at.node] += -dt * flow / cell_ - at.weight * pore_space * row.seepage_in_cell;

@@ -195,9 +195,7 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   for (const auto& material : motion.materials) {
     band.hydraulic_conductivity.push_back(material.hydraulic_conductivity);
   }
-  for (const auto& body : motion.bodies) {
-    band.half_size.push_back(body.half_size);
-  }
+  band.sizes = motion.sizes;
   band.shape = motion.shape;
   band.sides = motion.sides;
   return band;
@@ -257,7 +255,7 @@ Model<Dim, Real> make_model(const config::Case& parameters) {
   }
   for (const auto& [name, body] : parameters.bodies) {
     model.body_names.push_back(name);
-    model.motion.bodies.push_back({Real(1) / static_cast<Real>(2 * body.particles_per_axis)});
+    model.motion.sizes.add(Real(1) / static_cast<Real>(2 * body.particles_per_axis));
   }
   model.constraints = make_constraints<Dim, Real>(parameters, model.origin);
   model.contact.law = make_basal_law<Real>(parameters);

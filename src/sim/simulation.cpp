@@ -170,7 +170,7 @@ void Simulation<Dim, Real>::begin() {
   contact_ = {};
   find_particles_cells();
   if (model_.ground) {
-    terrain::set_reach(grid_, ground_, model_.band.half_size, particles_);
+    terrain::set_reach(grid_, ground_, model_.band.sizes, particles_);
   }
   mark_band();
   band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);
@@ -261,7 +261,7 @@ void Simulation<Dim, Real>::start_ledger() {
   ledger_.initial_momentum = sums.momentum;
   double rear = HUGE_VAL;
   for (std::size_t p = 0; p < particles_.size(); ++p) {
-    const Real half = model_.motion.bodies[static_cast<std::size_t>(particles_.body(p))].half_size * grid_.cell();
+    const Real half = model_.motion.sizes.half(static_cast<std::size_t>(particles_.body(p))) * grid_.cell();
     rear = std::min(rear, static_cast<double>(particles_.position(p, 0) - half) + model_.origin[0]);
   }
   rear_at_start_ = rear;

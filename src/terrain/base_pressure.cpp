@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/instances.hpp"
+#include "mpm/batch_transfer.hpp"
 
 namespace thawslide::terrain {
 
@@ -29,24 +30,20 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
     if (!(nodes.base(b, static_cast<std::size_t>(k))[BaseLayout::load] > Real(0))) {
       continue;
     }
-    const typename T::Index here = T::node({}, k);
     int across = 0;  // the axis that is most nearly normal to the ground
     ground.block(b)[static_cast<std::size_t>(k)].normal.cwiseAbs().maxCoeff(&across);
-    Real load = 0, covered = 0;
-    for (int d = 0; d < T::stencil; ++d) {
-      typename T::Index there = here;
-      Real weight = 1;
-      int direction = d;
-      for (std::size_t a = 0; a < Dim; ++a) {
-        const int shift = direction % 3 - 1;
-        direction /= 3;
-        there[a] += shift;
-        weight *= static_cast<int>(a) == across ? Real(1) : shift == 0 ? Real(0.5) : Real(0.25);
-      }
-      const auto& record = patch.records[static_cast<std::size_t>(T::in_patch(there))];
-      load += weight * record[BaseLayout::load];
-      covered += weight * record[BaseLayout::covered];
+    constexpr mpm::AxisWeights<Real> all{{1, 1, 1}, {}}, bell{{Real(0.25), Real(0.5), Real(0.25)}, {}};
+    const auto axis = mpm::for_axes<Dim>([&](int a) { return a == across ? all : bell; });
+    typename T::Index lowest = T::node({}, k);
+    for (int& along : lowest) {
+      --along;
     }
+    Real load = 0, covered = 0;
+    mpm::for_each_node<Dim>(axis, static_cast<std::size_t>(T::in_patch(lowest)),
+                            [&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
+                              load += weight * patch.records[place][BaseLayout::load];
+                              covered += weight * patch.records[place][BaseLayout::covered];
+                            });
     pressure[static_cast<std::size_t>(k)] = load / (dt * std::max(covered, smallest_area));
   }
   return pressure;

@@ -210,10 +210,10 @@ template <int Dim, class Real>
 void finish_node(const NodeState<Dim, Real>& state, bool constrained, Real damping, Real dt,
                  ContactWork<Dim, Real>& work,
                  typename mpm::NodeRecords<Dim, Real, MotionLayout<Dim>::size>::Record& motion) {
-  const Real inverse_mass = Real(1) / state.mass;
+  const Real inverse_mass = Real(1) / state.mass, inverse_dt = Real(1) / dt;
   const Vector<Real, Dim> change = state.momentum - state.old_momentum;
   const Vector<Real, Dim> middle = Real(0.5) * inverse_mass * (state.old_momentum + state.momentum);
-  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change * inverse_mass / dt);
+  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change * (inverse_mass * inverse_dt));
   mpm::set_vector<Dim>(motion, MotionLayout<Dim>::middle_velocity, middle);
   work.node_kinetic += Real(0.5) * change.squaredNorm() * inverse_mass;
   if (damping > Real(0)) {
@@ -301,7 +301,7 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
         momentum -= approach_of(nodes, b, k, model.distance_check, dt, mass, momentum.dot(normal)) * normal;
       }
       on_block.apply(k, mass, momentum);
-      const Vector<Real, Dim> velocity = momentum / mass;
+      const Vector<Real, Dim> velocity = momentum * (Real(1) / mass);
       mpm::set_vector<Dim>(nodes.velocity(b, k), 0, velocity);
       const Vector<Real, Dim> internal_force = mpm::vector_at<Dim, Real>(record, Layout::force) - mass * gravity;
       const auto middle = mpm::vector_at<Dim, Real>(nodes.motion(b, k), MotionLayout<Dim>::middle_velocity);

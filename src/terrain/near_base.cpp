@@ -48,15 +48,26 @@ template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>& stencil, std::size_t count,
                                              Lanes<Real> clearance, NearBasePatch<Dim, Real>& patch) {
   constexpr Real far = std::numeric_limits<Real>::max();
-  mpm::for_each_node<Dim>(
-      stencil.axis, 0, [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
-        const Lanes<Real> seen = select(weight > Real(0), clearance, Lanes<Real>(far));
-        for (std::size_t lane = 0; lane < count; ++lane) {
-          auto& record = patch.records[static_cast<std::size_t>(stencil.nodes.first[lane]) + offset];
-          Real& known = record[mpm::NearBaseLayout::clearance];
-          known = std::min(known, seen[lane]);
-        }
-      });
+  const mpm::BatchNodes<Real>& nodes = stencil.nodes;
+  const auto lower = [&](std::size_t lane, std::size_t offset, Real seen) THAWSLIDE_INLINE_LAMBDA {
+    Real& known = patch.records[static_cast<std::size_t>(nodes.first[lane]) + offset][mpm::NearBaseLayout::clearance];
+    known = std::min(known, seen);
+  };
+  const auto in_first = lanes_before<Real>(nodes.runs == 1 ? lane_count<Real> : nodes.second_run);
+  mpm::for_each_node<Dim>(stencil.axis, 0,
+                          [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
+                            const Lanes<Real> seen = select(weight > Real(0), clearance, Lanes<Real>(far));
+                            if (nodes.runs == mpm::BatchNodes<Real>::many_runs) {
+                              for (std::size_t lane = 0; lane < count; ++lane) {
+                                lower(lane, offset, seen[lane]);
+                              }
+                              return;
+                            }
+                            lower(0, offset, smallest(select(in_first, seen, Lanes<Real>(far))));
+                            if (nodes.runs == 2) {
+                              lower(lane_count<Real> - 1, offset, smallest(select(in_first, Lanes<Real>(far), seen)));
+                            }
+                          });
 }
 
 // What a batch adds to the sums of NearBaseLayout, by mass with the momentum shape functions and by volume with the
@@ -89,14 +100,14 @@ THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stenc
 
 template <int Dim, class Real>
 void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-               const std::vector<Real>& half_size, mpm::Particles<Dim, Real>& particles) {
+               const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles) {
   constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's reach
   DistancePatch<Dim, Real> patch;
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     load_distances(grid, ground, t, patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto seen = mpm::read_nodes<1 + Dim>(hat_stencil(grid, particles, batch), patch);
-      const Lanes<Real> reach = reach_of_box(seen, of_body(half_size, particles, batch) * grid.cell());
+      const Lanes<Real> reach = reach_of_box(seen, sizes.of(particles, batch).half * grid.cell());
       const auto lowest = seen.value[0] < within_lowest_layer * reach;
       particles.reach.store(batch, select(lowest, seen.value[0], reach));
     }
@@ -133,7 +144,7 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
         const Lanes<Real> distance = mpm::read_nodes<1>(hats, distances).value[0];
         const auto place = place_of(grid, particles, batch);
         const auto stencil =
-            mpm::make_stencil<decltype(shape)>(grid, batch, place, model.half_sizes(particles, batch), model.sides);
+            mpm::make_stencil<decltype(shape)>(grid, batch, place, model.sizes.of(particles, batch), model.sides);
         add_state(stencil, hats, model, particles, batch, patch);
         lower_clearance(stencil, batch.count, max(Lanes<Real>(Real(0)), distance - particles.reach.load(batch)), patch);
       }
@@ -164,7 +175,7 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
   template void set_reach<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,            \
-                                     const std::vector<Real>&, mpm::Particles<Dim, Real>&);                        \
+                                     const mpm::BodySizes<Real>&, mpm::Particles<Dim, Real>&);                     \
   template void near_base_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,    \
                                              const mpm::MotionModel<Dim, Real>&, const mpm::Particles<Dim, Real>&, \
                                              mpm::Nodes<Dim, Real>&);

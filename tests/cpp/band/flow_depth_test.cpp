@@ -43,7 +43,7 @@ void expect_thickness(double from, double bulge, double allowed) {
   mpm::SparseGrid<Dim, double> grid(cell);
   grid.update(box, 1);
   BandModel<Dim, double> model;
-  model.half_size = {0.5 * spacing / cell};
+  model.sizes = {0.5 * spacing / cell};
   FlowDepth<Dim, double> depth;
   depth.update(grid, model, {}, box);
   depth.depth_to_particles(grid, box);
@@ -82,7 +82,7 @@ TEST(FlowDepth, GoesWithTheBodyFromTileToTile) {
   fill_box<2>(7, 6, 2.5, 0.0, box);
   mpm::SparseGrid<2, double> grid(cell);
   BandModel<2, double> model;
-  model.half_size = {0.5 * spacing / cell};
+  model.sizes = {0.5 * spacing / cell};
   FlowDepth<2, double> followed;
   for (int step = 0; step < 60; ++step) {
     grid.update(box, 7);

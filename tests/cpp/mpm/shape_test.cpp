@@ -164,7 +164,7 @@ void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNo
     for (TileBatch<Dim, double> batch : grid.batches(t)) {
       const auto place = place_of(grid, particles, batch);
       const auto read = [&] {
-        const auto stencil = make_stencil<Ugimp<double>>(grid, batch, place, Lanes<double>(0.25), HeldSides<Dim>());
+        const auto stencil = make_stencil<Ugimp<double>>(grid, batch, place, {Lanes<double>(0.25)}, HeldSides<Dim>());
         return std::tuple(read_nodes<3>(hat_stencil(grid, particles, batch), patch), read_nodes<3>(stencil, patch),
                           read_values(stencil, patch));
       };

@@ -53,7 +53,7 @@ std::vector<Point<Dim>> points_of(const sim::Simulation<Dim, double>& simulation
     point.flow_depth = particles.flow_depth(p);
     point.scaling = particles.thermal_scaling(p);
     point.slip = particles.slip(p);
-    point.half = simulation.model().motion.bodies[static_cast<std::size_t>(particles.body(p))].half_size;
+    point.half = simulation.model().motion.sizes.half(static_cast<std::size_t>(particles.body(p)));
     point.material = static_cast<std::size_t>(particles.material(p));
   }
   return points;
@@ -302,7 +302,7 @@ class ScalarStep {
         const double conductivity = physics::conductivity(phases(), p.porosity, p.saturation);
         p.conduction_in_cell =
             (seen(p, mpm::HatLayout::temperature).value - p.temperature) *
-            physics::share_levelled_within_cell(conductivity / p.capacity, 1.0 / (inverse_cell_ * p.scaling), Dim, dt_);
+            physics::share_levelled_within_cell(conductivity / p.capacity, inverse_cell_ * p.scaling, Dim, dt_);
       }
       const auto first = rates(flows, stored());
       for (Point<Dim>& p : points_) {
@@ -373,7 +373,7 @@ class ScalarStep {
         p.scaling * p.scaling *
         physics::hydraulic_diffusivity(phases(), p.porosity, 1.0,
                                        simulation_.model().band.hydraulic_conductivity[p.material]);
-    return (level - p.pore_pressure) * physics::share_levelled_within_cell(diffusivity, 1.0 / inverse_cell_, Dim, dt_);
+    return (level - p.pore_pressure) * physics::share_levelled_within_cell(diffusivity, inverse_cell_, Dim, dt_);
   }
 
   std::vector<Point<Dim>> points_;

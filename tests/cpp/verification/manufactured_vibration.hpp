@@ -28,7 +28,7 @@ class ManufacturedVibration {
     model_.transfer = transfer;
     model_.pic_share = pic_share;
     model_.gravity.setZero();
-    model_.bodies = {{0.25}};
+    model_.sizes = {0.25};
     elastic_ = physics::Elastic<double>::from_young_poisson(youngs_modulus, poisson_ratio);
     model_.materials = {{physics::LinearElastic<double>{}, elastic_, false, 0.0, 0.0}};
     model_.sides.lower.fill(0);
@@ -110,7 +110,7 @@ class ManufacturedVibration {
         for (const auto& batch : grid_.batches(t)) {
           const auto place = mpm::place_of(grid_, particles_, batch);
           const auto stencil =
-              mpm::make_stencil<decltype(shape)>(grid_, batch, place, Lanes<double>(0.25), model_.sides);
+              mpm::make_stencil<decltype(shape)>(grid_, batch, place, model_.sizes.of(particles_, batch), model_.sides);
           mpm::Contribution<2, double, 2> force;
           for (std::size_t a = 0; a < 2; ++a) {
             force.value[a] = Lanes<double>::of([&](std::size_t lane) {
