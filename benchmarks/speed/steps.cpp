@@ -84,7 +84,7 @@ double heap_in_use() {
   return static_cast<double>(heap.uordblks + heap.hblkhd);
 }
 
-// A process that keeps the first core busy for as long as this lives.
+// A process that keeps the first core this one may use busy for as long as this lives.
 class BusyCore {
  public:
   explicit BusyCore(bool wanted) {
@@ -93,10 +93,17 @@ class BusyCore {
     }
     process_ = fork();
     if (process_ == 0) {
-      cpu_set_t first;
+      cpu_set_t usable, first;
       CPU_ZERO(&first);
-      CPU_SET(0, &first);
-      sched_setaffinity(0, sizeof first, &first);
+      sched_getaffinity(0, sizeof usable, &usable);
+      for (int core = 0; CPU_COUNT(&first) == 0; ++core) {
+        if (CPU_ISSET(core, &usable)) {
+          CPU_SET(core, &first);
+        }
+      }
+      if (sched_setaffinity(0, sizeof first, &first) != 0) {
+        _exit(1);
+      }
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       for (std::atomic<std::uint64_t> turns{0};; ++turns) {
       }

@@ -44,12 +44,12 @@ class FrontWatch {
 };
 
 template <int Dim>
-void print_summary(const sim::Simulation<Dim, double>& simulation, const std::map<std::string, double>& stage_seconds,
+void print_summary(const sim::Simulation<Dim, double>& simulation, const Stopwatch::Seconds& stage_seconds,
                    std::int64_t steps, double wall, const std::filesystem::path& folder) {
   const double count = static_cast<double>(simulation.particles().size());
-  fmt::print("{} particles, {} steps in {}: {:.3g} million particle-steps per second on {} thread{}\n",
+  fmt::print("{} particles, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n",
              simulation.particles().size(), steps, duration_text(wall), count * static_cast<double>(steps) / wall / 1e6,
-             thread_count(), thread_count() == 1 ? "" : "s");
+             thread_count() == 1 ? "" : "at most ", thread_count(), thread_count() == 1 ? "" : "s");
   std::vector<std::pair<double, std::string>> stages;
   for (const auto& [name, seconds] : stage_seconds) {
     stages.emplace_back(seconds, name);

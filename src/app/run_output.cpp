@@ -127,8 +127,8 @@ void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
 }
 
 template <int Dim>
-std::map<std::string, double> RunOutput<Dim>::seconds_per_stage(const Simulation& simulation) const {
-  std::map<std::string, double> seconds = simulation.stopwatch().seconds();
+Stopwatch::Seconds RunOutput<Dim>::seconds_per_stage(const Simulation& simulation) const {
+  Stopwatch::Seconds seconds = simulation.stopwatch().seconds();
   seconds.insert(stopwatch_.seconds().begin(), stopwatch_.seconds().end());
   return seconds;
 }

@@ -51,7 +51,7 @@ class RunOutput {
   void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
                         double wall_seconds);
   // Wall-clock time [s] of the step's stages and of writing.
-  [[nodiscard]] std::map<std::string, double> seconds_per_stage(const Simulation& simulation) const;
+  [[nodiscard]] Stopwatch::Seconds seconds_per_stage(const Simulation& simulation) const;
 
  private:
   RunOutput(const std::filesystem::path& folder, io::HistoryWriter history, io::SnapshotSeries snapshots);

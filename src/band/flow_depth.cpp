@@ -161,28 +161,28 @@ void FlowDepth<Dim, Real>::Extent::add(const Extent& part) {
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid,
                                           const std::function<Real(Real)>& slope_cosine) {
-  KeyIndex index;
-  std::vector<std::uint64_t> keys;
+  column_index_.clear();
+  column_keys_.clear();
   numbered_.clear();
   tiles_.resize(grid.tiles().size());
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     numbered_.push_back(grid.tiles()[t].key);
     for (std::size_t place = 0; place < OfTile::count; ++place) {
       const std::uint64_t key = column_key(grid, t, place);
-      tiles_[t].number[place] = index.insert(key);
-      if (index.size() > keys.size()) {
-        keys.push_back(key);
+      tiles_[t].number[place] = column_index_.insert(key);
+      if (column_index_.size() > column_keys_.size()) {
+        column_keys_.push_back(key);
       }
     }
   }
-  columns_.assign(keys.size(), {});
+  columns_.assign(column_keys_.size(), {});
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
-      columns_[c].beside[2 * a] = index.find(neighbour(keys[c], a, -1));
-      columns_[c].beside[2 * a + 1] = index.find(neighbour(keys[c], a, 1));
+      columns_[c].beside[2 * a] = column_index_.find(neighbour(column_keys_[c], a, -1));
+      columns_[c].beside[2 * a + 1] = column_index_.find(neighbour(column_keys_[c], a, 1));
     }
     if (slope_cosine) {
-      const auto cell = static_cast<Real>(static_cast<std::int64_t>(keys[c] & 0xffffffffu) - column_origin);
+      const auto cell = static_cast<Real>(static_cast<std::int64_t>(column_keys_[c] & 0xffffffffu) - column_origin);
       columns_[c].cosine = slope_cosine((cell + Real(0.5)) * grid.cell());
     }
   }

@@ -90,7 +90,9 @@ class FlowDepth {
   // Key of the neighbour column `cells` further along a horizontal axis.
   static std::uint64_t neighbour(std::uint64_t key, std::size_t axis, int cells);
 
-  std::vector<std::uint64_t> numbered_;  // the tiles that columns and their numbers are of
+  std::vector<std::uint64_t> numbered_;  // the tiles that columns, their numbers and sizes_ are of
+  KeyIndex column_index_;
+  std::vector<std::uint64_t> column_keys_;
   std::vector<Column> columns_;
   std::vector<TilePart> tiles_;
   std::vector<std::size_t> edge_tiles_;

@@ -1,6 +1,7 @@
 // A hash table from 64-bit keys to indices: open addressing, linear probing, no removal.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -12,6 +13,12 @@ class KeyIndex {
   static constexpr std::int32_t absent = -1;
 
   [[nodiscard]] std::size_t size() const { return count_; }
+
+  // Forgets all keys and keeps its room.
+  void clear() {
+    std::fill(slots_.begin(), slots_.end(), Slot{});
+    count_ = 0;
+  }
 
   // The index stored for the key, or absent.
   [[nodiscard]] std::int32_t find(std::uint64_t key) const {

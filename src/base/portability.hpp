@@ -9,9 +9,11 @@
 #endif
 
 // A small function of the innermost loops that g++ leaves out of line on its own, at the price of passing its result
-#ifndef THAWSLIDE_ALWAYS_INLINE  // through memory. Builds that check and need no speed say otherwise.
+// through memory; the second one stands after a lambda's parameters. Builds that check and need no speed say otherwise.
+#ifndef THAWSLIDE_ALWAYS_INLINE
 #define THAWSLIDE_ALWAYS_INLINE [[gnu::always_inline]] inline
-// The same after a lambda's parameters.
+#endif
+#ifndef THAWSLIDE_INLINE_LAMBDA
 #define THAWSLIDE_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 

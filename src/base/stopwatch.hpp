@@ -4,23 +4,30 @@
 #include <chrono>
 #include <map>
 #include <string>
+#include <string_view>
 
 namespace thawslide {
 
 class Stopwatch {
  public:
+  using Seconds = std::map<std::string, double, std::less<>>;  // by stage; found by its name without a copy of it
+
   // Runs a stage and adds its wall time [s] to the stage's account.
   template <class Stage>
-  void time(const char* stage, const Stage& run) {
+  void time(std::string_view stage, const Stage& run) {
     const auto start = std::chrono::steady_clock::now();
     run();
-    seconds_[stage] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    auto account = seconds_.find(stage);
+    if (account == seconds_.end()) {
+      account = seconds_.emplace(stage, 0.0).first;
+    }
+    account->second += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  [[nodiscard]] const std::map<std::string, double>& seconds() const { return seconds_; }
+  [[nodiscard]] const Seconds& seconds() const { return seconds_; }
 
  private:
-  std::map<std::string, double> seconds_;
+  Seconds seconds_;
 };
 
 }  // namespace thawslide

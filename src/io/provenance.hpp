@@ -3,9 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
+
+#include "base/stopwatch.hpp"
 
 namespace thawslide::io {
 
@@ -27,7 +28,7 @@ struct Provenance {
   double simulated_time = 0.0, wall_seconds = 0.0;
   std::int64_t steps = 0;
   std::int64_t steps_before = 0;  // of them, those before this process went on with the run: not in wall_seconds
-  std::map<std::string, double> seconds_per_stage;
+  Stopwatch::Seconds seconds_per_stage;
   double seconds_beside = 0.0;  // processor time that writing snapshots took while steps went on
 };
 

@@ -353,9 +353,9 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::connect_blocks() {
   blocks_.clear();
-  KeyIndex tile_number;
+  tile_number_.clear();
   for (const OccupiedTile& tile : tiles_) {
-    tile_number.insert(tile.key);
+    tile_number_.insert(tile.key);
     const Index here = T::index(tile.key);
     for (int d = 0; d < T::stencil; ++d) {
       blocks_.push_back(T::key(neighbour<Dim>(here, d)));
@@ -364,27 +364,27 @@ void SparseGrid<Dim, Real>::connect_blocks() {
   std::sort(blocks_.begin(), blocks_.end());
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
 
-  KeyIndex block_number;
+  block_number_.clear();
   tiles_about_block_.resize(blocks_.size() * stencil);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    block_number.insert(blocks_[b]);
+    block_number_.insert(blocks_[b]);
     for (int d = 0; d < T::stencil; ++d) {
       tiles_about_block_[b * stencil + static_cast<std::size_t>(d)] =
-          tile_number.find(T::key(neighbour<Dim>(T::index(blocks_[b]), d)));
+          tile_number_.find(T::key(neighbour<Dim>(T::index(blocks_[b]), d)));
     }
   }
   blocks_about_block_.resize(blocks_.size() * stencil);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     for (int d = 0; d < T::stencil; ++d) {
       blocks_about_block_[b * stencil + static_cast<std::size_t>(d)] =
-          block_number.find(T::key(neighbour<Dim>(T::index(blocks_[b]), d)));
+          block_number_.find(T::key(neighbour<Dim>(T::index(blocks_[b]), d)));
     }
   }
   blocks_about_tile_.resize(tiles_.size() * stencil);
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     for (int d = 0; d < T::stencil; ++d) {
       blocks_about_tile_[t * stencil + static_cast<std::size_t>(d)] =
-          block_number.find(T::key(neighbour<Dim>(T::index(tiles_[t].key), d)));
+          block_number_.find(T::key(neighbour<Dim>(T::index(tiles_[t].key), d)));
     }
   }
 }

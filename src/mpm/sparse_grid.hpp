@@ -105,6 +105,7 @@ class SparseGrid {
   std::vector<std::vector<TileBatch<Dim, Real>>> batches_;  // by tile
   std::vector<std::uint8_t> stale_;                         // by tile: its batches are to be made anew
   std::vector<std::uint64_t> blocks_;
+  KeyIndex tile_number_, block_number_;
   std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;
   bool blocks_changed_ = true;
   int calls_ = 0;                      // since particles were sorted in memory

@@ -100,7 +100,10 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> isolated_axis(const Matrix
       axis[row] = select(says_more, other[row], axis[row]);
     }
   }
-  return axis / sqrt(most);
+  // Where round-off is all that is left of the deviator, its trace is not 0 and all products may vanish.
+  const auto some = most > Value(0);
+  axis[0] = select(some, axis[0], Value(1));
+  return axis / sqrt(select(some, most, Value(1)));
 }
 
 // A unit vector across an axis.

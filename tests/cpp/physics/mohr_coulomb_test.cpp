@@ -109,6 +109,32 @@ TEST(Principal, RebuildsTheTensor) {
   }
 }
 
+// At the apex, say: round-off is all that tells the values apart, and the deviator need not be free of a trace.
+TEST(Principal, RebuildsTensorsThatAreIsotropicToRoundOff) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-3e6, 3e6);
+  std::uniform_int_distribution<int> last_digits(-2, 2);
+  const auto expect_rebuilt = [](const Tensor& stress) {
+    const auto state = principal(stress);
+    EXPECT_LE((from_principal(state) - stress).cwiseAbs().maxCoeff(), 1e-14 * size(stress));
+    EXPECT_LT((state.axes.transpose() * state.axes - Matrix<double, 3>::Identity()).norm(), 1e-13);
+  };
+  for (int k = 0; k < 20000; ++k) {
+    const double pressure = number(random), digit = std::abs(pressure) * std::numeric_limits<double>::epsilon();
+    Tensor stress;
+    for (int c = 0; c < 6; ++c) {
+      stress[c] = (c < 3 ? pressure : 0.0) + (c < 3 || k % 2 == 0 ? digit * last_digits(random) : 0.0);
+    }
+    expect_rebuilt(stress);
+  }
+  for (int k = 0; k < 1000; ++k) {  // the products vanish for some of these
+    const double size = number(random);
+    const Vector<double, 3> axis =
+        detail::isolated_axis(Matrix<double, 3>(Vector<double, 3>(size, size, 0.0).asDiagonal()));
+    EXPECT_NEAR(axis.norm(), 1.0, 1e-13) << size;
+  }
+}
+
 TEST(MohrCoulomb, ReturnsAreAdmissibleOnTheSurfaceAndIdempotent) {
   for (const Set& set : sets) {
     const auto law = law_of(set);
