@@ -31,6 +31,8 @@ struct BandModel {
   physics::Phases<Real> phases;
   AnyHeatContent<Real> heat_content;
   Real reference_temperature = 0;  // Tref [C]
+  Real clapeyron_sign = 1;         // +1 as usual, -1 as Eq. 4 prints it
+  Real gravity = 0;                // magnitude [m/s2]
   bool heat = true;
   bool conduction = true;
   bool advection = true;
@@ -46,10 +48,8 @@ struct BandModel {
   bool volumetric_term = false;  // Eq. 8's -div v, which Eq. 23 drops
   bool seepage = true;
   bool seepage_as_printed = false;  // Eq. 23 with one xi over the whole pore space
-  Real clapeyron_sign = 1;          // +1 as usual, -1 as Eq. 4 prints it
   bool normal_thickness = true;
   bool thickness_each_step = true;
-  Real gravity = 0;                              // magnitude [m/s2]
   std::vector<Real> hydraulic_conductivity;      // by material [m/s]
   mpm::BodySizes<Real> sizes;                    // of particles, in cells
   mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
