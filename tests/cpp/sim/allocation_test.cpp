@@ -5,8 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "../support/case_from_text.hpp"
-#include "base/parallel.hpp"
+#include "../support/two_bodies.hpp"
 #include "sim/simulation.hpp"
 
 #ifndef __SANITIZE_ADDRESS__  // which counts allocations itself
@@ -38,49 +37,9 @@ void operator delete(void* place, std::size_t /*bytes*/, std::align_val_t /*boun
 namespace thawslide::sim {
 namespace {
 
-// A melted body on a slope, with every mechanism, at rest in its tiles.
 template <int Dim>
 long allocations_of_steps() {
-  const auto at = [](double x, double z) {
-    return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, z > 0.0 ? 9.0 : 1.0, z);
-  };
-  const auto parameters = testing_support::case_from_text(
-      fmt::format(R"(
-[case]
-dimension = {}
-gravity_tilt = 35.0
-[time]
-end = 10.0
-step = 0.002
-[grid]
-cell = 1.0
-min = {}
-max = {}
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.debris]
-law = "mohr_coulomb"
-youngs_modulus = 2e8
-poisson_ratio = 0.3
-friction_angle = 35.0
-cohesion = 5e3
-hydraulic_conductivity = 1e-9
-[body.slab]
-material = "debris"
-min = {}
-max = {}
-temperature = 0.5
-porosity = 0.375
-[basal]
-friction = "lubricated"
-friction_angle = 25.0
-[band]
-thickness = 0.1
-)",
-                  Dim, Dim == 2 ? "[-4.0, -4.0]" : "[-4.0, -4.0, -4.0]",
-                  Dim == 2 ? "[40.0, 20.0]" : "[40.0, 14.0, 20.0]", at(1.0, 0.0), at(21.0, 6.0)));
-  Simulation<Dim, double> simulation(parameters);
+  Simulation<Dim, double> simulation(testing_support::two_bodies<Dim>(5e3));
   simulation.set_sorting_interval(5);
   for (int k = 0; k < 20; ++k) {
     simulation.step(0.002);

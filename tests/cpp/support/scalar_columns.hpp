@@ -1,0 +1,103 @@
+// The depth of the flow at particles, column by column and particle by particle: what band/flow_depth must give.
+#pragma once
+
+#include <algorithm>
+
+#include "scalar_points.hpp"
+
+namespace thawslide::testing_support {
+
+template <int Dim>
+class ScalarColumns {
+ public:
+  // slope_cosine(x [m]): of the ground.
+  template <class Cosine>
+  ScalarColumns(const std::vector<Point<Dim>>& points, double cell, const Cosine& slope_cosine) : cell_(cell) {
+    for (const Point<Dim>& p : points) {
+      for_columns(p, [&](const Column& column, double share, const Extent& from, const Extent& to) {
+        Held& held = held_[column];
+        held.volume += share * p.volume;
+        held.top = std::max(held.top, p.position[Dim - 1] + p.half * cell_);
+        for (std::size_t a = 0; a + 1 < Dim; ++a) {
+          held.from[a] = std::min(held.from[a], from[a]);
+          held.to[a] = std::max(held.to[a], to[a]);
+        }
+        held.cosine = slope_cosine((column[0] + 0.5) * cell_);
+      });
+    }
+    for (auto& [column, held] : held_) {
+      held.thickness = held.volume / footprint(column, held);
+    }
+  }
+
+  [[nodiscard]] double flow_depth(const Point<Dim>& p) const {
+    double depth = 0.0;
+    for_columns(p, [&](const Column& column, double share, const Extent& /*from*/, const Extent& /*to*/) {
+      const Held& held = held_.at(column);
+      depth += share * held.cosine * (p.in_band ? held.thickness : std::max(0.0, held.top - p.position[Dim - 1]));
+    });
+    return depth;
+  }
+
+  // Of the particle's middle [m].
+  [[nodiscard]] double below_top(const Point<Dim>& p) const {
+    Column column;
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      column[a] = static_cast<int>(std::floor(p.position[static_cast<int>(a)] / cell_));
+    }
+    return held_.at(column).top - p.position[Dim - 1];
+  }
+
+ private:
+  using Column = std::array<int, Dim - 1>;
+  using Extent = std::array<double, Dim - 1>;
+  struct Held {
+    double volume = 0.0, top = -HUGE_VAL, cosine = 1.0, thickness = 0.0;
+    Extent from, to;
+
+    Held() {
+      from.fill(HUGE_VAL);
+      to.fill(-HUGE_VAL);
+    }
+  };
+
+  // Calls visit(column, share, from, to) for the columns that a particle's box overlaps by more than round-off.
+  template <class Visit>
+  void for_columns(const Point<Dim>& p, const Visit& visit) const {
+    constexpr double sliver = 1e-9;
+    for (int corner = 0; corner < 1 << (Dim - 1); ++corner) {
+      Column column;
+      Extent from, to;
+      double share = 1.0;
+      for (std::size_t a = 0; a + 1 < Dim; ++a) {
+        const double half = p.half * cell_, middle = p.position[static_cast<int>(a)];
+        const double begin = middle - half, end = middle + half;
+        column[a] = static_cast<int>(std::floor((begin + sliver * half) / cell_)) + (corner >> a & 1);
+        from[a] = std::max(begin, column[a] * cell_);
+        to[a] = std::min(end, (column[a] + 1) * cell_);
+        share *= to[a] - from[a] > sliver * half ? (to[a] - from[a]) / (2.0 * half) : 0.0;
+      }
+      if (share > 0.0) {
+        visit(column, share, from, to);
+      }
+    }
+  }
+
+  // [m2], per metre of width in 2D: the cell's, or where the body ends what boxes cover of it.
+  [[nodiscard]] double footprint(const Column& column, const Held& held) const {
+    double product = 1.0;
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      Column before = column, after = column;
+      --before[a];
+      ++after[a];
+      const bool inside = held_.count(before) == 1 && held_.count(after) == 1;
+      product *= inside ? cell_ : std::min(cell_, held.to[a] - held.from[a]);
+    }
+    return product;
+  }
+
+  double cell_;
+  std::map<Column, Held> held_;
+};
+
+}  // namespace thawslide::testing_support

@@ -1,0 +1,201 @@
+// The motion of nodes on the ground, node by node: Eqs. 15-17 and 25 with the sums of the oracle. Of the simulation it
+// takes what the ground is at nodes, which is computed once. Without walls, frames and damping.
+#pragma once
+
+#include <algorithm>
+
+#include "physics/basal_friction.hpp"
+#include "physics/contact.hpp"
+#include "scalar_points.hpp"
+
+namespace thawslide::testing_support {
+
+template <int Dim>
+struct NodeMotion {
+  Vector<double, Dim> acceleration, middle_velocity;
+  bool touching = false;
+  double slip_speed = 0, friction_heat = 0;
+};
+
+// Sums over particles that contact needs.
+template <int Dim>
+struct ContactSums {
+  using Sums = typename ScalarTransfer<Dim>::Sums;
+  const Sums &momentum, &hats, &near_base_by_mass, &near_base_by_hats;
+};
+
+template <int Dim>
+class ScalarContact {
+ public:
+  using Index = NodeIndex<Dim>;
+  using Place = Vector<double, Dim>;
+  using Ground = ByNode<Dim, terrain::GroundAtNode<Dim, double>>;
+
+  // ground: at all nodes about the particles.
+  ScalarContact(const terrain::ContactModel<Dim, double>& model, const ScalarTransfer<Dim>& transfer,
+                const std::vector<Point<Dim>>& points, const ContactSums<Dim>& sums, Ground ground, double dt)
+      : model_(model), sums_(sums), ground_(std::move(ground)), dt_(dt), cell_(1.0 / transfer.inverse_cell) {
+    find_clearance(transfer, points);
+    for (const auto& [node, known] : ground_) {
+      if (known.candidate) {
+        covered_[node] = known.area * covered_share(node, known.normal);
+        const double into_ground = mass(node) > 0.0 ? trial(node).dot(known.normal) : 0.0;
+        load_[node] = mass(node) > 0.0 ? approach(node, into_ground) : 0.0;
+      }
+    }
+    for (const auto& [node, sum] : sums_.momentum) {
+      if (mass(node) > 0.0) {
+        motion_[node] = move(node);
+      }
+    }
+  }
+
+  [[nodiscard]] const ByNode<Dim, NodeMotion<Dim>>& motion() const { return motion_; }
+  // Distance left to the ground of the particles that candidate nodes see [m]; nodes that see none are left out.
+  [[nodiscard]] const ByNode<Dim, double>& clearance() const { return clearance_; }
+
+  // Velocity of a node from the momentum that particles mapped back.
+  [[nodiscard]] Place mapped_velocity(const Index& node, Place momentum) const {
+    if (motion_.at(node).touching) {
+      const Place& normal = ground_.at(node).normal;
+      momentum -= approach(node, momentum.dot(normal)) * normal;
+    }
+    return momentum / mass(node);
+  }
+
+ private:
+  using Momentum = mpm::MomentumLayout<Dim>;
+  using NearBase = mpm::NearBaseLayout;
+
+  static Place vector_of(const std::vector<double>& sum, std::size_t first) {
+    return Eigen::Map<const Place>(sum.data() + first);
+  }
+  [[nodiscard]] double mass(const Index& node) const {
+    const auto sum = sums_.momentum.find(node);
+    return sum != sums_.momentum.end() ? sum->second[Momentum::mass] : 0.0;
+  }
+  [[nodiscard]] Place old_momentum(const Index& node) const {
+    return vector_of(sums_.momentum.at(node), Momentum::momentum);
+  }
+  [[nodiscard]] Place trial(const Index& node) const {
+    return old_momentum(node) + dt_ * vector_of(sums_.momentum.at(node), Momentum::force);
+  }
+
+  void find_clearance(const ScalarTransfer<Dim>& transfer, const std::vector<Point<Dim>>& points) {
+    for (const Point<Dim>& p : points) {
+      double distance = 0.0;
+      transfer.for_nodes(p, transfer.hats, [&](const Index& node, double weight, const Place& /*slope*/) {
+        distance += weight * ground_.at(node).distance;
+      });
+      transfer.for_nodes(p, transfer.ugimp, [&](const Index& node, double weight, const Place& /*slope*/) {
+        if (weight > 0.0 && ground_.at(node).candidate) {
+          double& known = clearance_.emplace(node, HUGE_VAL).first->second;
+          known = std::min(known, std::max(0.0, distance - p.reach));
+        }
+      });
+    }
+  }
+
+  // Momentum into the ground beyond what closes the clearance.
+  [[nodiscard]] double approach(const Index& node, double inward) const {
+    const auto clearance = clearance_.find(node);
+    const double left = clearance != clearance_.end() ? clearance->second : HUGE_VAL;
+    return std::max(0.0, model_.distance_check ? inward - mass(node) * left / dt_ : inward);
+  }
+
+  [[nodiscard]] double filled_share(const Index& node) const {
+    const auto known = ground_.find(node);
+    const auto sum = sums_.momentum.find(node);
+    const bool near_ground = known != ground_.end() && known->second.candidate;
+    const double space = near_ground ? known->second.space : std::pow(cell_, Dim);
+    return sum != sums_.momentum.end() ? std::min(1.0, sum->second[Momentum::volume] / space) : 0.0;
+  }
+  // What the node or the two further from the ground are filled with.
+  [[nodiscard]] double covered_share(const Index& node, const Place& normal) const {
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    double share = 0.0;
+    Index at = node;
+    for (int step = 0; step <= 2; ++step) {
+      share = std::max(share, filled_share(at));
+      at[static_cast<std::size_t>(axis)] += normal[axis] > 0.0 ? -1 : 1;
+    }
+    return share;
+  }
+
+  // N [Pa]: load over covered ground, both smoothed along it.
+  [[nodiscard]] double pressure(const Index& node) const {
+    int across = 0;
+    ground_.at(node).normal.cwiseAbs().maxCoeff(&across);
+    double load = 0.0, covered = 0.0;
+    for (int n = 0; n < mpm::power(3, Dim); ++n) {
+      Index beside = node;
+      double weight = 1.0;
+      int rest = n;
+      for (int a = 0; a < Dim; ++a) {
+        const int shift = rest % 3 - 1;
+        rest /= 3;
+        beside[static_cast<std::size_t>(a)] += shift;
+        weight *= a == across ? 1.0 : shift == 0 ? 0.5 : 0.25;
+      }
+      if (covered_.count(beside) == 1) {
+        load += weight * load_.at(beside);
+        covered += weight * covered_.at(beside);
+      }
+    }
+    return load / (dt_ * std::max(covered, 1e-6 * std::pow(cell_, Dim - 1)));
+  }
+
+  // An average at a node: by the hats, or by mass where it has no weight by these.
+  [[nodiscard]] double average(const Index& node, const typename ContactSums<Dim>::Sums& sums, std::size_t by_hats,
+                               std::size_t by_mass) const {
+    const auto hats = sums_.hats.find(node);
+    const double volume = hats != sums_.hats.end() ? hats->second[mpm::HatLayout::volume] : 0.0;
+    return volume > 0.0 ? sums.at(node)[by_hats] / volume : sums_.near_base_by_mass.at(node)[by_mass] / mass(node);
+  }
+
+  [[nodiscard]] double strength(const Index& node, double normal_pressure) const {
+    const auto& law = model_.law;
+    const double pore = average(node, sums_.hats, mpm::HatLayout::pore_pressure, NearBase::pore_pressure);
+    const double solid = average(node, sums_.near_base_by_hats, 1, NearBase::solid_fraction);
+    const double factor =
+        physics::lubrication_factor(solid, law.min_solid_fraction, law.max_solid_fraction, law.lubrication_exponent);
+    return physics::sliding_strength(factor * law.friction_coefficient, normal_pressure, pore, law.cohesion, law.clamp,
+                                     law.cap_pressure);
+  }
+
+  [[nodiscard]] NodeMotion<Dim> move(const Index& node) const {
+    NodeMotion<Dim> motion;
+    const Place old = old_momentum(node);
+    Place momentum = trial(node), along = Place::Zero();
+    double friction_impulse = 0.0;
+    const auto load = load_.find(node);
+    if (load != load_.end() && load->second > 0.0) {
+      const Place& normal = ground_.at(node).normal;
+      const double on_ground = pressure(node), area = load->second / (on_ground * dt_);
+      const Place tangential = momentum - momentum.dot(normal) * normal;
+      const auto impulse =
+          physics::contact_impulse(load->second, tangential.norm(), area, dt_, strength(node, on_ground));
+      along = tangential.normalized();
+      momentum -= impulse.normal * normal + impulse.tangential * along;
+      motion.touching = true;
+      friction_impulse = impulse.slides ? impulse.tangential : 0.0;
+    }
+    motion.acceleration = (momentum - old) / (mass(node) * dt_);
+    motion.middle_velocity = 0.5 * (old + momentum) / mass(node);
+    if (friction_impulse > 0.0) {
+      motion.slip_speed = std::max(0.0, motion.middle_velocity.dot(along));
+      motion.friction_heat = model_.law.heat_fraction * friction_impulse * motion.slip_speed / dt_;
+    }
+    return motion;
+  }
+
+  const terrain::ContactModel<Dim, double>& model_;
+  ContactSums<Dim> sums_;
+  Ground ground_;
+  double dt_, cell_;
+  ByNode<Dim, double> clearance_, load_, covered_;
+  ByNode<Dim, NodeMotion<Dim>> motion_;
+};
+
+}  // namespace thawslide::testing_support
