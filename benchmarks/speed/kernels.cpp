@@ -1,10 +1,15 @@
-// Single functions of the step, by Google Benchmark: speed --kernels.
+// Single functions of the step, by Google Benchmark: speed --kernels. Formulas for one number and for lanes, as the
+// step calls them; transfers for the batches of a body at random places. Items are particles.
+#include "kernels.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <array>
 #include <random>
+#include <string>
 
-#include "mpm/shape.hpp"
+#include "mpm/batch_transfer.hpp"
+#include "mpm/nodes.hpp"
 #include "physics/heat_content.hpp"
 #include "physics/kinematics.hpp"
 #include "physics/mohr_coulomb.hpp"
@@ -12,73 +17,188 @@
 namespace thawslide::speed {
 namespace {
 
-using Tensor = SymmetricTensor<double>;
 constexpr std::size_t states = 256;
 
+template <class Value>
+constexpr std::size_t particles_of = 1;
+template <>
+constexpr std::size_t particles_of<Lanes<double>> = lane_count<double>;
+
+template <class Value>
+void count_particles(benchmark::State& state) {
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(particles_of<Value>));
+}
+
+// A quantity of as many particles as Value holds, a number each.
+template <class Value, class Number>
+Value filled(const Number& number) {
+  if constexpr (particles_of<Value> == 1) {
+    return number();
+  } else {
+    return Value::of([&](std::size_t /*lane*/) { return number(); });
+  }
+}
+
 // Random stresses [Pa] about a compression, in the plane or not.
-std::array<Tensor, states> stresses(double shear, bool plane) {
+template <class Value>
+std::array<SymmetricTensor<Value>, states> stresses(double shear, bool plane) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  std::array<Tensor, states> all;
-  for (Tensor& s : all) {
+  std::array<SymmetricTensor<Value>, states> all;
+  for (auto& s : all) {
     for (int c = 0; c < 6; ++c) {
-      s[c] = (c < 3 ? -5e6 : 0.0) + shear * unit(random);
-    }
-    if (plane) {
-      s[4] = s[5] = 0.0;
+      const bool none = plane && c > 3;
+      s[c] = filled<Value>([&] { return none ? 0.0 : (c < 3 ? -5e6 : 0.0) + shear * unit(random); });
     }
   }
   return all;
 }
 
-void mohr_coulomb(benchmark::State& state, double shear, bool plane) {
+template <class Value, int Dim>
+void mohr_coulomb(benchmark::State& state, double shear) {
   const auto elastic = physics::Elastic<double>::from_young_poisson(5e8, 0.2);
   const auto law = physics::MohrCoulomb<double>::make(elastic, 35.0, 0.0, 1e5, 1e5, HUGE_VAL);
-  const auto all = stresses(shear, plane);
+  const auto all = stresses<Value>(shear, Dim == 2);
   std::size_t k = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(law.update(all[k++ % states], 0.0));
+    benchmark::DoNotOptimize(law.template update<Dim>(all[k++ % states], Value(0.0)));
   }
+  count_particles<Value>(state);
 }
-BENCHMARK_CAPTURE(mohr_coulomb, plane_elastic, 5e5, true);
-BENCHMARK_CAPTURE(mohr_coulomb, plane_yielding, 2e7, true);
-BENCHMARK_CAPTURE(mohr_coulomb, space_elastic, 5e5, false);
-BENCHMARK_CAPTURE(mohr_coulomb, space_yielding, 2e7, false);
 
-template <int Dim>
+template <class Value, int Dim>
 void strain_and_rotation(benchmark::State& state) {
-  Matrix<double, Dim> gradient = Matrix<double, Dim>::Random() * 1e-3;
-  const auto all = stresses(1e6, Dim == 2);
+  Matrix<Value, Dim> gradient;
+  for (int k = 0; k < Dim * Dim; ++k) {
+    gradient(k) = Value(1e-3 * (k + 1));
+  }
+  const auto all = stresses<Value>(1e6, Dim == 2);
   std::size_t k = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(gradient);
-    const auto increment = physics::strain_increment<double, Dim>(gradient);
-    benchmark::DoNotOptimize(physics::rotate<double, Dim>(all[k++ % states], increment.rotation));
+    const auto increment = physics::strain_increment<Value, Dim>(gradient);
+    benchmark::DoNotOptimize(physics::rotate<Value, Dim>(all[k++ % states], increment.rotation));
     benchmark::DoNotOptimize(increment.strain);
   }
+  count_particles<Value>(state);
 }
-BENCHMARK_TEMPLATE(strain_and_rotation, 2);
-BENCHMARK_TEMPLATE(strain_and_rotation, 3);
 
+template <class Value>
 void heat_content_and_back(benchmark::State& state) {
   const physics::HeatContent<double, physics::PowerLawCurve<double>> content{{}, {0.0, 5.0}, true};
-  double temperature = -1.0;
+  Value temperature = -1.0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(temperature);
-    const double heat = content.content(temperature, 0.375);
-    benchmark::DoNotOptimize(content.temperature(heat, 0.375, temperature - 1e-3));
+    const Value heat = content.content(temperature, Value(0.375));
+    benchmark::DoNotOptimize(content.temperature(heat, Value(0.375), temperature - Value(1e-3)));
   }
+  count_particles<Value>(state);
 }
-BENCHMARK(heat_content_and_back);
 
+template <class Value>
 void ugimp_axis(benchmark::State& state) {
-  double offset = 0.1;
+  Value offset = 0.1;
   for (auto _ : state) {
     benchmark::DoNotOptimize(offset);
-    benchmark::DoNotOptimize(mpm::ugimp_weights(offset, 0.25, 1.0));
+    benchmark::DoNotOptimize(mpm::ugimp_weights(offset, mpm::HalfSize<Value>(Value(0.25), Value(4.0)), 1.0));
   }
+  count_particles<Value>(state);
 }
-BENCHMARK(ugimp_axis);
+
+// Particles at random places, as many a cell as a body of two an axis has, with their grid.
+template <int Dim>
+struct Body {
+  mpm::Particles<Dim, double> particles;
+  mpm::SparseGrid<Dim, double> grid{1.0};
+
+  Body() {
+    constexpr double edge = Dim == 2 ? 20.0 : 8.0;
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> place(4.0, 4.0 + edge);
+    particles.resize(static_cast<std::size_t>(std::pow(2.0 * edge, Dim)));
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.id(p) = static_cast<std::int64_t>(p);
+      for (int a = 0; a < Dim; ++a) {
+        particles.position(p, a) = place(random);
+      }
+    }
+    grid.update(particles, 64);
+  }
+
+  // Calls work(batch, stencil of uGIMP) for every batch.
+  template <class Work>
+  void for_batches(const Work& work) const {
+    for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+      for (const auto& batch : grid.batches(t)) {
+        const auto place = place_of(grid, particles, batch);
+        work(batch, mpm::make_stencil<mpm::Ugimp<double>>(grid, batch, place, {Lanes<double>(0.25), Lanes<double>(4.0)},
+                                                          mpm::HeldSides<Dim>()));
+      }
+    }
+  }
+};
+
+// Nodes, weights and what the momentum stage adds: four values (2D; five in 3D) and the stress by gradients.
+template <int Dim>
+void momentum_to_nodes(benchmark::State& state) {
+  const Body<Dim> body;
+  mpm::Patch<Dim, double, mpm::MomentumLayout<Dim>::size> patch;
+  patch.clear();
+  for (auto _ : state) {
+    body.for_batches([&](const auto& batch, const auto& stencil) {
+      mpm::Contribution<Dim, double, mpm::MomentumLayout<Dim>::size> carried;
+      for (std::size_t c = 0; c < mpm::MomentumLayout<Dim>::size; ++c) {
+        carried.value[c] = Lanes<double>(1.0);
+      }
+      for (std::size_t k = 0; k < Dim * Dim; ++k) {
+        carried.flux[k / Dim][k % Dim] = Lanes<double>(2.0);
+      }
+      mpm::add_to_nodes<0>(stencil, batch.count, carried, patch);
+    });
+    benchmark::DoNotOptimize(patch);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(body.particles.size()));
+}
+
+// Nodes, weights and what the stress stage reads: the gradient of velocity.
+template <int Dim>
+void gradient_from_nodes(benchmark::State& state) {
+  const Body<Dim> body;
+  mpm::Patch<Dim, double, Dim> velocity;
+  velocity.clear();
+  for (auto _ : state) {
+    body.for_batches([&](const auto& /*batch*/, const auto& stencil) {
+      benchmark::DoNotOptimize(mpm::gradient_of(mpm::read_nodes<Dim>(stencil, velocity)));
+    });
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(body.particles.size()));
+}
+
+template <class Value>
+void add_formulas(const std::string& of) {
+  const auto add = [&](const char* name, auto function) {
+    benchmark::RegisterBenchmark((of + name).c_str(), function);
+  };
+  for (const auto& [name, shear] : {std::pair("elastic", 5e5), std::pair("yielding", 2e7)}) {
+    const double size = shear;
+    add((std::string("mohr_coulomb, plane, ") + name).c_str(), [size](auto& s) { mohr_coulomb<Value, 2>(s, size); });
+    add((std::string("mohr_coulomb, space, ") + name).c_str(), [size](auto& s) { mohr_coulomb<Value, 3>(s, size); });
+  }
+  add("strain_and_rotation, plane", strain_and_rotation<Value, 2>);
+  add("strain_and_rotation, space", strain_and_rotation<Value, 3>);
+  add("heat_content_and_back", heat_content_and_back<Value>);
+  add("ugimp_axis", ugimp_axis<Value>);
+}
 
 }  // namespace
+
+void add_kernels() {
+  add_formulas<double>("one number: ");
+  add_formulas<Lanes<double>>("lanes: ");
+  benchmark::RegisterBenchmark("momentum_to_nodes, plane", momentum_to_nodes<2>);
+  benchmark::RegisterBenchmark("momentum_to_nodes, space", momentum_to_nodes<3>);
+  benchmark::RegisterBenchmark("gradient_from_nodes, plane", gradient_from_nodes<2>);
+  benchmark::RegisterBenchmark("gradient_from_nodes, space", gradient_from_nodes<3>);
+}
+
 }  // namespace thawslide::speed

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 
 #include "base/aligned.hpp"
 #include "base/lanes.hpp"
@@ -56,7 +57,8 @@ double multiply_add() {
   double sink = 0.0;
   const double seconds = best_of(5, [&] {
     std::array<Numbers, chains> x;
-    unrolled<chains>([&](auto k) THAWSLIDE_INLINE_LAMBDA { x[k] = Numbers(start); });
+    // Each from a number of its own: g++ would make one chain of equal ones.
+    unrolled<chains>([&](auto k) THAWSLIDE_INLINE_LAMBDA { x[k] = Numbers(start + static_cast<double>(k())); });
     for (int r = 0; r < rounds; ++r) {
       unrolled<chains>([&](auto k) THAWSLIDE_INLINE_LAMBDA { x[k] = x[k] * Numbers(factor) + Numbers(1e-6); });
     }
@@ -79,6 +81,18 @@ MachineLimits measure_machine(int threads) {
   set_thread_count(threads);
   limits.triad_threads = triad(in_memory, 3, std::max<std::size_t>(fewest_shared_calls, 16));
   return limits;
+}
+
+double clock_speed() {
+  constexpr int multiplications = 200'000, ticks = 3;
+  std::uint64_t product = 3;
+  const double seconds = best_of(2, [&] {
+    for (int k = 0; k < multiplications; ++k) {
+      product *= product;
+      asm volatile("" : "+r"(product));  // stays in its register, and is not known
+    }
+  });
+  return multiplications * ticks / seconds / giga;
 }
 
 nlohmann::ordered_json to_json(const MachineLimits& limits) {

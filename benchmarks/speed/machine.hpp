@@ -14,6 +14,11 @@ struct MachineLimits {
 
 MachineLimits measure_machine(int threads);
 
+// How often the core of this thread ticks now [GHz], by a chain of whole multiplications of three ticks each, as on
+// x86-64. Takes a quarter of a millisecond. On a shared host it moves by half within minutes, and with it every speed
+// per second; a core shared with another machine's thread it does not show.
+[[nodiscard]] double clock_speed();
+
 nlohmann::ordered_json to_json(const MachineLimits& limits);
 
 }  // namespace thawslide::speed

@@ -1,4 +1,5 @@
 // Measures the speed of the step: whole steps and their stages, kernels, the machine. Prints a table; --json keeps it.
+// ticks: of the core's clock, a particle and step.
 //   speed [--filter TEXT] [--threads 1,2] [--repeats N] [--particle-steps N] [--json FILE] [--kernels]
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "kernels.hpp"
 #include "machine.hpp"
 #include "steps.hpp"
 
@@ -18,9 +20,9 @@ using namespace thawslide;
 using namespace thawslide::speed;
 
 void print_timing(const StepTiming& timing) {
-  fmt::print("{:<40} {:>9} {:>7} {:>8.2f} {:>6.2f}-{:<6.2f} {:>6.1f} {:>8.0f}\n", timing.name, timing.particles,
-             timing.threads, timing.particle_steps_per_second / 1e6, timing.lowest / 1e6, timing.highest / 1e6,
-             100 * timing.yielding, timing.bytes_per_particle);
+  fmt::print("{:<40} {:>9} {:>7} {:>8.2f} {:>6.2f}-{:<6.2f} {:>6.0f} {:>5.0f} {:>6.1f} {:>8.0f}\n", timing.name,
+             timing.particles, timing.threads, timing.particle_steps_per_second / 1e6, timing.lowest / 1e6,
+             timing.highest / 1e6, timing.ticks, timing.fewest_ticks, 100 * timing.yielding, timing.bytes_per_particle);
   std::fflush(stdout);
 }
 
@@ -54,16 +56,19 @@ int main(int argc, char** argv) try {
   if (kernels) {
     int none = 1;
     benchmark::Initialize(&none, argv);
+    add_kernels();
     benchmark::RunSpecifiedBenchmarks();
     return 0;
   }
   const MachineLimits limits = measure_machine(available_cores());
   fmt::print(
-      "machine: {:.0f} GFLOP/s multiply-add a core; triad {:.0f} GB/s in cache, {:.1f} from memory, {:.1f} on {} "
+      "machine: {:.2f} GHz now; {:.0f} GFLOP/s multiply-add a core; triad {:.0f} GB/s in cache, {:.1f} from memory, "
+      "{:.1f} on {} "
       "threads\n\n",
-      limits.multiply_add, limits.triad_cache, limits.triad_memory, limits.triad_threads, available_cores());
-  fmt::print("{:<40} {:>9} {:>7} {:>8} {:>13} {:>6} {:>8}\n", "case", "particles", "threads", "M p-st/s", "range",
-             "% yld", "B/part");
+      clock_speed(), limits.multiply_add, limits.triad_cache, limits.triad_memory, limits.triad_threads,
+      available_cores());
+  fmt::print("{:<40} {:>9} {:>7} {:>8} {:>13} {:>6} {:>5} {:>6} {:>8}\n", "case", "particles", "threads", "M p-st/s",
+             "range", "ticks", "least", "% yld", "B/part");
   nlohmann::ordered_json json{{"machine", to_json(limits)}};
   std::vector<StepTiming> timings;
   const std::vector<StepCase> cases = step_cases();

@@ -17,6 +17,7 @@
 #include "base/parallel.hpp"
 #include "base/thread_choice.hpp"
 #include "config/read_case.hpp"
+#include "machine.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::speed {
@@ -122,12 +123,41 @@ class BusyCore {
   pid_t process_ = -1;
 };
 
+double median(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  return numbers[numbers.size() / 2];
+}
+
+// Plastic strains by id.
+template <int Dim, class Real>
+std::vector<Real> plastic_strains(const mpm::Particles<Dim, Real>& particles) {
+  std::vector<Real> strains(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    strains[static_cast<std::size_t>(particles.id(p))] = particles.plastic_strain(p);
+  }
+  return strains;
+}
+
+// Share of particles that yield in one more step.
+template <int Dim, class Real, class Step>
+double yielding_share(const mpm::Particles<Dim, Real>& particles, const Step& step) {
+  const auto before = plastic_strains(particles);
+  step();
+  const auto after = plastic_strains(particles);
+  std::size_t yielded = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    yielded += after[k] > before[k] ? 1 : 0;
+  }
+  return static_cast<double>(yielded) / static_cast<double>(before.size());
+}
+
 template <int Dim, class Real>
 StepTiming time_simulation(const StepCase& which, int threads, int repeats, double particle_steps) {
   using Clock = std::chrono::steady_clock;
   const double heap_before = heap_in_use();
   sim::Simulation<Dim, Real> simulation(make_case(which));
   const auto& particles = simulation.particles();
+  const auto count = static_cast<double>(particles.size());
   const double dt = simulation.parameters().time.step;
   const auto clock = [start = Clock::now()] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   ThreadChoice choice(threads, clock());
@@ -143,38 +173,30 @@ StepTiming time_simulation(const StepCase& which, int threads, int repeats, doub
   }
   const BusyCore busy(which.beside_busy);
   const auto stages_before = simulation.stopwatch().seconds();
-  std::vector<double> rates;
-  const auto batch =
-      std::max<std::int64_t>(2, static_cast<std::int64_t>(particle_steps / static_cast<double>(particles.size())));
-  const std::int64_t steps = batch * repeats;
+  std::vector<double> rates, ticks;
+  double yielding = 0;
+  const auto batch = std::max<std::int64_t>(2, static_cast<std::int64_t>(particle_steps / count));
   for (int r = 0; r < repeats; ++r) {
-    const auto start = Clock::now();
+    const double speed_before = clock_speed();
+    const double start = clock();
     for (std::int64_t k = 0; k < batch; ++k) {
       step();
     }
-    const double passed = std::chrono::duration<double>(Clock::now() - start).count();
-    rates.push_back(static_cast<double>(particles.size()) * static_cast<double>(batch) / passed);
+    const double passed = (clock() - start) / (count * static_cast<double>(batch));
+    rates.push_back(1 / passed);
+    ticks.push_back(passed * 1e9 * (speed_before + clock_speed()) / 2);
+    yielding += yielding_share(particles, step) / repeats;
   }
-  StepTiming timing{which.name, particles.size(), threads, 0, 0, 0, 0, 0, {}};
+  StepTiming timing{which.name, particles.size(), threads, median(rates), 0, 0, median(ticks), 0, yielding, 0, {}};
+  const auto [lowest, highest] = std::minmax_element(rates.begin(), rates.end());
+  timing.lowest = *lowest;
+  timing.highest = *highest;
+  timing.fewest_ticks = *std::min_element(ticks.begin(), ticks.end());
+  timing.bytes_per_particle = (heap_in_use() - heap_before) / count;
+  const auto steps = static_cast<double>((batch + 1) * repeats);
   for (const auto& [stage, total] : simulation.stopwatch().seconds()) {
-    const double spent = total - stages_before.at(stage);
-    timing.stages.emplace_back(stage, 1e9 * spent / static_cast<double>(steps) / static_cast<double>(particles.size()));
+    timing.stages.emplace_back(stage, 1e9 * (total - stages_before.at(stage)) / steps / count);
   }
-  std::sort(rates.begin(), rates.end());
-  timing.particle_steps_per_second = rates[rates.size() / 2];
-  timing.lowest = rates.front();
-  timing.highest = rates.back();
-  std::vector<double> strain(particles.size());
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    strain[static_cast<std::size_t>(particles.id(p))] = particles.plastic_strain(p);
-  }
-  timing.bytes_per_particle = (heap_in_use() - heap_before) / static_cast<double>(particles.size());
-  step();
-  std::size_t yielded = 0;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    yielded += particles.plastic_strain(p) > strain[static_cast<std::size_t>(particles.id(p))] ? 1 : 0;
-  }
-  timing.yielding = static_cast<double>(yielded) / static_cast<double>(particles.size());
   return timing;
 }
 
@@ -184,10 +206,10 @@ std::vector<StepCase> step_cases() {
   std::vector<StepCase> cases{{"2D 8,400", 2, 210, 1, 10},
                               {"2D 100,000", 2, 2500, 1, 10},
                               {"2D 1,000,000", 2, 12500, 1, 20},
-                              {"3D 8,000", 3, 20, 10, 5},
+                              {"3D 8,000", 3, 20, 10, 5, 1, 6e5},
                               {"3D 100,000", 3, 50, 25, 10},
                               {"3D 1,000,000", 3, 125, 100, 10},
-                              {"3D 100,000 yielding", 3, 50, 25, 10, 1, 5e4},
+                              {"3D 100,000 yielding", 3, 50, 25, 10, 1, 4.0e4},
                               {"2D 100,000 thawed", 2, 2500, 1, 10, 1, 5e5, 1},
                               {"3D 100,000 thawed", 3, 50, 25, 10, 1, 5e5, 1},
                               {"2D 100,000 in a box 10 times as long", 2, 2500, 1, 10, 10},
@@ -219,6 +241,7 @@ nlohmann::ordered_json to_json(const StepTiming& timing) {
   nlohmann::ordered_json json{{"case", timing.name},         {"particles", timing.particles},
                               {"threads", timing.threads},   {"particle_steps_per_s", timing.particle_steps_per_second},
                               {"lowest", timing.lowest},     {"highest", timing.highest},
+                              {"ticks", timing.ticks},       {"fewest_ticks", timing.fewest_ticks},
                               {"yielding", timing.yielding}, {"bytes_per_particle", timing.bytes_per_particle}};
   for (const auto& [stage, nanoseconds] : timing.stages) {
     json["stages_ns"][stage] = nanoseconds;

@@ -25,7 +25,8 @@ struct StepTiming {
   int threads;
   double particle_steps_per_second;                    // median over repeats
   double lowest, highest;                              // over repeats
-  double yielding;                                     // share of particles that yielded in the last step
+  double ticks, fewest_ticks;                          // of the clock a particle and step: median and least
+  double yielding;                                     // share of particles that yield, mean over repeats
   double bytes_per_particle;                           // heap in use after the run over particles
   std::vector<std::pair<std::string, double>> stages;  // [ns per particle and step]
 };
