@@ -68,6 +68,8 @@ template <class T, int Components>
 class Field final : public FieldBase {
  public:
   static constexpr std::size_t lanes = 8;
+  // So many blocks on begins what a loop over batches will read when the memory has brought it.
+  static constexpr std::size_t blocks_ahead = 4;
   static constexpr std::size_t most_numbers = std::numeric_limits<std::int32_t>::max();  // as far as places() count
   static_assert(lanes % lane_count<double> == 0 && lanes % lane_count<float> == 0);
 
@@ -96,7 +98,9 @@ class Field final : public FieldBase {
   // The values of a batch, lane by lane.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<T> load(const Batch<T>& batch, int component = 0) const {
     if (batch.whole) {
-      return Lanes<T>::load(&(*this)(batch.particle[0], component));
+      const T* numbers = &(*this)(batch.particle[0], component);
+      __builtin_prefetch(numbers + blocks_ahead * lanes * Components);
+      return Lanes<T>::load(numbers);
     }
     return Lanes<T>::gather(&data_[position(0, component)], places(batch));
   }
