@@ -74,6 +74,7 @@ MachineLimits measure_machine(int threads) {
   constexpr std::size_t in_cache = 4'096;
   constexpr std::size_t in_memory = 8'388'608;
   MachineLimits limits{};
+  limits.clock = clock_speed();
   limits.multiply_add = multiply_add();
   set_thread_count(1);
   limits.triad_cache = triad(in_cache, 20'000, 1);
@@ -96,7 +97,8 @@ double clock_speed() {
 }
 
 nlohmann::ordered_json to_json(const MachineLimits& limits) {
-  return {{"multiply_add_GFLOP_s", limits.multiply_add},
+  return {{"clock_GHz", limits.clock},
+          {"multiply_add_GFLOP_s", limits.multiply_add},
           {"triad_cache_GB_s", limits.triad_cache},
           {"triad_memory_GB_s", limits.triad_memory},
           {"triad_memory_all_threads_GB_s", limits.triad_threads}};

@@ -13,6 +13,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <numeric>
 
 #include "base/parallel.hpp"
 #include "base/thread_choice.hpp"
@@ -125,7 +127,8 @@ class BusyCore {
 
 double median(std::vector<double> numbers) {
   std::sort(numbers.begin(), numbers.end());
-  return numbers[numbers.size() / 2];
+  const std::size_t half = numbers.size() / 2;
+  return numbers.size() % 2 == 1 ? numbers[half] : (numbers[half - 1] + numbers[half]) / 2;
 }
 
 // Plastic strains by id.
@@ -159,7 +162,10 @@ StepTiming time_simulation(const StepCase& which, int threads, int repeats, doub
   const auto& particles = simulation.particles();
   const auto count = static_cast<double>(particles.size());
   const double dt = simulation.parameters().time.step;
-  const auto clock = [start = Clock::now()] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  double aside = 0;  // spent on what is not timed
+  const auto clock = [&, start = Clock::now()] {
+    return std::chrono::duration<double>(Clock::now() - start).count() - aside;
+  };
   ThreadChoice choice(threads, clock());
   const auto step = [&] {
     simulation.step(dt);
@@ -172,30 +178,38 @@ StepTiming time_simulation(const StepCase& which, int threads, int repeats, doub
     step();
   }
   const BusyCore busy(which.beside_busy);
-  const auto stages_before = simulation.stopwatch().seconds();
-  std::vector<double> rates, ticks;
-  double yielding = 0;
+  std::vector<double> rates, ticks, yielding;
+  std::map<std::string, std::vector<double>> stages;
   const auto batch = std::max<std::int64_t>(2, static_cast<std::int64_t>(particle_steps / count));
   for (int r = 0; r < repeats; ++r) {
-    const double speed_before = clock_speed();
+    const double frequency_before = clock_speed();
+    const auto stages_before = simulation.stopwatch().seconds();
     const double start = clock();
     for (std::int64_t k = 0; k < batch; ++k) {
       step();
     }
-    const double passed = (clock() - start) / (count * static_cast<double>(batch));
-    rates.push_back(1 / passed);
-    ticks.push_back(passed * 1e9 * (speed_before + clock_speed()) / 2);
-    yielding += yielding_share(particles, step) / repeats;
+    const double end = clock(), steps = count * static_cast<double>(batch);
+    for (const auto& [stage, total] : simulation.stopwatch().seconds()) {
+      stages[stage].push_back(1e9 * (total - stages_before.at(stage)) / steps);
+    }
+    rates.push_back(steps / (end - start));
+    ticks.push_back((end - start) / steps * 1e9 * (frequency_before + clock_speed()) / 2);
+    yielding.push_back(yielding_share(particles, [&] { simulation.step(dt); }));
+    aside += clock() - end;
   }
-  StepTiming timing{which.name, particles.size(), threads, median(rates), 0, 0, median(ticks), 0, yielding, 0, {}};
-  const auto [lowest, highest] = std::minmax_element(rates.begin(), rates.end());
-  timing.lowest = *lowest;
-  timing.highest = *highest;
-  timing.fewest_ticks = *std::min_element(ticks.begin(), ticks.end());
-  timing.bytes_per_particle = (heap_in_use() - heap_before) / count;
-  const auto steps = static_cast<double>((batch + 1) * repeats);
-  for (const auto& [stage, total] : simulation.stopwatch().seconds()) {
-    timing.stages.emplace_back(stage, 1e9 * (total - stages_before.at(stage)) / steps / count);
+  StepTiming timing{.name = which.name,
+                    .particles = particles.size(),
+                    .threads = threads,
+                    .particle_steps_per_second = median(rates),
+                    .lowest = *std::min_element(rates.begin(), rates.end()),
+                    .highest = *std::max_element(rates.begin(), rates.end()),
+                    .ticks = median(ticks),
+                    .fewest_ticks = *std::min_element(ticks.begin(), ticks.end()),
+                    .yielding = std::accumulate(yielding.begin(), yielding.end(), 0.0) / repeats,
+                    .bytes_per_particle = (heap_in_use() - heap_before) / count,
+                    .stages = {}};
+  for (const auto& [stage, nanoseconds] : stages) {
+    timing.stages.emplace_back(stage, median(nanoseconds));
   }
   return timing;
 }

@@ -23,12 +23,12 @@ struct StepTiming {
   std::string name;
   std::size_t particles;
   int threads;
-  double particle_steps_per_second;                    // median over repeats
-  double lowest, highest;                              // over repeats
-  double ticks, fewest_ticks;                          // of the clock a particle and step: median and least
-  double yielding;                                     // share of particles that yield, mean over repeats
-  double bytes_per_particle;                           // heap in use after the run over particles
-  std::vector<std::pair<std::string, double>> stages;  // [ns per particle and step]
+  double particle_steps_per_second;  // median over repeats
+  double lowest, highest;            // over repeats
+  double ticks, fewest_ticks;  // that pass a particle and step, whatever the threads: median and least over repeats
+  double yielding;             // share of particles that yield, mean over repeats
+  double bytes_per_particle;   // heap in use after the run over particles
+  std::vector<std::pair<std::string, double>> stages;  // [ns per particle and step], medians over repeats
 };
 
 std::vector<StepCase> step_cases();

@@ -1,6 +1,9 @@
 // Marks and small constants every room shares.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 // A function with this mark may be called from host and from device code.
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define THAWSLIDE_HD __host__ __device__
@@ -18,6 +21,11 @@
 #endif
 
 namespace thawslide {
+
+// Asks the memory for what lies so many bytes on, which need not be there at all.
+inline void prefetch(const void* place, std::size_t bytes_on) {
+  __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(place) + bytes_on));
+}
 
 // A tolerance in either precision.
 template <class Real>

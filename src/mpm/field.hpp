@@ -14,6 +14,7 @@
 #include "base/aligned.hpp"
 #include "base/error.hpp"
 #include "base/linear.hpp"
+#include "base/portability.hpp"
 #include "mpm/batch.hpp"
 
 namespace thawslide::mpm {
@@ -68,8 +69,8 @@ template <class T, int Components>
 class Field final : public FieldBase {
  public:
   static constexpr std::size_t lanes = 8;
-  // So many blocks on begins what a loop over batches will read when the memory has brought it.
-  static constexpr std::size_t blocks_ahead = 4;
+  // Reading a batch asks the memory for the block this many further on, which a loop will read some batches later.
+  static constexpr std::size_t prefetched_blocks = 4;
   static constexpr std::size_t most_numbers = std::numeric_limits<std::int32_t>::max();  // as far as places() count
   static_assert(lanes % lane_count<double> == 0 && lanes % lane_count<float> == 0);
 
@@ -99,7 +100,7 @@ class Field final : public FieldBase {
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<T> load(const Batch<T>& batch, int component = 0) const {
     if (batch.whole) {
       const T* numbers = &(*this)(batch.particle[0], component);
-      __builtin_prefetch(numbers + blocks_ahead * lanes * Components);
+      prefetch(numbers, prefetched_blocks * lanes * Components * sizeof(T));
       return Lanes<T>::load(numbers);
     }
     return Lanes<T>::gather(&data_[position(0, component)], places(batch));

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "../support/two_bodies.hpp"
+#include "base/parallel.hpp"
 #include "sim/simulation.hpp"
 
 #ifndef __SANITIZE_ADDRESS__  // which counts allocations itself
@@ -37,9 +38,13 @@ void operator delete(void* place, std::size_t /*bytes*/, std::align_val_t /*boun
 namespace thawslide::sim {
 namespace {
 
+// Of bodies large enough that loops over tiles are shared among threads.
 template <int Dim>
 long allocations_of_steps() {
-  Simulation<Dim, double> simulation(testing_support::two_bodies<Dim>(5e3));
+  const int threads_before = thread_count();
+  set_thread_count(2);
+  Simulation<Dim, double> simulation(testing_support::two_bodies<Dim>(5e3, 30.0));
+  EXPECT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
   simulation.set_sorting_interval(5);
   for (int k = 0; k < 20; ++k) {
     simulation.step(0.002);
@@ -48,7 +53,9 @@ long allocations_of_steps() {
   for (int k = 0; k < 20; ++k) {
     simulation.step(0.002);
   }
-  return allocations - before;
+  const long during = allocations - before;
+  set_thread_count(threads_before);
+  return during;
 }
 
 TEST(Step, AllocatesNothingInThePlane) {

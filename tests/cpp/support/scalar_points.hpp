@@ -19,10 +19,11 @@ struct Point {
   SymmetricTensor<double> stress;
   double mass, volume, initial_volume, plastic_strain, temperature, heat_content, saturation, porosity,
       initial_porosity;
-  double liquid_pressure, pore_pressure, flow_depth, scaling, slip, reach, half;
+  double liquid_pressure, pore_pressure, flow_depth, scaling, slip, path_length, reach, half;
   bool in_band;
   std::size_t material;
   double old_temperature = 0, capacity = 0, conduction_in_cell = 0;
+  Place step = Place::Zero();  // displacement of the step
 };
 
 // All particles, by id.
@@ -50,6 +51,7 @@ std::vector<Point<Dim>> points_of(const sim::Simulation<Dim, double>& simulation
     point.flow_depth = particles.flow_depth(p);
     point.scaling = particles.thermal_scaling(p);
     point.slip = particles.slip(p);
+    point.path_length = particles.path_length(p);
     point.reach = particles.reach(p);
     point.in_band = particles.in_band(p) != 0;
     point.half = simulation.model().motion.sizes.half(static_cast<std::size_t>(particles.body(p)));

@@ -1,6 +1,7 @@
 // One step particle by particle, node by node, number by number, by the plain functions: what the batches of the step
 // must give. Of the simulation it takes the ground at nodes. For uGIMP, FLIP, the heat content form, lubricated
-// friction and constant cohesion; without conditions for heat on the domain's faces, walls and frames.
+// friction and constant cohesion; without conditions for heat on the domain's faces, walls, frames and a band that
+// changes. Energies are not in it: the ledgers have tests of their own.
 #pragma once
 
 #include <optional>
@@ -53,6 +54,10 @@ class ScalarStep {
     deform();
     conduct();
     drain();
+    for (Point<Dim>& p : points_) {
+      p.position += p.step;
+      p.path_length += p.step.norm();
+    }
   }
 
   // By node: the sums of momentum_to_grid, of average_band_on_grid, of near_base_to_grid, and the mapped-back momentum.
@@ -63,7 +68,7 @@ class ScalarStep {
   [[nodiscard]] const Sums& mapped() const { return mapped_; }
   [[nodiscard]] const ScalarContact<Dim>& contact() const { return *contact_; }
   [[nodiscard]] std::pair<std::size_t, std::size_t> at(const Index& node) const { return place_.at(node); }
-  // The particles after the step, by id; positions are still the old ones.
+  // The particles after the step, by id.
   [[nodiscard]] const std::vector<Point<Dim>>& points() const { return points_; }
 
  private:
@@ -125,9 +130,10 @@ class ScalarStep {
         const auto motion = contact_->motion().find(node);
         if (motion != contact_->motion().end()) {  // else the node has no mass, and the particle no weight there
           p.velocity += dt_ * weight * motion->second.acceleration;
-          p.displacement += dt_ * weight * motion->second.middle_velocity;
+          p.step += dt_ * weight * motion->second.middle_velocity;
         }
       });
+      p.displacement += p.step;
     }
     mapped_ = add_up(Transfer::ugimp, Dim, [&](const Point<Dim>& p) {
       Carried<Dim> carried;
