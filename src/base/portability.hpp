@@ -22,9 +22,10 @@
 
 namespace thawslide {
 
-// Asks the memory for what lies so many bytes on, which need not be there at all.
+// Asks the memory for what lies so many bytes on, which need not be there at all: a number, not a pointer, goes there.
 inline void prefetch(const void* place, std::size_t bytes_on) {
-  __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(place) + bytes_on));
+  const auto there = reinterpret_cast<std::uintptr_t>(place) + bytes_on;
+  __builtin_prefetch(reinterpret_cast<const void*>(there));  // NOLINT(performance-no-int-to-ptr)
 }
 
 // A tolerance in either precision.
