@@ -54,6 +54,7 @@ std::array<SymmetricTensor<Value>, states> stresses(double shear, bool plane) {
   return all;
 }
 
+// shear: how far stresses lie from the mean [Pa].
 template <class Value, int Dim>
 void mohr_coulomb(benchmark::State& state, double shear) {
   const auto elastic = physics::Elastic<double>::from_young_poisson(5e8, 0.2);
@@ -177,14 +178,15 @@ void gradient_from_nodes(benchmark::State& state) {
 
 template <class Value>
 void add_formulas(const std::string& of) {
-  const auto add = [&](const char* name, auto function) {
+  const auto add = [&](const std::string& name, auto function) {
     benchmark::RegisterBenchmark((of + name).c_str(), function);
   };
-  for (const auto& [name, shear] : {std::pair("elastic", 5e5), std::pair("yielding", 2e7)}) {
-    const double size = shear;
-    add((std::string("mohr_coulomb, plane, ") + name).c_str(), [size](auto& s) { mohr_coulomb<Value, 2>(s, size); });
-    add((std::string("mohr_coulomb, space, ") + name).c_str(), [size](auto& s) { mohr_coulomb<Value, 3>(s, size); });
-  }
+  const auto add_law = [&](const std::string& name, double shear) {
+    add("mohr_coulomb, plane, " + name, [shear](auto& state) { mohr_coulomb<Value, 2>(state, shear); });
+    add("mohr_coulomb, space, " + name, [shear](auto& state) { mohr_coulomb<Value, 3>(state, shear); });
+  };
+  add_law("elastic", 5e5);
+  add_law("yielding", 2e7);
   add("strain_and_rotation, plane", strain_and_rotation<Value, 2>);
   add("strain_and_rotation, space", strain_and_rotation<Value, 3>);
   add("heat_content_and_back", heat_content_and_back<Value>);

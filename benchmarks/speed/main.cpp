@@ -29,15 +29,18 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("--filter", options.filter, "Only the case of this name, or those whose names begin with it");
-  app.add_option("--threads", options.threads, "Thread counts")->delimiter(',')->check(CLI::Range(1, 1024));
-  app.add_option("--repeats", options.repeats, "Batches of steps, of which the median counts")
+  auto* kernels = app.add_flag("--kernels", options.kernels, "Time single functions instead; prints only");
+  const auto of_steps = [&](CLI::Option* option) { return option->excludes(kernels); };
+  of_steps(
+      app.add_option("--filter", options.filter, "Only the case of this name, or those whose names begin with it"));
+  of_steps(app.add_option("--threads", options.threads, "Thread counts"))->delimiter(',')->check(CLI::Range(1, 1024));
+  of_steps(app.add_option("--repeats", options.repeats, "Batches of steps, of which the median counts"))
       ->check(CLI::Range(1, 1000));
-  app.add_option("--particle-steps", options.particle_steps, "Length of a batch: the same work on any machine")
+  of_steps(
+      app.add_option("--particle-steps", options.particle_steps, "Length of a batch: the same work on any machine"))
       ->check(CLI::PositiveNumber);
-  auto* json = app.add_option("--json", options.json_file, "File for the numbers");
-  app.add_flag("--without-machine", options.without_machine, "Leave out what the machine can do at best");
-  app.add_flag("--kernels", options.kernels, "Time single functions instead; prints only")->excludes(json);
+  of_steps(app.add_option("--json", options.json_file, "File for the numbers"));
+  of_steps(app.add_flag("--without-machine", options.without_machine, "Leave out what the machine can do at best"));
 }
 
 std::vector<StepCase> chosen_cases(const std::string& filter) {

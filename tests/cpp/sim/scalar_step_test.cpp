@@ -57,9 +57,9 @@ void expect_same_sums(const Records& records, const ScalarStep<Dim>& scalar, con
   }
 }
 
-// The motion of nodes and what contact leaves there.
+// The motion of nodes and what contact leaves there. hovers: part of the base keeps a distance from the ground.
 template <int Dim>
-void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarStep<Dim>& scalar) {
+void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarStep<Dim>& scalar, bool hovers) {
   using mpm::ContactLayout;
   const auto& nodes = simulation.nodes();
   int touching = 0, moving = 0;
@@ -96,7 +96,7 @@ void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarSt
     }
   }
   for (const auto& [name, difference] : found) {
-    EXPECT_TRUE(difference.second > 0.0 || name == "clearance") << name;  // a body that rests leaves none
+    EXPECT_TRUE(difference.second > 0.0 || (name == "clearance" && !hovers)) << name;
     EXPECT_LE(difference.first, 1e-12 * difference.second) << name;
   }
   EXPECT_GT(touching, 3);
@@ -109,7 +109,7 @@ void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarSt
 }
 
 template <int Dim>
-void expect_the_scalar_step(const config::Case& parameters, bool yields) {
+void expect_the_scalar_step(const config::Case& parameters, bool yields, bool hovers) {
   constexpr double tolerance = 1e-12, dt = 0.002;
   Simulation<Dim, double> simulation(parameters);
   for (int k = 0; k < 60; ++k) {
@@ -126,7 +126,7 @@ void expect_the_scalar_step(const config::Case& parameters, bool yields) {
   expect_same_sums(simulation.nodes().near_base, scalar, scalar.near_base_by_mass(), 0, candidates);
   expect_same_sums(simulation.nodes().near_base, scalar, scalar.near_base_by_hats(),
                    mpm::NearBaseLayout::saturation_by_hats, candidates);
-  expect_same_nodes(simulation, scalar);
+  expect_same_nodes(simulation, scalar, hovers);
   using P = Point<Dim>;
   const auto expect_same = [&](const char* name, const auto& of) {
     EXPECT_LE((difference<Dim>(now, scalar.points(), of)), tolerance) << name;
@@ -170,16 +170,20 @@ void expect_the_scalar_step(const config::Case& parameters, bool yields) {
 
 constexpr double elastic = 1e7, yielding = 5e3;  // cohesion [Pa]
 
-TEST(ScalarStep, IsThatOfTheBatchesInThePlaneElastic) { expect_the_scalar_step<2>(two_bodies<2>(elastic), false); }
-TEST(ScalarStep, IsThatOfTheBatchesInThePlaneYielding) { expect_the_scalar_step<2>(two_bodies<2>(yielding), true); }
-TEST(ScalarStep, IsThatOfTheBatchesInSpaceElastic) { expect_the_scalar_step<3>(two_bodies<3>(elastic), false); }
-TEST(ScalarStep, IsThatOfTheBatchesInSpaceYielding) { expect_the_scalar_step<3>(two_bodies<3>(yielding), true); }
+TEST(ScalarStep, IsThatOfTheBatchesInThePlaneElastic) {
+  expect_the_scalar_step<2>(two_bodies<2>(elastic), false, true);
+}
+TEST(ScalarStep, IsThatOfTheBatchesInThePlaneYielding) {
+  expect_the_scalar_step<2>(two_bodies<2>(yielding), true, false);
+}
+TEST(ScalarStep, IsThatOfTheBatchesInSpaceElastic) { expect_the_scalar_step<3>(two_bodies<3>(elastic), false, true); }
+TEST(ScalarStep, IsThatOfTheBatchesInSpaceYielding) { expect_the_scalar_step<3>(two_bodies<3>(yielding), true, false); }
 
-// Ground that cuts through the cells, under a base that partly hovers above it.
+// Ground that cuts through the cells, under a base that partly hovers above it until it yields.
 template <int Dim>
 void expect_the_scalar_step_on_a_plane(double cohesion, bool yields) {
   const auto plane = "type = \"plane\"\nslope = 0.5\nelevation = -0.01";
-  expect_the_scalar_step<Dim>(two_bodies<Dim>(cohesion, 7.0, 5.0, 0.0, plane), yields);
+  expect_the_scalar_step<Dim>(two_bodies<Dim>(cohesion, 7.0, 5.0, 0.0, plane), yields, !yields);
 }
 TEST(ScalarStep, IsThatOfTheBatchesOnAPlane) { expect_the_scalar_step_on_a_plane<2>(elastic, false); }
 TEST(ScalarStep, IsThatOfTheBatchesInSpaceOnAPlane) { expect_the_scalar_step_on_a_plane<3>(yielding, true); }

@@ -66,6 +66,9 @@ class ScalarContact {
  private:
   using Momentum = mpm::MomentumLayout<Dim>;
   using NearBase = mpm::NearBaseLayout;
+  static constexpr std::size_t solid_fraction_by_hats =
+      NearBase::solid_fraction_by_hats - NearBase::saturation_by_hats;  // in the oracle's own sums
+  static constexpr double smallest_share = 1e-6;  // of a cell's face: keeps N finite over no ground
 
   static Place vector_of(const std::vector<double>& sum, std::size_t first) {
     return Eigen::Map<const Place>(sum.data() + first);
@@ -143,7 +146,7 @@ class ScalarContact {
         covered += weight * covered_.at(beside);
       }
     }
-    return load / (dt_ * std::max(covered, 1e-6 * std::pow(cell_, Dim - 1)));
+    return load / (dt_ * std::max(covered, smallest_share * std::pow(cell_, Dim - 1)));
   }
 
   // An average at a node: by the hats, or by mass where it has no weight by these.
@@ -157,7 +160,7 @@ class ScalarContact {
   [[nodiscard]] double strength(const Index& node, double normal_pressure) const {
     const auto& law = model_.law;
     const double pore = average(node, sums_.hats, mpm::HatLayout::pore_pressure, NearBase::pore_pressure);
-    const double solid = average(node, sums_.near_base_by_hats, 1, NearBase::solid_fraction);
+    const double solid = average(node, sums_.near_base_by_hats, solid_fraction_by_hats, NearBase::solid_fraction);
     const double factor =
         physics::lubrication_factor(solid, law.min_solid_fraction, law.max_solid_fraction, law.lubrication_exponent);
     return physics::sliding_strength(factor * law.friction_coefficient, normal_pressure, pore, law.cohesion, law.clamp,
