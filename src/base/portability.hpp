@@ -1,4 +1,4 @@
-// Marks and small constants every room shares.
+// Marks, small constants and the hint of a prefetch every room shares.
 #pragma once
 
 #include <cstddef>
