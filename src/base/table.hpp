@@ -1,6 +1,7 @@
 // A number given as a constant or as a table over one variable; linear between entries, constant beyond the ends.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,14 +21,17 @@ struct Table {
   [[nodiscard]] double at(double x) const;
 };
 
-// An initial field: a value, or a table over depth below the body's surface [m] or over x [m].
+// An initial field: a value, a table over depth below the body's surface [m] or over x [m], or from a map, as an
+// attribute of polygons or a raster: then it has no table.
 struct InitialField {
-  enum class Over { nothing, depth, x };
+  enum class Over { nothing, depth, x, attribute, raster };
   Over over = Over::nothing;
   Table table;
+  std::string source;  // name of the attribute, or path of the raster (absolute once read)
 
   InitialField() = default;
   explicit InitialField(double constant) : table(constant) {}
+  [[nodiscard]] bool is_map() const { return over == Over::attribute || over == Over::raster; }
   [[nodiscard]] double at(double depth, double x) const;
 };
 

@@ -18,11 +18,14 @@ using Point = std::array<double, 3>;  // x, y in 2D (third 0); x, y, z in 3D
 
 enum class Stepping { fixed, adaptive };
 enum class BoundaryKind { open, roller, fixed };
-enum class TerrainKind { none, flat, plane, profile };
+enum class TerrainKind { none, flat, plane, profile, dem };
 enum class TerrainForm { signed_distance, rigid_points };
 enum class LawKind { elastic, mohr_coulomb };
 enum class CurveKind { power_law, linear };
-enum class BodyShape { box, polygon, surface };
+enum class BodyShape { box, polygon, surface, release };
+enum class ThicknessAlong { vertical, normal };
+enum class Placement { on_top, cut };
+enum class Leaving { stop, remove };
 enum class ShapeFunction { ugimp, linear, quadratic };
 enum class Transfer { flip, blend, apic };
 enum class InitialStress { geostatic, none, settle };
@@ -61,6 +64,7 @@ struct Grid {
   double cell = 0.0;
   Point min{};  // the domain
   Point max{};
+  Leaving leaving = Leaving::stop;  // what becomes of particles that leave the domain or the DEM
   // kinds of boundary at x_min, x_max, y_min, y_max, z_min, z_max
   std::array<BoundaryKind, 6> boundary{};
 };
@@ -69,10 +73,13 @@ struct Terrain {
   TerrainKind kind = TerrainKind::none;
   double elevation = 0.0;  // m: of the flat ground, or of the plane at x = 0
   double slope = 0.0;      // degrees, the plane falls towards +x
-  std::string file;        // CSV with columns distance_m,terrain_elevation_m[,surface_elevation_m]; absolute once read
+  std::string file;        // of the profile or DEM; absolute once read
   bool extend = false;
   TerrainForm form = TerrainForm::signed_distance;
-  int layers = 2;  // of rigid points, two to a cell
+  int layers = 2;         // of rigid points, two to a cell
+  std::string crs;        // of a DEM whose file does not tell, or tells a wrong one; "EPSG:31287"
+  double resample = 0.0;  // m, new distance of the DEM's points; 0: as the file has them
+  double smooth = 0.0;    // m, standard deviation of a Gaussian filter over the DEM; 0: none
 };
 
 struct Phases {
@@ -104,6 +111,15 @@ struct Material {
   double hydraulic_conductivity = 0;                                // m/s
 };
 
+// A quantity of a release: a number, an attribute of its polygons, a raster, or for a thickness the difference between
+// a raster of the surface before the slide and the DEM.
+struct MapValue {
+  enum class From { number, attribute, raster, surface };
+  From from = From::number;
+  double number = 0.0;
+  std::string source;  // name of the attribute, or path of the raster (absolute once read)
+};
+
 struct Body {
   std::string material;
   BodyShape shape = BodyShape::box;
@@ -113,6 +129,14 @@ struct Body {
   InitialField temperature{-10.0};
   InitialField porosity{0.375};
   Point velocity{};
+  std::string release;                // polygons, or a raster of thickness; absolute once read
+  std::vector<std::string> polygons;  // names of those of the file that make up the body; empty: all
+  std::string name_attribute = "name";
+  MapValue thickness;
+  ThicknessAlong thickness_along = ThicknessAlong::vertical;
+  Placement placement = Placement::on_top;
+  double taper = 0.0;           // m, width over which the thickness falls to 0 at the edge
+  double largest_volume = 2e8;  // m3; more must be confirmed by a larger value
 };
 
 struct Frame {
@@ -191,6 +215,17 @@ struct Checkpoint {
   double interval = 0;  // s; 0: only at the end
 };
 
+struct Maps {
+  double cell = 0.0;               // m; 0: that of the DEM, of the grid without one
+  double arrival_thickness = 0.1;  // m, from which on the slide has arrived
+  std::string path;                // line along which the front is measured; absolute once read; empty: none
+};
+
+struct Probe {
+  Point point{};     // x, y
+  std::string line;  // file of a cross section; absolute once read; empty: a point
+};
+
 struct Report {
   std::vector<double> times;  // s, of the snapshot figures; empty: six even times
   std::string targets;        // CSV: quantity,time_s,value,unit,source
@@ -218,6 +253,8 @@ struct Case {
   Heat heat;
   Pressure pressure;
   Checkpoint checkpoint;
+  Maps maps;
+  std::map<std::string, Probe> probes;
   Report report;
 };
 

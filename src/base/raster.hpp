@@ -1,0 +1,34 @@
+// Numbers on a regular grid of points over the horizontal plane: a terrain model, a thickness, a map.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace thawslide {
+
+struct Raster {
+  double x = 0.0, y = 0.0;  // of the first point, in the south-west: the centre of a file's lower left pixel [m]
+  double cell_x = 1.0, cell_y = 1.0;  // distance of the points [m]
+  int columns = 0, rows = 0;
+  std::vector<double> values;  // shape [rows, columns], rows from south to north; NaN: no data
+  std::string crs;             // coordinate reference system as WKT; empty: none is known
+
+  [[nodiscard]] bool empty() const { return values.empty(); }
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+  }
+  [[nodiscard]] double at(int column, int row) const { return values[index(column, row)]; }
+  [[nodiscard]] double x_of(int column) const { return x + column * cell_x; }
+  [[nodiscard]] double y_of(int row) const { return y + row * cell_y; }
+  [[nodiscard]] double x_end() const { return x_of(columns - 1); }
+  [[nodiscard]] double y_end() const { return y_of(rows - 1); }
+  // The same points with another value at each.
+  [[nodiscard]] Raster filled(double value) const {
+    Raster other = *this;
+    other.values.assign(values.size(), value);
+    return other;
+  }
+};
+
+}  // namespace thawslide

@@ -1,0 +1,32 @@
+// What map files tell of a case: the ground, and what each body is there. Read by the gis room, used by the simulation.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/raster.hpp"
+
+namespace thawslide::config {
+
+using Polyline2 = std::vector<std::array<double, 2>>;  // x, y [m] of its corners
+
+struct Release {
+  Raster thickness;   // vertical [m] at the points of the ground's raster, cropped to the release; 0 outside
+  double area = 0.0;  // horizontal, of the outlines [m2]
+  std::vector<Polyline2> outlines;       // closed rings, for pictures; empty where a raster gives the release
+  std::map<std::string, Raster> fields;  // by key of the body: "temperature", "porosity", ... where a map gives it
+};
+
+struct Site {
+  std::shared_ptr<const Raster> ground;     // what bodies slide on, less what is cut out of it; null: no raster
+  std::map<std::string, Release> releases;  // by name of the body
+  Polyline2 path;                           // along which the front is measured; empty: none given
+  std::map<std::string, Polyline2> probes;  // by name: one point, or a line
+  std::string crs;                          // of all of them, as WKT
+  std::string crs_name;                     // "EPSG:31287", or its title; empty: none is known
+};
+
+}  // namespace thawslide::config
