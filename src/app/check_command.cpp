@@ -52,14 +52,14 @@ Json setup(const sim::Simulation<Dim, double>& simulation) {
     json["boundary"][faces[f]] = kinds[static_cast<std::size_t>(parameters.grid.boundary[face])];
   }
   json["terrain"] = nullptr;
-  if (model.ground) {
+  if (model.profile) {
     constexpr int samples = 1000;
     Json x = Json::array();
     Json z = Json::array();
     for (int k = 0; k <= samples; ++k) {
       const double place = model.constraints.extent[0] * k / samples;
       x.push_back(place + model.origin[0]);
-      z.push_back(model.ground->line().height(place) + model.origin[Dim - 1]);
+      z.push_back(model.profile->height(place) + model.origin[Dim - 1]);
     }
     json["terrain"] = {{"x", x}, {"z", z}};
   }

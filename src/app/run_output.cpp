@@ -37,11 +37,11 @@ namespace {
 template <int Dim>
 void write_terrain(const fs::path& folder, const sim::Simulation<Dim, double>& simulation) {
   const auto& model = simulation.model();
-  if (!model.ground) {
+  if (!model.profile) {
     return;
   }
   // The vertices inside the domain, and the ground at its two sides.
-  const auto& line = model.ground->line();
+  const auto& line = *model.profile;
   const double extent = static_cast<double>(model.constraints.extent[0]);
   std::vector<double> x{0.0};
   for (const double vertex : line.x()) {

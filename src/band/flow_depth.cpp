@@ -157,10 +157,24 @@ void FlowDepth<Dim, Real>::Extent::add(const Extent& part) {
   }
 }
 
+// Remembered, as tiles change in nearly every step; begun anew when the slide has left most of the columns.
+template <int Dim, class Real>
+Real FlowDepth<Dim, Real>::cosine_of(std::uint64_t key, Real cell, const SlopeCosine& slope_cosine) {
+  const auto k = static_cast<std::size_t>(cosine_index_.insert(key));
+  if (k == cosines_.size()) {
+    Vector<Real, Dim - 1> middle;
+    for (int a = 0; a + 1 < Dim; ++a) {
+      const auto number = static_cast<std::int64_t>(key >> (32 * a) & 0xffffffffu) - column_origin;
+      middle[a] = (static_cast<Real>(number) + Real(0.5)) * cell;
+    }
+    cosines_.push_back(slope_cosine(middle));
+  }
+  return cosines_[k];
+}
+
 // Numbers every column that particles of the tiles might overlap; holds until there are other tiles.
 template <int Dim, class Real>
-void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid,
-                                          const std::function<Real(Real)>& slope_cosine) {
+void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid, const SlopeCosine& slope_cosine) {
   column_index_.clear();
   column_keys_.clear();
   numbered_.clear();
@@ -176,14 +190,18 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
     }
   }
   columns_.assign(column_keys_.size(), {});
+  constexpr std::size_t held_per_column = 4;
+  if (cosines_.size() > held_per_column * columns_.size()) {
+    cosine_index_.clear();
+    cosines_.clear();
+  }
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
       columns_[c].beside[2 * a] = column_index_.find(neighbour(column_keys_[c], a, -1));
       columns_[c].beside[2 * a + 1] = column_index_.find(neighbour(column_keys_[c], a, 1));
     }
     if (slope_cosine) {
-      const auto cell = static_cast<Real>(static_cast<std::int64_t>(column_keys_[c] & 0xffffffffu) - column_origin);
-      columns_[c].cosine = slope_cosine((cell + Real(0.5)) * grid.cell());
+      columns_[c].cosine = cosine_of(column_keys_[c], grid.cell(), slope_cosine);
     }
   }
 }
@@ -302,13 +320,12 @@ void FlowDepth<Dim, Real>::set_footprints(Real cell) {
 
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                                  const std::function<Real(Real)>& slope_cosine,
-                                  const mpm::Particles<Dim, Real>& particles) {
+                                  const SlopeCosine& slope_cosine, const mpm::Particles<Dim, Real>& particles) {
   const bool same_tiles = std::equal(numbered_.begin(), numbered_.end(), grid.tiles().begin(), grid.tiles().end(),
                                      [](std::uint64_t key, const auto& tile) { return key == tile.key; });
   if (!same_tiles) {
     sizes_ = model.sizes.times(grid.cell());
-    number_columns(grid, model.normal_thickness ? slope_cosine : std::function<Real(Real)>());
+    number_columns(grid, model.normal_thickness ? slope_cosine : SlopeCosine());
   }
   parallel_for(tiles_.size(), [&](std::size_t t) { add_tile(grid, particles, t); });
   sum_columns();

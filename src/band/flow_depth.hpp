@@ -39,16 +39,19 @@ class ColumnsOfTile {
 };
 
 // H of P_I = rho_I g H [m]: band particles see the thickness of the whole grid column (volume over footprint), others
-// their depth below its top; both times slope_cosine(x), the cosine of the terrain's slope there. A particle belongs to
+// their depth below its top; both times the cosine of the terrain's slope there. A particle belongs to
 // the columns its box overlaps, by its share in each; the footprint is the cell's, or in a column at the body's edge
 // what the boxes cover of it. So thickness does not jump when particles pass from column to column, and the top by the
 // rise of one particle at most.
 template <int Dim, class Real>
 class FlowDepth {
  public:
+  // Of the terrain at a horizontal place [m].
+  using SlopeCosine = std::function<Real(const Vector<Real, Dim - 1>&)>;
+
   // The columns from positions and volumes. slope_cosine may be empty: level ground; it must be the same in every call.
   void update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-              const std::function<Real(Real)>& slope_cosine, const mpm::Particles<Dim, Real>& particles);
+              const SlopeCosine& slope_cosine, const mpm::Particles<Dim, Real>& particles);
   // particles.flow_depth from the columns and in_band.
   void depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid, mpm::Particles<Dim, Real>& particles) const;
 
@@ -80,7 +83,8 @@ class FlowDepth {
     std::array<std::int32_t, OfTile::count> number;
   };
 
-  void number_columns(const mpm::SparseGrid<Dim, Real>& grid, const std::function<Real(Real)>& slope_cosine);
+  [[nodiscard]] Real cosine_of(std::uint64_t key, Real cell, const SlopeCosine& slope_cosine);
+  void number_columns(const mpm::SparseGrid<Dim, Real>& grid, const SlopeCosine& slope_cosine);
   void add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
   void add_extents(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
   void sum_columns();
@@ -93,6 +97,8 @@ class FlowDepth {
   std::vector<std::uint64_t> numbered_;  // the tiles that columns, their numbers and sizes_ are of
   KeyIndex column_index_;
   std::vector<std::uint64_t> column_keys_;
+  KeyIndex cosine_index_;  // column key -> place in cosines_
+  std::vector<Real> cosines_;
   std::vector<Column> columns_;
   std::vector<TilePart> tiles_;
   std::vector<std::size_t> edge_tiles_;

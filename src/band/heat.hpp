@@ -60,6 +60,7 @@ void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Rea
 // the cells that make up the band, may be empty: one cell.
 template <int Dim, class Real>
 Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
-                  const std::function<Real(Real)>& layer_thickness, mpm::Particles<Dim, Real>& particles);
+                  const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
+                  mpm::Particles<Dim, Real>& particles);
 
 }  // namespace thawslide::band

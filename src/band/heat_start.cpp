@@ -18,14 +18,16 @@ void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Rea
 
 template <int Dim, class Real>
 Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
-                  const std::function<Real(Real)>& layer_thickness, mpm::Particles<Dim, Real>& particles) {
+                  const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
+                  mpm::Particles<Dim, Real>& particles) {
   const bool by_place = thickness > Real(0) && layer_thickness;
   const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
   const auto scaling_at = [&](std::uint32_t p) {
     if (model.region != ScaledRegion::all && particles.in_band(p) == 0) {
       return Real(1);
     }
-    return by_place ? layer_thickness(particles.position(p, 0)) / thickness : of_a_cell;
+    return by_place ? layer_thickness(particles.position.template get<Vector<Real, Dim - 1>>(p)) / thickness
+                    : of_a_cell;
   };
   Real added = 0;
   for (const std::uint32_t p : grid.order()) {
@@ -42,7 +44,8 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                      \
   template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);         \
   template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real, \
-                                        const std::function<Real(Real)>&, mpm::Particles<Dim, Real>&);
+                                        const std::function<Real(const Vector<Real, Dim - 1>&)>&,             \
+                                        mpm::Particles<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

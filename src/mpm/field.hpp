@@ -45,7 +45,10 @@ class FieldBase {
   virtual void append_values(const std::vector<std::size_t>& order, std::size_t components,
                              std::vector<double>& to) const = 0;
   virtual void resize(std::size_t particles) = 0;
-  // Particle k becomes the one that stood at order[k]. scratch: room for the work, kept between calls.
+  // Keeps the first particles alone.
+  virtual void truncate(std::size_t particles) = 0;
+  // Particle k becomes the one that stood at order[k], for as many as `order` has. scratch: room for the work, kept
+  // between calls.
   virtual void reorder(const std::vector<std::uint32_t>& order, AlignedVector<std::byte>& scratch) = 0;
   [[nodiscard]] virtual std::vector<std::byte> bytes() const = 0;
   virtual void set_bytes(const std::vector<std::byte>& bytes) = 0;
@@ -81,10 +84,12 @@ class Field final : public FieldBase {
     return data_[position(particle, component)];
   }
 
+  // The first components, as many as the vector has.
   template <class Vector>
   [[nodiscard]] Vector get(std::size_t particle) const {
+    static_assert(Vector::SizeAtCompileTime <= Components);
     Vector v;
-    for (int c = 0; c < Components; ++c) {
+    for (int c = 0; c < Vector::SizeAtCompileTime; ++c) {
       v[c] = (*this)(particle, c);
     }
     return v;
@@ -171,6 +176,14 @@ class Field final : public FieldBase {
     particles_ = particles;
     data_.assign(kept_ ? (particles + lanes - 1) / lanes * lanes * Components : 0, T{});
     data_.shrink_to_fit();
+  }
+
+  void truncate(std::size_t particles) override {
+    THAWSLIDE_ASSERT(particles <= particles_, "field {}: {} particles kept of {}", info().name, particles, particles_);
+    particles_ = particles;
+    if (kept_) {
+      data_.resize((particles + lanes - 1) / lanes * lanes * Components);
+    }
   }
 
   void reorder(const std::vector<std::uint32_t>& order, AlignedVector<std::byte>& scratch) override {

@@ -247,7 +247,8 @@ void note_faults(const Particles<Dim, Real>& particles, const Batch<Real>& batch
 }  // namespace
 
 template <int Dim, class Real>
-void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& extent, BadParticle& bad) {
+void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
+                        BadParticle& bad) {
   using LanesVector = Vector<Lanes<Real>, Dim>;
   constexpr std::size_t chunk = 1024;
   const std::size_t tasks = (particles.size() + chunk - 1) / chunk;
@@ -262,7 +263,7 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
           particles.temperature.load(batch) + particles.pore_pressure.load(batch) + particles.stress.load(batch);
       auto well = abs(state) <= Lanes<Real>(std::numeric_limits<Real>::max());
       for (int a = 0; a < Dim; ++a) {
-        well = well & (old[a] + step[a] >= Real(0)) & (old[a] + step[a] <= extent[a]);
+        well = well & (old[a] + step[a] >= lower[a]) & (old[a] + step[a] <= upper[a]);
       }
       if (any(!well)) {
         note_faults(particles, batch, well, found);
@@ -284,7 +285,8 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
                                             const MotionModel<Dim, Real>&, Nodes<Dim, Real>&);               \
   template MoveWork<Real> move_particles<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,     \
                                                     const MotionModel<Dim, Real>&, Real, Nodes<Dim, Real>&); \
-  template void take_new_positions<Dim, Real>(Particles<Dim, Real>&, const Vector<Real, Dim>&, BadParticle&);
+  template void take_new_positions<Dim, Real>(Particles<Dim, Real>&, const Vector<Real, Dim>&,               \
+                                              const Vector<Real, Dim>&, BadParticle&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -74,7 +74,7 @@ struct MoveWork {
 };
 
 // What can be wrong with a particle.
-enum class Fault { none, volume_not_finite, volume_not_positive, state_not_finite, left_domain };
+enum class Fault { none, volume_not_finite, volume_not_positive, state_not_finite, left_domain, left_map };
 
 // A particle found in a bad state, the one of smallest id; id < 0 if all are well.
 struct BadParticle {
@@ -125,8 +125,9 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
                                             const MotionModel<Dim, Real>& model, Real dt, const Nodes<Dim, Real>& nodes,
                                             BadParticle& bad);
 
-// Lets the step's displacement take effect; reports a particle that is not finite or outside [0, extent].
+// Lets the step's displacement take effect; reports a particle that is not finite or outside [lower, upper].
 template <int Dim, class Real>
-void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& extent, BadParticle& bad);
+void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
+                        BadParticle& bad);
 
 }  // namespace thawslide::mpm

@@ -75,6 +75,21 @@ class Particles {
     }
   }
 
+  // Takes the marked particles away; the others keep their order in memory.
+  void remove(const std::vector<std::uint8_t>& marked) {
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t p = 0; p < size_; ++p) {
+      if (marked[p] == 0) {
+        kept.push_back(p);
+      }
+    }
+    reorder(kept);
+    size_ = kept.size();
+    for (FieldBase* field : fields.all()) {
+      field->truncate(size_);
+    }
+  }
+
   void reorder(const std::vector<std::uint32_t>& order) {
     for (FieldBase* field : fields.all()) {
       field->reorder(order, scratch_);

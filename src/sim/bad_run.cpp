@@ -21,6 +21,8 @@ const char* fault_text(mpm::Fault fault) {
       return "its position, stress, temperature or pore pressure is not a finite number";
     case mpm::Fault::left_domain:
       return "it left the domain";
+    case mpm::Fault::left_map:
+      return "the terrain below it is not known: the DEM ends or has a hole there";
     case mpm::Fault::none:
       break;
   }
@@ -67,6 +69,9 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   if (bad_.fault == mpm::Fault::state_not_finite && pressurized) {
     const std::string closed = closed_pores(particles_);
     return closed.empty() ? too_long : closed;
+  }
+  if (bad_.fault == mpm::Fault::left_map) {
+    return "Give a DEM that covers the way of the slide, or set grid.leaving = \"remove\" to let such particles go.";
   }
   if (bad_.fault != mpm::Fault::left_domain) {
     return too_long;

@@ -65,7 +65,7 @@ Train make_train(const config::Case& parameters, const Model<2, double>& model, 
   double volume = 0.0;
   for (const auto& [number, column] : columns) {
     const double x = (static_cast<double>(number) + 0.5) * cell;
-    const double base = cell / model.ground->slope_cosine(x);
+    const double base = cell / model.ground->slope_cosine(Vector<double, 1>(x), cell);
     train.carriages.push_back({path.length_at(x), column.first, base});
     train.mass += column.first;
     train.base += base;
@@ -77,6 +77,10 @@ Train make_train(const config::Case& parameters, const Model<2, double>& model, 
   return train;
 }
 
+Vector<double, 2> normal_below(const Model<2, double>& model, double x) {
+  return model.ground->normal_below(Vector<double, 1>(x), 0.0);
+}
+
 struct Forces {
   double along = 0, normal = 0;  // of gravity, downhill and into the ground [N per m of width]
 };
@@ -84,7 +88,7 @@ struct Forces {
 Forces gravity_on_train(const Model<2, double>& model, const Path& path, const Train& train, double displacement) {
   Forces forces;
   for (const Carriage& carriage : train.carriages) {
-    const Vector<double, 2> normal = model.ground->normal_below(path.x_at(carriage.path + displacement));
+    const Vector<double, 2> normal = normal_below(model, path.x_at(carriage.path + displacement));
     const Vector<double, 2> tangent(-normal[1], normal[0]);  // towards +x
     forces.along += carriage.mass * model.motion.gravity.dot(tangent);
     forces.normal += std::max(0.0, carriage.mass * model.motion.gravity.dot(normal));
@@ -98,11 +102,11 @@ class Block {
   Block(const config::Case& parameters, const Model<2, double>& model, const mpm::Particles<2, double>& particles)
       : parameters_(parameters),
         model_(model),
-        path_(model.ground->line()),
+        path_(*model.profile),
         train_(make_train(parameters, model, path_, particles)),
         column_(model_.band, initial_column()) {
     const auto& start = parameters.bodies.begin()->second.velocity;
-    const Vector<double, 2> into = model.ground->normal_below(train_.middle_x - model.origin[0]);
+    const Vector<double, 2> into = normal_below(model, train_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
     evaluate_base();
   }
@@ -212,7 +216,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters) {
   }
   const Model<2, double> model = make_model<2, double>(parameters);
   mpm::Particles<2, double> particles;
-  fill_bodies(parameters, model, particles);
+  fill_bodies(parameters, {}, model, particles);
   if (parameters.bodies.size() > 1) {
     throw UserError(fmt::format("{}: the block model slides one body, and the case has {}. Use `thawslide run`.",
                                 parameters.file, parameters.bodies.size()));

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/profile_csv.hpp"
+#include "sim/release_body.hpp"
+#include "sim/seed.hpp"
 
 namespace thawslide::sim {
 
@@ -16,8 +19,9 @@ namespace {
 template <int Dim>
 class BodyShape {
  public:
-  BodyShape(const config::Case& parameters, const config::Body& body)
-      : body_(&body), tie_(1e-9 * parameters.grid.cell) {
+  // release: of a body of that shape.
+  BodyShape(const config::Case& parameters, const config::Body& body, std::optional<ReleaseBody> release)
+      : body_(&body), tie_(1e-9 * parameters.grid.cell), release_(std::move(release)) {
     for (std::size_t a = 0; a < Dim; ++a) {
       lower_[a] = body.min[a];
       upper_[a] = body.max[a];
@@ -40,7 +44,14 @@ class BodyShape {
   [[nodiscard]] double lower(std::size_t axis) const { return lower_[axis]; }
   [[nodiscard]] double upper(std::size_t axis) const { return upper_[axis]; }
 
+  [[nodiscard]] const std::optional<ReleaseBody>& release() const { return release_; }
+
   [[nodiscard]] bool contains(const Vector<double, Dim>& place) const {
+    if constexpr (Dim == 3) {
+      if (release_) {
+        return release_->contains(place);
+      }
+    }
     for (std::size_t a = 0; a < Dim; ++a) {
       if (place[static_cast<int>(a)] < lower_[a] || place[static_cast<int>(a)] > upper_[a]) {
         return false;
@@ -54,6 +65,7 @@ class BodyShape {
       case config::BodyShape::polygon:
         return crossings_above(place[0], height) % 2 == 1;
       case config::BodyShape::surface:
+      case config::BodyShape::release:
         break;
     }
     return height > profile_at(profile_.terrain, place[0]) && height < top(place[0], place[Dim - 1]);
@@ -74,6 +86,8 @@ class BodyShape {
         }
         return width * std::abs(area);
       }
+      case config::BodyShape::release:
+        return release_->volume();
       case config::BodyShape::surface:
         break;
     }
@@ -96,6 +110,7 @@ class BodyShape {
         return highest;
       }
       case config::BodyShape::surface:
+      case config::BodyShape::release:
         break;
     }
     return profile_at(profile_.surface, x);
@@ -142,15 +157,9 @@ class BodyShape {
 
   const config::Body* body_;
   double tie_;
+  std::optional<ReleaseBody> release_;
   config::ProfileTable profile_;
   std::array<double, Dim> lower_{}, upper_{};
-};
-
-template <int Dim>
-struct Seed {
-  int body;
-  Vector<double, Dim> place;  // absolute [m]
-  double depth;               // vertical, below the body's top [m]
 };
 
 // Particles stand at the centres of the cells' equal parts.
@@ -158,6 +167,14 @@ template <int Dim>
 void seed_body(const config::Case& parameters, const config::Body& body, const BodyShape<Dim>& shape, int number,
                std::vector<Seed<Dim>>& seeds) {
   const double spacing = parameters.grid.cell / body.particles_per_axis;
+  const double volume = std::pow(spacing, Dim);
+  if constexpr (Dim == 3) {
+    if (shape.release()) {
+      const Vector<double, 3> corner(parameters.grid.min[0], parameters.grid.min[1], parameters.grid.min[2]);
+      shape.release()->seed(corner, spacing, number, seeds);
+      return;
+    }
+  }
   std::array<long, 3> first{}, last{};
   for (std::size_t a = 0; a < Dim; ++a) {
     first[a] = static_cast<long>(std::floor((shape.lower(a) - parameters.grid.min[a]) / spacing)) - 1;
@@ -172,7 +189,7 @@ void seed_body(const config::Case& parameters, const config::Body& body, const B
           place[static_cast<int>(a)] = parameters.grid.min[a] + (static_cast<double>(index[a]) + 0.5) * spacing;
         }
         if (shape.contains(place)) {
-          seeds.push_back({number, place, shape.top(place[0], place[Dim - 1]) - place[Dim - 1]});
+          seeds.push_back({number, place, shape.top(place[0], place[Dim - 1]) - place[Dim - 1], volume});
         }
       }
     }
@@ -182,18 +199,27 @@ void seed_body(const config::Case& parameters, const config::Body& body, const B
 // How far the volume of the particles may be from the body's: more, and the spacing is too coarse for its shape.
 constexpr double volume_tolerance = 0.15;
 
+// seeds: from number `first` on those of the body.
 template <int Dim>
 void require_volume(const config::Case& parameters, const std::string& name, const config::Body& body,
-                    const BodyShape<Dim>& shape, std::size_t particles) {
+                    const BodyShape<Dim>& shape, std::size_t first, std::vector<Seed<Dim>>& seeds) {
   const double spacing = parameters.grid.cell / body.particles_per_axis;
-  const double seeded = static_cast<double>(particles) * std::pow(spacing, Dim);
-  if (std::abs(seeded / shape.volume() - 1.0) > volume_tolerance) {
+  double seeded = 0.0;
+  for (std::size_t p = first; p < seeds.size(); ++p) {
+    seeded += seeds[p].volume;
+  }
+  const double share = shape.volume() / seeded;
+  if (!(std::abs(1.0 / share - 1.0) <= volume_tolerance)) {
     throw UserError(fmt::format(
         "{}: body '{}' has a volume of {:.6g} {}, and its {} particles, which stand {} m apart, {:.6g}; allowed: "
         "within "
         "{:g} %. Put its corners on multiples of the spacing, or make grid.cell smaller or particles_per_axis larger.",
-        config::place_of(parameters, "body." + name), name, shape.volume(), Dim == 2 ? "m3 per m" : "m3", particles,
-        spacing, seeded, 100.0 * volume_tolerance));
+        config::place_of(parameters, "body." + name), name, shape.volume(), Dim == 2 ? "m3 per m" : "m3",
+        seeds.size() - first, spacing, seeded, 100.0 * volume_tolerance));
+  }
+  // A release keeps its volume to the last digit: its edges are not on the lattice.
+  for (std::size_t p = first; shape.release() && p < seeds.size(); ++p) {
+    seeds[p].volume *= share;
   }
 }
 
@@ -227,9 +253,9 @@ SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model
   Vector<double, Dim> up = -gravity;
   double cosine = 1.0;
   if (model.ground) {
-    const double x = seed.place[0] - model.origin[0];
-    up = -model.ground->normal_below(x);
-    cosine = model.ground->slope_cosine(x);
+    const Vector<double, Dim - 1> below = (seed.place - model.origin).template head<Dim - 1>();
+    up = -model.ground->normal_below(below, parameters.grid.cell);
+    cosine = model.ground->slope_cosine(below, parameters.grid.cell);
   }
   if (up.norm() == 0.0) {
     return stress;
@@ -257,21 +283,73 @@ SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model
   return stress;
 }
 
+template <int Dim, class Real>
+std::optional<ReleaseBody> release_of(const config::Site& site, const Model<Dim, Real>& model, const std::string& name,
+                                      const config::Body& body) {
+  if constexpr (Dim == 3) {
+    if (body.shape == config::BodyShape::release) {
+      return ReleaseBody(site.releases.at(name).thickness, *model.ground, model.origin);
+    }
+  }
+  return std::nullopt;
+}
+
+// On a DEM; on other ground the case was checked when it was read.
+template <int Dim, class Real>
+void require_above_ground(const config::Case& parameters, const Model<Dim, Real>& model, const std::string& name,
+                          std::size_t first, const std::vector<Seed<Dim>>& seeds) {
+  if (parameters.terrain.kind != config::TerrainKind::dem) {
+    return;
+  }
+  for (std::size_t p = first; p < seeds.size(); ++p) {
+    const Vector<double, Dim> place = seeds[p].place - model.origin;
+    const double ground = model.ground->height(place.template head<Dim - 1>());
+    if (place[Dim - 1] < ground) {
+      throw UserError(fmt::format(
+          "{}: body '{}' is below the terrain: at x = {:.6g} m, y = {:.6g} m it has a particle at an elevation of "
+          "{:.6g} m and the ground is at {:.6g} m; allowed: above the ground. Lift the body, or use the shape "
+          "\"release\".",
+          config::place_of(parameters, "body." + name), name, seeds[p].place[0], seeds[p].place[1],
+          seeds[p].place[Dim - 1], ground + model.origin[Dim - 1]));
+    }
+  }
+}
+
+// Of a field where a seed stands: from the case, or from a map at the release.
+template <int Dim>
+double initial_value(const InitialField& field, const config::Release* release, const std::string& key,
+                     const Seed<Dim>& seed) {
+  if (!field.is_map()) {
+    return field.at(seed.depth, seed.place[0]);
+  }
+  const Raster& map = release->fields.at(key);
+  const double value = raster_at(map, seed.place[0], seed.place[1], std::nan(""));
+  if (std::isfinite(value)) {
+    return value;
+  }
+  // At the edge some of the points about the place have none: the nearest of them that has.
+  return nearest_value(map, seed.place[0], seed.place[1]);
+}
+
 }  // namespace
 
 template <int Dim, class Real>
-void fill_bodies(const config::Case& parameters, const Model<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+void fill_bodies(const config::Case& parameters, const config::Site& site, const Model<Dim, Real>& model,
+                 mpm::Particles<Dim, Real>& particles) {
   std::vector<Seed<Dim>> seeds;
   std::vector<const config::Body*> bodies;
   std::vector<std::size_t> material_of;
   std::vector<std::string> names;
   std::vector<BodyShape<Dim>> shapes;
+  std::vector<const config::Release*> releases;
   for (const auto& [name, body] : parameters.bodies) {
     const std::size_t before = seeds.size();
     names.push_back(name);
-    shapes.emplace_back(parameters, body);
+    shapes.emplace_back(parameters, body, release_of(site, model, name, body));
     seed_body(parameters, body, shapes.back(), static_cast<int>(bodies.size()), seeds);
-    require_volume(parameters, name, body, shapes.back(), seeds.size() - before);
+    require_volume(parameters, name, body, shapes.back(), before, seeds);
+    require_above_ground(parameters, model, name, before, seeds);
+    releases.push_back(site.releases.count(name) != 0 ? &site.releases.at(name) : nullptr);
     bodies.push_back(&body);
     const auto material = std::find(model.material_names.begin(), model.material_names.end(), body.material);
     material_of.push_back(static_cast<std::size_t>(material - model.material_names.begin()));
@@ -281,15 +359,14 @@ void fill_bodies(const config::Case& parameters, const Model<Dim, Real>& model, 
   for (std::size_t p = 0; p < seeds.size(); ++p) {
     const Seed<Dim>& seed = seeds[p];
     const config::Body& body = *bodies[static_cast<std::size_t>(seed.body)];
-    const double spacing = parameters.grid.cell / body.particles_per_axis;
-    const double volume = std::pow(spacing, Dim);
+    const config::Release* release = releases[static_cast<std::size_t>(seed.body)];
     particles.id(p) = static_cast<std::int64_t>(p);
     particles.body(p) = seed.body;
     particles.material(p) = static_cast<std::int32_t>(material_of[static_cast<std::size_t>(seed.body)]);
-    particles.initial_volume(p) = particles.volume(p) = static_cast<Real>(volume);
-    particles.temperature(p) = static_cast<Real>(body.temperature.at(seed.depth, seed.place[0]));
+    particles.initial_volume(p) = particles.volume(p) = static_cast<Real>(seed.volume);
+    particles.temperature(p) = static_cast<Real>(initial_value(body.temperature, release, "temperature", seed));
     particles.porosity(p) = particles.initial_porosity(p) =
-        static_cast<Real>(body.porosity.at(seed.depth, seed.place[0]));
+        static_cast<Real>(initial_value(body.porosity, release, "porosity", seed));
     particles.thermal_scaling(p) = Real(1);
     const Real saturation = model.band.with_heat_content(
         [&](const auto& content) { return content.curve.saturation(particles.temperature(p)); });
@@ -307,8 +384,9 @@ void fill_bodies(const config::Case& parameters, const Model<Dim, Real>& model, 
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) \
-  template void fill_bodies<Dim, Real>(const config::Case&, const Model<Dim, Real>&, mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                  \
+  template void fill_bodies<Dim, Real>(const config::Case&, const config::Site&, const Model<Dim, Real>&, \
+                                       mpm::Particles<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

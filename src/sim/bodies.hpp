@@ -10,6 +10,7 @@ namespace thawslide::sim {
 // Fills the particles of all bodies: ids 0, 1, ... body by body, in lattice order. Throws UserError for a body without
 // particles.
 template <int Dim, class Real>
-void fill_bodies(const config::Case& parameters, const Model<Dim, Real>& model, mpm::Particles<Dim, Real>& particles);
+void fill_bodies(const config::Case& parameters, const config::Site& site, const Model<Dim, Real>& model,
+                 mpm::Particles<Dim, Real>& particles);
 
 }  // namespace thawslide::sim

@@ -36,13 +36,16 @@ PhaseMasses<Real> current_masses(const mpm::Particles<Dim, Real>& particles, con
 }  // namespace
 
 template <int Dim, class Real>
-BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
+BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation, const std::vector<std::uint8_t>* marked) {
   const auto& particles = simulation.particles();
   const auto& model = simulation.model();
   const physics::Phases<Real>& phases = model.motion.phases;
   const bool current = model.band.current_masses;
   BodySums<Dim, Real> sums;
   for (const std::uint32_t p : simulation.grid().order()) {
+    if (marked != nullptr && (*marked)[p] == 0) {
+      continue;
+    }
     const Real mass = particles.mass(p);
     for (int a = 0; a < Dim; ++a) {
       sums.momentum[a] += mass * particles.velocity(p, a);
@@ -68,7 +71,7 @@ BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation) {
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real) \
-  template BodySums<Dim, Real> sum_over_body<Dim, Real>(const Simulation<Dim, Real>&);
+  template BodySums<Dim, Real> sum_over_body<Dim, Real>(const Simulation<Dim, Real>&, const std::vector<std::uint8_t>*);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

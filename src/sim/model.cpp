@@ -5,7 +5,9 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/profile_csv.hpp"
+#include "terrain/height_field.hpp"
 #include "terrain/layer_thickness.hpp"
+#include "terrain/profile_surface.hpp"
 
 namespace thawslide::sim {
 
@@ -201,24 +203,21 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   return band;
 }
 
+// The ground as a line over x, relative to the domain's lower corner; nothing where it is none.
 template <int Dim>
-std::optional<terrain::Ground<Dim>> make_ground(const config::Case& parameters, const Vector<double, Dim>& origin) {
+std::optional<terrain::Polyline> make_profile(const config::Case& parameters, const Vector<double, Dim>& origin) {
   const config::Terrain& terrain = parameters.terrain;
   const double base = origin[Dim - 1];
-  const auto with_line = [&](terrain::Polyline line) {
-    return terrain.form == config::TerrainForm::rigid_points
-               ? terrain::Ground<Dim>(std::move(line), 0.5 * parameters.grid.cell, terrain.layers)
-               : terrain::Ground<Dim>(std::move(line));
-  };
   switch (terrain.kind) {
     case config::TerrainKind::none:
+    case config::TerrainKind::dem:
       return std::nullopt;
     case config::TerrainKind::flat:
     case config::TerrainKind::plane: {
       // Two points a kilometre apart; the line goes on with its gradient.
       const double fall = terrain.kind == config::TerrainKind::plane ? std::tan(radians(terrain.slope)) : 0.0;
       const double left = terrain.elevation - fall * origin[0] - base;
-      return with_line(terrain::Polyline({0.0, 1000.0}, {left, left - fall * 1000.0}));
+      return terrain::Polyline({0.0, 1000.0}, {left, left - fall * 1000.0});
     }
     case config::TerrainKind::profile:
       break;
@@ -230,13 +229,63 @@ std::optional<terrain::Ground<Dim>> make_ground(const config::Case& parameters, 
     x[k] -= origin[0];
     height[k] -= base;
   }
-  return with_line(terrain::Polyline(std::move(x), std::move(height)));
+  return terrain::Polyline(std::move(x), std::move(height));
+}
+
+template <int Dim>
+std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& parameters, const config::Site& site,
+                                                         const Vector<double, Dim>& origin,
+                                                         const std::optional<terrain::Polyline>& profile) {
+  if constexpr (Dim == 3) {
+    if (parameters.terrain.kind == config::TerrainKind::dem) {
+      THAWSLIDE_ASSERT(site.ground != nullptr, "{}: no raster was read from {}", parameters.name,
+                       parameters.terrain.file);
+      return std::make_shared<terrain::HeightField>(*site.ground, origin);
+    }
+  }
+  if (!profile) {
+    return nullptr;
+  }
+  if (parameters.terrain.form == config::TerrainForm::rigid_points) {
+    return std::make_shared<terrain::ProfileSurface<Dim>>(*profile, 0.5 * parameters.grid.cell,
+                                                          parameters.terrain.layers);
+  }
+  return std::make_shared<terrain::ProfileSurface<Dim>>(*profile);
+}
+
+// The thickness of the cells that make up the band, where it follows the ground; and its largest value where bodies
+// start.
+template <int Dim, class Real>
+void set_layer_thickness(const config::Case& parameters, const config::Site& site, Model<Dim, Real>& model) {
+  using Layer = terrain::LayerThickness<Dim>;
+  using Place = typename Layer::Place;
+  model.largest_layer = static_cast<Real>(parameters.grid.cell);
+  if (!model.ground || parameters.band.cut_cells != config::CutCells::equal_thickness) {
+    return;
+  }
+  const config::Body& body = parameters.bodies.begin()->second;
+  const double spacing = parameters.grid.cell / body.particles_per_axis;
+  const auto filling = body.shape == config::BodyShape::release ? Layer::Filling::on_ground : Layer::Filling::lattice;
+  const auto layer = std::make_shared<Layer>(model.ground, parameters.grid.cell, spacing, filling);
+  Place from = Place::Zero(), to = Place::Zero();
+  to[0] = static_cast<double>(model.constraints.extent[0]);
+  if constexpr (Dim == 3) {
+    if (!site.releases.empty()) {
+      const Raster& release = site.releases.begin()->second.thickness;
+      from = Place(release.x, release.y) - model.origin.template head<2>();
+      to = Place(release.x_end(), release.y_end()) - model.origin.template head<2>();
+    }
+  }
+  model.largest_layer = static_cast<Real>(layer->largest(from, to));
+  model.layer_thickness = [layer](const Vector<Real, Dim - 1>& place) {
+    return static_cast<Real>(layer->at(place.template cast<double>()));
+  };
 }
 
 }  // namespace
 
 template <int Dim, class Real>
-Model<Dim, Real> make_model(const config::Case& parameters) {
+Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& site) {
   Model<Dim, Real> model;
   for (std::size_t a = 0; a < Dim; ++a) {
     model.origin[static_cast<int>(a)] = parameters.grid.min[a];
@@ -263,19 +312,14 @@ Model<Dim, Real> make_model(const config::Case& parameters) {
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
   model.contact.distance_check = parameters.basal.distance_check;
   model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
-  model.ground = make_ground<Dim>(parameters, model.origin);
-  model.largest_layer = static_cast<Real>(parameters.grid.cell);
-  if (model.ground && parameters.band.cut_cells == config::CutCells::equal_thickness) {
-    const double spacing = parameters.grid.cell / parameters.bodies.begin()->second.particles_per_axis;
-    const terrain::LayerThickness layer(*model.ground, parameters.grid.cell, spacing,
-                                        static_cast<double>(model.constraints.extent[0]));
-    model.largest_layer = static_cast<Real>(layer.largest());
-    model.layer_thickness = [layer](Real x) { return static_cast<Real>(layer.at(static_cast<double>(x))); };
-  }
+  model.profile = make_profile<Dim>(parameters, model.origin);
+  model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile);
+  set_layer_thickness(parameters, site, model);
   return model;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template Model<Dim, Real> make_model<Dim, Real>(const config::Case&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real) \
+  template Model<Dim, Real> make_model<Dim, Real>(const config::Case&, const config::Site&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

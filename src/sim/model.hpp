@@ -2,15 +2,18 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "band/model.hpp"
 #include "config/case.hpp"
+#include "config/site.hpp"
 #include "mpm/constraints.hpp"
 #include "mpm/motion.hpp"
 #include "terrain/contact.hpp"
-#include "terrain/ground.hpp"
+#include "terrain/polyline.hpp"
+#include "terrain/surface.hpp"
 
 namespace thawslide::sim {
 
@@ -21,14 +24,17 @@ struct Model {
   mpm::Constraints<Dim, Real> constraints;
   terrain::ContactModel<Dim, Real> contact;
   band::BandModel<Dim, Real> band;
-  std::optional<terrain::Ground<Dim>> ground;
-  // Of the cells that make up the band, over x, both in [m]; empty: one cell. The largest counts for the step.
-  std::function<Real(Real)> layer_thickness;
+  std::shared_ptr<const terrain::Surface<Dim>> ground;  // null: none
+  std::optional<terrain::Polyline> profile;             // the ground, where it is a line over x
+  // Of the cells that make up the band, over horizontal places, both in [m]; empty: one cell. The largest counts for
+  // the step.
+  std::function<Real(const Vector<Real, Dim - 1>&)> layer_thickness;
   Real largest_layer = 0;
   std::vector<std::string> body_names, material_names;  // by number
 };
 
+// site: what the map files of the case hold; needed where the terrain is a DEM.
 template <int Dim, class Real>
-Model<Dim, Real> make_model(const config::Case& parameters);
+Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& site = {});
 
 }  // namespace thawslide::sim

@@ -39,6 +39,7 @@ void Simulation<Dim, Real>::step(double dt) {
   time_ =
       fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
   last_step_ = dt;
+  handle_left_particles();
   stop_if_bad();
 }
 
@@ -74,7 +75,7 @@ void Simulation<Dim, Real>::resolve_contact() {
   ledger_.contact_loss += contact_.loss;
   ledger_.frame_work += contact_.frame_work;
   ledger_.damping += contact_.damping;
-  ledger_.gravity_impulse += dt_ * ledger_.initial_mass * model_.motion.gravity;
+  ledger_.gravity_impulse += dt_ * (ledger_.initial_mass - ledger_.left_mass) * model_.motion.gravity;
   ledger_.ground_impulse -= dt_ * contact_.force;
   ledger_.constraint_impulse += contact_.constraint_impulse;
   if (model_.ground) {
@@ -132,7 +133,11 @@ void Simulation<Dim, Real>::drain_pore_pressure() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::take_new_positions() {
   if (parameters_.mechanics.enabled) {
-    mpm::take_new_positions(particles_, model_.constraints.extent, bad_);
+    // Those that are to be removed may be on their way out of the domain until the end of the step.
+    const Real margin = parameters_.grid.leaving == config::Leaving::remove ? grid_.cell() : Real(0);
+    const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
+    mpm::take_new_positions(particles_, Vector<Real, Dim>(-beyond),
+                            Vector<Real, Dim>(model_.constraints.extent + beyond), bad_);
     return;
   }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
@@ -143,9 +148,10 @@ void Simulation<Dim, Real>::take_new_positions() {
 }
 
 template <int Dim, class Real>
-Simulation<Dim, Real>::Simulation(const config::Case& parameters)
+Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::Site& site)
     : parameters_(parameters),
-      model_(make_model<Dim, Real>(parameters)),
+      site_(site),
+      model_(make_model<Dim, Real>(parameters, site)),
       grid_(static_cast<Real>(parameters.grid.cell)) {
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
@@ -223,7 +229,7 @@ void Simulation<Dim, Real>::seed() {
   particles_.viscous_stress.keep(model_.motion.viscous());
   particles_.gap.keep(
       std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.gaps_close_first; }));
-  fill_bodies(parameters_, model_, particles_);
+  fill_bodies(parameters_, site_, model_, particles_);
   band::set_heat_content(model_.band, particles_);
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
 }
@@ -244,9 +250,11 @@ void Simulation<Dim, Real>::mark_band() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_columns() {
-  std::function<Real(Real)> cosine;
+  typename band::FlowDepth<Dim, Real>::SlopeCosine cosine;
   if (model_.ground) {
-    cosine = [this](Real x) { return static_cast<Real>(model_.ground->slope_cosine(static_cast<double>(x))); };
+    cosine = [this](const Vector<Real, Dim - 1>& place) {
+      return static_cast<Real>(model_.ground->slope_cosine(place.template cast<double>(), parameters_.grid.cell));
+    };
   }
   flow_depth_.update(grid_, model_.band, cosine, particles_);
 }

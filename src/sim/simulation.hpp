@@ -20,8 +20,9 @@ namespace thawslide::sim {
 template <int Dim, class Real>
 class Simulation {
  public:
-  // Particles at t = 0, not yet settled. Throws UserError for a fixed step above a limit.
-  explicit Simulation(const config::Case& parameters);
+  // Particles at t = 0, not yet settled. site: what the map files of the case hold, needed where the terrain is a DEM.
+  // Throws UserError for a fixed step above a limit.
+  explicit Simulation(const config::Case& parameters, const config::Site& site = {});
 
   // Whether the case asks for gravity to be switched on before t = 0, with damping and on a base that holds.
   [[nodiscard]] bool needs_settling() const;
@@ -36,6 +37,7 @@ class Simulation {
   [[nodiscard]] double next_step(double until) const;
 
   [[nodiscard]] const config::Case& parameters() const { return parameters_; }
+  [[nodiscard]] const config::Site& site() const { return site_; }
   [[nodiscard]] const Model<Dim, Real>& model() const { return model_; }
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] double last_step() const { return last_step_; }
@@ -72,6 +74,7 @@ class Simulation {
   void conduct_heat();
   void drain_pore_pressure();
   void take_new_positions();
+  void handle_left_particles();
 
   void seed();
   // Everything that follows from positions and stress at t = 0.
@@ -84,6 +87,7 @@ class Simulation {
   [[nodiscard]] double band_thickness() const;
 
   config::Case parameters_;
+  config::Site site_;
   Model<Dim, Real> model_;
   mpm::Particles<Dim, Real> particles_;
   mpm::SparseGrid<Dim, Real> grid_;
@@ -95,6 +99,7 @@ class Simulation {
   terrain::ContactWork<Dim, Real> contact_;
   Ledger<Dim, Real> ledger_;
   mpm::BadParticle bad_;
+  std::vector<std::uint8_t> left_;  // by particle, while those that have left are removed
   Stopwatch stopwatch_;
   double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, thickness_in_force_ = -1.0;
   std::int64_t step_number_ = 0;
@@ -110,7 +115,9 @@ struct BodySums {
   Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();
 };
 
+// Over all particles, or over the marked ones.
 template <int Dim, class Real>
-BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation);
+BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation,
+                                  const std::vector<std::uint8_t>* marked = nullptr);
 
 }  // namespace thawslide::sim

@@ -1,4 +1,4 @@
-// The ground at the nodes of the active blocks: computed when a block is first seen, remembered afterwards.
+// The ground at the nodes of the active blocks: computed when a block is first seen, kept while the slide is about.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "base/key_index.hpp"
 #include "mpm/nodes.hpp"
-#include "terrain/ground.hpp"
+#include "terrain/surface.hpp"
 
 namespace thawslide::terrain {
 
@@ -18,24 +18,23 @@ class GroundOnGrid {
  public:
   using Block = std::array<GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)>;
 
-  // Brings blocks and tiles up to date; to be called after the grid's blocks changed.
-  void update(const Ground<Dim>& ground, const mpm::SparseGrid<Dim, Real>& grid) {
+  // Brings blocks and tiles up to date; to be called after the grid's blocks changed. What blocks know is kept for a
+  // while after the slide has left them.
+  void update(const Surface<Dim>& surface, const mpm::SparseGrid<Dim, Real>& grid) {
+    forget_left_blocks(grid);
     number_.resize(grid.blocks().size());
+    const std::size_t known_before = blocks_.size();
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-      const std::size_t known = index_.size();
       number_[b] = index_.insert(grid.blocks()[b]);
-      if (index_.size() == known) {
-        continue;
+      if (index_.size() > keys_.size()) {
+        keys_.push_back(grid.blocks()[b]);
       }
-      Block block;
-      bool any = false;
-      for (std::size_t k = 0; k < block.size(); ++k) {
-        block[k] = ground.at_node(mpm::node_position(grid, b, k), grid.cell());
-        any = any || block[k].candidate;
-      }
-      blocks_.push_back(block);
-      any_candidate_.push_back(any ? 1 : 0);
     }
+    blocks_.resize(keys_.size());
+    any_candidate_.resize(keys_.size());
+    partly_unknown_.resize(keys_.size());
+    parallel_for(keys_.size() - known_before,
+                 [&](std::size_t k) { learn(surface, static_cast<double>(grid.cell()), known_before + k); });
     near_.resize(grid.tiles().size());
     any_near_.resize(grid.tiles().size());
     parallel_for(grid.tiles().size(), [&](std::size_t t) { find_near(grid, t); });
@@ -62,10 +61,69 @@ class GroundOnGrid {
   [[nodiscard]] bool any_candidate(std::size_t b) const {
     return any_candidate_[static_cast<std::size_t>(number_[b])] != 0;
   }
+  // Whether the ground below active block b, and a cell about it, is not known everywhere.
+  [[nodiscard]] bool partly_unknown(std::size_t b) const {
+    return partly_unknown_[static_cast<std::size_t>(number_[b])] != 0;
+  }
+  // Blocks held, those the slide has left included.
+  [[nodiscard]] std::size_t held() const { return blocks_.size(); }
 
  private:
   // By place in a tile's patch: whether a candidate is among the 3^Dim nodes from there on.
   using Near = std::array<std::uint8_t, static_cast<std::size_t>(T::patch_nodes)>;
+
+  // Starts anew with the active blocks when most of those held are no longer active.
+  void forget_left_blocks(const mpm::SparseGrid<Dim, Real>& grid) {
+    constexpr std::size_t held_per_active = 3;
+    if (blocks_.size() <= held_per_active * grid.blocks().size()) {
+      return;
+    }
+    KeyIndex index;
+    std::vector<std::uint64_t> keys;
+    std::vector<Block> blocks;
+    std::vector<std::uint8_t> any_candidate, partly_unknown;
+    for (const std::uint64_t key : grid.blocks()) {
+      const std::int32_t former = index_.find(key);
+      if (former != KeyIndex::absent) {
+        const auto k = static_cast<std::size_t>(former);
+        index.insert(key);
+        keys.push_back(key);
+        blocks.push_back(blocks_[k]);
+        any_candidate.push_back(any_candidate_[k]);
+        partly_unknown.push_back(partly_unknown_[k]);
+      }
+    }
+    index_ = std::move(index);
+    keys_ = std::move(keys);
+    blocks_ = std::move(blocks);
+    any_candidate_ = std::move(any_candidate);
+    partly_unknown_ = std::move(partly_unknown);
+  }
+
+  void learn(const Surface<Dim>& surface, double cell, std::size_t k) {
+    std::array<GroundAtNode<Dim, double>, static_cast<std::size_t>(T::nodes)> nodes;
+    typename T::Index first = T::index(keys_[k]);
+    typename Surface<Dim>::Place from, to;
+    for (int a = 0; a < Dim; ++a) {
+      first[static_cast<std::size_t>(a)] *= T::edge;
+      if (a + 1 < Dim) {
+        from[a] = static_cast<double>(first[static_cast<std::size_t>(a)] - 1) * cell;
+        to[a] = static_cast<double>(first[static_cast<std::size_t>(a)] + T::edge) * cell;
+      }
+    }
+    surface.at_block(first, cell, T::edge, nodes.data());
+    any_candidate_[k] = 0;
+    partly_unknown_[k] = surface.is_known(from, to) ? 0 : 1;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      GroundAtNode<Dim, Real>& known = blocks_[k][n];
+      known.candidate = nodes[n].candidate;
+      known.normal = nodes[n].normal.template cast<Real>();
+      known.area = static_cast<Real>(nodes[n].area);
+      known.space = static_cast<Real>(nodes[n].space);
+      known.distance = static_cast<Real>(nodes[n].distance);
+      any_candidate_[k] |= known.candidate ? 1 : 0;
+    }
+  }
 
   void find_near(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) {
     near_[t].fill(0);
@@ -103,9 +161,10 @@ class GroundOnGrid {
     return node;
   }
 
-  KeyIndex index_;  // block key -> place in blocks_
+  KeyIndex index_;  // block key -> place in keys_, blocks_ and the marks
+  std::vector<std::uint64_t> keys_;
   std::vector<Block> blocks_;
-  std::vector<std::uint8_t> any_candidate_;
+  std::vector<std::uint8_t> any_candidate_, partly_unknown_;
   std::vector<std::int32_t> number_;  // active block -> place in blocks_
   std::vector<Near> near_;            // by tile
   std::vector<std::uint8_t> any_near_;

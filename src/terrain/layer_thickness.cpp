@@ -10,60 +10,148 @@ namespace {
 constexpr int reach = 4;  // columns on each side that count
 constexpr double round_off = 1e-9;
 
-// Of one column of cells: what particles fill of its band cells [m2], length of ground [m].
-struct Column {
-  double filled, length;
-};
-
-Column column_at(const Polyline& line, long number, double cell, double spacing) {
-  const double left = static_cast<double>(number) * cell;
-  // The corners of the column's cells are candidates if their hats, one cell wide on each side, overlap the ground.
-  const double highest = line.highest(left - cell, left + 2.0 * cell);
-  const double highest_corner = std::ceil(highest / cell + 1.0 - round_off) - 1.0;
-  const double top = (highest_corner + 1.0) * cell;
-  Column column{0.0, 0.0};
-  const long rows = std::lround(cell / spacing);
-  for (long k = 0; k < rows; ++k) {
-    const double x = left + (static_cast<double>(k) + 0.5) * spacing;
-    const double bottom = std::ceil(line.height(x) / spacing - 0.5 - round_off) * spacing;  // of the lowest particle
-    column.filled += (top - bottom) * spacing;
-    column.length += std::hypot(1.0, line.gradient(x)) * spacing;
+template <class Number>
+std::uint64_t key_of(const Number& number) {
+  constexpr long origin = 1L << 31;  // so that columns before the domain have a key too
+  std::uint64_t key = 0;
+  for (std::size_t a = 0; a < number.size(); ++a) {
+    key |= static_cast<std::uint64_t>(number[a] + origin) << (32 * a);
   }
-  return column;
+  return key;
+}
+
+// Calls visit(offsets) with first .. last along each axis, the first axis fastest.
+template <std::size_t Axes, class Visit>
+void for_offsets(long first, long last, const Visit& visit) {
+  std::array<long, Axes> offset;
+  offset.fill(first);
+  while (true) {
+    visit(offset);
+    std::size_t a = 0;
+    while (a < Axes && ++offset[a] > last) {
+      offset[a++] = first;
+    }
+    if (a == Axes) {
+      return;
+    }
+  }
 }
 
 }  // namespace
 
 template <int Dim>
-LayerThickness::LayerThickness(const Ground<Dim>& ground, double cell, double spacing, double extent) : cell_(cell) {
-  const long count = static_cast<long>(std::ceil(extent / cell)) + 2;  // one before and one behind the domain
-  std::vector<Column> columns;
-  for (long k = -1 - reach; k < count - 1 + reach; ++k) {
-    columns.push_back(column_at(ground.line(), k, cell, spacing));
+LayerThickness<Dim>::LayerThickness(std::shared_ptr<const Surface<Dim>> ground, double cell, double spacing,
+                                    Filling filling)
+    : ground_(std::move(ground)), cell_(cell), spacing_(spacing), filling_(filling) {}
+
+template <int Dim>
+typename LayerThickness<Dim>::Column LayerThickness<Dim>::make_column(const Number& number) const {
+  Place corner;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    corner[a] = static_cast<double>(number[static_cast<std::size_t>(a)]) * cell_;
   }
-  for (long k = 0; k < count; ++k) {
-    double filled = 0.0, length = 0.0;
-    for (int d = -reach; d <= reach; ++d) {
-      const double weight = reach + 1 - std::abs(d);
-      const Column& column = columns[static_cast<std::size_t>(k + reach + d)];
-      filled += weight * column.filled;
-      length += weight * column.length;
+  // The corners of the column's cells are candidates if their linear shape functions, one cell wide on each side,
+  // overlap the ground.
+  const double highest = ground_->highest(corner - Place::Constant(cell_), corner + Place::Constant(2.0 * cell_));
+  const double highest_corner = std::ceil(highest / cell_ + 1.0 - round_off) - 1.0;
+  const double top = (highest_corner + 1.0) * cell_;
+  const double footprint = std::pow(spacing_, Dim - 1);
+  Column column{0.0, 0.0};
+  for_offsets<Dim - 1>(0, std::lround(cell_ / spacing_) - 1, [&](const Number& part) {
+    Place place = corner;
+    for (int a = 0; a + 1 < Dim; ++a) {
+      place[a] += (static_cast<double>(part[static_cast<std::size_t>(a)]) + 0.5) * spacing_;
     }
-    at_middle_.push_back(filled / length);
+    const double height = ground_->height(place);
+    const double bottom = filling_ == Filling::on_ground
+                              ? height
+                              : std::ceil(height / spacing_ - 0.5 - round_off) * spacing_;  // of the lowest particle
+    column.filled += (top - bottom) * footprint;
+    column.ground += std::hypot(1.0, ground_->gradient(place, spacing_).norm()) * footprint;
+  });
+  return column;
+}
+
+template <int Dim>
+typename LayerThickness<Dim>::Column LayerThickness<Dim>::column(const Number& number) {
+  const auto k = static_cast<std::size_t>(column_index_.insert(key_of(number)));
+  if (k == columns_.size()) {
+    columns_.push_back(make_column(number));
+  }
+  return columns_[k];
+}
+
+template <int Dim>
+double LayerThickness<Dim>::at_middle(const Number& number) {
+  const auto k = static_cast<std::size_t>(middle_index_.insert(key_of(number)));
+  if (k == at_middle_.size()) {
+    double filled = 0.0, ground = 0.0;
+    for_offsets<Dim - 1>(-reach, reach, [&](const Number& offset) {
+      double weight = 1.0;
+      Number beside = number;
+      for (std::size_t a = 0; a + 1 < Dim; ++a) {
+        weight *= static_cast<double>(reach + 1 - std::abs(offset[a]));
+        beside[a] += offset[a];
+      }
+      const Column there = column(beside);
+      filled += weight * there.filled;
+      ground += weight * there.ground;
+    });
+    at_middle_.push_back(filled / ground);
+  }
+  return at_middle_[k];
+}
+
+template <int Dim>
+double LayerThickness<Dim>::at(const Place& place) {
+  Number left;
+  Place share;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    const double in_columns = place[a] / cell_ + 0.5;  // 1 in the middle of column 0
+    left[static_cast<std::size_t>(a)] = static_cast<long>(std::floor(in_columns)) - 1;
+    share[a] = in_columns - std::floor(in_columns);
+  }
+  // Linear between the middles of the columns, along one axis after the other.
+  const auto along_x = [&](const Number& first) {
+    Number next = first;
+    ++next[0];
+    const double here = at_middle(first);
+    return here + share[0] * (at_middle(next) - here);
+  };
+  if constexpr (Dim == 2) {
+    return along_x(left);
+  } else {
+    Number above = left;
+    ++above[1];
+    const double here = along_x(left);
+    return here + share[1] * (along_x(above) - here);
   }
 }
 
-double LayerThickness::at(double x) const {
-  const double in_columns = x / cell_ + 0.5;  // 0 in the middle of the first column
-  const double last = static_cast<double>(at_middle_.size()) - 2.0;
-  const double left = std::clamp(std::floor(in_columns), 0.0, last);
-  const auto k = static_cast<std::size_t>(left);
-  return at_middle_[k] + (in_columns - left) * (at_middle_[k + 1] - at_middle_[k]);
+template <int Dim>
+double LayerThickness<Dim>::largest(const Place& from, const Place& to) {
+  Number first, count;
+  long total = 1;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    first[k] = static_cast<long>(std::floor(from[a] / cell_)) - 1;
+    count[k] = static_cast<long>(std::ceil(to[a] / cell_)) + 1 - first[k];
+    total *= count[k];
+  }
+  double largest = 0.0;
+  for (long k = 0; k < total; ++k) {
+    Number number = first;
+    long rest = k;
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      number[a] += rest % count[a];
+      rest /= count[a];
+    }
+    largest = std::max(largest, at_middle(number));
+  }
+  return largest;
 }
 
-double LayerThickness::largest() const { return *std::max_element(at_middle_.begin(), at_middle_.end()); }
-
-template LayerThickness::LayerThickness(const Ground<2>&, double, double, double);
-template LayerThickness::LayerThickness(const Ground<3>&, double, double, double);
+template class LayerThickness<2>;
+template class LayerThickness<3>;
 
 }  // namespace thawslide::terrain

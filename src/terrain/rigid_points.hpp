@@ -2,7 +2,7 @@
 // from a signed distance. Nairn (2013) gives the contact area; the ground's surface is then known to within a cell.
 #pragma once
 
-#include "terrain/ground.hpp"
+#include "terrain/polyline.hpp"
 
 namespace thawslide::terrain {
 

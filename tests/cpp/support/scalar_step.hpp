@@ -277,8 +277,11 @@ class ScalarStep {
       return Carried<Dim>{{0.0, space, flowing ? space * levelled(p, around.value) : 0.0},
                           {flowing ? Place(-flow * around.gradient) : Place(Place::Zero())}};
     });
-    const ScalarColumns<Dim> columns(points_, 1.0 / transfer_.inverse_cell,
-                                     [&](double x) { return simulation_.model().ground->slope_cosine(x); });
+    const ScalarColumns<Dim> columns(points_, 1.0 / transfer_.inverse_cell, [&](double x) {
+      Vector<double, Dim - 1> place = Vector<double, Dim - 1>::Zero();
+      place[0] = x;
+      return simulation_.model().ground->slope_cosine(place, 0.0);
+    });
     for (Point<Dim>& p : points_) {
       p.flow_depth = columns.flow_depth(p);
       const double ice = physics::ice_pressure(phases(), band.gravity, p.flow_depth);

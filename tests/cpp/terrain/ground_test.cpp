@@ -1,5 +1,5 @@
 // The ground as nodes see it: heights, distances, normals, and the shares of its surface and of the space above it.
-#include "terrain/ground.hpp"
+#include "terrain/profile_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +86,7 @@ TEST(HatShare, OnAGridLineIsTheCellsFace) {
 
 TEST(RigidPoints, AlongAGridLineAreTheSignedDistance) {
   const Polyline line({0.0, 100.0}, {4.0, 4.0});
-  const Ground<2> smooth(line), points(line, 1.0, 2);
+  const ProfileSurface<2> smooth(line), points(line, 1.0, 2);
   for (const double z : {4.0, 6.0}) {
     const auto known = smooth.at_node(Vector<double, 2>(10.0, z), 2.0);
     const auto seen = points.at_node(Vector<double, 2>(10.0, z), 2.0);
@@ -102,7 +102,7 @@ TEST(RigidPoints, AlongAGridLineAreTheSignedDistance) {
 TEST(RigidPoints, OnASlopeAreNearIt) {
   const double slope = std::tan(0.5);
   const Polyline line({0.0, 400.0}, {200.0, 200.0 - 400.0 * slope});
-  const Ground<2> points(line, 1.0, 20);
+  const ProfileSurface<2> points(line, 1.0, 20);
   const double h = 2.0;
   double area = 0.0;
   for (int i = 20; i < 120; ++i) {

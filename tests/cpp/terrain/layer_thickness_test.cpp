@@ -4,23 +4,30 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+
+#include "terrain/profile_surface.hpp"
 
 namespace thawslide::terrain {
 namespace {
 
 // A plane that rises with the given gradient from `left` at x = 0.
-Ground<2> plane(double gradient, double left) {
-  return Ground<2>(Polyline({0.0, 1000.0}, {left, left + 1000.0 * gradient}));
+std::shared_ptr<const Surface<2>> plane(double gradient, double left) {
+  return std::make_shared<ProfileSurface<2>>(Polyline({0.0, 1000.0}, {left, left + 1000.0 * gradient}));
 }
 
+using Layer = LayerThickness<2>;
+
+double at(Layer layer, double x) { return layer.at(Layer::Place(x)); }
+
 TEST(LayerThickness, OneCellOnLevelGroundAlongAGridLine) {
-  EXPECT_NEAR(LayerThickness(plane(0.0, 20.0), 10.0, 5.0, 500.0).at(123.0), 10.0, 1e-12);
+  EXPECT_NEAR(at(Layer(plane(0.0, 20.0), 10.0, 5.0, Layer::Filling::lattice), 123.0), 10.0, 1e-12);
 }
 
 TEST(LayerThickness, LevelGroundBelowAGridLineAddsThePartOfItsCell) {
-  EXPECT_NEAR(LayerThickness(plane(0.0, 17.0), 10.0, 0.5, 500.0).at(123.0), 13.0, 1e-12);
+  EXPECT_NEAR(at(Layer(plane(0.0, 17.0), 10.0, 0.5, Layer::Filling::lattice), 123.0), 13.0, 1e-12);
   // Particles 5 m apart: the one at 17.5 m is above the ground and reaches down to 15 m.
-  EXPECT_NEAR(LayerThickness(plane(0.0, 17.0), 10.0, 5.0, 500.0).at(123.0), 15.0, 1e-12);
+  EXPECT_NEAR(at(Layer(plane(0.0, 17.0), 10.0, 5.0, Layer::Filling::lattice), 123.0), 15.0, 1e-12);
 }
 
 // A corner is a candidate if it lies less than h (1 + t) above the ground, so that cells reach up to h (1 + t (1 + u) +
@@ -28,24 +35,24 @@ TEST(LayerThickness, LevelGroundBelowAGridLineAddsThePartOfItsCell) {
 TEST(LayerThickness, OfSlopesIsThatOfTheirCells) {
   for (const double degrees : {10.0, 20.0, 35.0}) {
     const double gradient = std::tan(degrees * 3.14159265358979 / 180.0);
-    const LayerThickness layer(plane(gradient, -1.0), 10.0, 5.0, 5000.0);
+    Layer layer(plane(gradient, -1.0), 10.0, 5.0, Layer::Filling::lattice);
     double mean = 0.0;
     for (int k = 0; k < 4000; ++k) {
-      mean += layer.at(500.0 + k) / 4000.0;
+      mean += layer.at(Layer::Place(500.0 + k)) / 4000.0;
     }
     EXPECT_NEAR(mean / (15.0 * (1.0 + gradient) / std::hypot(1.0, gradient)), 1.0, 0.01) << degrees;
   }
 }
 
 TEST(LayerThickness, IsTheSameAllAlongASlopeThatRepeatsWithTheGrid) {
-  const LayerThickness layer(plane(1.0, 3.7), 10.0, 5.0, 500.0);
+  Layer layer(plane(1.0, 3.7), 10.0, 5.0, Layer::Filling::lattice);
   // Ground 3.7 m above a corner: the highest candidate of a column stands 30 m above that, its cell ends at 40 m. The
   // ground is 6.2 and 11.2 m high under the two particles of a column, the lowest ones' centres at 7.5 and 12.5 m.
   const double vertical = 40.0 - (5.0 + 10.0) / 2.0;
   for (const double x : {0.0, 77.0, 123.0, 500.0}) {
-    EXPECT_NEAR(layer.at(x), vertical / std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(layer.at(Layer::Place(x)), vertical / std::sqrt(2.0), 1e-9);
   }
-  EXPECT_NEAR(layer.largest(), vertical / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(layer.largest(Layer::Place(0.0), Layer::Place(500.0)), vertical / std::sqrt(2.0), 1e-9);
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
-#include "terrain/ground.hpp"
+#include "terrain/polyline.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/instances.hpp"
-#include "terrain/rigid_points.hpp"
 
 namespace thawslide::terrain {
 
@@ -121,67 +119,5 @@ Polyline::HatShare Polyline::hat_share(double x, double z, double cell) const {
   }
   return share;
 }
-
-template <int Dim>
-void Ground<Dim>::learn_from_points(double x, double z, double cell, GroundAtNode<Dim, double>& node) const {
-  const RigidPoints::AtNode rock = RigidPoints(line_, spacing_, layers_).at_node(x, z, cell);
-  const double across = Dim == 2 ? 1.0 : cell;
-  const double slide = std::max(0.0, cell * cell - rock.volume);
-  node.candidate = rock.volume > 0.0;
-  node.normal[0] = rock.normal[0];
-  node.normal[Dim - 1] = rock.normal[1];
-  node.area = across * nairn_area(slide, rock.volume, cell);
-  node.space = across * slide;
-}
-
-template <int Dim>
-template <class Real>
-GroundAtNode<Dim, Real> Ground<Dim>::at_node(const Vector<Real, Dim>& position, Real cell) const {
-  constexpr double round_off = 1e-9;
-  const double x = static_cast<double>(position[0]);
-  const double z = static_cast<double>(position[Dim - 1]);
-  const double h = static_cast<double>(cell);
-  GroundAtNode<Dim, double> node;
-  node.normal.setZero();
-  if (spacing_ > 0.0) {
-    learn_from_points(x, z, h, node);
-  } else {
-    const Polyline::Nearest nearest = line_.nearest(x, z);
-    const Polyline::HatShare share = line_.hat_share(x, z, h);
-    const double across = Dim == 2 ? 1.0 : h;  // the hat's integral along y
-    node.candidate = line_.highest(x - h, x + h) > z - h + round_off * h;
-    node.normal[0] = nearest.normal[0];
-    node.normal[Dim - 1] = nearest.normal[1];
-    node.area = across * share.length;
-    node.space = across * share.above;
-  }
-  GroundAtNode<Dim, Real> known;
-  known.distance = static_cast<Real>(line_.nearest(x, z).distance);
-  known.candidate = node.candidate;
-  known.normal = node.normal.template cast<Real>();
-  known.area = static_cast<Real>(node.area);
-  known.space = static_cast<Real>(node.space);
-  return known;
-}
-
-template <int Dim>
-double Ground<Dim>::slope_cosine(double x) const {
-  return 1.0 / std::hypot(1.0, line_.gradient(x));
-}
-
-template <int Dim>
-Vector<double, Dim> Ground<Dim>::normal_below(double x) const {
-  Vector<double, Dim> normal = Vector<double, Dim>::Zero();
-  normal[0] = line_.gradient(x);
-  normal[Dim - 1] = -1.0;
-  return normal.normalized();
-}
-
-template class Ground<2>;
-template class Ground<3>;
-#define THAWSLIDE_INSTANTIATE(Dim, Real) \
-  template GroundAtNode<Dim, Real> Ground<Dim>::at_node(const Vector<Real, Dim>&, Real) const;
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::terrain

@@ -1,0 +1,102 @@
+#include "sim/release_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace thawslide::sim {
+
+double raster_at(const Raster& raster, double x, double y, double outside) {
+  const double across = (x - raster.x) / raster.cell_x, up = (y - raster.y) / raster.cell_y;
+  const double column = std::floor(across), row = std::floor(up);
+  const double share_x = across - column, share_y = up - row;
+  double value = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    const double weight = (k % 2 == 0 ? 1.0 - share_x : share_x) * (k / 2 == 0 ? 1.0 - share_y : share_y);
+    const double i = column + k % 2, j = row + k / 2;
+    const bool inside = i >= 0.0 && j >= 0.0 && i < raster.columns && j < raster.rows;
+    const double there = inside ? raster.at(static_cast<int>(i), static_cast<int>(j)) : outside;
+    value += weight > 0.0 ? weight * (std::isnan(there) ? outside : there) : 0.0;
+  }
+  return value;
+}
+
+double nearest_value(const Raster& raster, double x, double y) {
+  constexpr int reach = 2;  // points on each side
+  const int column = static_cast<int>(std::lround((x - raster.x) / raster.cell_x));
+  const int row = static_cast<int>(std::lround((y - raster.y) / raster.cell_y));
+  double value = std::nan(""), least = HUGE_VAL;
+  for (int j = std::max(0, row - reach); j <= std::min(raster.rows - 1, row + reach); ++j) {
+    for (int i = std::max(0, column - reach); i <= std::min(raster.columns - 1, column + reach); ++i) {
+      const double distance = std::hypot(raster.x_of(i) - x, raster.y_of(j) - y);
+      if (!std::isnan(raster.at(i, j)) && distance < least) {
+        least = distance;
+        value = raster.at(i, j);
+      }
+    }
+  }
+  if (std::isnan(value)) {
+    throw UserError(
+        fmt::format("a map of an initial field has no value at x = {:.6g} m, y = {:.6g} m, where the release is; give "
+                    "one that covers the whole release.",
+                    x, y));
+  }
+  return value;
+}
+
+double raster_volume(const Raster& thickness) {
+  double sum = 0.0;
+  for (const double value : thickness.values) {
+    sum += std::isnan(value) ? 0.0 : value;
+  }
+  return sum * thickness.cell_x * thickness.cell_y;
+}
+
+double ReleaseBody::bottom(double x, double y) const {
+  return ground_->height(Vector<double, 2>(x - origin_[0], y - origin_[1])) + origin_[2];
+}
+
+bool ReleaseBody::contains(const Vector<double, 3>& place) const {
+  const double thickness = raster_at(*thickness_, place[0], place[1], 0.0);
+  const double above = place[2] - bottom(place[0], place[1]);
+  return above > 0.0 && above < thickness;
+}
+
+// By the midpoint rule, finer than the raster's points.
+double ReleaseBody::mean_thickness(double x, double y, double width) const {
+  const double finest = std::min(thickness_->cell_x, thickness_->cell_y);
+  const int parts = 1 + 2 * static_cast<int>(std::ceil(width / finest));
+  double sum = 0.0;
+  for (int j = 0; j < parts; ++j) {
+    for (int i = 0; i < parts; ++i) {
+      sum += raster_at(*thickness_, x + width * ((i + 0.5) / parts - 0.5), y + width * ((j + 0.5) / parts - 0.5), 0.0);
+    }
+  }
+  return sum / (parts * parts);
+}
+
+void ReleaseBody::seed(const Vector<double, 3>& corner, double spacing, int body, std::vector<Seed<3>>& seeds) const {
+  const auto number = [&](double place, int axis) {
+    return static_cast<long>(std::floor((place - corner[axis]) / spacing));
+  };
+  const Raster& t = *thickness_;
+  const long first_column = number(t.x - t.cell_x, 0), last_column = number(t.x_end() + t.cell_x, 0);
+  const long first_row = number(t.y - t.cell_y, 1), last_row = number(t.y_end() + t.cell_y, 1);
+  for (long j = first_row; j <= last_row; ++j) {
+    for (long i = first_column; i <= last_column; ++i) {
+      const double x = corner[0] + (static_cast<double>(i) + 0.5) * spacing;
+      const double y = corner[1] + (static_cast<double>(j) + 0.5) * spacing;
+      const double thickness = mean_thickness(x, y, spacing);
+      const long count = std::lround(thickness / spacing);
+      const double low = count > 0 ? bottom(x, y) : 0.0;
+      for (long k = 0; k < count; ++k) {
+        const double height = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * thickness;
+        seeds.push_back({body, Vector<double, 3>(x, y, low + height), thickness - height,
+                         thickness / static_cast<double>(count) * spacing * spacing});
+      }
+    }
+  }
+}
+
+}  // namespace thawslide::sim

@@ -1,0 +1,44 @@
+// A polyline over x: flat ground, a plane or a profile. Coordinates are relative to the domain's lower corner [m].
+#pragma once
+
+#include <vector>
+
+#include "base/linear.hpp"
+
+namespace thawslide::terrain {
+
+// Beyond its ends the polyline goes on with the gradient of its last segments.
+class Polyline {
+ public:
+  // x strictly ascending [m], at least two points.
+  Polyline(std::vector<double> x, std::vector<double> height);
+
+  [[nodiscard]] double height(double x) const;
+  // dh/dx of the segment that holds x.
+  [[nodiscard]] double gradient(double x) const;
+  // Highest point over [from, to].
+  [[nodiscard]] double highest(double from, double to) const;
+
+  struct Nearest {
+    double distance;           // [m], positive above the ground
+    Vector<double, 2> normal;  // unit vector from above into the ground
+  };
+  [[nodiscard]] Nearest nearest(double x, double height) const;
+
+  // What the ground takes of a node's linear hat S of half-width `cell`, centred at (x, height): exact for a polyline.
+  struct HatShare {
+    double length;  // integral of S along the ground [m]
+    double above;   // integral of S over the space above the ground [m2]
+  };
+  [[nodiscard]] HatShare hat_share(double x, double height, double cell) const;
+
+  [[nodiscard]] const std::vector<double>& x() const { return x_; }
+  [[nodiscard]] const std::vector<double>& heights() const { return height_; }
+
+ private:
+  [[nodiscard]] std::size_t segment(double x) const;
+
+  std::vector<double> x_, height_;
+};
+
+}  // namespace thawslide::terrain

@@ -1,0 +1,70 @@
+#include "terrain/profile_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "terrain/rigid_points.hpp"
+
+namespace thawslide::terrain {
+
+template <int Dim>
+typename ProfileSurface<Dim>::Place ProfileSurface<Dim>::gradient(const Place& place, double /*width*/) const {
+  Place gradient = Place::Zero();
+  gradient[0] = line_.gradient(place[0]);
+  return gradient;
+}
+
+template <int Dim>
+void ProfileSurface<Dim>::learn_from_points(double x, double z, double cell, GroundAtNode<Dim, double>& node) const {
+  const RigidPoints::AtNode rock = RigidPoints(line_, spacing_, layers_).at_node(x, z, cell);
+  const double across = Dim == 2 ? 1.0 : cell;
+  const double slide = std::max(0.0, cell * cell - rock.volume);
+  node.candidate = rock.volume > 0.0;
+  node.normal[0] = rock.normal[0];
+  node.normal[Dim - 1] = rock.normal[1];
+  node.area = across * nairn_area(slide, rock.volume, cell);
+  node.space = across * slide;
+}
+
+template <int Dim>
+GroundAtNode<Dim, double> ProfileSurface<Dim>::at_node(const Vector<double, Dim>& position, double cell) const {
+  constexpr double round_off = 1e-9;
+  const double x = position[0], z = position[Dim - 1];
+  const Polyline::Nearest nearest = line_.nearest(x, z);
+  GroundAtNode<Dim, double> node;
+  node.normal.setZero();
+  node.distance = nearest.distance;
+  if (spacing_ > 0.0) {
+    learn_from_points(x, z, cell, node);
+    return node;
+  }
+  const Polyline::HatShare share = line_.hat_share(x, z, cell);
+  const double across = Dim == 2 ? 1.0 : cell;  // the shape function's integral along y
+  node.candidate = line_.highest(x - cell, x + cell) > z - cell + round_off * cell;
+  node.normal[0] = nearest.normal[0];
+  node.normal[Dim - 1] = nearest.normal[1];
+  node.area = across * share.length;
+  node.space = across * share.above;
+  return node;
+}
+
+template <int Dim>
+void ProfileSurface<Dim>::at_block(const NodeIndex& first, double cell, int edge,
+                                   GroundAtNode<Dim, double>* nodes) const {
+  int count = 1;
+  for (int a = 0; a < Dim; ++a) {
+    count *= edge;
+  }
+  for (int k = 0; k < count; ++k) {
+    Vector<double, Dim> position;
+    for (int a = 0, rest = k; a < Dim; ++a, rest /= edge) {
+      position[a] = static_cast<double>(first[static_cast<std::size_t>(a)] + rest % edge) * cell;
+    }
+    nodes[k] = at_node(position, cell);
+  }
+}
+
+template class ProfileSurface<2>;
+template class ProfileSurface<3>;
+
+}  // namespace thawslide::terrain

@@ -1,0 +1,39 @@
+// The ground as a polyline over x; in 3D it is extruded along y. Nodes learn of it from the line itself, or from rigid
+// points along it, as the paper has it.
+#pragma once
+
+#include "terrain/polyline.hpp"
+#include "terrain/surface.hpp"
+
+namespace thawslide::terrain {
+
+template <int Dim>
+class ProfileSurface final : public Surface<Dim> {
+ public:
+  using Place = typename Surface<Dim>::Place;
+  using NodeIndex = typename Surface<Dim>::NodeIndex;
+
+  explicit ProfileSurface(Polyline line) : line_(std::move(line)) {}
+  // Nodes learn of the ground from rigid points in `layers` layers, `spacing` [m] apart.
+  ProfileSurface(Polyline line, double spacing, int layers)
+      : line_(std::move(line)), spacing_(spacing), layers_(layers) {}
+
+  [[nodiscard]] double height(const Place& place) const override { return line_.height(place[0]); }
+  // Of the segment at the place, whatever the width.
+  [[nodiscard]] Place gradient(const Place& place, double width) const override;
+  [[nodiscard]] double highest(const Place& from, const Place& to) const override {
+    return line_.highest(from[0], to[0]);
+  }
+  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim, double>* nodes) const override;
+
+  [[nodiscard]] GroundAtNode<Dim, double> at_node(const Vector<double, Dim>& position, double cell) const;
+
+ private:
+  void learn_from_points(double x, double height, double cell, GroundAtNode<Dim, double>& node) const;
+
+  Polyline line_;
+  double spacing_ = 0;  // of the rigid points; 0: none, the line itself is the ground
+  int layers_ = 0;
+};
+
+}  // namespace thawslide::terrain
