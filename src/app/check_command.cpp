@@ -11,8 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/map_files.hpp"
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
+#include "app/setup_json.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/read_case.hpp"
@@ -27,65 +29,6 @@ namespace fs = std::filesystem;
 
 constexpr double trial_seconds = 0.5;  // of wall time, to measure the step
 constexpr int trial_steps = 200;
-
-template <int Dim>
-std::vector<double> place_in_section(const sim::Simulation<Dim, double>& simulation, std::size_t p) {
-  const auto& origin = simulation.model().origin;
-  return {simulation.particles().position(p, 0) + origin[0],
-          simulation.particles().position(p, Dim - 1) + origin[Dim - 1]};
-}
-
-// Terrain, grid, bodies, boundaries and frames as thawslide-report --setup reads them; sections along x in 3D.
-template <int Dim>
-Json setup(const sim::Simulation<Dim, double>& simulation) {
-  const config::Case& parameters = simulation.parameters();
-  const auto& model = simulation.model();
-  constexpr const char* kinds[] = {"open", "roller", "fixed"};
-  Json json;
-  json["title"] = parameters.general.title.empty() ? parameters.name : parameters.general.title;
-  json["cell"] = parameters.grid.cell;
-  json["min"] = {parameters.grid.min[0], parameters.grid.min[Dim - 1]};
-  json["max"] = {parameters.grid.max[0], parameters.grid.max[Dim - 1]};
-  const char* faces[] = {"x_min", "x_max", "y_min", "y_max"};
-  for (std::size_t f = 0; f < 4; ++f) {
-    const std::size_t face = f < 2 ? f : 2 * (Dim - 1) + f - 2;
-    json["boundary"][faces[f]] = kinds[static_cast<std::size_t>(parameters.grid.boundary[face])];
-  }
-  json["terrain"] = nullptr;
-  if (model.profile) {
-    constexpr int samples = 1000;
-    Json x = Json::array();
-    Json z = Json::array();
-    for (int k = 0; k <= samples; ++k) {
-      const double place = model.constraints.extent[0] * k / samples;
-      x.push_back(place + model.origin[0]);
-      z.push_back(model.profile->height(place) + model.origin[Dim - 1]);
-    }
-    json["terrain"] = {{"x", x}, {"z", z}};
-  }
-  for (std::size_t b = 0; b < model.body_names.size(); ++b) {
-    const auto& body = parameters.bodies.at(model.body_names[b]);
-    Json points = Json::array();
-    for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
-      if (simulation.particles().body(p) == static_cast<int>(b)) {
-        points.push_back(place_in_section(simulation, p));
-      }
-    }
-    json["bodies"].push_back({{"name", model.body_names[b]},
-                              {"material", body.material},
-                              {"points", points},
-                              {"spacing", parameters.grid.cell / body.particles_per_axis}});
-  }
-  json["frames"] = Json::array();
-  for (const auto& [name, frame] : parameters.frames) {
-    json["frames"].push_back({{"name", name},
-                              {"min", {frame.min[0], frame.min[Dim - 1]}},
-                              {"max", {frame.max[0], frame.max[Dim - 1]}},
-                              {"axis", frame.axis},
-                              {"velocity", frame.velocity}});
-  }
-  return json;
-}
 
 void draw(const Json& setup, const std::string& picture) {
   const fs::path file = fs::temp_directory_path() / fmt::format("thawslide-setup-{}.json", getpid());
@@ -133,8 +76,8 @@ int check_case(const CheckOptions& options) {
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    sim::Simulation<Dim, double> simulation(parameters);
-    const Json picture = options.picture.empty() ? Json() : setup<Dim>(simulation);
+    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
+    const Json picture = options.picture.empty() ? Json() : setup_json<Dim>(simulation);
     const auto limit = simulation.step_limit();
     const double dt = simulation.next_step(parameters.time.end);
     const double steps = std::ceil(parameters.time.end / dt * (1.0 - 1e-12));

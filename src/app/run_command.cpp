@@ -1,5 +1,6 @@
 // thawslide run, thawslide resume.
 #include "app/commands.hpp"
+#include "app/map_files.hpp"
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
 #include "base/error.hpp"
@@ -39,7 +40,7 @@ int run_case(const RunOptions& options) {
   const fs::path folder = options.output.empty() ? fs::path("runs") / parameters.name : fs::path(options.output);
   io::require_usable(folder, options.overwrite);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    sim::Simulation<Dim, double> simulation(parameters);
+    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
     io::make_run_folder(folder, options.overwrite);
     fmt::print("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
                parameters.general.title.empty() ? parameters.name : parameters.general.title,
@@ -61,7 +62,7 @@ int resume_run(const ResumeOptions& options) {
   }
   const config::Case parameters = config::read_case(folder);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    sim::Simulation<Dim, double> simulation(parameters);
+    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
     std::vector<double> scalars;
     io::read_checkpoint<Dim, double>(folder / "checkpoint.bin", simulation.particles(), scalars);
     simulation.restore(scalars);

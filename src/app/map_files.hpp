@@ -1,0 +1,13 @@
+// The map files of a case, where this build can read them.
+#pragma once
+
+#include "config/case.hpp"
+#include "config/site.hpp"
+
+namespace thawslide::app {
+
+// What the map files hold; nothing for a case without any. Prints what the reader of the case should know of them.
+// Throws UserError for a build without GDAL.
+config::Site read_map_files(const config::Case& parameters);
+
+}  // namespace thawslide::app

@@ -1,0 +1,136 @@
+#include "app/setup_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/release_body.hpp"
+
+namespace thawslide::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int largest_picture = 600;  // points of a raster along each axis
+
+// Every n-th point of a raster, with as few as `largest_picture` along each axis; null where there is no data.
+Json thinned(const Raster& raster) {
+  const int every = std::max(1, (std::max(raster.columns, raster.rows) + largest_picture - 1) / largest_picture);
+  Json values = Json::array();
+  int columns = 0, rows = 0;
+  for (int row = 0; row < raster.rows; row += every, ++rows) {
+    columns = 0;
+    for (int column = 0; column < raster.columns; column += every, ++columns) {
+      const double value = raster.at(column, row);
+      values.push_back(std::isnan(value) ? Json() : Json(value));
+    }
+  }
+  return {{"x0", raster.x},
+          {"y0", raster.y},
+          {"cell_x", raster.cell_x * every},
+          {"cell_y", raster.cell_y * every},
+          {"columns", columns},
+          {"rows", rows},
+          {"heights", values}};
+}
+
+Json map_json(const sim::Simulation<3, double>& simulation) {
+  const config::Case& parameters = simulation.parameters();
+  const config::Site& site = simulation.site();
+  Json json;
+  json["title"] = parameters.general.title.empty() ? parameters.name : parameters.general.title;
+  json["crs"] = site.crs_name;
+  json["cell"] = parameters.grid.cell;
+  json["min"] = {parameters.grid.min[0], parameters.grid.min[1]};
+  json["max"] = {parameters.grid.max[0], parameters.grid.max[1]};
+  json["terrain"] = thinned(*site.ground);
+  json["bodies"] = Json::array();
+  for (const auto& [name, body] : parameters.bodies) {
+    Json entry = {{"name", name}, {"material", body.material}};
+    const auto release = site.releases.find(name);
+    if (release != site.releases.end()) {
+      entry["outlines"] = release->second.outlines;
+      entry["volume_m3"] = sim::raster_volume(release->second.thickness);
+      entry["thickness"] = thinned(release->second.thickness);
+    }
+    json["bodies"].push_back(entry);
+  }
+  json["path"] = site.path;
+  json["probes"] = site.probes;
+  return json;
+}
+
+template <int Dim>
+std::vector<double> place_in_section(const sim::Simulation<Dim, double>& simulation, std::size_t p) {
+  const auto& origin = simulation.model().origin;
+  return {simulation.particles().position(p, 0) + origin[0],
+          simulation.particles().position(p, Dim - 1) + origin[Dim - 1]};
+}
+
+template <int Dim>
+Json section_json(const sim::Simulation<Dim, double>& simulation) {
+  const config::Case& parameters = simulation.parameters();
+  const auto& model = simulation.model();
+  constexpr const char* kinds[] = {"open", "roller", "fixed"};
+  Json json;
+  json["title"] = parameters.general.title.empty() ? parameters.name : parameters.general.title;
+  json["cell"] = parameters.grid.cell;
+  json["min"] = {parameters.grid.min[0], parameters.grid.min[Dim - 1]};
+  json["max"] = {parameters.grid.max[0], parameters.grid.max[Dim - 1]};
+  const char* faces[] = {"x_min", "x_max", "y_min", "y_max"};
+  for (std::size_t f = 0; f < 4; ++f) {
+    const std::size_t face = f < 2 ? f : 2 * (Dim - 1) + f - 2;
+    json["boundary"][faces[f]] = kinds[static_cast<std::size_t>(parameters.grid.boundary[face])];
+  }
+  json["terrain"] = nullptr;
+  if (model.profile) {
+    constexpr int samples = 1000;
+    Json x = Json::array();
+    Json z = Json::array();
+    for (int k = 0; k <= samples; ++k) {
+      const double place = model.constraints.extent[0] * k / samples;
+      x.push_back(place + model.origin[0]);
+      z.push_back(model.profile->height(place) + model.origin[Dim - 1]);
+    }
+    json["terrain"] = {{"x", x}, {"z", z}};
+  }
+  for (std::size_t b = 0; b < model.body_names.size(); ++b) {
+    const auto& body = parameters.bodies.at(model.body_names[b]);
+    Json points = Json::array();
+    for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+      if (simulation.particles().body(p) == static_cast<int>(b)) {
+        points.push_back(place_in_section(simulation, p));
+      }
+    }
+    json["bodies"].push_back({{"name", model.body_names[b]},
+                              {"material", body.material},
+                              {"points", points},
+                              {"spacing", parameters.grid.cell / body.particles_per_axis}});
+  }
+  json["frames"] = Json::array();
+  for (const auto& [name, frame] : parameters.frames) {
+    json["frames"].push_back({{"name", name},
+                              {"min", {frame.min[0], frame.min[Dim - 1]}},
+                              {"max", {frame.max[0], frame.max[Dim - 1]}},
+                              {"axis", frame.axis},
+                              {"velocity", frame.velocity}});
+  }
+  return json;
+}
+
+}  // namespace
+
+template <int Dim>
+nlohmann::ordered_json setup_json(const sim::Simulation<Dim, double>& simulation) {
+  if constexpr (Dim == 3) {
+    if (simulation.site().ground != nullptr) {
+      return map_json(simulation);
+    }
+  }
+  return section_json<Dim>(simulation);
+}
+
+template nlohmann::ordered_json setup_json<2>(const sim::Simulation<2, double>&);
+template nlohmann::ordered_json setup_json<3>(const sim::Simulation<3, double>&);
+
+}  // namespace thawslide::app
