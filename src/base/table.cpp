@@ -27,10 +27,14 @@ double InitialField::at(double depth, double x) const {
       return table.at(depth);
     case Over::x:
       return table.at(x);
-    case Over::nothing:
+    case Over::attribute:
+    case Over::raster:
       break;
+    case Over::nothing:
+      return table.at(0.0);
   }
-  return table.at(0.0);
+  THAWSLIDE_ASSERT(false, "the field of the map '{}' was asked for its value at a depth of {}", source, depth);
+  return 0.0;
 }
 
 }  // namespace thawslide

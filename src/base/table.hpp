@@ -31,8 +31,9 @@ struct InitialField {
 
   InitialField() = default;
   explicit InitialField(double constant) : table(constant) {}
+  [[nodiscard]] bool is_given() const { return is_map() || !table.value.empty(); }
   [[nodiscard]] bool is_map() const { return over == Over::attribute || over == Over::raster; }
-  [[nodiscard]] double at(double depth, double x) const;
+  [[nodiscard]] double at(double depth, double x) const;  // not of a map
 };
 
 }  // namespace thawslide

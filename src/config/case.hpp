@@ -1,5 +1,5 @@
 // The case: everything a run needs to know, typed, fully checked and never changed after it was read. Units are SI,
-// angles in degrees, temperatures in degrees Celsius. parameters.cpp declares each member once (key, unit, range,
+// angles in degrees, temperatures in degrees Celsius. parameters_*.cpp declare each member once (key, unit, range,
 // default).
 #pragma once
 
@@ -128,8 +128,10 @@ struct Body {
   int particles_per_axis = 2;                   // per cell and axis
   InitialField temperature{-10.0};
   InitialField porosity{0.375};
+  InitialField saturation;   // liquid, of the pores; if given, temperature follows from it by the freezing curve
+  InitialField ice_content;  // share of the volume; if given, porosity is ice_content / (1 - saturation)
   Point velocity{};
-  std::string release;                // polygons, or a raster of thickness; absolute once read
+  std::string release;                // file of polygons; absolute once read; empty: a raster gives the thickness
   std::vector<std::string> polygons;  // names of those of the file that make up the body; empty: all
   std::string name_attribute = "name";
   MapValue thickness;

@@ -223,6 +223,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_basal(checked, reading);
   check_switches(checked, reading);
   check_bodies(checked, checked_profile(checked, reading), reading);
+  check_maps(checked, reading);
 }
 
 }  // namespace thawslide::config

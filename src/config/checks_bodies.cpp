@@ -15,10 +15,11 @@ constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double hair = 1e-3;  // of a cell: how far a body may reach into the ground by rounding
 constexpr double flat = 1e-9;  // of the squared size of a polygon: an area that is rounding only
 
-// Elevation of the ground; -infinity where there is none.
+// Elevation of the ground; -infinity where there is none, and of a DEM, which is not read here.
 double ground_at(const Case& checked, const ProfileTable& profile, double x) {
   switch (checked.terrain.kind) {
     case TerrainKind::none:
+    case TerrainKind::dem:
       break;
     case TerrainKind::flat:
       return checked.terrain.elevation;
@@ -262,10 +263,14 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
   if (!reading.sound({table + ".shape", "grid.cell"})) {
     return;
   }
+  if (body.shape == BodyShape::release) {
+    return;
+  }
   if (body.shape != BodyShape::box && checked.general.dimension == 3) {
     reading.report_misfit(
         {table + ".shape", "case.dimension"},
-        fmt::format("{}.shape is for 2D cases; allowed in 3D: \"box\". Use the shape \"box\" with min and max.",
+        fmt::format("{}.shape is for 2D cases; allowed in 3D: \"box\", \"release\". Use the shape \"box\" with min and "
+                    "max, or on a DEM the shape \"release\".",
                     table));
   } else if (body.shape == BodyShape::box) {
     check_box(checked, profile, body, table, reading);

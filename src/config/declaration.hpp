@@ -22,6 +22,13 @@ struct Entry {
   std::string otherwise;     // what holds where the key is absent and there is no fixed default
   std::vector<Word> words;
   nlohmann::json schema;
+  std::string only;  // when the key has a meaning; empty: always
+};
+
+// When a key has a meaning, in words, and the key of the same table that decides it.
+struct Meaning {
+  std::string when;
+  std::string decided_by;
 };
 
 template <class Section>
@@ -63,6 +70,15 @@ class Parameter {
     return std::move(*this);
   }
 
+  // The key has a meaning only when the condition holds, which `when` says in words: given without it is a mistake, and
+  // the resolved case leaves it out. `decided_by` is the key of the same table that the condition asks most of.
+  Parameter only_if(std::string when, std::string decided_by,
+                    std::function<bool(const Case&, const Section&)> condition) && {
+    meaning = {std::move(when), std::move(decided_by)};
+    has_meaning = std::move(condition);
+    return std::move(*this);
+  }
+
   // The default as TOML, from the member's initialiser; empty where there is none.
   [[nodiscard]] std::string default_text() const {
     const bool has_default = required_words.empty() && otherwise_words.empty();
@@ -75,9 +91,11 @@ class Parameter {
   nlohmann::json schema;
   std::string required_words;
   std::string otherwise_words;
+  Meaning meaning;
   std::function<bool(const toml::node&, const ValueReader&, Section&)> read;
   std::function<std::string(const Section&, const Rule&, const WriteContext&)> write;
   std::function<bool(const Case&, const Section&)> is_required;
+  std::function<bool(const Case&, const Section&)> has_meaning;  // empty: always
   std::function<void(const Case&, Section&)> fill;
 };
 
@@ -120,9 +138,11 @@ using Tables = std::vector<std::unique_ptr<TableDeclaration>>;
 // Every table of the case file, [case] first.
 const Tables& tables();
 
-// The parts of tables(): parameters_run.cpp, parameters_material.cpp and parameters_model.cpp.
+// The parts of tables(): parameters_run.cpp, parameters_material.cpp, parameters_bodies.cpp and
+// parameters_model.cpp.
 void declare_run(Tables& tables);
 void declare_material(Tables& tables);
+void declare_bodies(Tables& tables);
 void declare_model(Tables& tables);
 
 }  // namespace thawslide::config

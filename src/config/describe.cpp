@@ -12,13 +12,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What holds where the key is absent.
-std::string absence(const Entry& entry) {
+// What holds where the key is absent, whenever it has a meaning.
+std::string absence_in_meaning(const Entry& entry) {
   if (entry.required.empty()) {
     return entry.otherwise.empty() ? entry.default_text : entry.otherwise;
   }
   const std::string required = entry.required == "always" ? "required" : "required " + entry.required;
   return entry.otherwise.empty() ? required : required + "; otherwise " + entry.otherwise;
+}
+
+// What holds where the key is absent, and when it has a meaning.
+std::string absence(const Entry& entry) {
+  const std::string text = absence_in_meaning(entry);
+  const bool is_told = entry.only.empty() || entry.only == entry.required;
+  return is_told ? text : fmt::format("{}{}only {}", text, text.empty() ? "" : "; ", entry.only);
 }
 
 std::string range_text(const Entry& entry) {
@@ -47,6 +54,7 @@ Json described(const Entry& entry) {
   json["default"] = entry.default_text.empty() ? Json(nullptr) : Json(entry.default_text);
   json["required"] = entry.required;
   json["otherwise"] = entry.otherwise;
+  json["only"] = entry.only;
   json["text"] = entry.rule->text;
   json["source"] = entry.rule->source;
   json["words"] = Json::array();

@@ -1,4 +1,4 @@
-// The parameters of matter and bodies: [phases], [freezing], [material.NAME], [body.NAME], [frame.NAME].
+// The parameters of matter: [phases], [freezing], [material.NAME].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -134,51 +134,6 @@ std::vector<Parameter<Material>> material_parameters() {
   };
 }
 
-std::vector<Parameter<Body>> body_parameters() {
-  const auto is_box = [](const Case&, const Body& body) { return body.shape == BodyShape::box; };
-  const auto is_polygon = [](const Case&, const Body& body) { return body.shape == BodyShape::polygon; };
-  const std::string when_box = "when the shape is \"box\"";
-  return {
-      parameter(&Body::material, {.key = "material", .text = "name of the material the body is made of"}).required(),
-      parameter(&Body::shape, {.key = "shape", .text = "how the place and form of the body are given"}),
-      parameter(&Body::min, {.key = "min", .unit = "m", .text = "lowest corner of the box"})
-          .required_if(when_box, is_box),
-      parameter(&Body::max, {.key = "max", .unit = "m", .text = "highest corner of the box"})
-          .required_if(when_box, is_box),
-      parameter(&Body::vertices,
-                {.key = "vertices", .unit = "m", .text = "corners of the polygon, in order", .dimension = 2})
-          .required_if("when the shape is \"polygon\"", is_polygon),
-      parameter(&Body::particles_per_axis, {.key = "particles_per_axis",
-                                            .range = between(1, 16),
-                                            .text = "particles per cell along each axis: 2 gives 4 per cell in 2D"}),
-      parameter(&Body::temperature, {.key = "temperature",
-                                     .unit = "C",
-                                     .range = {.low = -273.15, .high = 100, .low_open = true},
-                                     .text = "temperature at t = 0; depth is vertical, below the body's surface [m]"}),
-      parameter(&Body::porosity, {.key = "porosity",
-                                  .range = {.low = 0, .high = 0.95, .low_open = true},
-                                  .text = "porosity n at t = 0: share of ice and water in the volume",
-                                  .source = "Eq. 1, Table 2"}),
-      parameter(&Body::velocity, {.key = "velocity", .unit = "m/s", .text = "velocity at t = 0"}),
-  };
-}
-
-std::vector<Parameter<Frame>> frame_parameters() {
-  return {
-      parameter(&Frame::min, {.key = "min", .unit = "m", .text = "lowest corner of the box at t = 0"}).required(),
-      parameter(&Frame::max, {.key = "max", .unit = "m", .text = "highest corner of the box at t = 0"}).required(),
-      parameter(&Frame::axis, {.key = "axis",
-                               .text = "the velocity component that is prescribed inside the box",
-                               .words = {{"x", "along x"}, {"y", "along y, up in 2D"}, {"z", "along z, up in 3D"}}})
-          .required(),
-      parameter(&Frame::velocity, {.key = "velocity",
-                                   .unit = "m/s",
-                                   .text = "the prescribed velocity, with which the box moves",
-                                   .source = "Sec. 3.2"})
-          .required(),
-  };
-}
-
 }  // namespace
 
 void declare_material(Tables& tables) {
@@ -188,10 +143,6 @@ void declare_material(Tables& tables) {
                                                            &Case::freezing, freezing_parameters()));
   tables.push_back(std::make_unique<NamedTable<Material>>("material", "A material, by a name of your choice",
                                                           &Case::materials, material_parameters()));
-  tables.push_back(std::make_unique<NamedTable<Body>>("body", "A body of particles, by a name of your choice",
-                                                      &Case::bodies, body_parameters()));
-  tables.push_back(std::make_unique<NamedTable<Frame>>("frame", "A rigid box that prescribes one velocity component",
-                                                       &Case::frames, frame_parameters()));
 }
 
 }  // namespace thawslide::config

@@ -1,4 +1,5 @@
-// The parameters of a run as a whole: [case], [time], [grid], [terrain], [checkpoint], [report].
+// The parameters of a run as a whole: [case], [time], [grid], [terrain], [checkpoint], [maps],
+// [probe.NAME], [report].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -58,34 +59,73 @@ std::vector<Parameter<Grid>> grid_parameters() {
       parameter(&Grid::cell, {.key = "cell", .unit = "m", .range = above(0), .text = "side of a grid cell"}).required(),
       parameter(&Grid::min, {.key = "min", .unit = "m", .text = "lowest corner of the domain"}).required(),
       parameter(&Grid::max, {.key = "max", .unit = "m", .text = "highest corner of the domain"}).required(),
+      parameter(&Grid::leaving,
+                {.key = "leaving", .text = "what becomes of particles that leave the domain or the DEM"}),
   };
 }
 
-bool has_profile(const Case& whole) { return whole.terrain.kind == TerrainKind::profile; }
+bool has_file(const Case&, const Terrain& terrain) {
+  return terrain.kind == TerrainKind::profile || terrain.kind == TerrainKind::dem;
+}
+bool is_dem(const Case&, const Terrain& terrain) { return terrain.kind == TerrainKind::dem; }
+bool is_no_dem(const Case&, const Terrain& terrain) { return terrain.kind != TerrainKind::dem; }
+
+std::vector<Parameter<Terrain>> dem_parameters() {
+  const std::string when_dem = "when terrain.type is \"dem\"";
+  return {
+      parameter(&Terrain::crs,
+                {.key = "crs",
+                 .text = "coordinate reference system of a DEM whose file tells none, or a wrong one, as "
+                         "\"EPSG:31287\"; \"\": that of the file"})
+          .only_if(when_dem, "type", is_dem),
+      parameter(&Terrain::resample, {.key = "resample",
+                                     .unit = "m",
+                                     .range = at_least(0),
+                                     .text = "distance of points that the DEM is brought to; 0: as the file has them"})
+          .only_if(when_dem, "type", is_dem),
+      parameter(&Terrain::smooth, {.key = "smooth",
+                                   .unit = "m",
+                                   .range = at_least(0),
+                                   .text = "standard deviation of a Gaussian filter over the DEM; 0: no filter"})
+          .only_if(when_dem, "type", is_dem),
+  };
+}
 
 std::vector<Parameter<Terrain>> terrain_parameters() {
-  return {
+  const std::string when_no_dem = "when terrain.type is not \"dem\"";
+  std::vector<Parameter<Terrain>> result{
       parameter(&Terrain::kind, {.key = "type", .text = "the rigid ground that bodies slide on"}),
       parameter(&Terrain::elevation,
-                {.key = "elevation", .unit = "m", .text = "elevation of the flat ground, or of the plane at x = 0"}),
+                {.key = "elevation", .unit = "m", .text = "elevation of the flat ground, or of the plane at x = 0"})
+          .only_if(when_no_dem, "type", is_no_dem),
       parameter(&Terrain::slope, {.key = "slope",
                                   .unit = "degrees",
                                   .range = inside(-90, 90),
-                                  .text = "slope of the plane, which falls towards +x"}),
-      parameter(&Terrain::file,
-                {.key = "file",
-                 .text = "CSV file with the columns distance_m,terrain_elevation_m[,surface_elevation_m]",
-                 .is_path = true})
-          .required_if("when terrain.type is \"profile\"",
-                       [](const Case& whole, const Terrain&) { return has_profile(whole); }),
+                                  .text = "slope of the plane, which falls towards +x"})
+          .only_if(when_no_dem, "type", is_no_dem),
+      parameter(
+          &Terrain::file,
+          {.key = "file",
+           .text = "profile: CSV file with the columns distance_m,terrain_elevation_m[,surface_elevation_m]; dem: "
+                   "GeoTIFF or ESRI ASCII grid",
+           .is_path = true})
+          .required_if("when terrain.type is \"profile\" or \"dem\"", has_file),
       parameter(&Terrain::extend,
-                {.key = "extend", .text = "continue the last gradient of the profile where the domain is longer"}),
-      parameter(&Terrain::form, {.key = "description", .text = "how the nodes of the grid learn of the ground"}),
+                {.key = "extend", .text = "continue the last gradient of the profile where the domain is longer"})
+          .only_if(when_no_dem, "type", is_no_dem),
+      parameter(&Terrain::form, {.key = "representation",
+                                 .text = "how the nodes of the grid learn of the ground",
+                                 .formerly = "description"}),
       parameter(&Terrain::layers, {.key = "layers",
                                    .range = between(1, 1000),
                                    .text = "layers of rigid points, two to a cell",
-                                   .source = "Secs. 3.3, 4"}),
+                                   .source = "Secs. 3.3, 4"})
+          .only_if(when_no_dem, "type", is_no_dem),
   };
+  for (auto& of_dem : dem_parameters()) {
+    result.push_back(std::move(of_dem));
+  }
+  return result;
 }
 
 std::vector<Parameter<Checkpoint>> checkpoint_parameters() {
@@ -93,6 +133,39 @@ std::vector<Parameter<Checkpoint>> checkpoint_parameters() {
                                             .unit = "s",
                                             .range = at_least(0),
                                             .text = "simulated time between checkpoints; 0: only at the end"})};
+}
+
+std::vector<Parameter<Maps>> map_parameters() {
+  return {
+      parameter(&Maps::cell, {.key = "cell",
+                              .unit = "m",
+                              .range = at_least(0),
+                              .text = "side of a map's cell; 0: that of the DEM, of the grid without a DEM",
+                              .dimension = 3}),
+      parameter(&Maps::arrival_thickness, {.key = "arrival_thickness",
+                                           .unit = "m",
+                                           .range = above(0),
+                                           .text = "thickness from which on the slide has arrived at a place",
+                                           .dimension = 3}),
+      parameter(&Maps::path,
+                {.key = "path",
+                 .text = "file of the line along which the front is measured; \"\": the way of the centre of mass",
+                 .dimension = 3,
+                 .is_path = true}),
+  };
+}
+
+std::vector<Parameter<Probe>> probe_parameters() {
+  const auto has_no_line = [](const Case& whole, const Probe& probe) {
+    return whole.general.dimension == 3 && probe.line.empty();
+  };
+  return {
+      parameter(&Probe::point,
+                {.key = "point", .unit = "m", .text = "place of the probe on the map", .horizontal = true})
+          .required_if("when line is not given", has_no_line),
+      parameter(&Probe::line, {.key = "line", .text = "file of the line of a cross section", .is_path = true})
+          .otherwise("none: a point"),
+  };
 }
 
 std::vector<Parameter<Report>> report_parameters() {
@@ -121,6 +194,11 @@ void declare_run(Tables& tables) {
       std::make_unique<SingleTable<Terrain>>("terrain", "The ground", &Case::terrain, terrain_parameters()));
   tables.push_back(std::make_unique<SingleTable<Checkpoint>>("checkpoint", "States to resume from", &Case::checkpoint,
                                                              checkpoint_parameters()));
+  tables.push_back(
+      std::make_unique<SingleTable<Maps>>("maps", "Maps of the slide, in 3D", &Case::maps, map_parameters()));
+  tables.push_back(std::make_unique<NamedTable<Probe>>(
+      "probe", "A place or a cross section, by a name of your choice, at which thickness and speed are written, in 3D",
+      &Case::probes, probe_parameters()));
   tables.push_back(
       std::make_unique<SingleTable<Report>>("report", "Figures and comparisons", &Case::report, report_parameters()));
 }

@@ -147,7 +147,7 @@ bool ValueReader::numbers(const toml::node& node, std::vector<double>& values, b
   return true;
 }
 
-bool ValueReader::resolve_path(const toml::node& node, std::string& path) const {
+bool ValueReader::resolve_path(const toml::node& node, std::string& path, const std::string& form) const {
   namespace fs = std::filesystem;
   const bool from_command_line = reading.place_of(key, node.source()).command_line;
   std::error_code error;
@@ -158,8 +158,8 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path) const 
     if (fs::path(path).is_absolute() || inside.empty() || *inside.begin() == "..") {
       return fail(node,
                   fmt::format("is \"{}\", which lies outside the folder of the case file; allowed: a file in that "
-                              "folder. Copy it there, or give its path with --set {}=PATH",
-                              path, key));
+                              "folder. Copy it there, or give its path with --set {}={}",
+                              path, key, form));
     }
   }
   if (!fs::is_regular_file(whole, error)) {

@@ -63,8 +63,9 @@ struct ValueReader {
   bool number_in_range(const toml::node& node, double& value) const;
   // Numbers in an array; `in_range`: each must be in the range of the rule.
   bool numbers(const toml::node& node, std::vector<double>& values, bool in_range) const;
-  // A file: inside the case's folder when the case file names it. The path becomes absolute.
-  bool resolve_path(const toml::node& node, std::string& path) const;
+  // A file: inside the case's folder when the case file names it. The path becomes absolute. `form` is how a value of
+  // the key gives a path.
+  bool resolve_path(const toml::node& node, std::string& path, const std::string& form = "PATH") const;
 };
 
 // What a node holds, in a few words: `the text "long"`, `-3`, `an array of 2`.

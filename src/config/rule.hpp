@@ -42,6 +42,8 @@ struct Rule {
   std::vector<Word> words = {};  // the words allowed, for a text that is one of a few
   int dimension = 0;             // 2 or 3: has a meaning only there
   bool is_path = false;          // a file, told relative to the case file
+  bool horizontal = false;       // of a point: x and y only, in three dimensions too
+  std::string formerly = {};     // what the key was called before; a file that still says so is told the new name
 };
 
 // Shortest decimal text that reads back to the same number, as TOML wants it: always with a point or an exponent.

@@ -46,6 +46,7 @@ const Tables& tables() {
     Tables result;
     declare_run(result);
     declare_material(result);
+    declare_bodies(result);
     declare_model(result);
     return result;
   }();
@@ -74,7 +75,7 @@ bool enter_table(const toml::node& node, const std::string& dotted, Reading& rea
 }
 
 void report_unknown_keys(const toml::table& table, const std::string& dotted, const std::vector<std::string>& known,
-                         Reading& reading) {
+                         const std::map<std::string, std::string>& renamed, Reading& reading) {
   std::vector<std::string> allowed = known;
   const std::vector<std::string> inside = tables_inside(dotted);
   allowed.insert(allowed.end(), inside.begin(), inside.end());
@@ -85,8 +86,10 @@ void report_unknown_keys(const toml::table& table, const std::string& dotted, co
     }
     const std::string whole = join(dotted, word);
     const std::vector<std::string> elsewhere = tables_with(word, dotted);
-    std::string hint = elsewhere.empty() ? did_you_mean(word, allowed)
-                                         : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
+    const auto now = renamed.find(word);
+    const std::string hint = now != renamed.end() ? fmt::format("; it is called '{}' now", join(dotted, now->second))
+                             : elsewhere.empty()  ? did_you_mean(word, allowed)
+                                                  : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
     reading.problems.add(reading.place_of(whole, key.source()),
                          fmt::format("key '{}' is not known in [{}]{} Allowed here: {}.", whole, dotted,
                                      hint.empty() ? "." : hint + (hint.back() == '?' ? "" : "."), list_words(allowed)));
@@ -124,6 +127,13 @@ void report_missing(const std::string& table, const Rule& rule, const std::strin
   const std::string reason = when == "always" ? "it has no default" : "it is needed " + when;
   reading.report(join(table, rule.key), fmt::format("key '{}' is missing: {}. Add '{} = ...' to [{}]: {}, {}.",
                                                     join(table, rule.key), reason, rule.key, table, rule.text, type));
+}
+
+void report_without_meaning(const std::string& table, const Rule& rule, const Meaning& meaning, Reading& reading) {
+  const std::string key = join(table, rule.key);
+  const std::string decided_by = join(table, meaning.decided_by);
+  reading.report_misfit({key, decided_by}, fmt::format("{} has a meaning only {}. Remove it, or change {}.", key,
+                                                       meaning.when, decided_by));
 }
 
 bool check_dimension(const toml::node& node, const std::string& dotted, const Rule& rule, Reading& reading) {

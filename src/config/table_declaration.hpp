@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,13 +19,15 @@ inline std::string join(const std::string& table, const std::string& key) { retu
 const toml::node* find_node(const toml::table& root, const std::string& dotted);
 // Notes the place of a table and tells whether it is one.
 bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading);
-// Reports the keys of a table that no parameter has.
+// Reports the keys of a table that no parameter has; `renamed`: keys by their former names.
 void report_unknown_keys(const toml::table& table, const std::string& dotted, const std::vector<std::string>& known,
-                         Reading& reading);
+                         const std::map<std::string, std::string>& renamed, Reading& reading);
 // Reports what stands beside the named tables of [body]; returns the names.
 std::vector<std::string> table_names(const toml::node& node, const std::string& kind, Reading& reading);
 void report_missing(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
                     Reading& reading);
+// Reports a key that was given where it has no meaning.
+void report_without_meaning(const std::string& table, const Rule& rule, const Meaning& meaning, Reading& reading);
 bool check_dimension(const toml::node& node, const std::string& dotted, const Rule& rule, Reading& reading);
 // One line "key = value  # unit".
 std::string value_line(const Rule& rule, const std::string& value);
@@ -38,15 +41,20 @@ class SectionParameters {
   [[nodiscard]] std::vector<Entry> entries() const {
     std::vector<Entry> entries;
     for (const auto& p : parameters_) {
-      entries.push_back({&p.rule, p.type, p.default_text(), p.required_words, p.otherwise_words, p.words, p.schema});
+      entries.push_back(
+          {&p.rule, p.type, p.default_text(), p.required_words, p.otherwise_words, p.words, p.schema, p.meaning.when});
     }
     return entries;
   }
 
   void read(const toml::table& table, const std::string& dotted, Section& section, Reading& reading) const {
     std::vector<std::string> known;
+    std::map<std::string, std::string> renamed;
     for (const auto& p : parameters_) {
       known.push_back(p.rule.key);
+      if (!p.rule.formerly.empty()) {
+        renamed[p.rule.formerly] = p.rule.key;
+      }
       const toml::node* node = table.get(p.rule.key);
       if (node == nullptr) {
         continue;
@@ -57,7 +65,7 @@ class SectionParameters {
         p.read(*node, ValueReader{reading, key, p.rule, p.default_text(), p.type}, section);
       }
     }
-    report_unknown_keys(table, dotted, known, reading);
+    report_unknown_keys(table, dotted, known, renamed, reading);
   }
 
   void complete(const std::string& dotted, const Case& whole, Section& section, Reading& reading) const {
@@ -66,11 +74,16 @@ class SectionParameters {
       return p.words.empty() || reading.sound({join(dotted, p.rule.key)});
     });
     for (const auto& p : parameters_) {
-      if (reading.given(join(dotted, p.rule.key))) {
+      const std::string key = join(dotted, p.rule.key);
+      if (reading.given(key)) {
+        const bool may_judge = p.has_meaning && is_decided && reading.sound({key, join(dotted, p.meaning.decided_by)});
+        if (may_judge && !p.has_meaning(whole, section)) {
+          report_without_meaning(dotted, p.rule, p.meaning, reading);
+        }
         continue;
       }
       if (!is_decided && p.is_required && p.required_words != "always") {
-        reading.unsound.insert(join(dotted, p.rule.key));
+        reading.unsound.insert(key);
       } else if (p.is_required && p.is_required(whole, section)) {
         report_missing(dotted, p.rule, p.type, p.required_words, reading);
       } else if (p.fill) {
@@ -82,6 +95,9 @@ class SectionParameters {
   void write(const Case& whole, const Section& section, const WriteContext& context, std::string& out) const {
     const Section defaults{};
     for (const auto& p : parameters_) {
+      if (p.has_meaning && !p.has_meaning(whole, section)) {
+        continue;
+      }
       const std::string value = p.write(section, p.rule, context);
       const bool may_be_absent = !p.required_words.empty() || (!p.otherwise_words.empty() && !p.fill);
       const bool is_absent = may_be_absent && !(p.is_required && p.is_required(whole, section)) &&
@@ -132,8 +148,9 @@ class SingleTable : public TableDeclaration {
     section_.complete(name, result, result.*member_, reading);
   }
   void write(const Case& source, const WriteContext& context, std::string& out) const override {
-    out += "\n[" + name + "]\n";
-    section_.write(source, source.*member_, context, out);
+    std::string lines;
+    section_.write(source, source.*member_, context, lines);
+    out += lines.empty() ? "" : "\n[" + name + "]\n" + lines;
   }
   [[nodiscard]] std::vector<std::string> names(const Case&) const override { return {}; }
 

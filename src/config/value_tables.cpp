@@ -1,4 +1,4 @@
-// Values that are a number or an inline table: tables over time, initial fields, heat boundaries.
+// Values that are a number or an inline table: tables over time, initial fields, values of maps, heat boundaries.
 #include <cmath>
 #include <utility>
 
@@ -79,6 +79,46 @@ bool fail_keys(const toml::node& node, const ValueReader& at) {
                              at.allowed));
 }
 
+// The first of the keys that the table has, if it has no other; empty if none is its only one.
+std::string only_key(const toml::table& table, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    if (table.size() == 1 && table.contains(key)) {
+      return key;
+    }
+  }
+  return "";
+}
+
+// Reads the text of { KEY = "..." }: the name of an attribute, or a path, which becomes absolute.
+bool read_source(const toml::table& table, const std::string& key, const ValueReader& at, std::string& source) {
+  const toml::node& node = *table.get(key);
+  const bool is_name = key == "attribute";
+  const auto* text = node.as_string();
+  if (text == nullptr || text->get().empty()) {
+    return at.fail(node, fmt::format("has {} as its {}; allowed: {}", describe_node(node), key,
+                                     is_name ? "the name of an attribute of the polygons, in quotes"
+                                             : "the path of a file, in quotes"));
+  }
+  std::string found = text->get();
+  if (!is_name && !at.resolve_path(node, found, fmt::format("'{{ {} = \"PATH\" }}'", key))) {
+    return false;
+  }
+  source = std::move(found);
+  return true;
+}
+
+// { KEY = "..." }
+std::string write_source(const std::string& key, const std::string& source, const WriteContext& context) {
+  return fmt::format("{{ {} = {} }}", key, key == "attribute" ? quoted(source) : path_text(source, context));
+}
+
+json source_schema(const char* key) {
+  return {{"type", "object"},
+          {"additionalProperties", false},
+          {"required", json::array({key})},
+          {"properties", {{key, {{"type", "string"}}}}}};
+}
+
 std::string range_and_unit(const Rule& rule) {
   const std::string range = rule.range.text();
   return fmt::format("{}{}{}", range == "any number" ? "" : ", " + range, rule.unit.empty() ? "" : " [" + rule.unit,
@@ -109,12 +149,21 @@ json Value<Table>::schema(const Rule& rule) { return table_schema({"time"}, rule
 
 // initial field
 std::string Value<InitialField>::type(const Rule& rule) {
-  return fmt::format("a number, {{ depth = [...], value = [...] }} or {{ x = [...], value = [...] }}{}",
-                     range_and_unit(rule));
+  return fmt::format(
+      "a number, {{ depth = [...], value = [...] }}, {{ x = [...], value = [...] }}, {{ attribute = \"NAME\" }} or "
+      "{{ raster = \"FILE\" }}{}",
+      range_and_unit(rule));
 }
 bool Value<InitialField>::read(const toml::node& node, const ValueReader& at, InitialField& value) {
   InitialField found;
-  if (const toml::table* table = node.as_table()) {
+  const toml::table* table = node.as_table();
+  const std::string map = table == nullptr ? "" : only_key(*table, {"attribute", "raster"});
+  if (!map.empty()) {
+    found.over = map == "raster" ? InitialField::Over::raster : InitialField::Over::attribute;
+    if (!read_source(*table, map, at, found.source)) {
+      return false;
+    }
+  } else if (table != nullptr) {
     found.over = has_exactly(*table, "depth") ? InitialField::Over::depth : InitialField::Over::x;
     const char* abscissa = found.over == InitialField::Over::depth ? "depth" : "x";
     if (!has_exactly(*table, abscissa)) {
@@ -133,10 +182,65 @@ bool Value<InitialField>::read(const toml::node& node, const ValueReader& at, In
   value = std::move(found);
   return true;
 }
-std::string Value<InitialField>::write(const InitialField& value, const Rule&, const WriteContext&) {
+std::string Value<InitialField>::write(const InitialField& value, const Rule&, const WriteContext& context) {
+  if (value.is_map()) {
+    return write_source(value.over == InitialField::Over::raster ? "raster" : "attribute", value.source, context);
+  }
   return write_table(value.table, value.over == InitialField::Over::depth ? "depth" : "x");
 }
-json Value<InitialField>::schema(const Rule& rule) { return table_schema({"depth", "x"}, rule); }
+json Value<InitialField>::schema(const Rule& rule) {
+  json schema = table_schema({"depth", "x"}, rule);
+  schema["anyOf"].push_back(source_schema("attribute"));
+  schema["anyOf"].push_back(source_schema("raster"));
+  return schema;
+}
+
+// value of a map
+namespace {
+
+struct MapWord {
+  MapValue::From from;
+  const char* key;
+};
+constexpr MapWord map_words[] = {
+    {MapValue::From::attribute, "attribute"}, {MapValue::From::raster, "raster"}, {MapValue::From::surface, "surface"}};
+
+}  // namespace
+
+std::string Value<MapValue>::type(const Rule& rule) {
+  return fmt::format("a number, {{ attribute = \"NAME\" }}, {{ raster = \"FILE\" }} or {{ surface = \"FILE\" }}{}",
+                     range_and_unit(rule));
+}
+bool Value<MapValue>::read(const toml::node& node, const ValueReader& at, MapValue& value) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) {
+    value = MapValue{};
+    return at.number_in_range(node, value.number);
+  }
+  const std::string key = only_key(*table, {"attribute", "raster", "surface"});
+  if (key.empty()) {
+    return fail_keys(node, at);
+  }
+  for (const MapWord& word : map_words) {
+    value.from = key == word.key ? word.from : value.from;  // known, whatever is wrong with the source
+  }
+  return read_source(*table, key, at, value.source);
+}
+std::string Value<MapValue>::write(const MapValue& value, const Rule&, const WriteContext& context) {
+  for (const MapWord& word : map_words) {
+    if (value.from == word.from) {
+      return write_source(word.key, value.source, context);
+    }
+  }
+  return number_text(value.number);
+}
+json Value<MapValue>::schema(const Rule& rule) {
+  json any_of = json::array({Value<double>::schema(rule)});
+  for (const MapWord& word : map_words) {
+    any_of.push_back(source_schema(word.key));
+  }
+  return {{"anyOf", any_of}};
+}
 
 // heat boundary
 std::string Value<HeatBoundary>::type(const Rule&) {

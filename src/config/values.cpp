@@ -57,6 +57,12 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
+std::string path_text(const std::string& path, const WriteContext& context) {
+  const std::filesystem::path whole(path);
+  const bool is_copied = !context.input_folder.empty();
+  return quoted((is_copied ? context.input_folder / whole.filename() : whole).generic_string());
+}
+
 std::string list_of_words(const std::vector<Word>& words) {
   std::vector<std::string> names;
   for (const Word& word : words) {
@@ -154,17 +160,42 @@ std::string Value<std::string>::write(const std::string& value, const Rule& rule
   if (!rule.is_path || value.empty()) {
     return quoted(value);
   }
-  const std::filesystem::path path(value);
-  const bool is_copied = !context.input_folder.empty();
-  return quoted((is_copied ? context.input_folder / path.filename() : path).generic_string());
+  return path_text(value, context);
 }
 json Value<std::string>::schema(const Rule& rule) {
   return rule.words.empty() ? json{{"type", "string"}} : word_schema(rule.words);
 }
 
+// texts
+std::string Value<Names>::type(const Rule&) { return "an array of texts in quotes"; }
+bool Value<Names>::read(const toml::node& node, const ValueReader& at, Names& value) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) {
+    return at.fail_type(node);
+  }
+  Names found;
+  for (const toml::node& element : *array) {
+    const auto* text = element.as_string();
+    if (text == nullptr) {
+      return at.fail(element, fmt::format("holds {}; allowed: {}", describe_node(element), at.allowed));
+    }
+    found.push_back(text->get());
+  }
+  value = std::move(found);
+  return true;
+}
+std::string Value<Names>::write(const Names& value, const Rule&, const WriteContext&) {
+  std::vector<std::string> texts;
+  for (const std::string& text : value) {
+    texts.push_back(quoted(text));
+  }
+  return "[" + list_words(texts) + "]";
+}
+json Value<Names>::schema(const Rule&) { return array_schema({{"type", "string"}}); }
+
 // point
 std::string Value<Point>::type(const Rule& rule) {
-  return fmt::format("an array of 2 numbers, x and y (3 in three dimensions){}",
+  return fmt::format("an array of 2 numbers, x and y{}{}", rule.horizontal ? "" : " (3 in three dimensions)",
                      rule.unit.empty() ? "" : " [" + rule.unit + "]");
 }
 bool Value<Point>::read(const toml::node& node, const ValueReader& at, Point& value) {
@@ -172,7 +203,10 @@ bool Value<Point>::read(const toml::node& node, const ValueReader& at, Point& va
   if (!at.numbers(node, found, false)) {
     return false;
   }
-  const auto dimension = static_cast<std::size_t>(at.reading.dimension);
+  if (at.rule.horizontal && found.size() != 2) {
+    return at.fail(node, fmt::format("is an array of {} numbers; allowed: 2 numbers, x and y", found.size()));
+  }
+  const auto dimension = at.rule.horizontal ? std::size_t{2} : static_cast<std::size_t>(at.reading.dimension);
   if (dimension == 0 ? (found.size() != 2 && found.size() != 3) : found.size() != dimension) {
     return at.fail(node, dimension == 0
                              ? fmt::format("is an array of {} numbers; allowed: 2 or 3 numbers", found.size())
@@ -182,14 +216,15 @@ bool Value<Point>::read(const toml::node& node, const ValueReader& at, Point& va
   value = {found[0], found[1], found.size() > 2 ? found[2] : 0.0};
   return true;
 }
-std::string Value<Point>::write(const Point& value, const Rule&, const WriteContext& context) {
+std::string Value<Point>::write(const Point& value, const Rule& rule, const WriteContext& context) {
   const std::string plane = fmt::format("[{}, {}", number_text(value[0]), number_text(value[1]));
-  return context.dimension == 3 ? fmt::format("{}, {}]", plane, number_text(value[2])) : plane + "]";
+  return context.dimension == 3 && !rule.horizontal ? fmt::format("{}, {}]", plane, number_text(value[2]))
+                                                    : plane + "]";
 }
-json Value<Point>::schema(const Rule&) {
+json Value<Point>::schema(const Rule& rule) {
   json schema = array_schema(number_schema());
   schema["minItems"] = 2;
-  schema["maxItems"] = 3;
+  schema["maxItems"] = rule.horizontal ? 2 : 3;
   return schema;
 }
 
@@ -252,6 +287,6 @@ std::string Value<Numbers>::write(const Numbers& value, const Rule&, const Write
 }
 json Value<Numbers>::schema(const Rule& rule) { return array_schema(range_schema(rule.range, "number")); }
 
-// Tables, initial fields and heat boundaries: value_tables.cpp.
+// Tables, initial fields, values of maps and heat boundaries: value_tables.cpp.
 
 }  // namespace thawslide::config

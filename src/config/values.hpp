@@ -43,16 +43,20 @@ struct ValueWithoutWords {
 
 using Vertices = std::vector<std::array<double, 2>>;
 using Numbers = std::vector<double>;
+using Names = std::vector<std::string>;
 
 THAWSLIDE_DECLARE_VALUE(double)
 THAWSLIDE_DECLARE_VALUE(int)
 THAWSLIDE_DECLARE_VALUE(bool)
 THAWSLIDE_DECLARE_VALUE(std::string)
-THAWSLIDE_DECLARE_VALUE(Point)         // as many numbers as the case has dimensions
-THAWSLIDE_DECLARE_VALUE(Vertices)      // [[x, y], ...]
-THAWSLIDE_DECLARE_VALUE(Numbers)       // ascending
-THAWSLIDE_DECLARE_VALUE(Table)         // number | { time = [...], value = [...] }
-THAWSLIDE_DECLARE_VALUE(InitialField)  // number | { depth = [...], value = [...] } | { x = [...], value = [...] }
+THAWSLIDE_DECLARE_VALUE(Names)     // texts
+THAWSLIDE_DECLARE_VALUE(Point)     // as many numbers as the case has dimensions, or x and y
+THAWSLIDE_DECLARE_VALUE(Vertices)  // [[x, y], ...]
+THAWSLIDE_DECLARE_VALUE(Numbers)   // ascending
+THAWSLIDE_DECLARE_VALUE(Table)     // number | { time = [...], value = [...] }
+// number | { depth = [...], value = [...] } | { x = [...], value = [...] } | { attribute = "..." } | { raster = "..." }
+THAWSLIDE_DECLARE_VALUE(InitialField)
+THAWSLIDE_DECLARE_VALUE(MapValue)      // number | { attribute = "..." } | { raster = "..." } | { surface = "..." }
 THAWSLIDE_DECLARE_VALUE(HeatBoundary)  // "insulated" | { temperature = T } | { flux = q }
 
 #undef THAWSLIDE_DECLARE_VALUE
@@ -62,6 +66,8 @@ bool read_word(const toml::node& node, const ValueReader& at, const std::vector<
 std::string list_of_words(const std::vector<Word>& words);
 nlohmann::json word_schema(const std::vector<Word>& words);
 std::string quoted(const std::string& text);
+// A path as the written case names it.
+std::string path_text(const std::string& path, const WriteContext& context);
 
 template <class Enum>
 requires std::is_enum_v<Enum>

@@ -29,10 +29,11 @@ inline std::vector<Choice<TerrainKind>> choices(TerrainKind) {
   return {{TerrainKind::none, "none", "no ground, no contact"},
           {TerrainKind::flat, "flat", "level ground at terrain.elevation"},
           {TerrainKind::plane, "plane", "a plane that falls towards +x by terrain.slope"},
-          {TerrainKind::profile, "profile", "a polyline read from terrain.file; in 3D the same at every y"}};
+          {TerrainKind::profile, "profile", "a polyline read from terrain.file; in 3D the same at every y"},
+          {TerrainKind::dem, "dem", "a digital elevation model read from terrain.file (3D)"}};
 }
 inline std::vector<Choice<TerrainForm>> choices(TerrainForm) {
-  return {{TerrainForm::signed_distance, "signed_distance", "normal and area from the line itself"},
+  return {{TerrainForm::signed_distance, "signed_distance", "normal and area from the line or surface itself"},
           {TerrainForm::rigid_points, "rigid_points", "from rigid material points in layers (Secs. 3.3 and 4)"}};
 }
 inline std::vector<Choice<LawKind>> choices(LawKind) {
@@ -46,7 +47,19 @@ inline std::vector<Choice<CurveKind>> choices(CurveKind) {
 inline std::vector<Choice<BodyShape>> choices(BodyShape) {
   return {{BodyShape::box, "box", "between min and max"},
           {BodyShape::polygon, "polygon", "inside vertices (2D)"},
-          {BodyShape::surface, "surface", "between the terrain and surface_elevation_m of terrain.file"}};
+          {BodyShape::surface, "surface", "between the terrain and surface_elevation_m of terrain.file"},
+          {BodyShape::release, "release", "what is released on or in a DEM: polygons and thickness (3D)"}};
+}
+inline std::vector<Choice<ThicknessAlong>> choices(ThicknessAlong) {
+  return {{ThicknessAlong::vertical, "vertical", "along the vertical"},
+          {ThicknessAlong::normal, "normal", "across the ground, along its normal"}};
+}
+inline std::vector<Choice<Placement>> choices(Placement) {
+  return {{Placement::on_top, "on_top", "put on the DEM, which it slides on"},
+          {Placement::cut, "cut", "cut out of the DEM: it slides on the DEM less the thickness"}};
+}
+inline std::vector<Choice<Leaving>> choices(Leaving) {
+  return {{Leaving::stop, "stop", "they end the run"}, {Leaving::remove, "remove", "they are removed and counted"}};
 }
 inline std::vector<Choice<ShapeFunction>> choices(ShapeFunction) {
   return {{ShapeFunction::ugimp, "ugimp", "uniform generalised interpolation"},

@@ -60,7 +60,7 @@ INCLINES = ("D", "DL", "DLP", "PL")
 NO_LATENT = "-no-latent"
 PRINTED = "-printed"
 NO_VISCOSITY = ("material.rock_ice.viscosity_time=0.0",)
-POINTS = 'terrain.description="rigid_points"'
+POINTS = 'terrain.representation="rigid_points"'
 _COSTS = {"block-e200": 8.0, "block-e100-L5": 12.0, "block-e100": 4.0, "block-e100-L20": 3.0}
 
 

@@ -42,7 +42,7 @@ type = "profile"
 elevation = -1.0
 file = "inputs/profile.csv"
 extend = true
-description = "rigid_points"
+representation = "rigid_points"
 layers = 3
 [checkpoint]
 interval = 3.0

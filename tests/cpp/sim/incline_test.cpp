@@ -203,8 +203,8 @@ TEST(Incline, SticksOnATiltedPlaneInThreeDimensions) {
 
 // The ground of rigid points, as in the paper: the same on turned gravity; on a plane through the grid it is rough.
 TEST(Incline, SlidesOnRigidPoints) {
-  expect_slide("rigid points, 2D", slide<2>(turned_2d, {"terrain.description=rigid_points"}), 15.0, 2e-3);
-  expect_slide("rigid points, 3D", slide<3>(turned_3d, {"terrain.description=rigid_points"}), 15.0, 5e-3);
+  expect_slide("rigid points, 2D", slide<2>(turned_2d, {"terrain.representation=rigid_points"}), 15.0, 2e-3);
+  expect_slide("rigid points, 3D", slide<3>(turned_3d, {"terrain.representation=rigid_points"}), 15.0, 5e-3);
 }
 
 TEST(FreeFall, KeepsMomentumToRoundOff) {
