@@ -76,6 +76,10 @@ struct PowerLawCurve {
     using std::min;
     return Real(1) / power(Real(1) - min(temperature - reference_temperature, Value(0)), exponent, whole);
   }
+  // The temperature [C] at which the saturation is S, 0 < S <= 1: the lowest where S = 1.
+  [[nodiscard]] THAWSLIDE_HD Real temperature(Real saturation) const {
+    return reference_temperature + Real(1) - std::pow(saturation, -Real(1) / exponent);
+  }
 };
 
 template <class Real>
@@ -97,6 +101,10 @@ struct LinearCurve {
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value saturation(Value temperature) const {
     return at(temperature).saturation;
+  }
+  // The temperature [C] at which the saturation is S, 0 <= S <= 1: the highest where S = 0, the lowest where S = 1.
+  [[nodiscard]] THAWSLIDE_HD Real temperature(Real saturation) const {
+    return reference_temperature + (saturation - Real(1)) / slope;
   }
 };
 
