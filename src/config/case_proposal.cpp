@@ -1,0 +1,121 @@
+#include "config/case_proposal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/rule.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+constexpr double particles_across = 6.0;
+constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
+constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
+constexpr int margin_cells = 4;  // between the release and the sides of the domain
+
+// The release in numbers.
+struct ReleaseExtent {
+  double volume = 0.0, weighted_thickness = 0.0;                     // [m3], [m]
+  double west = HUGE_VAL, east = -HUGE_VAL, south = HUGE_VAL, north = -HUGE_VAL;
+  double top = -HUGE_VAL, top_x = 0.0, top_y = 0.0;                  // highest point of its surface
+};
+
+double nearest_height(const Raster& dem, double x, double y) {
+  const auto clamp = [](double place, int count) {
+    return static_cast<int>(std::clamp(std::lround(place), 0L, static_cast<long>(count) - 1));
+  };
+  return dem.at(clamp((x - dem.x) / dem.cell_x, dem.columns), clamp((y - dem.y) / dem.cell_y, dem.rows));
+}
+
+ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
+  ReleaseExtent extent;
+  const double area = thickness.cell_x * thickness.cell_y;
+  for (int row = 0; row < thickness.rows; ++row) {
+    for (int column = 0; column < thickness.columns; ++column) {
+      const double t = thickness.at(column, row);
+      if (!(t > 0.0)) {
+        continue;
+      }
+      const double x = thickness.x_of(column), y = thickness.y_of(row);
+      extent.volume += t * area;
+      extent.weighted_thickness += t * t * area;
+      extent.west = std::min(extent.west, x);
+      extent.east = std::max(extent.east, x);
+      extent.south = std::min(extent.south, y);
+      extent.north = std::max(extent.north, y);
+      const double top = nearest_height(dem, x, y) + t;
+      if (top > extent.top) {
+        extent.top = top;
+        extent.top_x = x;
+        extent.top_y = y;
+      }
+    }
+  }
+  extent.weighted_thickness /= extent.volume;
+  return extent;
+}
+
+// Number of cells from an origin that covers a length.
+double cells_over(double length, double cell) { return std::ceil(length / cell - 1e-9); }
+
+}  // namespace
+
+double round_down(double x) {
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  double best = power;
+  for (const double digit : {1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    best = digit * power <= x * (1.0 + 1e-12) ? digit * power : best;
+  }
+  return best;
+}
+
+Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle) {
+  const ReleaseExtent release = extent_of(dem, thickness);
+  Proposal proposal;
+  proposal.volume = release.volume;
+  proposal.thickness = release.weighted_thickness;
+  proposal.cell = round_down(release.weighted_thickness * proposal.particles_per_axis / particles_across);
+  const double spacing = proposal.cell / proposal.particles_per_axis;
+  proposal.particles = release.volume / (spacing * spacing * spacing);
+
+  double west = release.west, east = release.east, south = release.south, north = release.north;
+  double lowest = release.top, farthest = 0.0;
+  const double fall = std::tan(reach_angle * degree);
+  for (int row = 0; row < dem.rows; ++row) {
+    for (int column = 0; column < dem.columns; ++column) {
+      const double height = dem.at(column, row);
+      const double x = dem.x_of(column), y = dem.y_of(row);
+      const double distance = std::hypot(x - release.top_x, y - release.top_y);
+      if (std::isnan(height) || height > release.top - fall * distance) {
+        continue;
+      }
+      west = std::min(west, x);
+      east = std::max(east, x);
+      south = std::min(south, y);
+      north = std::max(north, y);
+      lowest = std::min(lowest, height);
+      farthest = std::max(farthest, distance);
+    }
+  }
+  const double margin = margin_cells * proposal.cell;
+  const double inner_x = std::ceil(dem.x / proposal.cell) * proposal.cell;  // whole multiples of the cell in the DEM
+  const double inner_y = std::ceil(dem.y / proposal.cell) * proposal.cell;
+  const double outer_x = std::floor(dem.x_end() / proposal.cell) * proposal.cell;
+  const double outer_y = std::floor(dem.y_end() / proposal.cell) * proposal.cell;
+  const auto down = [&](double place) { return std::floor((place - margin) / proposal.cell) * proposal.cell; };
+  const auto up = [&](double place) { return std::ceil((place + margin) / proposal.cell) * proposal.cell; };
+  proposal.min = {std::max(inner_x, down(west)), std::max(inner_y, down(south)), down(lowest)};
+  proposal.max = {std::min(outer_x, up(east)), std::min(outer_y, up(north)), up(release.top)};
+  for (std::size_t a = 0; a < 3; ++a) {  // a whole number of cells, whatever round-off did
+    proposal.max[a] = proposal.min[a] + cells_over(proposal.max[a] - proposal.min[a], proposal.cell) * proposal.cell;
+  }
+  proposal.end = std::clamp(10.0 * std::ceil(farthest / slow / 10.0), shortest_run, longest_run);
+  proposal.output_interval = proposal.end / 40.0;
+  return proposal;
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,43 @@
+// A first case for a terrain model and a release: cell, domain and times that fit them.
+#pragma once
+
+#include <string>
+
+#include "base/raster.hpp"
+#include "config/case.hpp"
+
+namespace thawslide::config {
+
+// What a user gives, and what a look at the files shows.
+struct ProposalInput {
+  std::string title;
+  std::string dem_file, release_file;  // as the case is to name them
+  std::string crs;                     // for terrain.crs; empty: the file tells it
+  MapValue thickness;
+  Placement placement = Placement::on_top;
+  double reach_angle = 8.0;  // degrees: how far the slide is given room to run
+};
+
+struct Proposal {
+  double cell = 0.0;             // [m]
+  int particles_per_axis = 2;
+  Point min{}, max{};            // of the domain [m]
+  double end = 0.0;              // [s]
+  double output_interval = 0.0;  // [s]
+  double thickness = 0.0;        // of the release, its mean weighted by volume [m]
+  double volume = 0.0;           // [m3]
+  double particles = 0.0;        // about as many
+};
+
+// Largest number of one or two digits (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten) that is at most x.
+[[nodiscard]] double round_down(double x);
+
+// The domain holds every point of the DEM that lies above a line that falls by the reach angle from the release's
+// highest point, and all of the release. The cell gives at least six particles across the mean thickness. dem: NaN where
+// there is no data; thickness: vertical [m], on points of the same places.
+[[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle);
+
+// The commented case file.
+[[nodiscard]] std::string case_text(const ProposalInput& input, const Proposal& proposal);
+
+}  // namespace thawslide::config
