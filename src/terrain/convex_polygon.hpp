@@ -1,0 +1,74 @@
+// Convex polygons in space with few corners, held in place, and how a plane across an axis cuts them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/linear.hpp"
+
+namespace thawslide::terrain {
+
+class ConvexPolygon {
+ public:
+  // A triangle that is cut by two planes across each axis has nine corners at most.
+  static constexpr int capacity = 12;
+
+  ConvexPolygon() = default;
+  explicit ConvexPolygon(const std::array<Vector<double, 3>, 3>& triangle) : size_(3) {
+    std::copy(triangle.begin(), triangle.end(), corner_.begin());
+  }
+
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] const Vector<double, 3>& operator[](int k) const { return corner_[static_cast<std::size_t>(k)]; }
+
+  void clear() { size_ = 0; }
+  void push_back(const Vector<double, 3>& corner) {
+    THAWSLIDE_ASSERT(size_ < capacity, "a polygon of more than {} corners", capacity);
+    corner_[static_cast<std::size_t>(size_++)] = corner;
+  }
+
+  // Least and greatest coordinate along an axis.
+  struct Extent {
+    double least, greatest;
+  };
+  [[nodiscard]] Extent extent(int axis) const {
+    Extent extent{HUGE_VAL, -HUGE_VAL};
+    for (int k = 0; k < size_; ++k) {
+      extent.least = std::min(extent.least, (*this)[k][axis]);
+      extent.greatest = std::max(extent.greatest, (*this)[k][axis]);
+    }
+    return extent;
+  }
+
+  // The parts on both sides of the plane where the coordinate along `axis` is `at`; both hold what lies in the plane.
+  void split(int axis, double at, ConvexPolygon& below, ConvexPolygon& above) const {
+    below.clear();
+    above.clear();
+    for (int k = 0; k < size_; ++k) {
+      const Vector<double, 3>& here = (*this)[k];
+      const Vector<double, 3>& next = (*this)[k + 1 == size_ ? 0 : k + 1];
+      const double from = here[axis] - at;
+      const double to = next[axis] - at;
+      if (from <= 0.0) {
+        below.push_back(here);
+      }
+      if (from >= 0.0) {
+        above.push_back(here);
+      }
+      if ((from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0)) {
+        Vector<double, 3> cut = here + (next - here) * (from / (from - to));
+        cut[axis] = at;
+        below.push_back(cut);
+        above.push_back(cut);
+      }
+    }
+  }
+
+ private:
+  int size_ = 0;
+  std::array<Vector<double, 3>, capacity> corner_;
+};
+
+}  // namespace thawslide::terrain

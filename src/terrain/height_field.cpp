@@ -1,0 +1,297 @@
+#include "terrain/height_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "terrain/convex_polygon.hpp"
+#include "terrain/nearest_known.hpp"
+#include "terrain/nearest_on_triangle.hpp"
+#include "terrain/surface_integrals.hpp"
+
+namespace thawslide::terrain {
+
+namespace {
+
+constexpr int block = 16;  // points each way of those that are summarised together
+// In parts of a cell: places this little beyond a point are at it.
+constexpr double round_off = 1e-9;
+
+int blocks_of(int points) { return (points + block - 1) / block; }
+
+// Column or row of cells at `offset` cells from the first point, from -1 to points - 1.
+int cell_number(double offset, int points) {
+  return static_cast<int>(std::max(-1.0, std::min(std::floor(offset), points - 1.0)));
+}
+
+}  // namespace
+
+void HeightField::Summary::add(const Summary& other) {
+  lowest = std::min(lowest, other.lowest);
+  highest = std::max(highest, other.highest);
+  known = known && other.known;
+}
+
+HeightField::HeightField(Raster points) : points_(std::move(points)) {
+  THAWSLIDE_ASSERT(points_.columns >= 2 && points_.rows >= 2, "{} x {} points", points_.columns, points_.rows);
+  THAWSLIDE_ASSERT(points_.cell_x > 0.0 && points_.cell_y > 0.0, "cells of {} x {}", points_.cell_x, points_.cell_y);
+  const std::size_t size = points_.index(0, points_.rows);
+  THAWSLIDE_ASSERT(points_.values.size() == size, "{} values for {} points", points_.values.size(), size);
+  if (std::any_of(points_.values.begin(), points_.values.end(), [](double value) { return std::isnan(value); })) {
+    no_data_.resize(size);
+    std::transform(points_.values.begin(), points_.values.end(), no_data_.begin(),
+                   [](double value) { return std::isnan(value); });
+    fill_from_nearest_known(points_);
+  }
+  summarise_blocks();
+}
+
+void HeightField::summarise_blocks() {
+  for (int row = 0; row < points_.rows; row += block) {
+    for (int column = 0; column < points_.columns; column += block) {
+      block_summary_.push_back(summary_one_by_one({column, std::min(column + block, points_.columns) - 1},
+                                                  {row, std::min(row + block, points_.rows) - 1}));
+    }
+  }
+}
+
+HeightField::Summary HeightField::summary_one_by_one(Span columns, Span rows) const {
+  Summary summary;
+  for (int row = rows.first; row <= rows.last; ++row) {
+    for (int column = columns.first; column <= columns.last; ++column) {
+      const std::size_t k = points_.index(column, row);
+      summary.add({points_.values[k], points_.values[k], no_data_.empty() || !no_data_[k]});
+    }
+  }
+  return summary;
+}
+
+HeightField::Summary HeightField::summary_of_points(Span columns, Span rows) const {
+  Summary summary;
+  for (int j = rows.first / block; j <= rows.last / block; ++j) {
+    for (int i = columns.first / block; i <= columns.last / block; ++i) {
+      const Span all_columns{i * block, std::min((i + 1) * block, points_.columns) - 1};
+      const Span all_rows{j * block, std::min((j + 1) * block, points_.rows) - 1};
+      const Span in_columns{std::max(all_columns.first, columns.first), std::min(all_columns.last, columns.last)};
+      const Span in_rows{std::max(all_rows.first, rows.first), std::min(all_rows.last, rows.last)};
+      const bool whole = in_columns.first == all_columns.first && in_columns.last == all_columns.last &&
+                         in_rows.first == all_rows.first && in_rows.last == all_rows.last;
+      summary.add(whole ? block_summary_[static_cast<std::size_t>(j * blocks_of(points_.columns) + i)]
+                        : summary_one_by_one(in_columns, in_rows));
+    }
+  }
+  return summary;
+}
+
+HeightField::Summary HeightField::summary(const Place& from, const Place& to) const {
+  const auto points = [](Span cells, int count) {
+    return Span{std::max(cells.first, 0), std::min(cells.last + 1, count - 1)};
+  };
+  return summary_of_points(points(cell_columns(from[0], to[0]), points_.columns),
+                           points(cell_rows(from[1], to[1]), points_.rows));
+}
+
+HeightField::Span HeightField::cell_columns(double from, double to) const {
+  return {cell_number((from - points_.x) / points_.cell_x, points_.columns),
+          cell_number((to - points_.x) / points_.cell_x, points_.columns)};
+}
+
+HeightField::Span HeightField::cell_rows(double from, double to) const {
+  return {cell_number((from - points_.y) / points_.cell_y, points_.rows),
+          cell_number((to - points_.y) / points_.cell_y, points_.rows)};
+}
+
+double HeightField::height_at(int column, int row) const {
+  return points_.at(std::clamp(column, 0, points_.columns - 1), std::clamp(row, 0, points_.rows - 1));
+}
+
+HeightField::Cell HeightField::cell(int column, int row, const Place& from, const Place& to) const {
+  const double west = column < 0 ? std::min(from[0], points_.x - points_.cell_x) : points_.x_of(column);
+  const double east =
+      column + 1 < points_.columns ? points_.x_of(column + 1) : std::max(to[0], points_.x_end() + points_.cell_x);
+  const double south = row < 0 ? std::min(from[1], points_.y - points_.cell_y) : points_.y_of(row);
+  const double north =
+      row + 1 < points_.rows ? points_.y_of(row + 1) : std::max(to[1], points_.y_end() + points_.cell_y);
+  Cell cell;
+  cell.point = {Vector<double, 3>(west, south, height_at(column, row)),
+                Vector<double, 3>(east, south, height_at(column + 1, row)),
+                Vector<double, 3>(east, north, height_at(column + 1, row + 1)),
+                Vector<double, 3>(west, north, height_at(column, row + 1))};
+  cell.centre = 0.25 * ((cell.point[0] + cell.point[2]) + (cell.point[1] + cell.point[3]));
+  return cell;
+}
+
+HeightField::Cell HeightField::cell_at(const Place& place) const {
+  return cell(cell_columns(place[0], place[0]).first, cell_rows(place[1], place[1]).first, place, place);
+}
+
+std::size_t HeightField::Cell::triangle_at(const Place& place) const {
+  const double x = (place[0] - centre[0]) / (point[2][0] - point[0][0]);
+  const double y = (place[1] - centre[1]) / (point[2][1] - point[0][1]);
+  if (std::abs(x) > std::abs(y)) {
+    return x > 0.0 ? 1 : 3;
+  }
+  return y > 0.0 ? 2 : 0;
+}
+
+HeightField::Place HeightField::Cell::gradient(std::size_t k) const {
+  const Vector<double, 3>&a = point[k], &b = point[(k + 1) % 4];
+  const int along = k % 2 == 0 ? 0 : 1;  // the axis of the outer edge
+  const int across = 1 - along;
+  Place gradient;
+  gradient[along] = (b[2] - a[2]) / (b[along] - a[along]);
+  gradient[across] = (centre[2] - 0.5 * (a[2] + b[2])) / (centre[across] - a[across]);
+  return gradient;
+}
+
+HeightField::Place HeightField::gradient(const Place& place) const {
+  const Cell cell = cell_at(place);
+  return cell.gradient(cell.triangle_at(place));
+}
+
+double HeightField::height(const Place& place) const {
+  const Cell cell = cell_at(place);
+  return cell.centre[2] + cell.gradient(cell.triangle_at(place)).dot(place - cell.centre.head<2>());
+}
+
+double HeightField::highest(const Place& from, const Place& to) const {
+  // Beyond the outermost points the ground is as high as at the edge.
+  const Place least(points_.x, points_.y), greatest(points_.x_end(), points_.y_end());
+  const Place low = from.cwiseMax(least).cwiseMin(greatest), high = to.cwiseMax(least).cwiseMin(greatest);
+  const Span columns = cell_columns(low[0], high[0]), rows = cell_rows(low[1], high[1]);
+  double top = -HUGE_VAL;
+  if (columns.first < columns.last && rows.first < rows.last) {
+    top = summary_of_points({columns.first + 1, columns.last}, {rows.first + 1, rows.last}).highest;
+  }
+  const auto look = [&](int column, int row) {
+    if (std::max({height_at(column, row), height_at(column + 1, row), height_at(column, row + 1),
+                  height_at(column + 1, row + 1)}) <= top) {
+      return;
+    }
+    const Cell there = cell(column, row, low, high);
+    for (std::size_t k = 0; k < 4; ++k) {
+      ConvexPolygon all(there.triangle(k)), part, outside;
+      all.split(0, low[0], outside, part);
+      part.split(0, high[0], all, outside);
+      all.split(1, low[1], outside, part);
+      part.split(1, high[1], all, outside);
+      top = std::max(top, all.extent(2).greatest);
+    }
+  };
+  for (int row = rows.first; row <= rows.last; ++row) {
+    const bool whole_row = row == rows.first || row == rows.last;
+    for (int column = columns.first; column <= columns.last;
+         column += whole_row ? 1 : std::max(1, columns.last - columns.first)) {
+      look(column, row);
+    }
+  }
+  return top;
+}
+
+bool HeightField::is_known(const Place& place) const { return is_known(place, place); }
+
+bool HeightField::is_known(const Place& from, const Place& to) const {
+  const Place cells(points_.cell_x, points_.cell_y);
+  const Place margin = round_off * cells;
+  const Place least(points_.x, points_.y), greatest(points_.x_end(), points_.y_end());
+  if ((from.array() < (least - margin).array()).any() || (to.array() > (greatest + margin).array()).any()) {
+    return false;
+  }
+  // Cells that the rectangle only touches do not count.
+  const Place low = (from + margin).cwiseMin(greatest - margin);
+  return summary(low, (to - margin).cwiseMax(low)).known;
+}
+
+void HeightField::at_block(const Vector<double, 3>& lowest, double cell_size, int edge,
+                           GroundAtNode<3, double>* nodes) const {
+  const Place from = lowest.head<2>().array() - cell_size;
+  const Place to = lowest.head<2>().array() + edge * cell_size;
+  const Summary below = summary(from, to);
+  SurfaceIntegrals integrals(lowest, cell_size, edge, nodes);
+  if (below.highest <= lowest[2] - cell_size) {
+    integrals.finish_in_space();
+  } else if (below.lowest >= lowest[2] + edge * cell_size) {
+    integrals.finish_in_ground();
+  } else {
+    const Span columns = cell_columns(from[0], to[0]), rows = cell_rows(from[1], to[1]);
+    for (int row = rows.first; row <= rows.last; ++row) {
+      for (int column = columns.first; column <= columns.last; ++column) {
+        const Cell there = cell(column, row, from, to);
+        for (std::size_t k = 0; k < 4; ++k) {
+          integrals.add(there.triangle(k));
+        }
+      }
+    }
+    integrals.finish();
+  }
+  set_distances(lowest, cell_size, edge, nodes);
+}
+
+void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_size, int edge,
+                                GroundAtNode<3, double>* nodes) const {
+  const double reach = reach_in_cells * cell_size;
+  const double width = (edge - 1) * cell_size;
+  const Summary about = summary(lowest.head<2>().array() - reach, lowest.head<2>().array() + width + reach);
+  const bool any_near = about.highest > lowest[2] - reach && about.lowest < lowest[2] + width + reach;
+  for (int k = 0; k < edge * edge * edge; ++k) {
+    GroundAtNode<3, double>& node = nodes[k];
+    const Vector<double, 3> position =
+        lowest + cell_size * Vector<double, 3>(k % edge, k / edge % edge, k / (edge * edge));
+    const Place place = position.head<2>();
+    const double sign = position[2] >= height(place) ? 1.0 : -1.0;
+    const auto foot = any_near ? nearest(position, reach) : std::nullopt;
+    const double distance = foot ? (*foot - position).norm() : reach;
+    node.distance = sign * distance;
+    if (node.normal.isZero(0.0)) {
+      node.normal = foot && distance > round_off * cell_size ? Vector<double, 3>(sign * (*foot - position) / distance)
+                                                             : normal_below(place);
+    }
+  }
+}
+
+std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& position, double reach) const {
+  const Place place = position.head<2>();
+  const Place from = place.array() - reach, to = place.array() + reach;
+  const Span columns = cell_columns(from[0], to[0]), rows = cell_rows(from[1], to[1]);
+  std::optional<Vector<double, 3>> nearest;
+  double least = reach * reach;
+  const auto look = [&](int column, int row) {
+    if (column < columns.first || column > columns.last || row < rows.first || row > rows.last) {
+      return;
+    }
+    const Cell there = cell(column, row, from, to);
+    const auto [low, high] = std::minmax({there.point[0][2], there.point[1][2], there.point[2][2], there.point[3][2]});
+    const Vector<double, 3> least_corner(there.point[0][0], there.point[0][1], low);
+    const Vector<double, 3> greatest_corner(there.point[2][0], there.point[2][1], high);
+    if ((position.cwiseMax(least_corner).cwiseMin(greatest_corner) - position).squaredNorm() >= least) {
+      return;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vector<double, 3> candidate = nearest_on_triangle(position, there.triangle(k));
+      const double squared = (candidate - position).squaredNorm();
+      if (squared < least) {
+        least = squared;
+        nearest = candidate;
+      }
+    }
+  };
+  // First where the foot on the plane of the triangle below is: then most other cells are too far away.
+  const Place slope = gradient(place);
+  const Place guess = place + slope * ((position[2] - height(place)) / (1.0 + slope.squaredNorm()));
+  look(cell_columns(guess[0], guess[0]).first, cell_rows(guess[1], guess[1]).first);
+  // Outwards in rings of cells; cells of ring r are at least r - 1 cells away.
+  const int column = cell_columns(place[0], place[0]).first, row = cell_rows(place[1], place[1]).first;
+  const double width = std::min(points_.cell_x, points_.cell_y);
+  const int rings = std::max({column - columns.first, columns.last - column, row - rows.first, rows.last - row});
+  for (int ring = 0; ring <= rings && (ring - 1) * width < std::sqrt(least); ++ring) {
+    for (int j = -ring; j <= ring; ++j) {
+      const int step = std::abs(j) == ring ? 1 : 2 * ring;
+      for (int i = -ring; i <= ring; i += step) {
+        look(column + i, row + j);
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace thawslide::terrain
