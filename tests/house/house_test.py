@@ -21,7 +21,8 @@ ALLOWED = {
     "band": {"base", "physics", "mpm", "band"},
     "sim": {"base", "physics", "config", "mpm", "terrain", "band", "sim"},
     "io": {"base", "config", "mpm", "io", "generated"},
-    "app": {"base", "physics", "config", "mpm", "terrain", "band", "sim", "io", "app", "generated"},
+    "gis": {"base", "config", "gis"},
+    "app": {"base", "physics", "config", "mpm", "terrain", "band", "sim", "io", "gis", "app", "generated"},
 }
 LONGEST_FILE = 400  # lines
 LONGEST_LINE = 120  # characters, in documents; clang-format and ruff see to the code

@@ -1,0 +1,133 @@
+#include "gis/polygons.hpp"
+
+#include <memory>
+
+#include "base/error.hpp"
+#include "gis/gdal_messages.hpp"
+#include "gis/geometry.hpp"
+
+namespace thawslide::gis {
+
+double signed_area(const Polyline2& ring) {
+  double twice = 0.0;
+  for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
+    const double x = ring[k][0] - ring[0][0], y = ring[k][1] - ring[0][1];
+    const double next_x = ring[k + 1][0] - ring[0][0], next_y = ring[k + 1][1] - ring[0][1];
+    twice += x * next_y - next_x * y;
+  }
+  return 0.5 * twice;
+}
+
+double area_of(const Polygons& polygons) {
+  double area = 0.0;
+  for (const Polygon& polygon : polygons) {
+    area += std::abs(signed_area(polygon.outline));
+    for (const Polyline2& hole : polygon.holes) {
+      area -= std::abs(signed_area(hole));
+    }
+  }
+  return area;
+}
+
+Rectangle extent_of(const Polygons& polygons) {
+  THAWSLIDE_ASSERT(!polygons.empty() && !polygons.front().outline.empty(), "{} polygons", polygons.size());
+  const auto& [x, y] = polygons.front().outline.front();
+  Rectangle extent{x, y, x, y};
+  for (const Polygon& polygon : polygons) {
+    for (const auto& corner : polygon.outline) {
+      extent.take_in(corner[0], corner[1]);
+    }
+  }
+  return extent;
+}
+
+OGRPolygon to_geometry(const Polygon& polygon) {
+  const auto ring_of = [](const Polyline2& corners) {
+    auto ring = std::make_unique<OGRLinearRing>();
+    for (const auto& corner : corners) {
+      ring->addPoint(corner[0], corner[1]);
+    }
+    return ring;
+  };
+  OGRPolygon geometry;
+  geometry.addRingDirectly(ring_of(polygon.outline).release());
+  for (const Polyline2& hole : polygon.holes) {
+    geometry.addRingDirectly(ring_of(hole).release());
+  }
+  return geometry;
+}
+
+OGRMultiPolygon to_geometry(const Polygons& polygons) {
+  OGRMultiPolygon geometry;
+  for (const Polygon& polygon : polygons) {
+    const OGRPolygon one = to_geometry(polygon);
+    geometry.addGeometry(&one);
+  }
+  return geometry;
+}
+
+OGRLineString to_geometry(const Polyline2& line) {
+  OGRLineString geometry;
+  for (const auto& corner : line) {
+    geometry.addPoint(corner[0], corner[1]);
+  }
+  return geometry;
+}
+
+Polyline2 from_geometry(const OGRSimpleCurve& curve) {
+  Polyline2 line;
+  for (int k = 0; k < curve.getNumPoints(); ++k) {
+    line.push_back({curve.getX(k), curve.getY(k)});
+  }
+  return line;
+}
+
+Polygon from_geometry(const OGRPolygon& polygon) {
+  Polygon result;
+  result.outline = from_geometry(*polygon.getExteriorRing());
+  for (int k = 0; k < polygon.getNumInteriorRings(); ++k) {
+    result.holes.push_back(from_geometry(*polygon.getInteriorRing(k)));
+  }
+  return result;
+}
+
+Polygons areas_of(const OGRGeometry& geometry) {
+  Polygons areas;
+  const auto kind = wkbFlatten(geometry.getGeometryType());
+  if (kind == wkbPolygon) {
+    if (!geometry.IsEmpty()) {
+      areas.push_back(from_geometry(*geometry.toPolygon()));
+    }
+  } else if (OGR_GT_IsSubClassOf(kind, wkbGeometryCollection)) {
+    for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
+      const Polygons more = areas_of(*part);
+      areas.insert(areas.end(), more.begin(), more.end());
+    }
+  }
+  return areas;
+}
+
+Polygons union_of(const Polygons& polygons) {
+  if (polygons.empty()) {
+    return {};
+  }
+  const GdalMessages messages;
+  const OGRMultiPolygon all = to_geometry(polygons);
+  const std::unique_ptr<OGRGeometry> geometry(all.UnionCascaded());
+  THAWSLIDE_ASSERT(geometry != nullptr, "no union of {} polygons{}", polygons.size(), messages.remark());
+  return areas_of(*geometry);
+}
+
+Polygons intersection_of(const Polygons& first, const Polygons& second) {
+  if (first.empty() || second.empty() || !extent_of(first).touches(extent_of(second))) {
+    return {};
+  }
+  const GdalMessages messages;
+  const OGRMultiPolygon one = to_geometry(union_of(first)), other = to_geometry(union_of(second));
+  const std::unique_ptr<OGRGeometry> geometry(one.Intersection(&other));
+  THAWSLIDE_ASSERT(geometry != nullptr, "no intersection of {} and {} polygons{}", first.size(), second.size(),
+                   messages.remark());
+  return areas_of(*geometry);
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,190 @@
+#include "gis/raster_file.hpp"
+
+#include <gdal_priv.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+
+#include "base/error.hpp"
+#include "gis/gdal_messages.hpp"
+#include "gis/spatial_reference.hpp"
+
+namespace thawslide::gis {
+
+struct RasterFile::Handle {
+  GDALDatasetUniquePtr dataset;
+  GDALRasterBand* band = nullptr;
+  double scale = 1.0, offset = 0.0;  // of the values stored
+  bool is_single = false;            // 32-bit reals
+};
+
+namespace {
+
+[[noreturn]] void fail_open(const std::string& file, const GdalMessages& messages) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    throw UserError(fmt::format("{}: there is no such file. Correct the path.", file));
+  }
+  throw UserError(
+      fmt::format("{}: the raster cannot be opened{}. Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is "
+                  "whole and may be read.",
+                  file, messages.remark()));
+}
+
+GDALDatasetUniquePtr open_raster(const std::string& file) {
+  const GdalMessages messages;
+  GDALDriverH driver = GDALIdentifyDriver(file.c_str(), nullptr);
+  // Left alone, the driver of ASCII grids makes floats of reals, and integers of what begins with integers.
+  const bool is_ascii = driver != nullptr && std::string(GDALGetDescription(driver)) == "AAIGrid";
+  const char* const as_double[] = {"DATATYPE=Float64", nullptr};
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(),
+                                                 GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
+                                                 is_ascii ? as_double : nullptr, nullptr));
+  if (dataset == nullptr) {
+    fail_open(file, messages);
+  }
+  return dataset;
+}
+
+// The layout of the points from GDAL's six numbers: corner, columns and rows of the upper left pixel.
+Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up) {
+  double transform[6];
+  if (dataset.GetGeoTransform(transform) != CE_None) {
+    throw UserError(
+        fmt::format("{}: the raster is not georeferenced: nothing tells where its corner lies and how large its cells "
+                    "are. Export it again with its place (GeoTIFF tags, or a world file beside it).",
+                    file));
+  }
+  const double along = std::abs(transform[1]) + std::abs(transform[5]);
+  if (std::abs(transform[2]) + std::abs(transform[4]) > 1e-12 * along || transform[1] <= 0.0 || transform[5] == 0.0) {
+    throw UserError(
+        fmt::format("{}: the raster is rotated or mirrored (geotransform {:g}); allowed: columns from west to east, "
+                    "rows from north to south or back. Straighten it: gdalwarp -r bilinear {} straight.tif",
+                    file, fmt::join(transform, ", "), file));
+  }
+  Raster layout;
+  layout.columns = dataset.GetRasterXSize();
+  layout.rows = dataset.GetRasterYSize();
+  layout.cell_x = transform[1];
+  layout.cell_y = std::abs(transform[5]);
+  north_up = transform[5] < 0.0;
+  layout.x = transform[0] + 0.5 * layout.cell_x;
+  layout.y = (north_up ? transform[3] - layout.rows * layout.cell_y : transform[3]) + 0.5 * layout.cell_y;
+  layout.crs = wkt_from_reference(dataset.GetSpatialRef());
+  return layout;
+}
+
+double nodata_of(GDALRasterBand& band, bool& has) {
+  int given = 0;
+  double value = 0.0;
+  if (band.GetRasterDataType() == GDT_Int64) {
+    value = static_cast<double>(band.GetNoDataValueAsInt64(&given));
+  } else if (band.GetRasterDataType() == GDT_UInt64) {
+    value = static_cast<double>(band.GetNoDataValueAsUInt64(&given));
+  } else {
+    value = band.GetNoDataValue(&given);
+  }
+  has = given != 0;
+  return value;
+}
+
+}  // namespace
+
+RasterFile::RasterFile(const std::string& file) : handle_(std::make_unique<Handle>()), file_(file) {
+  handle_->dataset = open_raster(file);
+  const GdalMessages messages;
+  GDALDataset& dataset = *handle_->dataset;
+  if (dataset.GetRasterCount() != 1) {
+    throw UserError(
+        fmt::format("{}: the raster has {} bands; allowed: one. Take one out: gdal_translate -b 1 {} one-band.tif",
+                    file, dataset.GetRasterCount(), file));
+  }
+  layout_ = layout_from(file, dataset, north_up_);
+  handle_->band = dataset.GetRasterBand(1);
+  const GDALDataType type = handle_->band->GetRasterDataType();
+  if (GDALDataTypeIsComplex(type) != 0) {
+    throw UserError(fmt::format("{}: the values are of the type {}; allowed: real numbers or integers.", file,
+                                GDALGetDataTypeName(type)));
+  }
+  handle_->is_single = type == GDT_Float32;
+  handle_->scale = handle_->band->GetScale();
+  handle_->offset = handle_->band->GetOffset();
+  unit_ = handle_->band->GetUnitType();
+  nodata_ = nodata_of(*handle_->band, has_nodata_);
+}
+
+RasterFile::~RasterFile() = default;
+
+Rectangle RasterFile::extent() const {
+  return span_of_points(layout_).widened(0.5 * layout_.cell_x, 0.5 * layout_.cell_y);
+}
+
+Raster RasterFile::read(const std::optional<Rectangle>& window) const {
+  const PointWindow part = window ? points_in(layout_, *window) : PointWindow{0, 0, layout_.columns, layout_.rows};
+  THAWSLIDE_ASSERT(part.columns > 0 && part.rows > 0, "{}: a window without a point", file_);
+  Raster raster = layout_of(layout_, part);
+  raster.values.resize(static_cast<std::size_t>(part.columns) * static_cast<std::size_t>(part.rows));
+  // GDAL's rows go downwards in a file that is north up: those of the result are filled from the last.
+  const int first_line = north_up_ ? layout_.rows - part.first_row - part.rows : part.first_row;
+  const auto line_bytes = static_cast<GSpacing>(part.columns) * static_cast<GSpacing>(sizeof(double));
+  double* const first = raster.values.data() + (north_up_ ? raster.index(0, part.rows - 1) : 0);
+  const GdalMessages messages;
+  const CPLErr result =
+      handle_->band->RasterIO(GF_Read, part.first_column, first_line, part.columns, part.rows, first, part.columns,
+                              part.rows, GDT_Float64, sizeof(double), north_up_ ? -line_bytes : line_bytes, nullptr);
+  if (result != CE_None || messages.any_error()) {
+    throw UserError(
+        fmt::format("{}: the values cannot be read{}. The file seems to be damaged or cut off: copy it anew.", file_,
+                    messages.remark()));
+  }
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  const auto nodata_single = static_cast<float>(nodata_);
+  bool any = false;
+  for (double& value : raster.values) {
+    const bool is_nodata =
+        has_nodata_ && (value == nodata_ || (handle_->is_single && static_cast<float>(value) == nodata_single));
+    value = is_nodata || !std::isfinite(value) ? missing : value * handle_->scale + handle_->offset;
+    any = any || !is_nodata;
+  }
+  if (!any) {
+    throw UserError(fmt::format("{}: no point holds a value, all are nodata{}. Check that it is the right file.", file_,
+                                window ? " in the area asked for" : ""));
+  }
+  return raster;
+}
+
+PointWindow points_in(const Raster& layout, const Rectangle& rectangle) {
+  const auto range = [](double low, double high, double first, double cell, int count, int& begin, int& number) {
+    const double most = count - 1;
+    const double from = std::floor((low - first) / cell);
+    const double to = std::ceil((high - first) / cell);
+    if (!(from <= most && to >= 0.0 && low <= high)) {
+      number = 0;
+      return;
+    }
+    begin = static_cast<int>(std::max(from, 0.0));
+    number = static_cast<int>(std::min(to, most)) - begin + 1;
+  };
+  PointWindow window;
+  range(rectangle.min_x, rectangle.max_x, layout.x, layout.cell_x, layout.columns, window.first_column, window.columns);
+  range(rectangle.min_y, rectangle.max_y, layout.y, layout.cell_y, layout.rows, window.first_row, window.rows);
+  return window;
+}
+
+Raster layout_of(const Raster& layout, const PointWindow& window) {
+  Raster part;
+  part.x = layout.x_of(window.first_column);
+  part.y = layout.y_of(window.first_row);
+  part.cell_x = layout.cell_x;
+  part.cell_y = layout.cell_y;
+  part.columns = window.columns;
+  part.rows = window.rows;
+  part.crs = layout.crs;
+  return part;
+}
+
+Rectangle span_of_points(const Raster& layout) { return {layout.x, layout.y, layout.x_end(), layout.y_end()}; }
+
+}  // namespace thawslide::gis

@@ -1,0 +1,73 @@
+// Rasters of one band in files: GeoTIFF and ESRI ASCII grids are read, GeoTIFF is written.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/raster.hpp"
+#include "gis/rectangle.hpp"
+
+namespace thawslide::gis {
+
+// A file that is open. What it throws is a UserError that begins with the file's name.
+class RasterFile {
+ public:
+  // Opens the file and checks what can be checked without its values: one band, straight to the axes.
+  explicit RasterFile(const std::string& file);
+  ~RasterFile();
+  RasterFile(const RasterFile&) = delete;
+  RasterFile& operator=(const RasterFile&) = delete;
+
+  [[nodiscard]] const std::string& file() const { return file_; }
+  // Places of the points and the file's reference system, without values.
+  [[nodiscard]] const Raster& layout() const { return layout_; }
+  // The outer edges of the cells about the points.
+  [[nodiscard]] Rectangle extent() const;
+  // Of the values, as the file tells it; empty: it does not.
+  [[nodiscard]] const std::string& unit() const { return unit_; }
+  [[nodiscard]] bool has_nodata() const { return has_nodata_; }
+
+  // The points that lie in the window, and one more on each side where the file has one; without a window, all of them.
+  // Reads nothing else. Nodata and what is not finite becomes NaN. An error if no value is left.
+  [[nodiscard]] Raster read(const std::optional<Rectangle>& window = std::nullopt) const;
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+  std::string file_;
+  Raster layout_;
+  std::string unit_;
+  bool north_up_ = true;
+  bool has_nodata_ = false;
+  double nodata_ = 0.0;
+};
+
+// Columns and rows of a grid of points: from the first one, so many.
+struct PointWindow {
+  int first_column = 0, first_row = 0, columns = 0, rows = 0;
+};
+
+// The points of the layout that lie in the rectangle, and one more on each side; none (0 columns or rows) where the
+// rectangle lies outside.
+[[nodiscard]] PointWindow points_in(const Raster& layout, const Rectangle& rectangle);
+
+// The same grid reduced to a window, without values.
+[[nodiscard]] Raster layout_of(const Raster& layout, const PointWindow& window);
+
+// From the first to the last point.
+[[nodiscard]] Rectangle span_of_points(const Raster& layout);
+
+enum class Precision { float32, float64 };
+
+struct BandText {
+  std::string unit;         // "m"
+  std::string description;  // "largest thickness"
+};
+
+// Tiled, DEFLATE compressed, nodata -9999 for NaN, with the raster's reference system. Whole or not there: written
+// beside its place and renamed.
+void write_geotiff(const std::string& file, const Raster& raster, const BandText& text,
+                   Precision precision = Precision::float64);
+
+}  // namespace thawslide::gis

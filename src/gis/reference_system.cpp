@@ -1,0 +1,259 @@
+#include "gis/reference_system.hpp"
+
+#include <cpl_conv.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "gis/gdal_messages.hpp"
+#include "gis/spatial_reference.hpp"
+
+namespace thawslide::gis {
+
+OGRSpatialReference reference_from_wkt(const std::string& wkt) {
+  OGRSpatialReference reference;
+  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (!wkt.empty()) {
+    const OGRErr result = reference.importFromWkt(wkt.c_str());
+    THAWSLIDE_ASSERT(result == OGRERR_NONE, "WKT that GDAL does not read: {}", wkt);
+  }
+  return reference;
+}
+
+std::string wkt_from_reference(const OGRSpatialReference* reference) {
+  if (reference == nullptr || reference->IsEmpty()) {
+    return "";
+  }
+  const GdalMessages messages;
+  for (const char* format : {"FORMAT=WKT1", "FORMAT=WKT2_2019"}) {
+    const char* const options[] = {format, nullptr};
+    char* text = nullptr;
+    const OGRErr result = reference->exportToWkt(&text, options);
+    const std::string wkt = text == nullptr ? "" : text;
+    CPLFree(text);
+    if (result == OGRERR_NONE && !wkt.empty()) {
+      return wkt;
+    }
+  }
+  return "";
+}
+
+namespace {
+
+void require_projection_database() {
+  const GdalMessages messages;
+  OGRSpatialReference known;
+  if (known.importFromEPSG(4326) != OGRERR_NONE) {
+    throw UserError(
+        fmt::format("PROJ's database of coordinate reference systems, proj.db, cannot be used{}. Install it (Debian: "
+                    "apt-get install proj-data), or let PROJ_LIB name the folder that holds it.",
+                    messages.remark()));
+  }
+}
+
+std::string range_words(const Rectangle& extent) {
+  return fmt::format("x from {:.10g} to {:.10g}, y from {:.10g} to {:.10g}", extent.min_x, extent.max_x, extent.min_y,
+                     extent.max_y);
+}
+
+std::string quoted_path(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  return text.find_first_of(" '()&;$") == std::string::npos ? text : "\"" + text + "\"";
+}
+
+// The zone of the Universal Transverse Mercator projection: 6 degrees wide, numbered from 180 degrees west (Snyder
+// 1987, Map projections: a working manual, p. 57).
+int utm_number(double longitude, double latitude) {
+  const int zone = std::clamp(static_cast<int>(std::floor((longitude + 180.0) / 6.0)) + 1, 1, 60);
+  return (latitude >= 0.0 ? 32600 : 32700) + zone;
+}
+
+double two_digits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::round(value / unit) * unit;
+}
+
+// The command that makes a raster in metres, in the UTM zone of the raster's centre.
+std::string warp_command(const Located& raster, const std::string& source_option, double longitude, double latitude,
+                         double metres_per_unit) {
+  const int number = utm_number(longitude, latitude);
+  const std::filesystem::path file(raster.file);
+  const std::filesystem::path target = file.parent_path() / fmt::format("{}-EPSG{}.tif", file.stem().string(), number);
+  const double cell = two_digits(raster.cell_y * metres_per_unit);
+  return fmt::format("gdalwarp {}-t_srs EPSG:{} -tr {:g} {:g} -r bilinear {} {}", source_option, number, cell, cell,
+                     quoted_path(file), quoted_path(target));
+}
+
+std::string warp_of_degrees(const Located& raster, const std::string& source_option) {
+  constexpr double metres_per_degree = 111.3e3;  // of latitude, about
+  const Rectangle& extent = raster.extent;
+  return warp_command(raster, source_option, 0.5 * (extent.min_x + extent.max_x), 0.5 * (extent.min_y + extent.max_y),
+                      metres_per_degree);
+}
+
+[[noreturn]] void fail_without_system(const Located& raster) {
+  const std::string found =
+      fmt::format("{}: the file names no coordinate reference system ({})", raster.file, range_words(raster.extent));
+  if (can_be_degrees(raster.extent)) {
+    throw UserError(
+        fmt::format("{}. If these are degrees, reproject to metres: {}. If they are metres, set terrain.crs to the "
+                    "system they are in, such as terrain.crs = \"EPSG:31287\".",
+                    found, warp_of_degrees(raster, "-s_srs EPSG:4326 ")));
+  }
+  throw UserError(
+      fmt::format("{}. Set terrain.crs to the one its maker states, such as terrain.crs = \"EPSG:31287\".", found));
+}
+
+[[noreturn]] void fail_with_degrees(const Located& raster, const std::string& wkt) {
+  if (!can_be_degrees(raster.extent)) {
+    throw UserError(
+        fmt::format("{}: the tag says degrees ({}), the numbers are metric ({}). Set terrain.crs = \"EPSG:...\" to the "
+                    "system the numbers are in; its maker states it.",
+                    raster.file, name_of(wkt), range_words(raster.extent)));
+  }
+  throw UserError(
+      fmt::format("{}: the coordinates are degrees ({}; {}); allowed: a map projection in metres. Reproject: {}",
+                  raster.file, name_of(wkt), range_words(raster.extent), warp_of_degrees(raster, "")));
+}
+
+[[noreturn]] void fail_with_unit(const Located& raster, const std::string& wkt, const std::string& unit,
+                                 double metres_per_unit, bool from_key) {
+  if (from_key) {
+    throw UserError(
+        fmt::format("terrain.crs, {}, is in the unit '{}'; allowed: a map projection in metres.", name_of(wkt), unit));
+  }
+  OGRSpatialReference degrees;
+  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  degrees.importFromEPSG(4326);
+  std::vector<double> x{0.5 * (raster.extent.min_x + raster.extent.max_x)};
+  std::vector<double> y{0.5 * (raster.extent.min_y + raster.extent.max_y)};
+  std::string remedy = "Reproject it to one with gdalwarp";
+  if (Reprojection(wkt, wkt_from_reference(&degrees)).apply(x, y)) {
+    remedy = "Reproject: " + warp_command(raster, "", x[0], y[0], metres_per_unit);
+  }
+  throw UserError(
+      fmt::format("{}: the coordinates are in the unit '{}' ({}); allowed: a map projection in metres, and elevations "
+                  "in metres. {}",
+                  raster.file, unit, name_of(wkt), remedy));
+}
+
+}  // namespace
+
+std::string reference_system_named(const std::string& text) {
+  const GdalMessages messages;
+  OGRSpatialReference reference;
+  if (reference.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
+      OGRERR_NONE) {
+    require_projection_database();
+    throw UserError(
+        fmt::format("'{}' is no coordinate reference system that is known; allowed: a number of the EPSG registry such "
+                    "as \"EPSG:31287\" (epsg.io finds it), or a WKT.",
+                    text));
+  }
+  return wkt_from_reference(&reference);
+}
+
+std::string name_of(const std::string& wkt) {
+  if (wkt.empty()) {
+    return "";
+  }
+  const GdalMessages messages;
+  const OGRSpatialReference reference = reference_from_wkt(wkt);
+  const char* authority = reference.GetAuthorityName(nullptr);
+  const char* code = reference.GetAuthorityCode(nullptr);
+  if (authority != nullptr && code != nullptr) {
+    return fmt::format("{}:{}", authority, code);
+  }
+  const char* name = reference.GetName();
+  return name == nullptr ? "unnamed" : name;
+}
+
+bool is_geographic(const std::string& wkt) {
+  const GdalMessages messages;
+  return !wkt.empty() && reference_from_wkt(wkt).IsGeographic() != 0;
+}
+
+bool can_be_degrees(const Rectangle& extent) {
+  return std::max(std::abs(extent.min_x), std::abs(extent.max_x)) <= 360.0 &&
+         std::max(std::abs(extent.min_y), std::abs(extent.max_y)) <= 90.0;
+}
+
+std::string metric_system(const Located& raster, const std::string& wkt_of_file, const std::string& terrain_crs) {
+  const bool from_key = !terrain_crs.empty();
+  const std::string wkt = from_key ? reference_system_named(terrain_crs) : wkt_of_file;
+  if (wkt.empty()) {
+    fail_without_system(raster);
+  }
+  const GdalMessages messages;
+  require_projection_database();
+  const OGRSpatialReference reference = reference_from_wkt(wkt);
+  if (reference.IsGeographic() != 0) {
+    if (from_key) {
+      throw UserError(
+          fmt::format("terrain.crs, {}, is in degrees; allowed: a map projection in metres, such as "
+                      "\"EPSG:31287\".",
+                      name_of(wkt)));
+    }
+    fail_with_degrees(raster, wkt);
+  }
+  if (reference.IsProjected() == 0) {
+    throw UserError(
+        fmt::format("{}: the coordinate reference system '{}' is no map projection; allowed: a projection "
+                    "in metres. Set terrain.crs, such as terrain.crs = \"EPSG:31287\".",
+                    raster.file, name_of(wkt)));
+  }
+  const char* unit = nullptr;
+  const double metres_per_unit = reference.GetLinearUnits(&unit);
+  if (std::abs(metres_per_unit - 1.0) > 1e-9) {
+    fail_with_unit(raster, wkt, unit == nullptr ? "unknown" : unit, metres_per_unit, from_key);
+  }
+  return wkt;
+}
+
+struct Reprojection::Way {
+  std::unique_ptr<OGRCoordinateTransformation> transformation;
+};
+
+Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wkt) {
+  if (from_wkt.empty() || to_wkt.empty() || from_wkt == to_wkt) {
+    return;
+  }
+  const GdalMessages messages;
+  const OGRSpatialReference from = reference_from_wkt(from_wkt);
+  const OGRSpatialReference to = reference_from_wkt(to_wkt);
+  const char* const options[] = {"CRITERION=EQUIVALENT", nullptr};
+  if (from.IsSame(&to, options) != 0) {
+    return;
+  }
+  way_ = std::make_unique<Way>();
+  way_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
+  if (way_->transformation == nullptr) {
+    require_projection_database();
+    throw UserError(
+        fmt::format("no way is known from the coordinate reference system {} to {}{}. Reproject the file "
+                    "to the latter.",
+                    name_of(from_wkt), name_of(to_wkt), messages.remark()));
+  }
+}
+
+Reprojection::~Reprojection() = default;
+Reprojection::Reprojection(Reprojection&&) noexcept = default;
+Reprojection& Reprojection::operator=(Reprojection&&) noexcept = default;
+
+bool Reprojection::apply(std::vector<double>& x, std::vector<double>& y) const {
+  if (way_ == nullptr) {
+    return true;
+  }
+  const GdalMessages messages;
+  std::vector<int> success(x.size(), 0);
+  way_->transformation->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, success.data());
+  for (const int one : success) {
+    if (one == 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,328 @@
+#include "gis/vector_file.hpp"
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "config/problems.hpp"
+#include "gis/gdal_messages.hpp"
+#include "gis/geometry.hpp"
+#include "gis/polygon_checks.hpp"
+#include "gis/reference_system.hpp"
+#include "gis/spatial_reference.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+enum class Kind { polygons, lines, points };
+
+const char* word_of(Kind kind) {
+  return kind == Kind::polygons ? "polygons" : kind == Kind::lines ? "lines" : "points";
+}
+
+bool holds(OGRwkbGeometryType type, Kind kind) {
+  switch (wkbFlatten(type)) {
+    case wkbPolygon:
+    case wkbMultiPolygon:
+    case wkbCurvePolygon:
+    case wkbMultiSurface:
+      return kind == Kind::polygons;
+    case wkbLineString:
+    case wkbMultiLineString:
+    case wkbCompoundCurve:
+    case wkbCircularString:
+    case wkbMultiCurve:
+      return kind == Kind::lines;
+    case wkbPoint:
+    case wkbMultiPoint:
+      return kind == Kind::points;
+    default:
+      return false;
+  }
+}
+
+GDALDatasetUniquePtr open_vector(const std::string& file) {
+  const GdalMessages messages;
+  GDALDatasetUniquePtr dataset(
+      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (dataset == nullptr) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+      throw UserError(fmt::format("{}: there is no such file. Correct the path.", file));
+    }
+    throw UserError(fmt::format(
+        "{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf beside it), GeoPackage "
+        "or GeoJSON; check that the file is whole and may be read.",
+        file, messages.remark()));
+  }
+  return dataset;
+}
+
+bool layer_holds(OGRLayer& layer, Kind kind) {
+  if (wkbFlatten(layer.GetGeomType()) != wkbUnknown) {
+    return holds(layer.GetGeomType(), kind);
+  }
+  layer.ResetReading();
+  const std::unique_ptr<OGRFeature> first(layer.GetNextFeature());
+  layer.ResetReading();
+  return first != nullptr && first->GetGeometryRef() != nullptr &&
+         holds(first->GetGeometryRef()->getGeometryType(), kind);
+}
+
+OGRLayer& layer_with(const std::string& file, GDALDataset& dataset, Kind kind) {
+  std::vector<std::string> all, fitting;
+  OGRLayer* chosen = nullptr;
+  GIntBig features = 0;
+  for (OGRLayer* layer : dataset.GetLayers()) {
+    all.push_back(fmt::format("'{}' ({}, {} features)", layer->GetName(), OGRGeometryTypeToName(layer->GetGeomType()),
+                              layer->GetFeatureCount()));
+    features += layer->GetFeatureCount();
+    if (layer_holds(*layer, kind)) {
+      fitting.emplace_back(layer->GetName());
+      chosen = layer;
+    }
+  }
+  if (fitting.size() == 1 && chosen->GetFeatureCount() > 0) {
+    return *chosen;
+  }
+  if (fitting.size() > 1) {
+    throw UserError(
+        fmt::format("{}: the file has {} layers of {}: {}; allowed: one. Export the one meant to a file of "
+                    "its own.",
+                    file, fitting.size(), word_of(kind), config::list_words(fitting)));
+  }
+  if (features == 0 || chosen != nullptr) {
+    throw UserError(fmt::format("{}: the layer is empty; needed: {}.", file, word_of(kind)));
+  }
+  throw UserError(fmt::format("{}: the file has no {}, but {}.", file, word_of(kind), config::list_words(all)));
+}
+
+class LayerReader {
+ public:
+  LayerReader(const std::string& file, const std::string& crs, Kind kind) : kind_(kind) {
+    result_.file = file;
+    dataset_ = open_vector(file);
+    layer_ = &layer_with(file, *dataset_, kind);
+    choose_reprojection(crs);
+  }
+
+  VectorLayer read() {
+    const GdalMessages messages;
+    const OGRFeatureDefn& definition = *layer_->GetLayerDefn();
+    for (int k = 0; k < definition.GetFieldCount(); ++k) {
+      result_.attributes.emplace_back(definition.GetFieldDefn(k)->GetNameRef());
+    }
+    for (const auto& feature : *layer_) {
+      take(*feature);
+    }
+    if (messages.any_error()) {
+      throw UserError(
+          fmt::format("{}: the features cannot be read{}. The file seems to be damaged or cut off: copy it "
+                      "anew.",
+                      result_.file, messages.remark()));
+    }
+    if (kind_ == Kind::polygons) {
+      check_polygons(result_);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void choose_reprojection(const std::string& crs) {
+    const std::string own = wkt_from_reference(layer_->GetSpatialRef());
+    const std::string name = std::filesystem::path(result_.file).filename().string();
+    if (crs.empty()) {
+      return;
+    }
+    if (own.empty()) {
+      result_.notes.push_back(
+          fmt::format("{} names no coordinate reference system: taken to be in the ground's, {}", name, name_of(crs)));
+      return;
+    }
+    OGREnvelope envelope;
+    const bool has_extent = layer_->GetExtent(&envelope) == OGRERR_NONE;
+    if (has_extent && is_geographic(own) &&
+        !can_be_degrees({envelope.MinX, envelope.MinY, envelope.MaxX, envelope.MaxY})) {
+      result_.notes.push_back(fmt::format(
+          "{} says that its coordinates are degrees ({}), which numbers such as {:.10g}, {:.10g} cannot be: "
+          "taken to be in the ground's system, {}",
+          name, name_of(own), envelope.MinX, envelope.MinY, name_of(crs)));
+      return;
+    }
+    reprojection_ = Reprojection(own, crs);
+    if (!reprojection_.changes_nothing()) {
+      result_.notes.push_back(fmt::format("{} was taken from {} to {}", name, name_of(own), name_of(crs)));
+    }
+  }
+
+  void take(const OGRFeature& source) {
+    Feature feature;
+    feature.title = title_of(source);
+    if (source.GetGeometryRef() == nullptr || source.GetGeometryRef()->IsEmpty()) {
+      throw UserError(fmt::format("{}: {} has no geometry; needed: {}. Delete it or draw it.", result_.file,
+                                  feature.title, word_of(kind_)));
+    }
+    const std::unique_ptr<OGRGeometry> geometry(source.GetGeometryRef()->getLinearGeometry());
+    geometry->flattenTo2D();
+    take_geometry(*geometry, feature);
+    for (const std::string& name : result_.attributes) {
+      const int index = source.GetFieldIndex(name.c_str());
+      if (!source.IsFieldSetAndNotNull(index)) {
+        continue;
+      }
+      feature.texts[name] = source.GetFieldAsString(index);
+      const OGRFieldType type = source.GetFieldDefnRef(index)->GetType();
+      if (type == OFTReal || type == OFTInteger || type == OFTInteger64) {
+        feature.numbers[name] = source.GetFieldAsDouble(index);
+      }
+    }
+    result_.features.push_back(std::move(feature));
+  }
+
+  // Its number, and what an attribute "name" says.
+  std::string title_of(const OGRFeature& source) const {
+    const char* kind = kind_ == Kind::polygons ? "polygon" : kind_ == Kind::lines ? "line" : "point";
+    const int index = source.GetFieldIndex("name");
+    const std::string name =
+        index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? source.GetFieldAsString(index) : "";
+    return fmt::format("{} {}{}", kind, result_.features.size() + 1, name.empty() ? "" : " (" + name + ")");
+  }
+
+  void take_geometry(const OGRGeometry& geometry, Feature& feature) {
+    switch (wkbFlatten(geometry.getGeometryType())) {
+      case wkbPolygon:
+        if (kind_ == Kind::polygons) {
+          Polygon polygon = from_geometry(*geometry.toPolygon());
+          reproject(polygon.outline, feature.title);
+          for (Polyline2& hole : polygon.holes) {
+            reproject(hole, feature.title);
+          }
+          feature.polygons.push_back(std::move(polygon));
+          return;
+        }
+        break;
+      case wkbLineString:
+        if (kind_ == Kind::lines) {
+          feature.lines.push_back(from_geometry(*geometry.toLineString()));
+          reproject(feature.lines.back(), feature.title);
+          return;
+        }
+        break;
+      case wkbPoint:
+        if (kind_ == Kind::points) {
+          Polyline2 point{{geometry.toPoint()->getX(), geometry.toPoint()->getY()}};
+          reproject(point, feature.title);
+          feature.points.push_back(point.front());
+          return;
+        }
+        break;
+      case wkbMultiPolygon:
+      case wkbMultiLineString:
+      case wkbMultiPoint:
+      case wkbGeometryCollection:
+        for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
+          take_geometry(*part, feature);
+        }
+        return;
+      default:
+        break;
+    }
+    throw UserError(fmt::format("{}: {} is of the kind {}; allowed: {}.", result_.file, feature.title,
+                                geometry.getGeometryName(), word_of(kind_)));
+  }
+
+  void reproject(Polyline2& line, const std::string& title) const {
+    std::vector<double> x, y;
+    for (const auto& corner : line) {
+      x.push_back(corner[0]);
+      y.push_back(corner[1]);
+    }
+    const bool known = reprojection_.apply(x, y);
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      if (!known || !std::isfinite(x[k]) || !std::isfinite(y[k])) {
+        throw UserError(
+            fmt::format("{}: {} has a corner that has no place in the ground's coordinate reference system, "
+                        "near {:.10g}, {:.10g}. Check the system of the file.",
+                        result_.file, title, line[k][0], line[k][1]));
+      }
+      line[k] = {x[k], y[k]};
+    }
+  }
+
+  Kind kind_;
+  GDALDatasetUniquePtr dataset_;
+  OGRLayer* layer_ = nullptr;
+  Reprojection reprojection_{"", ""};
+  VectorLayer result_;
+};
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+}  // namespace
+
+bool is_vector_file(const std::string& file) {
+  const GdalMessages messages;
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  return dataset != nullptr;
+}
+
+VectorLayer read_polygons(const std::string& file, const std::string& crs) {
+  return LayerReader(file, crs, Kind::polygons).read();
+}
+
+VectorLayer read_lines(const std::string& file, const std::string& crs) {
+  return LayerReader(file, crs, Kind::lines).read();
+}
+
+VectorLayer read_points(const std::string& file, const std::string& crs) {
+  return LayerReader(file, crs, Kind::points).read();
+}
+
+std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key) {
+  for (const std::string& attribute : layer.attributes) {
+    if (lower(attribute) == lower(name)) {
+      return attribute;
+    }
+  }
+  throw UserError(fmt::format("{}: there is no attribute '{}', which {} asks for; the file has: {}{}", layer.file, name,
+                              key, layer.attributes.empty() ? "none" : config::list_words(layer.attributes),
+                              config::did_you_mean(name, layer.attributes)));
+}
+
+std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<std::string>& names,
+                                    const std::string& name_attribute) {
+  if (names.empty()) {
+    return layer.features;
+  }
+  const std::string attribute = attribute_named(layer, name_attribute, "name_attribute");
+  std::vector<std::string> there;
+  for (const Feature& feature : layer.features) {
+    const auto text = feature.texts.find(attribute);
+    there.push_back(text == feature.texts.end() ? "" : text->second);
+  }
+  std::vector<Feature> chosen;
+  for (const std::string& name : names) {
+    const std::size_t before = chosen.size();
+    for (std::size_t k = 0; k < there.size(); ++k) {
+      if (there[k] == name) {
+        chosen.push_back(layer.features[k]);
+      }
+    }
+    if (chosen.size() == before) {
+      throw UserError(fmt::format("{}: no polygon has the {} '{}'; the file has: {}{}", layer.file, attribute, name,
+                                  config::list_words(there), config::did_you_mean(name, there)));
+    }
+  }
+  return chosen;
+}
+
+}  // namespace thawslide::gis

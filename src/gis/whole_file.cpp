@@ -1,0 +1,65 @@
+#include "gis/whole_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.hpp"
+
+namespace thawslide::gis {
+
+namespace fs = std::filesystem;
+
+WholeFile::WholeFile(const std::string& file) : file_(file) {
+  const fs::path path(file);
+  temporary_ =
+      (path.parent_path() / fmt::format("{}.{}.part{}", path.stem().string(), getpid(), path.extension().string()))
+          .string();
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+}
+
+WholeFile::~WholeFile() {
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+}
+
+void WholeFile::fail(const std::string& reason) const {
+  throw UserError(
+      fmt::format("cannot write {}: {}. Check that the folder exists, may be written to, and that the disk has room.",
+                  file_, reason));
+}
+
+void WholeFile::put_in_place() {
+  const int descriptor = open(temporary_.c_str(), O_RDONLY);
+  if (descriptor < 0) {
+    fail(std::strerror(errno));
+  }
+  const bool on_disk = fsync(descriptor) == 0;
+  const int reason = errno;
+  close(descriptor);
+  if (!on_disk) {
+    fail(std::strerror(reason));
+  }
+  if (std::rename(temporary_.c_str(), file_.c_str()) != 0) {
+    fail(std::strerror(errno));
+  }
+}
+
+void write_text(const std::string& file, std::string_view text) {
+  WholeFile whole(file);
+  errno = 0;
+  std::ofstream stream(whole.temporary(), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) {
+    whole.fail(std::strerror(errno));
+  }
+  whole.put_in_place();
+}
+
+}  // namespace thawslide::gis

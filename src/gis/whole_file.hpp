@@ -1,0 +1,29 @@
+// A file that is whole or not there: written beside its place, then renamed onto it.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace thawslide::gis {
+
+class WholeFile {
+ public:
+  explicit WholeFile(const std::string& file);
+  ~WholeFile();  // removes what was not put in place
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  // Where to write; it has the file's own extension, which drivers look at.
+  [[nodiscard]] const std::string& temporary() const { return temporary_; }
+  // Makes sure that it is on the disk, and renames it. Throws UserError with the system's reason.
+  void put_in_place();
+  // Throws UserError: cannot write FILE, and why.
+  [[noreturn]] void fail(const std::string& reason) const;
+
+ private:
+  std::string file_, temporary_;
+};
+
+void write_text(const std::string& file, std::string_view text);
+
+}  // namespace thawslide::gis
