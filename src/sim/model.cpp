@@ -240,7 +240,13 @@ std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& par
     if (parameters.terrain.kind == config::TerrainKind::dem) {
       THAWSLIDE_ASSERT(site.ground != nullptr, "{}: no raster was read from {}", parameters.name,
                        parameters.terrain.file);
-      return std::make_shared<terrain::HeightField>(*site.ground, origin);
+      Raster points = *site.ground;
+      points.x -= origin[0];
+      points.y -= origin[1];
+      for (double& height : points.values) {
+        height -= origin[2];
+      }
+      return std::make_shared<terrain::HeightField>(std::move(points));
     }
   }
   if (!profile) {

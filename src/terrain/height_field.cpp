@@ -202,6 +202,19 @@ bool HeightField::is_known(const Place& from, const Place& to) const {
   return summary(low, (to - margin).cwiseMax(low)).known;
 }
 
+HeightField::Place HeightField::gradient(const Place& place, double width) const {
+  Place gradient;
+  for (int a = 0; a < 2; ++a) {
+    const Place half = 0.5 * width * Place::Unit(a);
+    gradient[a] = (height(place + half) - height(place - half)) / width;
+  }
+  return gradient;
+}
+
+void HeightField::at_block(const NodeIndex& first, double cell_size, int edge, GroundAtNode<3, double>* nodes) const {
+  at_block(Vector<double, 3>(cell_size * Vector<double, 3>(first[0], first[1], first[2])), cell_size, edge, nodes);
+}
+
 void HeightField::at_block(const Vector<double, 3>& lowest, double cell_size, int edge,
                            GroundAtNode<3, double>* nodes) const {
   const Place from = lowest.head<2>().array() - cell_size;
@@ -244,7 +257,7 @@ void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_siz
     node.distance = sign * distance;
     if (node.normal.isZero(0.0)) {
       node.normal = foot && distance > round_off * cell_size ? Vector<double, 3>(sign * (*foot - position) / distance)
-                                                             : normal_below(place);
+                                                             : normal_below(place, cell_size);
     }
   }
 }

@@ -23,13 +23,17 @@ class HeightField final : public Surface<3> {
 
   [[nodiscard]] double height(const Place& place) const override;
   // Of the triangle that holds the place; of one of them on an edge.
-  [[nodiscard]] Place gradient(const Place& place) const override;
+  [[nodiscard]] Place gradient(const Place& place) const;
+  // By differences over the width.
+  [[nodiscard]] Place gradient(const Place& place, double width) const override;
   [[nodiscard]] double highest(const Place& from, const Place& to) const override;
 
   // Area and space are exact to round-off. The normal is along the integral of S n dA where a node has area, otherwise
   // along the line to the nearest point of the surface. Where the surface is more than `reach_in_cells` away, the
   // distance is that reach, with its sign, and the normal that of the ground straight below (or above).
-  void at_block(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const override;
+  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<3, double>* nodes) const override;
+  // The same for a block whose first node stands at a position.
+  void at_block(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
 
   // Within the outermost points, and all points of the cells there have data.
   [[nodiscard]] bool is_known(const Place& place) const override;
