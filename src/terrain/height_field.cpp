@@ -125,6 +125,20 @@ HeightField::Cell HeightField::cell_at(const Place& place) const {
   return cell(cell_columns(place[0], place[0]).first, cell_rows(place[1], place[1]).first, place, place);
 }
 
+// Calls visit(cell, k) for the triangles of all cells that overlap a rectangle.
+template <class Visit>
+void HeightField::for_triangles(const Place& from, const Place& to, const Visit& visit) const {
+  const Span columns = cell_columns(from[0], to[0]), rows = cell_rows(from[1], to[1]);
+  for (int row = rows.first; row <= rows.last; ++row) {
+    for (int column = columns.first; column <= columns.last; ++column) {
+      const Cell there = cell(column, row, from, to);
+      for (std::size_t k = 0; k < 4; ++k) {
+        visit(there, k);
+      }
+    }
+  }
+}
+
 std::size_t HeightField::Cell::triangle_at(const Place& place) const {
   const double x = (place[0] - centre[0]) / (point[2][0] - point[0][0]);
   const double y = (place[1] - centre[1]) / (point[2][1] - point[0][1]);
@@ -144,9 +158,17 @@ HeightField::Place HeightField::Cell::gradient(std::size_t k) const {
   return gradient;
 }
 
-HeightField::Place HeightField::gradient(const Place& place) const {
-  const Cell cell = cell_at(place);
-  return cell.gradient(cell.triangle_at(place));
+HeightField::Place HeightField::gradient(const Place& place, double width) const {
+  if (width <= 0.0) {
+    const Cell cell = cell_at(place);
+    return cell.gradient(cell.triangle_at(place));
+  }
+  const Place from = place.array() - 0.5 * width, to = place.array() + 0.5 * width;
+  Place sum = Place::Zero();
+  for_triangles(from, to, [&](const Cell& cell, std::size_t k) {
+    sum += ConvexPolygon(cell.triangle(k)).over(from, to).plan_area() * cell.gradient(k);
+  });
+  return sum / (width * width);
 }
 
 double HeightField::height(const Place& place) const {
@@ -170,12 +192,7 @@ double HeightField::highest(const Place& from, const Place& to) const {
     }
     const Cell there = cell(column, row, low, high);
     for (std::size_t k = 0; k < 4; ++k) {
-      ConvexPolygon all(there.triangle(k)), part, outside;
-      all.split(0, low[0], outside, part);
-      part.split(0, high[0], all, outside);
-      all.split(1, low[1], outside, part);
-      part.split(1, high[1], all, outside);
-      top = std::max(top, all.extent(2).greatest);
+      top = std::max(top, ConvexPolygon(there.triangle(k)).over(low, high).extent(2).greatest);
     }
   };
   for (int row = rows.first; row <= rows.last; ++row) {
@@ -202,6 +219,10 @@ bool HeightField::is_known(const Place& from, const Place& to) const {
   return summary(low, (to - margin).cwiseMax(low)).known;
 }
 
+void HeightField::at_block(const NodeIndex& first, double cell_size, int edge, GroundAtNode<3, double>* nodes) const {
+  at_block(cell_size * Vector<double, 3>(first[0], first[1], first[2]), cell_size, edge, nodes);
+}
+
 void HeightField::at_block(const Vector<double, 3>& lowest, double cell_size, int edge,
                            GroundAtNode<3, double>* nodes) const {
   const Place from = lowest.head<2>().array() - cell_size;
@@ -213,15 +234,7 @@ void HeightField::at_block(const Vector<double, 3>& lowest, double cell_size, in
   } else if (below.lowest >= lowest[2] + edge * cell_size) {
     integrals.finish_in_ground();
   } else {
-    const Span columns = cell_columns(from[0], to[0]), rows = cell_rows(from[1], to[1]);
-    for (int row = rows.first; row <= rows.last; ++row) {
-      for (int column = columns.first; column <= columns.last; ++column) {
-        const Cell there = cell(column, row, from, to);
-        for (std::size_t k = 0; k < 4; ++k) {
-          integrals.add(there.triangle(k));
-        }
-      }
-    }
+    for_triangles(from, to, [&](const Cell& there, std::size_t k) { integrals.add(there.triangle(k)); });
     integrals.finish();
   }
   set_distances(lowest, cell_size, edge, nodes);
@@ -244,7 +257,7 @@ void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_siz
     node.distance = sign * distance;
     if (node.normal.isZero(0.0)) {
       node.normal = foot && distance > round_off * cell_size ? Vector<double, 3>(sign * (*foot - position) / distance)
-                                                             : normal_below(place);
+                                                             : normal_below(place, 0.0);
     }
   }
 }
@@ -276,7 +289,7 @@ std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& p
     }
   };
   // First where the foot on the plane of the triangle below is: then most other cells are too far away.
-  const Place slope = gradient(place);
+  const Place slope = gradient(place, 0.0);
   const Place guess = place + slope * ((position[2] - height(place)) / (1.0 + slope.squaredNorm()));
   look(cell_columns(guess[0], guess[0]).first, cell_rows(guess[1], guess[1]).first);
   // Outwards in rings of cells; cells of ring r are at least r - 1 cells away.

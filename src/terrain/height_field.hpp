@@ -22,14 +22,16 @@ class HeightField final : public Surface<3> {
   explicit HeightField(Raster points);
 
   [[nodiscard]] double height(const Place& place) const override;
-  // Of the triangle that holds the place; of one of them on an edge.
-  [[nodiscard]] Place gradient(const Place& place) const override;
+  // Over a width of zero, that of the triangle that holds the place; on an edge, of one of the two.
+  [[nodiscard]] Place gradient(const Place& place, double width) const override;
   [[nodiscard]] double highest(const Place& from, const Place& to) const override;
 
   // Area and space are exact to round-off. The normal is along the integral of S n dA where a node has area, otherwise
   // along the line to the nearest point of the surface. Where the surface is more than `reach_in_cells` away, the
   // distance is that reach, with its sign, and the normal that of the ground straight below (or above).
-  void at_block(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const override;
+  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<3, double>* nodes) const override;
+  // The same with the first node anywhere.
+  void at_block(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
 
   // Within the outermost points, and all points of the cells there have data.
   [[nodiscard]] bool is_known(const Place& place) const override;
@@ -70,6 +72,8 @@ class HeightField final : public Surface<3> {
   // Cells beyond the outermost points reach as far as the rectangle.
   [[nodiscard]] Cell cell(int column, int row, const Place& from, const Place& to) const;
   [[nodiscard]] Cell cell_at(const Place& place) const;
+  template <class Visit>
+  void for_triangles(const Place& from, const Place& to, const Visit& visit) const;
 
   [[nodiscard]] Summary summary_of_points(Span columns, Span rows) const;
   [[nodiscard]] Summary summary_one_by_one(Span columns, Span rows) const;

@@ -2,6 +2,9 @@
 // relative to the domain's lower corner [m]; the vertical is the last axis.
 #pragma once
 
+#include <array>
+#include <cmath>
+
 #include "base/linear.hpp"
 
 namespace thawslide::terrain {
@@ -20,33 +23,37 @@ template <int Dim>
 class Surface {
  public:
   using Place = Vector<double, Dim - 1>;  // x in 2D; x, y in 3D
+  using NodeIndex = std::array<int, Dim>;
 
+  Surface() = default;
   virtual ~Surface() = default;
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
 
-  // Elevation at a place [m], and its gradient there.
+  // Elevation at a place [m].
   [[nodiscard]] virtual double height(const Place& place) const = 0;
-  [[nodiscard]] virtual Place gradient(const Place& place) const = 0;
-  // Highest and lowest elevation over the rectangle between two places [m].
+  // Gradient at a place; where the surface is known in finer detail, its mean over a square of side `width` [m].
+  [[nodiscard]] virtual Place gradient(const Place& place, double width) const = 0;
+  // Highest elevation over the rectangle between two places [m].
   [[nodiscard]] virtual double highest(const Place& from, const Place& to) const = 0;
 
-  // Fills what the `edge`^Dim nodes of a block know, x fastest. `lowest` is the position of its first node; cells are
-  // `cell` wide.
-  virtual void at_block(const Vector<double, Dim>& lowest, double cell, int edge,
-                        GroundAtNode<Dim, double>* nodes) const = 0;
+  // Fills what the `edge`^Dim nodes of a block know, x fastest: the first is number `first` along each axis of a grid
+  // with cells of side `cell` [m].
+  virtual void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim, double>* nodes) const = 0;
 
   // Whether the ground is known at a place, and all over the rectangle between two places. Where it is not, the other
   // functions go on as best they can.
   [[nodiscard]] virtual bool is_known(const Place& /*place*/) const { return true; }
   [[nodiscard]] virtual bool is_known(const Place& /*from*/, const Place& /*to*/) const { return true; }
 
-  // Cosine of the slope against the grid's axes at a place.
-  [[nodiscard]] double slope_cosine(const Place& place) const {
-    return 1.0 / std::sqrt(1.0 + gradient(place).squaredNorm());
+  // Cosine of the slope against the grid's axes, over `width` [m].
+  [[nodiscard]] double slope_cosine(const Place& place, double width) const {
+    return 1.0 / std::hypot(1.0, gradient(place, width).norm());
   }
-  // Unit normal into the ground below a place.
-  [[nodiscard]] Vector<double, Dim> normal_below(const Place& place) const {
+  // Unit normal into the ground below a place, over `width` [m].
+  [[nodiscard]] Vector<double, Dim> normal_below(const Place& place, double width) const {
     Vector<double, Dim> normal;
-    normal.template head<Dim - 1>() = gradient(place);
+    normal.template head<Dim - 1>() = gradient(place, width);
     normal[Dim - 1] = -1.0;
     return normal.normalized();
   }
