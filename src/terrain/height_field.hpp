@@ -30,8 +30,8 @@ class HeightField final : public Surface<3> {
   // along the line to the nearest point of the surface. Where the surface is more than `reach_in_cells` away, the
   // distance is that reach, with its sign, and the normal that of the ground straight below (or above).
   void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<3, double>* nodes) const override;
-  // The same with the first node anywhere.
-  void at_block(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
+  // The same for nodes of which the first is anywhere, at `lowest`.
+  void at_nodes_from(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
 
   // Within the outermost points, and all points of the cells there have data.
   [[nodiscard]] bool is_known(const Place& place) const override;
@@ -81,6 +81,8 @@ class HeightField final : public Surface<3> {
   [[nodiscard]] Summary summary(const Place& from, const Place& to) const;
   void summarise_blocks();
 
+  // Of the box that holds a cell of the terrain model: no point of its ground is nearer to the position [m2].
+  [[nodiscard]] double squared_distance_of_cell(const Vector<double, 3>& position, int column, int row) const;
   void set_distances(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
 
   Raster points_;                       // without holes

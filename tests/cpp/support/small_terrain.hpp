@@ -38,7 +38,7 @@ inline Raster rough_raster(unsigned seed = 7) {
 
 inline std::vector<Node> block_at(const terrain::HeightField& ground, const Position& lowest, double cell) {
   std::vector<Node> nodes(edge * edge * edge);
-  ground.at_block(lowest, cell, edge, nodes.data());
+  ground.at_nodes_from(lowest, cell, edge, nodes.data());
   return nodes;
 }
 
