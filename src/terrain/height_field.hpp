@@ -4,6 +4,8 @@
 // Points without data take the height of the nearest point that has one, and the ground is not known there.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 

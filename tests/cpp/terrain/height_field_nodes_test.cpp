@@ -140,6 +140,19 @@ TEST(HeightField, OfRoughGroundIsTheIntegralOfTheShapeFunction) {
   }
 }
 
+TEST(HeightField, NumbersBlocksFromTheLowerCorner) {
+  const HeightField ground(rough_raster());
+  std::vector<Node> numbered(edge * edge * edge);
+  ground.at_block({4, 2, -1}, 3.0, edge, numbered.data());
+  const auto placed = block_at(ground, {12.0, 6.0, -3.0}, 3.0);
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    EXPECT_EQ(numbered[k].area, placed[k].area);
+    EXPECT_EQ(numbered[k].space, placed[k].space);
+    EXPECT_EQ(numbered[k].distance, placed[k].distance);
+    EXPECT_EQ(numbered[k].normal, placed[k].normal);
+  }
+}
+
 TEST(HeightField, KnowsTheSameOfANodeInEveryBlock) {
   const HeightField ground(rough_raster());
   const Position position(13.0, 21.2, 7.0);
