@@ -42,6 +42,26 @@ class ConvexPolygon {
     return extent;
   }
 
+  // Area of what is below the polygon in the horizontal plane, positive for corners counter-clockwise from above.
+  [[nodiscard]] double plan_area() const {
+    double twice = 0.0;
+    for (int k = 1; k + 1 < size_; ++k) {
+      const Vector<double, 3> to_next = (*this)[k] - (*this)[0], to_last = (*this)[k + 1] - (*this)[0];
+      twice += to_next[0] * to_last[1] - to_next[1] * to_last[0];
+    }
+    return 0.5 * twice;
+  }
+
+  // The part over the rectangle between two places, its sides included.
+  [[nodiscard]] ConvexPolygon over(const Vector<double, 2>& from, const Vector<double, 2>& to) const {
+    ConvexPolygon kept = *this, part, outside;
+    for (int axis = 0; axis < 2; ++axis) {
+      kept.split(axis, from[axis], outside, part);
+      part.split(axis, to[axis], kept, outside);
+    }
+    return kept;
+  }
+
   // The parts on both sides of the plane where the coordinate along `axis` is `at`; both hold what lies in the plane.
   void split(int axis, double at, ConvexPolygon& below, ConvexPolygon& above) const {
     below.clear();

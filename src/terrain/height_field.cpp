@@ -125,6 +125,20 @@ HeightField::Cell HeightField::cell_at(const Place& place) const {
   return cell(cell_columns(place[0], place[0]).first, cell_rows(place[1], place[1]).first, place, place);
 }
 
+// Calls visit(cell, k) for the triangles of all cells that overlap a rectangle.
+template <class Visit>
+void HeightField::for_triangles(const Place& from, const Place& to, const Visit& visit) const {
+  const Span columns = cell_columns(from[0], to[0]), rows = cell_rows(from[1], to[1]);
+  for (int row = rows.first; row <= rows.last; ++row) {
+    for (int column = columns.first; column <= columns.last; ++column) {
+      const Cell there = cell(column, row, from, to);
+      for (std::size_t k = 0; k < 4; ++k) {
+        visit(there, k);
+      }
+    }
+  }
+}
+
 std::size_t HeightField::Cell::triangle_at(const Place& place) const {
   const double x = (place[0] - centre[0]) / (point[2][0] - point[0][0]);
   const double y = (place[1] - centre[1]) / (point[2][1] - point[0][1]);
@@ -144,9 +158,17 @@ HeightField::Place HeightField::Cell::gradient(std::size_t k) const {
   return gradient;
 }
 
-HeightField::Place HeightField::gradient(const Place& place) const {
-  const Cell cell = cell_at(place);
-  return cell.gradient(cell.triangle_at(place));
+HeightField::Place HeightField::gradient(const Place& place, double width) const {
+  if (width <= 0.0) {
+    const Cell cell = cell_at(place);
+    return cell.gradient(cell.triangle_at(place));
+  }
+  const Place from = place.array() - 0.5 * width, to = place.array() + 0.5 * width;
+  Place sum = Place::Zero();
+  for_triangles(from, to, [&](const Cell& cell, std::size_t k) {
+    sum += ConvexPolygon(cell.triangle(k)).over(from, to).plan_area() * cell.gradient(k);
+  });
+  return sum / (width * width);
 }
 
 double HeightField::height(const Place& place) const {
@@ -170,12 +192,7 @@ double HeightField::highest(const Place& from, const Place& to) const {
     }
     const Cell there = cell(column, row, low, high);
     for (std::size_t k = 0; k < 4; ++k) {
-      ConvexPolygon all(there.triangle(k)), part, outside;
-      all.split(0, low[0], outside, part);
-      part.split(0, high[0], all, outside);
-      all.split(1, low[1], outside, part);
-      part.split(1, high[1], all, outside);
-      top = std::max(top, all.extent(2).greatest);
+      top = std::max(top, ConvexPolygon(there.triangle(k)).over(low, high).extent(2).greatest);
     }
   };
   for (int row = rows.first; row <= rows.last; ++row) {
@@ -202,21 +219,12 @@ bool HeightField::is_known(const Place& from, const Place& to) const {
   return summary(low, (to - margin).cwiseMax(low)).known;
 }
 
-HeightField::Place HeightField::gradient(const Place& place, double width) const {
-  Place gradient;
-  for (int a = 0; a < 2; ++a) {
-    const Place half = 0.5 * width * Place::Unit(a);
-    gradient[a] = (height(place + half) - height(place - half)) / width;
-  }
-  return gradient;
-}
-
 void HeightField::at_block(const NodeIndex& first, double cell_size, int edge, GroundAtNode<3, double>* nodes) const {
-  at_block(Vector<double, 3>(cell_size * Vector<double, 3>(first[0], first[1], first[2])), cell_size, edge, nodes);
+  at_nodes_from(cell_size * Vector<double, 3>(first[0], first[1], first[2]), cell_size, edge, nodes);
 }
 
-void HeightField::at_block(const Vector<double, 3>& lowest, double cell_size, int edge,
-                           GroundAtNode<3, double>* nodes) const {
+void HeightField::at_nodes_from(const Vector<double, 3>& lowest, double cell_size, int edge,
+                                GroundAtNode<3, double>* nodes) const {
   const Place from = lowest.head<2>().array() - cell_size;
   const Place to = lowest.head<2>().array() + edge * cell_size;
   const Summary below = summary(from, to);
@@ -226,15 +234,7 @@ void HeightField::at_block(const Vector<double, 3>& lowest, double cell_size, in
   } else if (below.lowest >= lowest[2] + edge * cell_size) {
     integrals.finish_in_ground();
   } else {
-    const Span columns = cell_columns(from[0], to[0]), rows = cell_rows(from[1], to[1]);
-    for (int row = rows.first; row <= rows.last; ++row) {
-      for (int column = columns.first; column <= columns.last; ++column) {
-        const Cell there = cell(column, row, from, to);
-        for (std::size_t k = 0; k < 4; ++k) {
-          integrals.add(there.triangle(k));
-        }
-      }
-    }
+    for_triangles(from, to, [&](const Cell& there, std::size_t k) { integrals.add(there.triangle(k)); });
     integrals.finish();
   }
   set_distances(lowest, cell_size, edge, nodes);
@@ -257,7 +257,7 @@ void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_siz
     node.distance = sign * distance;
     if (node.normal.isZero(0.0)) {
       node.normal = foot && distance > round_off * cell_size ? Vector<double, 3>(sign * (*foot - position) / distance)
-                                                             : normal_below(place, cell_size);
+                                                             : normal_below(place, 0.0);
     }
   }
 }
@@ -265,20 +265,13 @@ void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_siz
 std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& position, double reach) const {
   const Place place = position.head<2>();
   const Place from = place.array() - reach, to = place.array() + reach;
-  const Span columns = cell_columns(from[0], to[0]), rows = cell_rows(from[1], to[1]);
   std::optional<Vector<double, 3>> nearest;
   double least = reach * reach;
   const auto look = [&](int column, int row) {
-    if (column < columns.first || column > columns.last || row < rows.first || row > rows.last) {
+    if (squared_distance_of_cell(position, column, row) >= least) {
       return;
     }
     const Cell there = cell(column, row, from, to);
-    const auto [low, high] = std::minmax({there.point[0][2], there.point[1][2], there.point[2][2], there.point[3][2]});
-    const Vector<double, 3> least_corner(there.point[0][0], there.point[0][1], low);
-    const Vector<double, 3> greatest_corner(there.point[2][0], there.point[2][1], high);
-    if ((position.cwiseMax(least_corner).cwiseMin(greatest_corner) - position).squaredNorm() >= least) {
-      return;
-    }
     for (std::size_t k = 0; k < 4; ++k) {
       const Vector<double, 3> candidate = nearest_on_triangle(position, there.triangle(k));
       const double squared = (candidate - position).squaredNorm();
@@ -288,23 +281,31 @@ std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& p
       }
     }
   };
-  // First where the foot on the plane of the triangle below is: then most other cells are too far away.
-  const Place slope = gradient(place);
-  const Place guess = place + slope * ((position[2] - height(place)) / (1.0 + slope.squaredNorm()));
-  look(cell_columns(guess[0], guess[0]).first, cell_rows(guess[1], guess[1]).first);
-  // Outwards in rings of cells; cells of ring r are at least r - 1 cells away.
-  const int column = cell_columns(place[0], place[0]).first, row = cell_rows(place[1], place[1]).first;
-  const double width = std::min(points_.cell_x, points_.cell_y);
-  const int rings = std::max({column - columns.first, columns.last - column, row - rows.first, rows.last - row});
-  for (int ring = 0; ring <= rings && (ring - 1) * width < std::sqrt(least); ++ring) {
-    for (int j = -ring; j <= ring; ++j) {
-      const int step = std::abs(j) == ring ? 1 : 2 * ring;
-      for (int i = -ring; i <= ring; i += step) {
-        look(column + i, row + j);
-      }
+  // First where the foot on the plane of the triangle below is: then nearly all other cells are seen to be too far.
+  const Place slope = gradient(place, 0.0);
+  const Place foot = place + slope * ((position[2] - height(place)) / (1.0 + slope.squaredNorm()));
+  look(cell_columns(foot[0], foot[0]).first, cell_rows(foot[1], foot[1]).first);
+  const double rest = std::sqrt(least);
+  const Span columns = cell_columns(place[0] - rest, place[0] + rest);
+  const Span rows = cell_rows(place[1] - rest, place[1] + rest);
+  for (int row = rows.first; row <= rows.last; ++row) {
+    for (int column = columns.first; column <= columns.last; ++column) {
+      look(column, row);
     }
   }
   return nearest;
+}
+
+double HeightField::squared_distance_of_cell(const Vector<double, 3>& position, int column, int row) const {
+  const auto gap = [](double offset, int cell, int points) {  // from a cell along an axis, in cells
+    return std::max({0.0, cell < 0 ? 0.0 : cell - offset, cell + 1 < points ? offset - (cell + 1) : 0.0});
+  };
+  const double x = points_.cell_x * gap((position[0] - points_.x) / points_.cell_x, column, points_.columns);
+  const double y = points_.cell_y * gap((position[1] - points_.y) / points_.cell_y, row, points_.rows);
+  const auto [low, high] = std::minmax(
+      {height_at(column, row), height_at(column + 1, row), height_at(column, row + 1), height_at(column + 1, row + 1)});
+  const double z = std::max({0.0, low - position[2], position[2] - high});
+  return x * x + y * y + z * z;
 }
 
 }  // namespace thawslide::terrain

@@ -4,6 +4,8 @@
 // Points without data take the height of the nearest point that has one, and the ground is not known there.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -22,9 +24,7 @@ class HeightField final : public Surface<3> {
   explicit HeightField(Raster points);
 
   [[nodiscard]] double height(const Place& place) const override;
-  // Of the triangle that holds the place; of one of them on an edge.
-  [[nodiscard]] Place gradient(const Place& place) const;
-  // By differences over the width.
+  // Over a width of zero, that of the triangle that holds the place; on an edge, of one of the two.
   [[nodiscard]] Place gradient(const Place& place, double width) const override;
   [[nodiscard]] double highest(const Place& from, const Place& to) const override;
 
@@ -32,8 +32,8 @@ class HeightField final : public Surface<3> {
   // along the line to the nearest point of the surface. Where the surface is more than `reach_in_cells` away, the
   // distance is that reach, with its sign, and the normal that of the ground straight below (or above).
   void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<3, double>* nodes) const override;
-  // The same for a block whose first node stands at a position.
-  void at_block(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
+  // The same for nodes of which the first is anywhere, at `lowest`.
+  void at_nodes_from(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
 
   // Within the outermost points, and all points of the cells there have data.
   [[nodiscard]] bool is_known(const Place& place) const override;
@@ -74,6 +74,8 @@ class HeightField final : public Surface<3> {
   // Cells beyond the outermost points reach as far as the rectangle.
   [[nodiscard]] Cell cell(int column, int row, const Place& from, const Place& to) const;
   [[nodiscard]] Cell cell_at(const Place& place) const;
+  template <class Visit>
+  void for_triangles(const Place& from, const Place& to, const Visit& visit) const;
 
   [[nodiscard]] Summary summary_of_points(Span columns, Span rows) const;
   [[nodiscard]] Summary summary_one_by_one(Span columns, Span rows) const;
@@ -81,6 +83,8 @@ class HeightField final : public Surface<3> {
   [[nodiscard]] Summary summary(const Place& from, const Place& to) const;
   void summarise_blocks();
 
+  // Of the box that holds a cell of the terrain model: no point of its ground is nearer to the position [m2].
+  [[nodiscard]] double squared_distance_of_cell(const Vector<double, 3>& position, int column, int row) const;
   void set_distances(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
 
   Raster points_;                       // without holes

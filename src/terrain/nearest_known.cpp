@@ -61,7 +61,6 @@ struct Envelope {
 
 void fill_from_nearest_known(Raster& raster) {
   const std::vector<int> nearest = nearest_rows(raster);
-  const std::vector<double> known = raster.values;
   std::vector<double> height(static_cast<std::size_t>(raster.columns));
   Envelope envelope;
   for (int row = 0; row < raster.rows; ++row) {
@@ -81,7 +80,8 @@ void fill_from_nearest_known(Raster& raster) {
         ++k;
       }
       const int there = nearest[raster.index(envelope.column[k], row)];
-      raster.values[raster.index(column, row)] = known[raster.index(envelope.column[k], there)];
+      // In place: a point with data is its own nearest.
+      raster.values[raster.index(column, row)] = raster.at(envelope.column[k], there);
     }
   }
 }

@@ -30,15 +30,15 @@ inline Raster raster(double x, double y, double cell, int columns, int rows,
   return made;
 }
 
-inline Raster rough_raster(unsigned seed = 7) {
-  std::mt19937 random(seed);
+inline Raster rough_raster() {
+  std::mt19937 random(7);
   std::uniform_real_distribution<double> height(0.0, 12.0);
   return raster(-20.0, -15.0, 5.0, 21, 17, [&](double, double) { return height(random); });
 }
 
 inline std::vector<Node> block_at(const terrain::HeightField& ground, const Position& lowest, double cell) {
   std::vector<Node> nodes(edge * edge * edge);
-  ground.at_block(lowest, cell, edge, nodes.data());
+  ground.at_nodes_from(lowest, cell, edge, nodes.data());
   return nodes;
 }
 

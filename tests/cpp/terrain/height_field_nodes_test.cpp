@@ -40,7 +40,7 @@ TEST(HeightField, OfAPlaneIsExact) {
       const HeightField ground(raster(-12.0, -9.0, 5.0, 13, 12, plane));
       const Position into = Position(slope[0], slope[1], -1.0).normalized();
       EXPECT_NEAR(ground.height({10.3, 14.2}), plane(10.3, 14.2), 1e-12);
-      EXPECT_NEAR((ground.gradient({10.3, 14.2}) - slope).norm(), 0.0, 1e-12);
+      EXPECT_NEAR((ground.gradient({10.3, 14.2}, 0.0) - slope).norm(), 0.0, 1e-12);
       const Position lowest(15.1, 11.7, 40.0 - 24.0 * h);
       const auto columns = columns_at(ground, lowest, h, 12);
       const double top = lowest[2] + (12 * edge - 1) * h;
@@ -137,6 +137,19 @@ TEST(HeightField, OfRoughGroundIsTheIntegralOfTheShapeFunction) {
       EXPECT_NEAR(node.space, expected.space, 1e-4 * h * h * h);
       EXPECT_NEAR((node.normal - expected.normal).norm(), 0.0, 1e-4);
     }
+  }
+}
+
+TEST(HeightField, NumbersBlocksFromTheLowerCorner) {
+  const HeightField ground(rough_raster());
+  std::vector<Node> numbered(edge * edge * edge);
+  ground.at_block({4, 2, -1}, 3.0, edge, numbered.data());
+  const auto placed = block_at(ground, {12.0, 6.0, -3.0}, 3.0);
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    EXPECT_EQ(numbered[k].area, placed[k].area);
+    EXPECT_EQ(numbered[k].space, placed[k].space);
+    EXPECT_EQ(numbered[k].distance, placed[k].distance);
+    EXPECT_EQ(numbered[k].normal, placed[k].normal);
   }
 }
 

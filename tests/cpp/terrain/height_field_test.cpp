@@ -93,13 +93,30 @@ TEST(HeightField, GoesOnWithTheHeightOfItsEdge) {
   EXPECT_DOUBLE_EQ(ground.height({-500.0, 3.0}), ground.height({-20.0, 3.0}));
   EXPECT_DOUBLE_EQ(ground.height({11.0, 900.0}), ground.height({11.0, points.y_end()}));
   EXPECT_DOUBLE_EQ(ground.height({1e4, 1e4}), points.at(20, 16));
-  EXPECT_EQ(ground.gradient({-500.0, 3.0})[0], 0.0);
-  EXPECT_EQ(ground.gradient({1e4, 1e4}).norm(), 0.0);
+  EXPECT_EQ(ground.gradient({-500.0, 3.0}, 0.0)[0], 0.0);
+  EXPECT_EQ(ground.gradient({1e4, 1e4}, 0.0).norm(), 0.0);
   const double slope = (points.at(0, 4) - points.at(0, 3)) / 5.0;
-  EXPECT_NEAR(ground.gradient({-500.0, 3.0})[1], slope, 1e-12);
+  EXPECT_NEAR(ground.gradient({-500.0, 3.0}, 0.0)[1], slope, 1e-12);
   const Node node = node_at(ground, {-60.0, 2.5, ground.height({-60.0, 2.5})}, 2.0);
   EXPECT_NEAR(node.distance, 0.0, 1e-12);
   EXPECT_NEAR((node.normal - Position(0.0, slope, -1.0).normalized()).norm(), 0.0, 1e-12);
+}
+
+// By the divergence theorem it is what the height gains from side to side, over the width.
+TEST(HeightField, GradientOverAWidthIsTheMean) {
+  const HeightField ground(rough_raster());
+  for (const double width : {0.3, 4.0, 17.0}) {
+    for (const Place& place : {Place(13.0, 21.2), Place(40.1, 30.0), Place(-19.0, 64.0)}) {
+      constexpr int parts = 20000;
+      Place gain = Place::Zero();
+      for (int k = 0; k < parts; ++k) {
+        const double along = width * ((k + 0.5) / parts - 0.5);
+        gain[0] += ground.height(place + Place(0.5 * width, along)) - ground.height(place + Place(-0.5 * width, along));
+        gain[1] += ground.height(place + Place(along, 0.5 * width)) - ground.height(place + Place(along, -0.5 * width));
+      }
+      EXPECT_NEAR((ground.gradient(place, width) - gain / (parts * width)).norm(), 0.0, 1e-7);
+    }
+  }
 }
 
 TEST(HeightField, FarFromABlockIsToldAtOnce) {
