@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/raster.hpp"
+#include "gis/point_window.hpp"
 #include "gis/rectangle.hpp"
 
 namespace thawslide::gis {
@@ -42,21 +43,6 @@ class RasterFile {
   bool has_nodata_ = false;
   double nodata_ = 0.0;
 };
-
-// Columns and rows of a grid of points: from the first one, so many.
-struct PointWindow {
-  int first_column = 0, first_row = 0, columns = 0, rows = 0;
-};
-
-// The points of the layout that lie in the rectangle, and one more on each side; none (0 columns or rows) where the
-// rectangle lies outside.
-[[nodiscard]] PointWindow points_in(const Raster& layout, const Rectangle& rectangle);
-
-// The same grid reduced to a window, without values.
-[[nodiscard]] Raster layout_of(const Raster& layout, const PointWindow& window);
-
-// From the first to the last point.
-[[nodiscard]] Rectangle span_of_points(const Raster& layout);
 
 enum class Precision { float32, float64 };
 

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/spatial_reference.hpp"
+#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
@@ -50,11 +51,6 @@ void require_projection_database() {
                     "apt-get install proj-data), or let PROJ_LIB name the folder that holds it.",
                     messages.remark()));
   }
-}
-
-std::string range_words(const Rectangle& extent) {
-  return fmt::format("x from {:.10g} to {:.10g}, y from {:.10g} to {:.10g}", extent.min_x, extent.max_x, extent.min_y,
-                     extent.max_y);
 }
 
 std::string quoted_path(const std::filesystem::path& path) {
@@ -120,8 +116,8 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
 [[noreturn]] void fail_with_unit(const Located& raster, const std::string& wkt, const std::string& unit,
                                  double metres_per_unit, bool from_key) {
   if (from_key) {
-    throw UserError(
-        fmt::format("terrain.crs, {}, is in the unit '{}'; allowed: a map projection in metres.", name_of(wkt), unit));
+    throw UserError(fmt::format("{} is in the unit '{}'; allowed: a map projection in metres, such as \"EPSG:31287\".",
+                                name_of(wkt), unit));
   }
   OGRSpatialReference degrees;
   degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -191,7 +187,7 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   if (reference.IsGeographic() != 0) {
     if (from_key) {
       throw UserError(
-          fmt::format("terrain.crs, {}, is in degrees; allowed: a map projection in metres, such as "
+          fmt::format("{} is in degrees; allowed: a map projection in metres, such as "
                       "\"EPSG:31287\".",
                       name_of(wkt)));
     }
@@ -209,6 +205,22 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
     fail_with_unit(raster, wkt, unit == nullptr ? "unknown" : unit, metres_per_unit, from_key);
   }
   return wkt;
+}
+
+std::string without_system_note(const std::string& file, const std::string& ground) {
+  return fmt::format("{} names no coordinate reference system: taken to be in the ground's, {}", file, name_of(ground));
+}
+
+std::string false_degrees_note(const std::string& file, const std::string& told, const std::string& ground, double x,
+                               double y) {
+  return fmt::format(
+      "{} says that its coordinates are degrees ({}), which {:.10g}, {:.10g} cannot be: taken to be in "
+      "the ground's system, {}",
+      file, name_of(told), x, y, name_of(ground));
+}
+
+std::string reprojection_note(const std::string& file, const std::string& told, const std::string& ground) {
+  return fmt::format("{} was taken from {} to {}", file, name_of(told), name_of(ground));
 }
 
 struct Reprojection::Way {

@@ -34,6 +34,14 @@ struct Located {
 [[nodiscard]] std::string metric_system(const Located& raster, const std::string& wkt_of_file,
                                         const std::string& terrain_crs);
 
+// What the user is told of a file that names no system, one that its numbers cannot be in, or another than the
+// ground's.
+[[nodiscard]] std::string without_system_note(const std::string& file, const std::string& ground);
+[[nodiscard]] std::string false_degrees_note(const std::string& file, const std::string& told,
+                                             const std::string& ground, double x, double y);
+[[nodiscard]] std::string reprojection_note(const std::string& file, const std::string& told,
+                                            const std::string& ground);
+
 // Takes coordinates from one system to another; from and to an empty one, or the same, they stay what they are.
 class Reprojection {
  public:

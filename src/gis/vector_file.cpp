@@ -140,23 +140,19 @@ class LayerReader {
       return;
     }
     if (own.empty()) {
-      result_.notes.push_back(
-          fmt::format("{} names no coordinate reference system: taken to be in the ground's, {}", name, name_of(crs)));
+      result_.notes.push_back(without_system_note(name, crs));
       return;
     }
     OGREnvelope envelope;
     const bool has_extent = layer_->GetExtent(&envelope) == OGRERR_NONE;
     if (has_extent && is_geographic(own) &&
         !can_be_degrees({envelope.MinX, envelope.MinY, envelope.MaxX, envelope.MaxY})) {
-      result_.notes.push_back(fmt::format(
-          "{} says that its coordinates are degrees ({}), which numbers such as {:.10g}, {:.10g} cannot be: "
-          "taken to be in the ground's system, {}",
-          name, name_of(own), envelope.MinX, envelope.MinY, name_of(crs)));
+      result_.notes.push_back(false_degrees_note(name, own, crs, envelope.MinX, envelope.MinY));
       return;
     }
     reprojection_ = Reprojection(own, crs);
     if (!reprojection_.changes_nothing()) {
-      result_.notes.push_back(fmt::format("{} was taken from {} to {}", name, name_of(own), name_of(crs)));
+      result_.notes.push_back(reprojection_note(name, own, crs));
     }
   }
 

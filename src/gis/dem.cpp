@@ -1,0 +1,128 @@
+#include "gis/dem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "gis/raster_file.hpp"
+#include "gis/reference_system.hpp"
+#include "gis/resampling.hpp"
+#include "gis/told_at.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+std::string system_of(const config::Case& parameters, const RasterFile& file, std::vector<std::string>& notes) {
+  const std::string& given = parameters.terrain.crs;
+  const Raster& layout = file.layout();
+  const std::string system = told_at(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
+    return metric_system({file.file(), file.extent(), layout.cell_x, layout.cell_y}, layout.crs, given);
+  });
+  if (!given.empty() && name_of(system) != name_of(layout.crs)) {
+    notes.push_back(fmt::format("{} is taken to be in {}, as terrain.crs says; the file says {}",
+                                std::filesystem::path(file.file()).filename().string(), name_of(system),
+                                layout.crs.empty() ? "nothing" : name_of(layout.crs)));
+  }
+  return system;
+}
+
+void check_unit(const config::Case& parameters, const RasterFile& file) {
+  std::string unit = file.unit();
+  std::transform(unit.begin(), unit.end(), unit.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (const char* word : {"ft", "foot", "feet"}) {
+    if (unit.find(word) != std::string::npos) {
+      fail_at(parameters, "terrain.file",
+              fmt::format("{}: the elevations are in the unit '{}'; allowed: metres. Convert them: gdal_translate -ot "
+                          "Float64 -scale 0 1 0 0.3048 {} metres.tif",
+                          file.file(), file.unit(), file.file()));
+    }
+  }
+}
+
+// Numbers that stand for no data although the file does not say so, which a slide would take for a pit.
+void check_elevations(const config::Case& parameters, const RasterFile& file, const Raster& raster) {
+  constexpr double deepest = -11000.0, highest = 9000.0;  // m, on Earth
+  for (int row = 0; row < raster.rows; ++row) {
+    for (int column = 0; column < raster.columns; ++column) {
+      const double z = raster.at(column, row);
+      const bool is_elevation = z >= deepest && z <= highest && z != -9999.0;
+      if (!std::isnan(z) && !is_elevation) {
+        fail_at(parameters, "terrain.file",
+                fmt::format("{}: the elevation at {:.10g}, {:.10g} is {:g} m, which is none on Earth. If it stands for "
+                            "no data, say so in the file: gdal_translate -a_nodata {:.9g} {} with-nodata.tif",
+                            file.file(), raster.x_of(column), raster.y_of(row), z, z, file.file()));
+      }
+    }
+  }
+}
+
+void check_domain(const config::Case& parameters, const std::string& file, const Rectangle& span) {
+  const Rectangle domain = domain_of(parameters);
+  const std::string beyond = words_beyond(domain, span);
+  if (beyond.empty()) {
+    return;
+  }
+  const bool low = domain.min_x < span.min_x || domain.min_y < span.min_y;
+  fail_at(parameters, low ? "grid.min" : "grid.max",
+          fmt::format("the domain {} {}, by {}; allowed: {}. Set grid.min and grid.max so, or take a larger terrain "
+                      "model.",
+                      domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file, beyond,
+                      range_words(span)));
+}
+
+// Room about the domain: nodes of the grid's cells about it see the ground, and gradients there need neighbours.
+Rectangle area_to_read(const config::Case& parameters, const Raster& layout) {
+  const double grid_cells = 3.0 * parameters.grid.cell;
+  return domain_of(parameters).widened(grid_cells + 2.0 * layout.cell_x, grid_cells + 2.0 * layout.cell_y);
+}
+
+Raster read_and_resample(const config::Case& parameters, const RasterFile& file, const Raster& layout,
+                         const Rectangle& area) {
+  const bool as_it_is = &layout == &file.layout();
+  const Raster target = layout_of(layout, points_in(layout, area));
+  const Raster raster =
+      told_at(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
+  check_elevations(parameters, file, raster);
+  return as_it_is ? raster : resampled(raster, target);
+}
+
+}  // namespace
+
+Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
+  const config::Terrain& terrain = parameters.terrain;
+  const auto opened = told_at(parameters, "terrain.file", [&] { return std::make_unique<RasterFile>(terrain.file); });
+  const RasterFile& file = *opened;
+  const std::string system = system_of(parameters, file, notes);
+  check_unit(parameters, file);
+  const Raster made = terrain.resample > 0.0 ? resampled_layout(file.layout(), terrain.resample) : Raster{};
+  const Raster& layout = terrain.resample > 0.0 ? made : file.layout();
+  if (layout.columns < 2 || layout.rows < 2) {
+    fail_at(parameters, terrain.resample > 0.0 ? "terrain.resample" : "terrain.file",
+            fmt::format("{} has {} x {} points {:.6g} m apart; needed: at least 2 x 2. Take a larger terrain model, or "
+                        "a smaller distance.",
+                        file.file(), layout.columns, layout.rows, layout.cell_x));
+  }
+  Dem dem;
+  dem.span = span_of_points(layout);
+  check_domain(parameters, file.file(), dem.span);
+  const Rectangle area = area_to_read(parameters, layout);
+  const double reach = smoothing_reach * terrain.smooth;
+  dem.raster = read_and_resample(parameters, file, layout, area.widened(reach, reach));
+  const std::string name = std::filesystem::path(file.file()).filename().string();
+  if (terrain.resample > 0.0) {
+    notes.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,
+                                file.layout().cell_x, file.layout().cell_y, terrain.resample));
+  }
+  if (terrain.smooth > 0.0) {
+    dem.raster = smoothed(dem.raster, terrain.smooth);
+    dem.raster = part_of(dem.raster, points_in(dem.raster, area));
+    notes.push_back(fmt::format("{} was smoothed with a standard deviation of {:g} m", name, terrain.smooth));
+  }
+  dem.raster.crs = system;
+  return dem;
+}
+
+}  // namespace thawslide::gis

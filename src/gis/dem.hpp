@@ -1,0 +1,21 @@
+// The ground of a case from its terrain model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/raster.hpp"
+#include "config/case.hpp"
+#include "gis/rectangle.hpp"
+
+namespace thawslide::gis {
+
+struct Dem {
+  Raster raster;   // about the domain, with the system to compute in; NaN in holes
+  Rectangle span;  // from the first to the last point that the file has room for, where a domain may be
+};
+
+// Cropped to the domain and some cells about it, resampled and smoothed if the case asks for it. Adds to the notes.
+[[nodiscard]] Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes);
+
+}  // namespace thawslide::gis

@@ -1,0 +1,111 @@
+#include "gis/release.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "gis/point_window.hpp"
+#include "gis/release_area.hpp"
+#include "gis/release_fields.hpp"
+#include "gis/release_thickness.hpp"
+#include "gis/told_at.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+// To the points that have a thickness and one more on each side, as far as the ground reaches.
+Raster cropped(const Raster& thickness, const Raster& ground) {
+  PointWindow window{thickness.columns, thickness.rows, 0, 0};
+  int last_column = -1, last_row = -1;
+  for (int row = 0; row < thickness.rows; ++row) {
+    for (int column = 0; column < thickness.columns; ++column) {
+      if (thickness.at(column, row) > 0.0) {
+        window.first_column = std::min(window.first_column, column);
+        window.first_row = std::min(window.first_row, row);
+        last_column = std::max(last_column, column);
+        last_row = std::max(last_row, row);
+      }
+    }
+  }
+  THAWSLIDE_ASSERT(last_column >= 0, "{} x {} points without a thickness", thickness.columns, thickness.rows);
+  const PointWindow on_ground = points_of(ground, thickness);
+  window.first_column = std::max(window.first_column - 1, on_ground.first_column);
+  window.first_row = std::max(window.first_row - 1, on_ground.first_row);
+  window.columns = std::min(last_column + 1, on_ground.first_column + on_ground.columns - 1) - window.first_column + 1;
+  window.rows = std::min(last_row + 1, on_ground.first_row + on_ground.rows - 1) - window.first_row + 1;
+  return part_of(thickness, window);
+}
+
+void check_volume(const config::Case& parameters, const std::string& name, const Raster& thickness) {
+  const double volume =
+      std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0) * thickness.cell_x * thickness.cell_y;
+  const double most = *std::max_element(thickness.values.begin(), thickness.values.end());
+  if (!(volume > 0.0)) {
+    fail_at(parameters, key_of(name, "thickness"),
+            "the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.");
+  }
+  const double largest = parameters.bodies.at(name).largest_volume;
+  if (volume > largest) {
+    fail_at(
+        parameters, key_of(name, "release"),
+        fmt::format("the release has {:.4g} m3, up to {:.4g} m thick, and body.{}.largest_volume allows {:g} m3. Is "
+                    "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+                    "larger body.{}.largest_volume.",
+                    volume, most, name, largest, name));
+  }
+}
+
+}  // namespace
+
+config::Release load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
+                             std::vector<std::string>& notes) {
+  const ReleaseArea area = load_release_area(parameters, body, ground, notes);
+  const Raster thickness = vertical_thickness_of(parameters, body, area, ground.raster, notes);
+  check_volume(parameters, body, thickness);
+  config::Release release;
+  release.thickness = cropped(thickness, ground.raster);
+  release.fields = fields_of(parameters, body, area, release.thickness, notes);
+  if (area.is_raster()) {
+    const double covered = std::accumulate(area.share.values.begin(), area.share.values.end(), 0.0);
+    release.area = covered * area.share.cell_x * area.share.cell_y;
+  }
+  for (const Polygon& polygon : area.polygons) {
+    release.outlines.push_back(polygon.outline);
+    release.outlines.insert(release.outlines.end(), polygon.holes.begin(), polygon.holes.end());
+  }
+  if (!area.is_raster()) {
+    release.area = area_of(area.polygons);
+  }
+  return release;
+}
+
+void check_overlaps(const config::Case& parameters, const std::map<std::string, config::Release>& releases) {
+  for (auto second = releases.begin(); second != releases.end(); ++second) {
+    for (auto first = releases.begin(); first != second; ++first) {
+      const Raster& one = first->second.thickness;
+      const Raster& other = second->second.thickness;
+      const PointWindow shared = points_of(one, other);
+      int count = 0;
+      std::string place;
+      for (int row = shared.first_row; row < shared.first_row + shared.rows; ++row) {
+        for (int column = shared.first_column; column < shared.first_column + shared.columns; ++column) {
+          const auto column_of_one = static_cast<int>(std::lround((other.x_of(column) - one.x) / one.cell_x));
+          const auto row_of_one = static_cast<int>(std::lround((other.y_of(row) - one.y) / one.cell_y));
+          if (other.at(column, row) > 0.0 && one.at(column_of_one, row_of_one) > 0.0 && count++ == 0) {
+            place = fmt::format("{:.10g}, {:.10g}", other.x_of(column), other.y_of(row));
+          }
+        }
+      }
+      if (count > 0) {
+        fail_at(
+            parameters, key_of(second->first, "release"),
+            fmt::format("the bodies '{}' and '{}' both have a thickness at {} points of the ground, such as {}. Draw "
+                        "their outlines apart, with a cell of the terrain model and their tapers between them.",
+                        first->first, second->first, count, place));
+      }
+    }
+  }
+}
+
+}  // namespace thawslide::gis

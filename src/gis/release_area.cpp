@@ -1,0 +1,135 @@
+#include "gis/release_area.hpp"
+
+#include <cmath>
+
+#include "gis/coverage.hpp"
+#include "gis/map_raster.hpp"
+#include "gis/reference_system.hpp"
+#include "gis/sampling.hpp"
+#include "gis/taper.hpp"
+#include "gis/told_at.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+// The ground's points about an extent, also where they lie beyond those that were read: that there is no ground is told
+// later, of points that need one.
+Raster points_about(const Rectangle& extent, double taper, const Raster& ground) {
+  const auto along = [&](double low, double high, double first, double cell, double& new_first, int& count) {
+    const int margin = 2 + taper_reach(taper, cell);
+    const int begin = static_cast<int>(std::floor((low - first) / cell)) - margin;
+    new_first = first + begin * cell;
+    count = static_cast<int>(std::ceil((high - first) / cell)) + margin - begin + 1;
+  };
+  Raster layout;
+  layout.cell_x = ground.cell_x;
+  layout.cell_y = ground.cell_y;
+  layout.crs = ground.crs;
+  along(extent.min_x, extent.max_x, ground.x, ground.cell_x, layout.x, layout.columns);
+  along(extent.min_y, extent.max_y, ground.y, ground.cell_y, layout.y, layout.rows);
+  return layout;
+}
+
+// `extent`: of all that has a thickness.
+void check_place(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
+  const auto check = [&](const char* what, const Rectangle& outer, const std::string& remedy) {
+    const std::string beyond = words_beyond(extent, outer);
+    if (!beyond.empty()) {
+      fail_at(parameters, key_of(body, "release"),
+              fmt::format("{}: the release lies {}outside {}, by {}; found: {}; allowed: {}. {}",
+                          parameters.bodies.at(body).release, extent.touches(outer) ? "partly " : "", what, beyond,
+                          range_words(extent), range_words(outer), remedy));
+    }
+  };
+  check("the terrain model", ground.span,
+        fmt::format("Check that both have the same place and reference system (the ground's is {}), or take a larger "
+                    "terrain model.",
+                    name_of(ground.raster.crs)));
+  check("the domain", domain_of(parameters), "Widen grid.min and grid.max.");
+}
+
+Rectangle extent_of_positive(const std::string& file, const Raster& source, const std::string& crs) {
+  std::vector<double> x, y;
+  for (int row = 0; row < source.rows; ++row) {
+    for (int column = 0; column < source.columns; ++column) {
+      if (source.at(column, row) > 0.0) {
+        x.push_back(source.x_of(column));
+        y.push_back(source.y_of(row));
+      }
+    }
+  }
+  if (x.empty()) {
+    throw UserError(fmt::format("{}: the thickness is nowhere above 0: there is no release.", file));
+  }
+  if (!Reprojection(source.crs, crs).apply(x, y)) {
+    throw UserError(
+        fmt::format("{}: points of the raster have no place in the ground's coordinate reference system, "
+                    "{}. Check the system of the file.",
+                    file, name_of(crs)));
+  }
+  Rectangle extent{x[0], y[0], x[0], y[0]};
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    extent.take_in(x[k], y[k]);
+  }
+  return extent;
+}
+
+ReleaseArea area_of_raster(const config::Case& parameters, const std::string& name, const Dem& ground,
+                           std::vector<std::string>& notes) {
+  const config::Body& body = parameters.bodies.at(name);
+  if (!body.polygons.empty()) {
+    fail_at(parameters, key_of(name, "polygons"),
+            fmt::format("{} is a raster, it has no polygons to choose from. Leave the key out.", body.release));
+  }
+  if (parameters.places.count(key_of(name, "thickness")) > 0) {
+    fail_at(parameters, key_of(name, "thickness"),
+            fmt::format("{} is a raster: it gives the thickness itself. Leave the key out.", body.release));
+  }
+  const std::string key = key_of(name, "release");
+  ReleaseArea area;
+  area.source = read_map(parameters, {key, body.release, ground.raster.crs, std::nullopt}, notes);
+  const Rectangle extent =
+      told_at(parameters, key, [&] { return extent_of_positive(body.release, area.source, ground.raster.crs); });
+  check_place(parameters, name, extent.widened(0.5 * body.taper, 0.5 * body.taper), ground);
+  const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
+  area.share = told_at(parameters, key, [&] {
+    return sampled(area.source, points_about(reached, body.taper, ground.raster), Missing::zero);
+  });
+  for (double& share : area.share.values) {
+    share = share > 0.0 ? 1.0 : 0.0;
+  }
+  return area;
+}
+
+ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
+                             std::vector<std::string>& notes) {
+  const config::Body& body = parameters.bodies.at(name);
+  ReleaseArea area;
+  area.layer =
+      told_at(parameters, key_of(name, "release"), [&] { return read_polygons(body.release, ground.raster.crs); });
+  notes.insert(notes.end(), area.layer.notes.begin(), area.layer.notes.end());
+  area.layer.features = told_at(parameters, key_of(name, "polygons"),
+                                [&] { return features_named(area.layer, body.polygons, body.name_attribute); });
+  Polygons all;
+  for (const Feature& feature : area.layer.features) {
+    all.insert(all.end(), feature.polygons.begin(), feature.polygons.end());
+  }
+  area.polygons = union_of(all);
+  const Rectangle extent = extent_of(area.polygons);
+  check_place(parameters, name, extent.widened(0.5 * body.taper, 0.5 * body.taper), ground);
+  area.share = coverage_of(area.polygons, points_about(extent, body.taper, ground.raster));
+  return area;
+}
+
+}  // namespace
+
+std::string key_of(const std::string& body, const std::string& name) { return fmt::format("body.{}.{}", body, name); }
+
+ReleaseArea load_release_area(const config::Case& parameters, const std::string& body, const Dem& ground,
+                              std::vector<std::string>& notes) {
+  return is_vector_file(parameters.bodies.at(body).release) ? area_of_polygons(parameters, body, ground, notes)
+                                                            : area_of_raster(parameters, body, ground, notes);
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,244 @@
+#include "gis/release_thickness.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "gis/coverage.hpp"
+#include "gis/map_raster.hpp"
+#include "gis/point_window.hpp"
+#include "gis/sampling.hpp"
+#include "gis/slope.hpp"
+#include "gis/taper.hpp"
+#include "gis/told_at.hpp"
+#include "gis/valued_areas.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+using config::MapValue;
+
+double volume_of(const Raster& thickness) {
+  return std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0) * thickness.cell_x * thickness.cell_y;
+}
+
+class ThicknessMaker {
+ public:
+  ThicknessMaker(const config::Case& parameters, const std::string& body, const ReleaseArea& area, const Raster& ground,
+                 std::vector<std::string>& notes)
+      : case_(parameters),
+        name_(body),
+        body_(parameters.bodies.at(body)),
+        area_(area),
+        ground_(ground),
+        notes_(notes) {}
+
+  Raster make() {
+    Raster thickness = area_.is_raster() ? of_release_raster() : of_polygons();
+    check_ground(thickness);
+    if (body_.thickness_along == config::ThicknessAlong::normal) {
+      to_vertical(thickness);
+    }
+    thickness = tapered(thickness, body_.taper);
+    check_ground(thickness);
+    if (body_.taper > 0.0 && taper_reach(body_.taper, ground_.cell_x) + taper_reach(body_.taper, ground_.cell_y) == 0) {
+      notes_.push_back(
+          fmt::format("the taper of the body {}, {:g} m, is no wider than two cells of the ground, {:g} m x "
+                      "{:g} m: it changes nothing",
+                      name_, body_.taper, ground_.cell_x, ground_.cell_y));
+    }
+    return thickness;
+  }
+
+ private:
+  [[noreturn]] void fail(const char* key, const std::string& message) const {
+    fail_at(case_, key_of(name_, key), message);
+  }
+
+  // Column and row of a point of the area among the ground's, and whether it has ground.
+  bool has_ground(int column, int row, int& ground_column, int& ground_row) const {
+    const Raster& share = area_.share;
+    ground_column = column + static_cast<int>(std::lround((share.x - ground_.x) / ground_.cell_x));
+    ground_row = row + static_cast<int>(std::lround((share.y - ground_.y) / ground_.cell_y));
+    return ground_column >= 0 && ground_row >= 0 && ground_column < ground_.columns && ground_row < ground_.rows &&
+           !std::isnan(ground_.at(ground_column, ground_row));
+  }
+
+  // Calls body(column, row, value) for the points with a value.
+  template <class Work>
+  static void for_each_positive(Raster& raster, const Work& work) {
+    for (int row = 0; row < raster.rows; ++row) {
+      for (int column = 0; column < raster.columns; ++column) {
+        if (raster.at(column, row) > 0.0) {
+          work(column, row, raster.values[raster.index(column, row)]);
+        }
+      }
+    }
+  }
+
+  void check_ground(Raster& thickness) const {
+    int without = 0;
+    std::string first;
+    for_each_positive(thickness, [&](int column, int row, double) {
+      int i = 0, j = 0;
+      if (!has_ground(column, row, i, j) && without++ == 0) {
+        first = fmt::format("{:.10g}, {:.10g}", thickness.x_of(column), thickness.y_of(row));
+      }
+    });
+    if (without > 0) {
+      fail("release",
+           fmt::format("{}: the release lies over nodata of the terrain model at {} of its points, such as {}. "
+                       "Fill the holes (gdal_fillnodata.py {} filled.tif), or move the release.",
+                       body_.release, without, first, case_.terrain.file));
+    }
+  }
+
+  void to_vertical(Raster& thickness) const {
+    for_each_positive(thickness, [&](int column, int row, double& value) {
+      int i = 0, j = 0;
+      has_ground(column, row, i, j);
+      const Gradient gradient = gradient_at(ground_, i, j);
+      value = vertical_thickness(value, gradient.x, gradient.y);
+    });
+  }
+
+  Raster of_release_raster() {
+    const Raster thickness = sampled(area_.source, area_.share, Missing::zero);
+    require_not_negative(area_.source, "release", body_.release);
+    const double told = volume_of(area_.source), made = volume_of(thickness);
+    if (area_.source.crs == ground_.crs && std::abs(made - told) > 1e-3 * told) {
+      notes_.push_back(
+          fmt::format("the thickness of the body {} holds {:.6g} m3 at its own points and {:.6g} m3 at "
+                      "those of the ground",
+                      name_, told, made));
+    }
+    return thickness;
+  }
+
+  Raster of_polygons() {
+    switch (body_.thickness.from) {
+      case MapValue::From::number:
+        return of_number();
+      case MapValue::From::attribute:
+        return of_attribute();
+      case MapValue::From::raster:
+        return of_raster();
+      case MapValue::From::surface:
+        return of_surface();
+    }
+    THAWSLIDE_ASSERT(false, "a thickness from {}", static_cast<int>(body_.thickness.from));
+    return {};
+  }
+
+  Raster of_number() const {
+    if (!(body_.thickness.number > 0.0)) {
+      fail("thickness", fmt::format("the thickness of the release is {:g} m; needed: more than 0. Set it to metres, or "
+                                    "to {{ attribute = \"thickness\" }} of the polygons, {{ raster = FILE }} or "
+                                    "{{ surface = FILE }}.",
+                                    body_.thickness.number));
+    }
+    return times_share([&](std::size_t) { return body_.thickness.number; });
+  }
+
+  Raster of_attribute() const {
+    const std::string key = key_of(name_, "thickness");
+    Raster thickness = area_.share.filled(0.0);
+    for (const ValuedArea& part :
+         told_at(case_, key, [&] { return areas_by_value(area_.layer, body_.thickness.source, key); })) {
+      if (part.value < 0.0) {
+        fail("thickness", fmt::format("{}: the attribute '{}' is {:g} m somewhere; allowed: 0 and more.", body_.release,
+                                      body_.thickness.source, part.value));
+      }
+      const Raster share = coverage_of(part.polygons, area_.share);
+      for (std::size_t k = 0; k < share.values.size(); ++k) {
+        thickness.values[k] += part.value * share.values[k];
+      }
+    }
+    return thickness;
+  }
+
+  Raster map_at_points(const std::string& file, Missing missing) const {
+    const std::string key = key_of(name_, "thickness");
+    const Raster raster = read_map(case_, {key, file, ground_.crs, span_of_points(area_.share)}, notes_);
+    return told_at(case_, key, [&] { return sampled(raster, area_.share, missing); });
+  }
+
+  Raster of_raster() const {
+    const Raster thickness = map_at_points(body_.thickness.source, Missing::zero);
+    require_not_negative(thickness, "thickness", body_.thickness.source);
+    return times_share([&](std::size_t k) { return thickness.values[k]; });
+  }
+
+  Raster of_surface() const {
+    if (body_.placement == config::Placement::cut) {
+      fail("placement",
+           "a thickness between a surface before the slide and the terrain model takes the terrain model "
+           "for what the slide lay on, so that nothing is to be cut out of it. Set \"on_top\".");
+    }
+    if (body_.thickness_along == config::ThicknessAlong::normal) {
+      fail("thickness_along", "the difference of two surfaces is vertical. Set \"vertical\", or leave the key out.");
+    }
+    const Raster surface = map_at_points(body_.thickness.source, Missing::nothing);
+    Raster thickness = area_.share;
+    for_each_positive(thickness, [&](int column, int row, double& value) {
+      int i = 0, j = 0;
+      const double above = surface.at(column, row);
+      const auto told = [&](const std::string& what) {
+        fail("thickness", fmt::format("{}: at {:.10g}, {:.10g}, within the release, {}", body_.thickness.source,
+                                      surface.x_of(column), surface.y_of(row), what));
+      };
+      if (std::isnan(above)) {
+        told("the surface has no data. Fill it, or draw the release smaller.");
+      }
+      if (!has_ground(column, row, i, j)) {
+        return;
+      }
+      constexpr double rounding = 0.01;  // m, of elevations in files
+      const double difference = above - ground_.at(i, j);
+      if (difference < -rounding) {
+        told(fmt::format(
+            "the surface before the slide lies {:.4g} m below the terrain model; allowed: above it. Are the "
+            "two files swapped? Else draw the release smaller.",
+            -difference));
+      }
+      value *= std::max(difference, 0.0);
+    });
+    return thickness;
+  }
+
+  template <class Value>
+  Raster times_share(const Value& value) const {
+    Raster thickness = area_.share;
+    for (std::size_t k = 0; k < thickness.values.size(); ++k) {
+      thickness.values[k] *= thickness.values[k] > 0.0 ? value(k) : 0.0;
+    }
+    return thickness;
+  }
+
+  void require_not_negative(const Raster& raster, const char* key, const std::string& file) const {
+    for (int row = 0; row < raster.rows; ++row) {
+      for (int column = 0; column < raster.columns; ++column) {
+        if (raster.at(column, row) < 0.0) {
+          fail(key, fmt::format("{}: the thickness at {:.10g}, {:.10g} is {:g} m; allowed: 0 and more.", file,
+                                raster.x_of(column), raster.y_of(row), raster.at(column, row)));
+        }
+      }
+    }
+  }
+
+  const config::Case& case_;
+  const std::string& name_;
+  const config::Body& body_;
+  const ReleaseArea& area_;
+  const Raster& ground_;
+  std::vector<std::string>& notes_;
+};
+
+}  // namespace
+
+Raster vertical_thickness_of(const config::Case& parameters, const std::string& body, const ReleaseArea& area,
+                             const Raster& ground, std::vector<std::string>& notes) {
+  return ThicknessMaker(parameters, body, area, ground, notes).make();
+}
+
+}  // namespace thawslide::gis

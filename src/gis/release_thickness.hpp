@@ -1,0 +1,17 @@
+// The vertical thickness of a release at the points of the ground.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gis/release_area.hpp"
+
+namespace thawslide::gis {
+
+// [m], at the points of the area's share, with its taper. Throws UserError where it is missing or negative. Adds to the
+// notes.
+[[nodiscard]] Raster vertical_thickness_of(const config::Case& parameters, const std::string& body,
+                                           const ReleaseArea& area, const Raster& ground,
+                                           std::vector<std::string>& notes);
+
+}  // namespace thawslide::gis

@@ -1,0 +1,108 @@
+#include "gis/site.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "gis/dem.hpp"
+#include "gis/point_window.hpp"
+#include "gis/reference_system.hpp"
+#include "gis/release.hpp"
+#include "gis/told_at.hpp"
+#include "gis/vector_file.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+// The one line of a file, some of which lies in the domain.
+config::Polyline2 load_line(const config::Case& parameters, const std::string& key, const std::string& file,
+                            const std::string& crs, std::vector<std::string>& notes) {
+  return told_at(parameters, key, [&] {
+    const VectorLayer layer = read_lines(file, crs);
+    notes.insert(notes.end(), layer.notes.begin(), layer.notes.end());
+    if (layer.features.size() != 1 || layer.features.front().lines.size() != 1) {
+      std::size_t lines = 0;
+      for (const Feature& feature : layer.features) {
+        lines += feature.lines.size();
+      }
+      throw UserError(
+          fmt::format("{}: the file has {} lines; allowed: one. Join them, or delete the others.", file, lines));
+    }
+    const config::Polyline2& line = layer.features.front().lines.front();
+    if (line.size() < 2) {
+      throw UserError(fmt::format("{}: the line has {} corner; needed: at least 2.", file, line.size()));
+    }
+    Rectangle extent{line[0][0], line[0][1], line[0][0], line[0][1]};
+    for (const auto& corner : line) {
+      extent.take_in(corner[0], corner[1]);
+    }
+    const Rectangle domain = domain_of(parameters);
+    if (!extent.touches(domain)) {
+      throw UserError(
+          fmt::format("{}: the line ({}) lies outside the domain ({}). Check that both have the same place "
+                      "and reference system.",
+                      file, range_words(extent), range_words(domain)));
+    }
+    return line;
+  });
+}
+
+// Bodies that are cut out of the ground leave it lower.
+Raster less_what_is_cut(const config::Case& parameters, const std::map<std::string, config::Release>& releases,
+                        Raster ground) {
+  for (const auto& [name, release] : releases) {
+    if (parameters.bodies.at(name).placement != config::Placement::cut) {
+      continue;
+    }
+    const Raster& thickness = release.thickness;
+    const PointWindow window = points_of(thickness, ground);
+    for (int row = 0; row < thickness.rows; ++row) {
+      for (int column = 0; column < thickness.columns; ++column) {
+        const double cut = thickness.at(column, row);
+        if (cut > 0.0) {
+          ground.values[ground.index(window.first_column + column, window.first_row + row)] -= cut;
+        }
+      }
+    }
+  }
+  return ground;
+}
+
+}  // namespace
+
+SiteAndNotes load_site(const config::Case& parameters) {
+  SiteAndNotes loaded;
+  config::Site& site = loaded.site;
+  Dem dem;
+  if (parameters.terrain.kind == config::TerrainKind::dem) {
+    dem = load_dem(parameters, loaded.notes);
+    site.crs = dem.raster.crs;
+    site.crs_name = name_of(site.crs);
+  }
+  for (const auto& [name, body] : parameters.bodies) {
+    if (body.shape != config::BodyShape::release) {
+      continue;
+    }
+    if (dem.raster.empty()) {
+      fail_at(parameters, fmt::format("body.{}.shape", name),
+              "a release lies on a terrain model. Set terrain.type = \"dem\" and terrain.file.");
+    }
+    site.releases[name] = load_release(parameters, name, dem, loaded.notes);
+  }
+  check_overlaps(parameters, site.releases);
+  if (!dem.raster.empty()) {
+    site.ground = std::make_shared<const Raster>(less_what_is_cut(parameters, site.releases, std::move(dem.raster)));
+  }
+  if (!parameters.maps.path.empty()) {
+    site.path = load_line(parameters, "maps.path", parameters.maps.path, site.crs, loaded.notes);
+  }
+  for (const auto& [name, probe] : parameters.probes) {
+    site.probes[name] = probe.line.empty() ? config::Polyline2{{probe.point[0], probe.point[1]}}
+                                           : load_line(parameters, fmt::format("probe.{}.line", name), probe.line,
+                                                       site.crs, loaded.notes);
+  }
+  return loaded;
+}
+
+}  // namespace thawslide::gis

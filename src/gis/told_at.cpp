@@ -1,0 +1,39 @@
+#include "gis/told_at.hpp"
+
+#include <vector>
+
+namespace thawslide::gis {
+
+void fail_at(const config::Case& parameters, const std::string& key, const std::string& message) {
+  throw UserError(fmt::format("{}: {}: {}", config::place_of(parameters, key), key, message));
+}
+
+std::string words_beyond(const Rectangle& inner, const Rectangle& outer) {
+  std::vector<std::string> sides;
+  const auto add = [&](double distance, const char* side) {
+    if (distance > 0.0) {
+      sides.push_back(fmt::format("{:.4g} m in the {}", distance, side));
+    }
+  };
+  add(outer.min_x - inner.min_x, "west");
+  add(inner.max_x - outer.max_x, "east");
+  add(outer.min_y - inner.min_y, "south");
+  add(inner.max_y - outer.max_y, "north");
+  std::string words;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    words += (k == 0 ? "" : k + 1 == sides.size() ? " and " : ", ") + sides[k];
+  }
+  return words;
+}
+
+std::string range_words(const Rectangle& rectangle) {
+  return fmt::format("x from {:.10g} to {:.10g}, y from {:.10g} to {:.10g}", rectangle.min_x, rectangle.max_x,
+                     rectangle.min_y, rectangle.max_y);
+}
+
+Rectangle domain_of(const config::Case& parameters) {
+  const auto& [min, max] = std::pair(parameters.grid.min, parameters.grid.max);
+  return {min[0], min[1], max[0], max[1]};
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,33 @@
+// Messages at the place of a key of the case: "case.toml:12:7: terrain.file: ..."
+#pragma once
+
+#include <string>
+
+#include "base/error.hpp"
+#include "config/case.hpp"
+#include "gis/rectangle.hpp"
+
+namespace thawslide::gis {
+
+[[noreturn]] void fail_at(const config::Case& parameters, const std::string& key, const std::string& message);
+
+// What the work says of a file is told at the key that named it.
+template <class Work>
+auto told_at(const config::Case& parameters, const std::string& key, const Work& work) {
+  try {
+    return work();
+  } catch (const UserError& error) {
+    fail_at(parameters, key, error.what());
+  }
+}
+
+// How far a rectangle reaches beyond another: "120 m in the west and 30 m in the north"; empty: it does not.
+[[nodiscard]] std::string words_beyond(const Rectangle& inner, const Rectangle& outer);
+
+// "x from 0 to 10, y from 2 to 5"
+[[nodiscard]] std::string range_words(const Rectangle& rectangle);
+
+// The domain's sides.
+[[nodiscard]] Rectangle domain_of(const config::Case& parameters);
+
+}  // namespace thawslide::gis

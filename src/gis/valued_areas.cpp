@@ -1,0 +1,64 @@
+#include "gis/valued_areas.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "base/error.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+double value_of(const VectorLayer& layer, const Feature& feature, const std::string& attribute) {
+  const auto number = feature.numbers.find(attribute);
+  if (number != feature.numbers.end() && std::isfinite(number->second)) {
+    return number->second;
+  }
+  const auto text = feature.texts.find(attribute);
+  throw UserError(fmt::format("{}: the attribute '{}' of {} is {}; needed: a number. Fill it in.", layer.file,
+                              attribute, feature.title,
+                              text == feature.texts.end() ? "empty" : "'" + text->second + "'"));
+}
+
+// What two outlines drawn along one another share by rounding, of the smaller one's area, is no overlap.
+constexpr double rounding = 1e-6;
+
+void check_apart(const VectorLayer& layer, const std::string& attribute, const Feature& first, const Feature& second) {
+  const Polygons both = intersection_of(first.polygons, second.polygons);
+  const double shared = area_of(both);
+  if (shared <= rounding * std::min(area_of(first.polygons), area_of(second.polygons))) {
+    return;
+  }
+  const Rectangle place = extent_of(both);
+  throw UserError(fmt::format(
+      "{}: {} and {} overlap by {:.4g} m2 about {:.10g}, {:.10g}, and their '{}' differs: {:g} and {:g}. Give "
+      "them the same value, or draw them apart.",
+      layer.file, first.title, second.title, shared, 0.5 * (place.min_x + place.max_x),
+      0.5 * (place.min_y + place.max_y), attribute, first.numbers.at(attribute), second.numbers.at(attribute)));
+}
+
+}  // namespace
+
+std::vector<ValuedArea> areas_by_value(const VectorLayer& layer, const std::string& attribute, const std::string& key) {
+  const std::string name = attribute_named(layer, attribute, key);
+  std::map<double, std::vector<const Feature*>> groups;
+  for (const Feature& feature : layer.features) {
+    groups[value_of(layer, feature, name)].push_back(&feature);
+  }
+  std::vector<ValuedArea> areas;
+  for (auto group = groups.begin(); group != groups.end(); ++group) {
+    Polygons all;
+    for (const Feature* feature : group->second) {
+      all.insert(all.end(), feature->polygons.begin(), feature->polygons.end());
+      for (auto other = groups.begin(); other != group; ++other) {
+        for (const Feature* before : other->second) {
+          check_apart(layer, name, *before, *feature);
+        }
+      }
+    }
+    areas.push_back({group->first, union_of(all)});
+  }
+  return areas;
+}
+
+}  // namespace thawslide::gis
