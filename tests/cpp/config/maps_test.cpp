@@ -1,6 +1,9 @@
 // The keys of a DEM, of releases, of what maps give to bodies, of maps and probes: reading, defaults, mistakes.
+#include <set>
+
 #include "case_messages.hpp"
 #include "config/describe.hpp"
+#include "config/input_files.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -301,6 +304,42 @@ TEST_F(Maps, ProbesAreAPlaceOrASection) {
       with_probe("point = [1.0, 2.0]\nline = \"line.geojson\"\n"),
       "FOLDER/case.toml:26:8: probe.gauge.point and probe.gauge.line are both given; allowed: one of them, since a "
       "probe is a place or a cross section. Remove one, or write two probes.");
+}
+
+// A run copies what input_files names, and its case.toml names the copies.
+TEST_F(Maps, GoWithTheRun) {
+  for (const char* name : {"dem.tif.aux.xml", "dem.tfw", "release.shp", "release.shx", "release.dbf", "release.prj",
+                           "release.CPG", "release.sbn", "before.asc", "before.prj", "water.tif", "section.geojson"}) {
+    write_beside_the_case(name, "");
+  }
+  const Case found =
+      read({{"release.geojson", "release.shp"},
+            {"thickness = 10.0", "thickness = { surface = \"before.asc\" }\nsaturation = { raster = \"water.tif\" }"},
+            {"[basal]",
+             "[body.other]\nmaterial = \"rock\"\nshape = \"release\"\nrelease = \"release.shp\"\n"
+             "thickness = { attribute = \"map.tif\" }\ntemperature = { raster = \"map.tif\" }\n"
+             "[maps]\npath = \"line.geojson\"\n[probe.section]\nline = \"section.geojson\"\n[basal]"}});
+  std::set<std::string> names;
+  for (const fs::path& file : input_files(found)) {
+    EXPECT_EQ(file.parent_path(), folder_of_this_test());
+    EXPECT_TRUE(names.insert(file.filename().string()).second) << file << " is there once";
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"case.toml", "dem.tif", "dem.tif.aux.xml", "dem.tfw", "release.shp",
+                                          "release.shx", "release.dbf", "release.prj", "release.CPG", "before.asc",
+                                          "before.prj", "water.tif", "map.tif", "line.geojson", "section.geojson"}));
+  const fs::path run = folder_of_this_test() / "run";
+  for (const std::string& name : names) {
+    write_beside_the_case("run/inputs/" + name, "");
+  }
+  const std::string resolved = resolved_toml(found, "inputs");
+  write_beside_the_case("run/case.toml", resolved);
+  const Case again = read_case(run);
+  EXPECT_EQ(resolved_toml(again, "inputs"), resolved);
+  EXPECT_EQ(again.bodies.at("slide").release, (run / "inputs" / "release.shp").string());
+  EXPECT_EQ(again.bodies.at("other").thickness.source, "map.tif") << "an attribute is no file";
+  for (const fs::path& file : input_files(again)) {
+    EXPECT_TRUE(file == run / "case.toml" || file.parent_path() == run / "inputs") << file;
+  }
 }
 
 TEST_F(Maps, AndProbesAreForThreeDimensions) {
