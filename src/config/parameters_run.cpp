@@ -164,7 +164,7 @@ std::vector<Parameter<Probe>> probe_parameters() {
                 {.key = "point", .unit = "m", .text = "place of the probe on the map", .horizontal = true})
           .required_if("when line is not given", has_no_line),
       parameter(&Probe::line, {.key = "line", .text = "file of the line of a cross section", .is_path = true})
-          .otherwise("none: a point"),
+          .otherwise("no line, but a point"),
   };
 }
 

@@ -12,6 +12,14 @@ using nlohmann::json;
 
 const Rule rule_of_numbers{};
 
+// The keys that say where the value of a map comes from.
+struct MapWord {
+  MapValue::From from;
+  const char* key;
+};
+constexpr MapWord map_words[] = {
+    {MapValue::From::attribute, "attribute"}, {MapValue::From::raster, "raster"}, {MapValue::From::surface, "surface"}};
+
 std::string write_array(const std::vector<double>& numbers) {
   return Value<Numbers>::write(numbers, rule_of_numbers, WriteContext{});
 }
@@ -196,17 +204,6 @@ json Value<InitialField>::schema(const Rule& rule) {
 }
 
 // value of a map
-namespace {
-
-struct MapWord {
-  MapValue::From from;
-  const char* key;
-};
-constexpr MapWord map_words[] = {
-    {MapValue::From::attribute, "attribute"}, {MapValue::From::raster, "raster"}, {MapValue::From::surface, "surface"}};
-
-}  // namespace
-
 std::string Value<MapValue>::type(const Rule& rule) {
   return fmt::format("a number, {{ attribute = \"NAME\" }}, {{ raster = \"FILE\" }} or {{ surface = \"FILE\" }}{}",
                      range_and_unit(rule));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "config/declaration.hpp"
 #include "config/reading.hpp"
 
 namespace thawslide::config {
@@ -66,14 +67,26 @@ std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, c
   return base;
 }
 
-// Moves what `over` holds into `under`; tables are joined, all else is replaced.
-void lay_over(toml::table& under, toml::table&& over) {
+// Whether tables of the case have this dotted name, or stand inside it: "grid", "body", "body.slide". All other tables
+// are values: { raster = "thickness.tif" }.
+bool names_a_table(const std::string& dotted) {
+  return std::any_of(tables().begin(), tables().end(), [&](const auto& table) {
+    const std::string inside = dotted + ".", outside = table->name + ".";
+    const bool is_named_one = table->is_named() && dotted.compare(0, outside.size(), outside) == 0 &&
+                              dotted.find('.', outside.size()) == std::string::npos;
+    return table->name == dotted || table->name.compare(0, inside.size(), inside) == 0 || is_named_one;
+  });
+}
+
+// Moves what `over` holds into `under`, both of this dotted name; tables are joined, all else is replaced.
+void lay_over(toml::table& under, toml::table&& over, const std::string& dotted) {
   for (auto&& entry : over) {
     const toml::key& key = entry.first;
     toml::node& node = entry.second;
     toml::table* inner = under.get_as<toml::table>(key.str());
-    if (inner != nullptr && node.is_table()) {
-      lay_over(*inner, std::move(*node.as_table()));
+    const std::string name = (dotted.empty() ? "" : dotted + ".") + std::string(key.str());
+    if (inner != nullptr && node.is_table() && names_a_table(name)) {
+      lay_over(*inner, std::move(*node.as_table()), name);
     } else {
       node.visit([&](auto& value) { under.insert_or_assign(key, std::move(value)); });
     }
@@ -88,7 +101,7 @@ toml::table read_chain(const fs::path& file, std::vector<fs::path>& chain) {
     return root;
   }
   toml::table under = read_chain(*base, chain);
-  lay_over(under, std::move(root));
+  lay_over(under, std::move(root), "");
   return under;
 }
 

@@ -67,6 +67,28 @@ def test_unknown_key_with_its_nearest_neighbour(thawslide: Program, small_case: 
     assert "key 'material.rock.young_modulus' is not known in [material.rock]; did you mean 'youngs_modulus'?" in text
 
 
+def test_key_by_its_former_name(thawslide: Program, small_case: Path) -> None:
+    file = edited(small_case, "elevation = 0.0", 'description = "rigid_points"')
+    text = refused(thawslide, small_case)
+    assert f"{file}:{line_of(file, 'description')}:1: key 'terrain.description' is not known in [terrain]" in text
+    assert "it is called 'terrain.representation' now" in text
+
+
+def test_terrain_model_in_two_dimensions(thawslide: Program, small_case: Path) -> None:
+    (small_case / "dem.asc").write_text("")
+    edited(small_case, 'type = "flat"\nelevation = 0.0', 'type = "dem"\nfile = "dem.asc"')
+    text = refused(thawslide, small_case)
+    assert "Set case.dimension = 3, or cut a 2D case out of the DEM with `thawslide section`." in text
+
+
+def test_key_without_a_meaning(thawslide: Program, small_case: Path) -> None:
+    text = refused(thawslide, small_case, *sets(body__block__taper=5))
+    assert text == (
+        'error: --set body.block.taper=5: body.block.taper has a meaning only when the shape is "release". Remove it, '
+        "or change body.block.shape.\n"
+    )
+
+
 def test_unknown_table_with_its_nearest_neighbour(thawslide: Program, small_case: Path) -> None:
     edited(small_case, "[terrain]", "[terain]")
     assert "table [terain] is not known; did you mean 'terrain'?" in refused(thawslide, small_case)

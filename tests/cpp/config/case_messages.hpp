@@ -39,10 +39,35 @@ max = [40.0, 20.0]
 friction_angle = 20.0
 )";
 
+// A sound case of a release on a DEM; write_map_files puts its files beside it. [case] is line 1.
+inline const std::string sound_on_dem = R"([case]
+dimension = 3
+[time]
+end = 2.0
+step = 0.001
+[grid]
+cell = 5.0
+min = [0.0, 0.0, 0.0]
+max = [100.0, 50.0, 50.0]
+[terrain]
+type = "dem"
+file = "dem.tif"
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+[body.slide]
+material = "rock"
+shape = "release"
+release = "release.geojson"
+thickness = 10.0
+[basal]
+friction_angle = 20.0
+)";
+
 using Change = std::pair<std::string, std::string>;  // a text of the case, and what stands there instead
 
-inline std::string changed(const std::vector<Change>& changes) {
-  std::string text = sound;
+inline std::string changed(const std::vector<Change>& changes, std::string text = sound) {
   for (const auto& [from, to] : changes) {
     const std::size_t at = text.find(from);
     if (at == std::string::npos) {
@@ -63,6 +88,13 @@ inline void write_beside_the_case(const std::string& name, const std::string& te
   const std::filesystem::path file = folder_of_this_test() / name;
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << text;
+}
+
+// Maps are opened when a run begins: to the case file it is enough that they are there.
+inline void write_map_files() {
+  for (const char* name : {"dem.tif", "release.geojson", "map.tif", "line.geojson"}) {
+    write_beside_the_case(name, "");
+  }
 }
 
 // The whole error that `read` throws, the folder of this test written as FOLDER.

@@ -291,14 +291,14 @@ TEST(Frames, MeetTheDomain) {
   EXPECT_EQ(with_frame("[-9, 0]", "[5, 9]", "axis = \"x\"\nvelocity = -3\n"), "no error") << "it leaves";
 }
 
-TEST(Bodies, OfThreeDimensionsAreBoxes) {
+TEST(Bodies, OfThreeDimensionsAreBoxesAndReleases) {
   const std::vector<Change> in_3d{{"[time]", "[case]\ndimension = 3\n[time]"},
                                   {"min = [0.0, -10.0]", "min = [0.0, 0.0, -10.0]"},
                                   {"max = [100.0, 50.0]", "max = [100.0, 50.0, 50.0]"},
                                   {"shape = \"box\"\nmin = [0.0, 0.0]\nmax = [40.0, 20.0]", "shape = \"surface\""}};
   EXPECT_EQ(error_of_changed(in_3d),
-            "FOLDER/case.toml:19:9: body.block.shape is for 2D cases; allowed in 3D: \"box\". Use the shape \"box\" "
-            "with min and max.");
+            "FOLDER/case.toml:19:9: body.block.shape is for 2D cases; allowed in 3D: \"box\", \"release\". Use the "
+            "shape \"box\" with min and max, or on a DEM the shape \"release\".");
 }
 
 TEST(Transfers, PicShareBelongsToTheBlend) {

@@ -8,7 +8,8 @@ namespace fs = std::filesystem;
 using namespace case_messages;
 
 const std::string all_tables =
-    "[case], [time], [grid], [grid.boundary], [terrain], [checkpoint], [report], [phases], [freezing], "
+    "[case], [time], [grid], [grid.boundary], [terrain], [checkpoint], [maps], [probe.NAME], [report], [phases], "
+    "[freezing], "
     "[material.NAME], [body.NAME], [frame.NAME], [mechanics], [basal], [mechanisms], [band], [heat], [heat.boundary], "
     "[pressure].";
 
@@ -108,7 +109,9 @@ TEST(Mistakes, TablesOverDepth) {
                 remedy);
   EXPECT_EQ(with_porosity("{ deep = [0.0, 5.0], value = [0.3, 0.4] }"),
             "FOLDER/case.toml:18:12: body.block.porosity is a table with the keys deep, value; allowed: a number, { "
-            "depth = [...], value = [...] } or { x = [...], value = [...] }, > 0 and <= 0.95." +
+            "depth = [...], value = [...] }, { x = [...], value = [...] }, { attribute = \"NAME\" } or { raster = "
+            "\"FILE\" }, "
+            "> 0 and <= 0.95." +
                 remedy);
   EXPECT_EQ(with_porosity("{ depth = [0.0, 5.0], value = [0.3, 1.0] }"),
             "FOLDER/case.toml:18:48: body.block.porosity is 1; allowed: > 0 and <= 0.95 (porosity n "
@@ -132,7 +135,7 @@ TEST(Mistakes, OutOfRange) {
 }
 
 TEST(Mistakes, UnknownKey) {
-  const std::string here = " Allowed here: cell, min, max, boundary.";
+  const std::string here = " Allowed here: cell, min, max, leaving, boundary.";
   const auto with_key = [](const std::string& key) {
     return error_of_changed({{"cell = 5.0", "cell = 5.0\n" + key + " = 1.0"}});
   };
@@ -210,7 +213,8 @@ TEST(Mistakes, SeveralInOrderOfTheirPlaces) {
             "FOLDER/case.toml:2:1: key 'time.ende' is not known in [time]; did you mean 'end'? Allowed here: end, "
             "stepping, step, safety, output_interval, history_interval.\n"
             "FOLDER/case.toml:5:8: grid.cell is -5; allowed: > 0 m (side of a grid cell).\n"
-            "FOLDER/case.toml:6:1: key 'grid.colour' is not known in [grid]. Allowed here: cell, min, max, boundary.\n"
+            "FOLDER/case.toml:6:1: key 'grid.colour' is not known in [grid]. Allowed here: cell, min, max, leaving, "
+            "boundary.\n"
             "--set basal.friction_angle=95: basal.friction_angle is 95; allowed: >= 0 and < 90 degrees (basal friction "
             "angle phi_f).\n"
             "--set band.thicknes=0.1: key 'band.thicknes' is not known in [band]; did you mean 'thickness'? Allowed "

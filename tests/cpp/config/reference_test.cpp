@@ -68,6 +68,7 @@ TEST(Reference, JsonHoldsEveryTableAndKeyInOrder) {
       EXPECT_EQ(key.at("key"), entries[k].rule->key);
       EXPECT_EQ(key.at("unit"), entries[k].rule->unit);
       EXPECT_EQ(key.at("text"), entries[k].rule->text);
+      EXPECT_EQ(key.at("only"), entries[k].only);
       EXPECT_EQ(key.at("words").size(), entries[k].words.size());
       EXPECT_EQ(key.at("default").is_null(), entries[k].default_text.empty()) << entries[k].rule->key;
     }
@@ -90,7 +91,7 @@ TEST(Reference, SchemaHoldsEveryTableAndKey) {
     }
   }
   const Json& body = schema.at("properties").at("body").at("additionalProperties").at("properties");
-  EXPECT_EQ(body.at("shape").at("enum"), Json({"box", "polygon", "surface"}));
+  EXPECT_EQ(body.at("shape").at("enum"), Json({"box", "polygon", "surface", "release"}));
   EXPECT_EQ(schema.at("properties").at("grid").at("properties").at("cell").at("exclusiveMinimum"), 0.0);
   EXPECT_TRUE(schema.at("properties").at("grid").at("properties").contains("boundary"));
   EXPECT_TRUE(schema.at("properties").at("grid").at("properties").contains("cell"))
@@ -104,7 +105,9 @@ TEST(Reference, TellsUnitRangeDefaultWordsAndNeed) {
       "  youngs_modulus            Young's modulus [Pa]\n"
       "                            a number, > 0 [Pa]; required when mechanics.enabled is true; Tables 2, 3\n");
   expect("a number, > 0 [s]; required when time.stepping is \"fixed\"; otherwise time.end, that is no cap\n");
-  expect("{ x = [...], value = [...] }, > 0 and <= 0.95; default: 0.375; Eq. 1, Table 2\n");
+  expect(
+      "{ raster = \"FILE\" }, > 0 and <= 0.95; default: 0.375; only when ice_content is not given, from which it "
+      "follows; Eq. 1, Table 2\n");
   expect("\"keep_cohesion\": mu_e max(0, N - P) + c_S: cohesion is kept\n");
   const Json all = Json::parse(describe_json());
   EXPECT_EQ(all[1]["keys"][0]["key"], "end");
@@ -118,9 +121,15 @@ TEST(Schema, KnowsTypesRangesWordsAndRequiredKeys) {
   EXPECT_EQ(schema["time"]["required"], Json::array({"end"}));
   EXPECT_EQ(schema["time"]["properties"]["end"]["exclusiveMinimum"], 0.0);
   EXPECT_EQ(schema["basal"]["properties"]["heat_fraction"]["maximum"], 1.0);
-  EXPECT_EQ(schema["terrain"]["properties"]["type"]["enum"], Json::array({"none", "flat", "plane", "profile"}));
+  EXPECT_EQ(schema["terrain"]["properties"]["type"]["enum"], Json::array({"none", "flat", "plane", "profile", "dem"}));
   EXPECT_EQ(schema["body"]["additionalProperties"]["required"], Json::array({"material"}));
-  EXPECT_EQ(schema["body"]["additionalProperties"]["properties"]["porosity"]["anyOf"].size(), 3U);
+  EXPECT_EQ(schema["body"]["additionalProperties"]["properties"]["porosity"]["anyOf"].size(), 5U);
+  const Json& thickness = schema["body"]["additionalProperties"]["properties"]["thickness"]["anyOf"];
+  ASSERT_EQ(thickness.size(), 4U);
+  EXPECT_EQ(thickness[0]["exclusiveMinimum"], 0.0);
+  EXPECT_EQ(thickness[3]["required"], Json::array({"surface"}));
+  EXPECT_EQ(schema["body"]["additionalProperties"]["properties"]["polygons"]["items"]["type"], "string");
+  EXPECT_EQ(schema["probe"]["additionalProperties"]["properties"]["point"]["maxItems"], 2);
   EXPECT_EQ(schema["heat"]["properties"]["boundary"]["properties"]["z_max"]["anyOf"].size(), 3U);
 }
 

@@ -15,7 +15,7 @@ using testing_support::case_from_text;
 using Lines = std::map<std::string, std::map<std::string, std::string>>;  // value by table and key
 
 // Every key of a plane case, none at its default, written as the program writes it. What only a 3D case can show is in
-// the second text.
+// the other texts.
 const std::string every_key = R"([case]
 title = "Every \"key\""
 width = 12.5
@@ -32,6 +32,7 @@ history_interval = 0.125
 cell = 2.5
 min = [-5.0, -10.0]
 max = [95.0, 40.0]
+leaving = "remove"
 [grid.boundary]
 x_min = "fixed"
 x_max = "roller"
@@ -173,6 +174,8 @@ slope = 5.0
 law = "elastic"
 youngs_modulus = 400000000.0
 poisson_ratio = 0.25
+[probe.gauge]
+line = "inputs/section.geojson"
 [body.block]
 material = "rock"
 min = [0.0, 0.0, 1.0]
@@ -187,6 +190,49 @@ z_min = { temperature = -8.0 }
 z_max = { flux = 3.5 }
 [pressure]
 enabled = false
+)";
+
+// A release on a DEM, with all that maps give.
+const std::string release_on_dem = R"([case]
+dimension = 3
+[time]
+end = 4.5
+step = 0.25
+[grid]
+cell = 2.5
+min = [-5.0, 0.0, -10.0]
+max = [95.0, 10.0, 40.0]
+[terrain]
+type = "dem"
+file = "inputs/dem.tif"
+crs = "EPSG:31287"
+resample = 10.0
+smooth = 2.5
+[maps]
+cell = 20.0
+arrival_thickness = 0.5
+path = "inputs/path.geojson"
+[probe.gauge]
+point = [12.5, -3.0]
+[material.rock]
+law = "elastic"
+youngs_modulus = 400000000.0
+poisson_ratio = 0.25
+[body.block]
+material = "rock"
+shape = "release"
+release = "inputs/release.shp"
+polygons = ["upper \"part\"", "lower"]
+name_attribute = "part"
+thickness = { raster = "inputs/thickness.tif" }
+thickness_along = "normal"
+placement = "cut"
+taper = 5.0
+largest_volume = 300000000.0
+saturation = { raster = "inputs/saturation.tif" }
+ice_content = { attribute = "ice" }
+[basal]
+friction_angle = 25.0
 )";
 
 Lines lines_of(const std::string& text) {
@@ -208,18 +254,23 @@ Lines lines_of(const std::string& text) {
 Case read_with_inputs(const std::string& text) {
   write_beside_the_case("inputs/profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,-1\n");
   write_beside_the_case("inputs/targets.csv", "quantity,time_s,value,unit,source\n");
+  for (const std::string name :
+       {"dem.tif", "path.geojson", "section.geojson", "release.shp", "thickness.tif", "saturation.tif"}) {
+    write_beside_the_case("inputs/" + name, "");
+  }
   return case_from_text(text);
 }
 
 // The name in the case of what the reference calls [body.NAME].
 std::string own_name(const TableDeclaration& table) {
-  const std::map<std::string, std::string> names{{"material", "rock"}, {"body", "block"}, {"frame", "wall"}};
+  const std::map<std::string, std::string> names{
+      {"material", "rock"}, {"body", "block"}, {"frame", "wall"}, {"probe", "gauge"}};
   return table.is_named() ? table.name + "." + names.at(table.name) : table.name;
 }
 
 TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
   Lines given, resolved;
-  for (const std::string& text : {every_key, rest_in_3d}) {
+  for (const std::string& text : {every_key, rest_in_3d, release_on_dem}) {
     const std::string written = resolved_toml(read_with_inputs(text), "inputs");
     EXPECT_EQ(resolved_toml(read_with_inputs(written), "inputs"), written);
     for (const auto& [table, keys] : lines_of(text)) {
@@ -229,7 +280,7 @@ TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
       }
     }
   }
-  // The two texts leave out no key, and give none at its default.
+  // The texts leave out no key, and give none at its default.
   for (const auto& table : tables()) {
     for (const Entry& entry : table->entries()) {
       if (entry.rule->key == "based_on") {

@@ -65,7 +65,7 @@ TEST(Set, NeedsAKeyAndAValue) {
 TEST(Set, OfAnUnknownKey) {
   EXPECT_EQ(error_of_text(sound, {"grid.cel=1"}),
             "--set grid.cel=1: key 'grid.cel' is not known in [grid]; did you mean 'cell'? Allowed here: cell, min, "
-            "max, boundary.");
+            "max, leaving, boundary.");
   EXPECT_EQ(error_of_text(sound, {"body.blok.temperature=1"}),
             "--set body.blok.temperature=1: there is no body 'blok'; did you mean 'block'? In the case file: block.");
   EXPECT_EQ(error_of_text(sound, {"frame.wall.velocity=1"}),
@@ -88,7 +88,7 @@ TEST(Set, OfAWrongType) {
             "[m].");
   EXPECT_EQ(error_of_text(sound, {"terrain.type=plan"}),
             "--set terrain.type=plan: terrain.type is \"plan\"; did you mean 'plane'? Allowed: \"none\", \"flat\", "
-            "\"plane\", \"profile\". Correct it, or leave it out for the default \"none\".");
+            "\"plane\", \"profile\", \"dem\". Correct it, or leave it out for the default \"none\".");
   EXPECT_EQ(error_of_text(sound, {"band=1"}),
             "--set band=1: 'band' is 1; allowed: one table. Write [band] on a line of its own and its keys below.");
 }

@@ -44,6 +44,24 @@ TEST(BasedOn, OtherKeysHoldWhereNothingElseIsGiven) {
   EXPECT_EQ(read("steep.toml", {"basal.friction_angle=5"}).basal.friction_angle, 5.0);
 }
 
+TEST(BasedOn, AValueThatIsATableIsReplacedAsAWhole) {
+  write_map_files();
+  write("case.toml",
+        changed({{"thickness = 10.0",
+                  "thickness = { attribute = \"depth\" }\nporosity = { depth = [0, 9], value = [0.3, 0.4] }"}},
+                sound_on_dem) +
+            "[heat.boundary]\nz_min = { temperature = -2.0 }\nx_min = { flux = 1.0 }\n");
+  write("maps.toml",
+        "[case]\nbased_on = \"case.toml\"\n[body.slide]\nthickness = { raster = \"map.tif\" }\n"
+        "porosity = { x = [0, 9], value = [0.3, 0.4] }\n[heat.boundary]\nz_min = { flux = 0.06 }\n");
+  const Case found = read("maps.toml");
+  EXPECT_EQ(found.bodies.at("slide").thickness.from, MapValue::From::raster);
+  EXPECT_EQ(found.bodies.at("slide").porosity.over, InitialField::Over::x);
+  EXPECT_EQ(found.bodies.at("slide").material, "rock") << "the table around them is joined";
+  EXPECT_EQ(found.heat.boundary[4].kind, HeatBoundaryKind::flux);
+  EXPECT_EQ(found.heat.boundary[0].value, 1.0) << "and a table inside a table";
+}
+
 TEST(BasedOn, TheResolvedCaseStandsAlone) {
   write("case.toml", sound);
   write("steep.toml", "[case]\nbased_on = \"case.toml\"\n[basal]\nfriction_angle = 35.0\n");
