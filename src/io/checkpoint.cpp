@@ -12,7 +12,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" in bytes
-constexpr std::uint64_t format_version = 1;
+constexpr std::uint64_t format_version = 2;
 
 class Writer {
  public:
@@ -20,6 +20,10 @@ class Writer {
   void put(const std::string& text) {
     put(text.size());
     put_raw(text.data(), text.size());
+  }
+  void put(const std::vector<double>& numbers) {
+    put(numbers.size());
+    put_raw(numbers.data(), numbers.size() * sizeof(double));
   }
   void put_raw(const void* data, std::size_t size) { text_.append(static_cast<const char*>(data), size); }
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -40,6 +44,11 @@ class Reader {
     std::string value(number(), '\0');
     get_raw(value.data(), value.size());
     return value;
+  }
+  std::vector<double> numbers() {
+    std::vector<double> values(number());
+    get_raw(values.data(), values.size() * sizeof(double));
+    return values;
   }
   void get_raw(void* data, std::size_t size) {
     THAWSLIDE_ASSERT(next_ + size <= text_.size(), "{} is whole and yet too short", file_.string());
@@ -65,13 +74,13 @@ class Reader {
 
 template <int Dim, class Real>
 void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Dim, Real>& particles,
-                      const std::vector<double>& scalars) {
+                      const std::vector<double>& scalars, const NamedNumbers& blocks) {
   Writer writer;
-  for (const std::uint64_t number : {magic, format_version, std::uint64_t{Dim}, std::uint64_t{sizeof(Real)},
-                                     std::uint64_t{particles.size()}, std::uint64_t{scalars.size()}}) {
+  for (const std::uint64_t number :
+       {magic, format_version, std::uint64_t{Dim}, std::uint64_t{sizeof(Real)}, std::uint64_t{particles.size()}}) {
     writer.put(number);
   }
-  writer.put_raw(scalars.data(), scalars.size() * sizeof(double));
+  writer.put(scalars);
   const std::vector<std::size_t> order = order_by_id(particles);
   for (const mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_checkpoint) {
@@ -84,14 +93,19 @@ void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Di
       }
     }
   }
+  writer.put(blocks.size());
+  for (const auto& [name, numbers] : blocks) {
+    writer.put(name);
+    writer.put(numbers);
+  }
   const Digest digest = sha256(writer.text().data(), writer.text().size());
   writer.put_raw(digest.data(), digest.size());
   write_file_atomically(file, writer.text());
 }
 
 template <int Dim, class Real>
-void read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real>& particles,
-                     std::vector<double>& scalars) {
+NamedNumbers read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real>& particles,
+                             std::vector<double>& scalars) {
   const std::string all = read_file(file);
   Digest stored{};
   const std::size_t body = all.size() >= stored.size() ? all.size() - stored.size() : 0;
@@ -110,8 +124,7 @@ void read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real
   reader.expect(Dim, "dimension");
   reader.expect(sizeof(Real), "number size");
   reader.expect(particles.size(), "particles:");
-  scalars.resize(reader.number());
-  reader.get_raw(scalars.data(), scalars.size() * sizeof(double));
+  scalars = reader.numbers();
   for (mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_checkpoint) {
       const std::string name = reader.text();
@@ -126,13 +139,19 @@ void read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real
       field->set_bytes(rows);
     }
   }
+  NamedNumbers blocks;
+  for (std::uint64_t left = reader.number(); left > 0; --left) {
+    const std::string name = reader.text();
+    blocks[name] = reader.numbers();
+  }
+  return blocks;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                    \
-  template void write_checkpoint<Dim, Real>(const std::filesystem::path&, const mpm::Particles<Dim, Real>&, \
-                                            const std::vector<double>&);                                    \
-  template void read_checkpoint<Dim, Real>(const std::filesystem::path&, mpm::Particles<Dim, Real>&,        \
-                                           std::vector<double>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
+  template void write_checkpoint<Dim, Real>(const std::filesystem::path&, const mpm::Particles<Dim, Real>&,  \
+                                            const std::vector<double>&, const NamedNumbers&);                \
+  template NamedNumbers read_checkpoint<Dim, Real>(const std::filesystem::path&, mpm::Particles<Dim, Real>&, \
+                                                   std::vector<double>&);
 THAWSLIDE_INSTANTIATE(2, double)
 THAWSLIDE_INSTANTIATE(3, double)
 #undef THAWSLIDE_INSTANTIATE

@@ -5,18 +5,20 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/named_numbers.hpp"
 #include "mpm/particles.hpp"
 
 namespace thawslide::io {
 
-// Rows by id, so that the bytes do not depend on storage order.
+// Rows by id, so that the bytes do not depend on storage order. blocks: what else the run needs to go on.
 template <int Dim, class Real>
 void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Dim, Real>& particles,
-                      const std::vector<double>& scalars);
+                      const std::vector<double>& scalars, const NamedNumbers& blocks = {});
 
-// Throws UserError for a file that is damaged, cut short, or of another kind of run (dimension, number type, fields).
+// Returns the blocks. Throws UserError for a file that is damaged, cut short, or of another kind of run (dimension,
+// number type, fields).
 template <int Dim, class Real>
-void read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real>& particles,
-                     std::vector<double>& scalars);
+NamedNumbers read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real>& particles,
+                             std::vector<double>& scalars);
 
 }  // namespace thawslide::io

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/front.hpp"
+
 namespace thawslide::sim {
 
 namespace {
-
-constexpr double front_share = 0.995;
 
 struct Means {
   double mass = 0.0, displacement = 0.0, plastic_strain = 0.0, largest_speed2 = 0.0;
@@ -104,24 +104,13 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
 template <int Dim, class Real>
 double front_position(const Simulation<Dim, Real>& simulation) {
   const auto& particles = simulation.particles();
-  std::vector<std::pair<double, double>> by_x;  // x, mass
+  std::vector<MassOnWay> by_x;
   by_x.reserve(particles.size());
-  double mass = 0.0;
   for (const std::uint32_t p : simulation.grid().order()) {
-    by_x.emplace_back(static_cast<double>(particles.position(p, 0)), static_cast<double>(particles.mass(p)));
-    mass += by_x.back().second;
+    by_x.push_back(
+        {static_cast<double>(particles.position(p, 0)), static_cast<double>(particles.mass(p)), by_x.size()});
   }
-  // The foremost few, one by one, until what lies behind is less than the share.
-  std::make_heap(by_x.begin(), by_x.end());
-  double ahead = 0.0;
-  for (auto end = by_x.end(); end - by_x.begin() > 1; --end) {
-    ahead += by_x.front().second;
-    if (mass - ahead < front_share * mass) {
-      break;
-    }
-    std::pop_heap(by_x.begin(), end);
-  }
-  return by_x.front().first + simulation.model().origin[0];
+  return front_of(by_x).along + simulation.model().origin[0];
 }
 
 template <int Dim, class Real>

@@ -1,0 +1,337 @@
+#include "sim/flow_maps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+constexpr std::size_t header_numbers = 2;                  // of a state: columns and rows of the map grid
+constexpr std::size_t row_numbers = 1 + map_cell_numbers;  // of a state, for one cell: its number, what it holds
+
+// The remainder in [0, divisor), also of negative numbers.
+std::uint64_t modulo(int number, int divisor) {
+  return static_cast<std::uint64_t>((number % divisor + divisor) % divisor);
+}
+
+}  // namespace
+
+const std::vector<MapKind>& map_kinds() {
+  static const std::vector<MapKind> kinds{
+      {"max_thickness", "m", "largest vertical thickness of the slide",
+       [](const MapCell& c) { return c.max_thickness; }},
+      {"final_thickness", "m", "vertical thickness of the slide at the end",
+       [](const MapCell& c) { return c.thickness; }},
+      {"max_speed", "m/s",
+       "largest depth-averaged speed, all three components, while the slide was thicker than maps.arrival_thickness",
+       [](const MapCell& c) { return c.max_speed; }},
+      {"max_momentum_flux", "m3/s2", "largest thickness times depth-averaged speed squared",
+       [](const MapCell& c) { return c.max_momentum_flux; }},
+      {"max_pressure", "Pa",
+       "largest density of the column times depth-averaged speed squared, while the slide was thicker than "
+       "maps.arrival_thickness",
+       [](const MapCell& c) { return c.max_pressure; }},
+      {"arrival_time", "s", "when the slide first was thicker than maps.arrival_thickness",
+       [](const MapCell& c) { return c.arrival_time; }},
+      {"elevation_change", "m",
+       "elevation of the surface at the end less that at the start: final thickness less thickness at the start. Of a "
+       "body cut out of the ground too: what it left is lower by the thickness that was cut",
+       [](const MapCell& c) { return c.thickness - c.thickness_at_start; }},
+      {"max_basal_temperature", "C", "largest temperature of the column's particles in the band, averaged by volume",
+       [](const MapCell& c) { return c.max_basal_temperature; }},
+      {"max_melt", "m", "largest volume of liquid water in the column over the cell's area",
+       [](const MapCell& c) { return c.max_melt; }},
+      {"max_pore_pressure", "Pa", "largest pore pressure of the column's particles in the band, averaged by volume",
+       [](const MapCell& c) { return c.max_pore_pressure; }},
+  };
+  return kinds;
+}
+
+FlowMaps::FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const std::vector<double>& half_sizes,
+                   double arrival_thickness)
+    : map_grid_(map_grid),
+      corner_x_(map_grid.x - 0.5 * map_grid.cell_x - origin[0]),
+      corner_y_(map_grid.y - 0.5 * map_grid.cell_y - origin[1]),
+      inverse_cell_x_(1.0 / map_grid.cell_x),
+      inverse_cell_y_(1.0 / map_grid.cell_y),
+      arrival_thickness_(arrival_thickness) {
+  for (const double half : half_sizes) {
+    boxes_.push_back(
+        {half * inverse_cell_x_, half * inverse_cell_y_, 0.5 * map_grid.cell_x / half, 0.5 * map_grid.cell_y / half});
+    largest_half_ = std::max(largest_half_, half);
+  }
+}
+
+std::uint64_t FlowMaps::tile_key(int tile_x, int tile_y) {
+  return static_cast<std::uint64_t>(tile_y) << 32 | static_cast<std::uint64_t>(tile_x);
+}
+
+std::size_t FlowMaps::place_in_tile(int column, int row) {
+  return static_cast<std::size_t>((row & (edge - 1)) << edge_bits | (column & (edge - 1)));
+}
+
+FlowMaps::MapTile& FlowMaps::touch(int tile_x, int tile_y) {
+  const auto number = static_cast<std::size_t>(tile_index_.insert(tile_key(tile_x, tile_y)));
+  if (number == tiles_.size()) {
+    tiles_.push_back(std::make_unique<MapTile>());
+    tiles_.back()->column = tile_x << edge_bits;
+    tiles_.back()->row = tile_y << edge_bits;
+  }
+  return *tiles_[number];
+}
+
+// Sorts the background grid's tiles into stacks and these by colour: stacks of a colour stand so far apart that boxes
+// of different ones never share a map cell, so that their sums may be made at the same time.
+void FlowMaps::place_tiles(const Grid& grid, double reach) {
+  const double tile_width = grid.cell() * mpm::Tile<3>::edge;
+  const double widest_cell = std::max(map_grid_.cell_x, map_grid_.cell_y);
+  const int colours = 1 + static_cast<int>(std::ceil((widest_cell + 2.0 * reach) / tile_width));  // along each axis
+  seen_.clear();
+  places_.clear();
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    seen_.push_back(grid.tiles()[t].key);
+    auto index = mpm::Tile<3>::index(grid.tiles()[t].key);
+    const auto colour = modulo(index[0], colours) + static_cast<std::uint64_t>(colours) * modulo(index[1], colours);
+    index[2] = 0;
+    places_.push_back({colour, mpm::Tile<3>::key(index), static_cast<std::uint32_t>(t)});
+  }
+  std::sort(places_.begin(), places_.end(), [](const TilePlace& a, const TilePlace& b) {
+    return std::tie(a.colour, a.stack, a.tile) < std::tie(b.colour, b.stack, b.tile);
+  });
+}
+
+void FlowMaps::set_window(const Grid& grid, double reach, Stack& stack) {
+  const auto index = mpm::Tile<3>::index(places_[stack.first].stack);
+  // The tiles of the map, first and last, along an axis; a tile's particles stand about its nodes.
+  const auto tiles_along = [&](std::size_t a, double corner, double inverse_cell, int cells) {
+    const double first_node = grid.cell() * mpm::Tile<3>::edge * index[a];
+    const double from = first_node - 0.5 * grid.cell() - reach - corner;
+    const double to = from + grid.cell() * mpm::Tile<3>::edge + 2.0 * reach;
+    const auto tile_at = [&](double place) {
+      return std::clamp(static_cast<int>(std::floor(place * inverse_cell)), 0, cells - 1) >> edge_bits;
+    };
+    return std::array<int, 2>{tile_at(from), tile_at(to)};
+  };
+  const auto along_x = tiles_along(0, corner_x_, inverse_cell_x_, map_grid_.columns);
+  const auto along_y = tiles_along(1, corner_y_, inverse_cell_y_, map_grid_.rows);
+  stack.tile_x = along_x[0];
+  stack.tile_y = along_y[0];
+  stack.across = along_x[1] - along_x[0] + 1;
+  stack.deep = along_y[1] - along_y[0] + 1;
+  stack.window = window_tiles_.size();
+  for (int y = along_y[0]; y <= along_y[1]; ++y) {
+    for (int x = along_x[0]; x <= along_x[1]; ++x) {
+      window_tiles_.push_back(&touch(x, y));
+    }
+  }
+}
+
+// The tiles in windows; in those that no particle reaches any more nothing lies now.
+void FlowMaps::note_active() {
+  std::swap(active_, formerly_active_);
+  for (MapTile* tile : formerly_active_) {
+    tile->active = false;
+  }
+  active_.clear();
+  for (MapTile* tile : window_tiles_) {
+    if (!tile->active) {
+      tile->active = true;
+      active_.push_back(tile);
+    }
+  }
+  for (MapTile* tile : formerly_active_) {
+    if (!tile->active) {
+      for (MapCell& cell : tile->cells) {
+        cell.take({}, map_grid_.cell_area(), arrival_thickness_, 0.0);
+      }
+    }
+  }
+}
+
+void FlowMaps::find_stacks(const Grid& grid) {
+  // Particles have moved since the tiles were found, by less than a cell: no step is as long as that.
+  const double reach = largest_half_ + grid.cell();
+  place_tiles(grid, reach);
+  stacks_.clear();
+  colours_.clear();
+  window_tiles_.clear();
+  for (std::uint32_t k = 0; k < places_.size(); ++k) {
+    if (k == 0 || places_[k].stack != places_[k - 1].stack) {
+      if (k == 0 || places_[k].colour != places_[k - 1].colour) {
+        colours_.push_back(stacks_.size());
+      }
+      stacks_.push_back({k, k, 0, 0, 0, 0, 0});
+      set_window(grid, reach, stacks_.back());
+    }
+    stacks_.back().last = k + 1;
+  }
+  colours_.push_back(stacks_.size());
+  note_active();
+}
+
+ColumnSums FlowMaps::box_sums(const Particles& particles, std::size_t p) {
+  ColumnSums box;
+  box.volume = particles.volume(p);
+  box.mass = particles.mass(p);
+  box.momentum_x = box.mass * particles.velocity(p, 0);
+  box.momentum_y = box.mass * particles.velocity(p, 1);
+  box.momentum_z = box.mass * particles.velocity(p, 2);
+  box.water = particles.porosity(p) * particles.liquid_saturation(p) * box.volume;
+  if (particles.in_band(p) != 0) {
+    box.band_volume = box.volume;
+    box.band_volume_temperature = box.volume * particles.temperature(p);
+    box.band_volume_pressure = box.volume * particles.pore_pressure(p);
+  }
+  return box;
+}
+
+void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Stack& stack) {
+  MapTile* const* const window = &window_tiles_[stack.window];
+  for (std::uint32_t k = stack.first; k < stack.last; ++k) {
+    const auto& tile = grid.tiles()[places_[k].tile];
+    for (std::uint32_t place = tile.first; place < tile.last; ++place) {
+      const std::size_t p = grid.order()[place];
+      const Box& box = boxes_[static_cast<std::size_t>(particles.body(p))];
+      const double middle_x = (particles.position(p, 0) - corner_x_) * inverse_cell_x_;
+      const double middle_y = (particles.position(p, 1) - corner_y_) * inverse_cell_y_;
+      const CellSpan x = cell_span(middle_x, box.half_x, box.inverse_width_x, map_grid_.columns);
+      const CellSpan y = cell_span(middle_y, box.half_y, box.inverse_width_y, map_grid_.rows);
+      THAWSLIDE_ASSERT((x.first >> edge_bits) >= stack.tile_x && (x.last >> edge_bits) < stack.tile_x + stack.across &&
+                           (y.first >> edge_bits) >= stack.tile_y && (y.last >> edge_bits) < stack.tile_y + stack.deep,
+                       "particle {} over map cells {} ... {}, {} ... {} has left its tile", particles.id(p), x.first,
+                       x.last, y.first, y.last);
+      const ColumnSums sums = box_sums(particles, p);
+      for (int row = y.first; row <= y.last; ++row) {
+        MapTile* const* const tiles_of_row = window + ((row >> edge_bits) - stack.tile_y) * stack.across;
+        for (int column = x.first; column <= x.last; ++column) {
+          MapTile& below = *tiles_of_row[(column >> edge_bits) - stack.tile_x];
+          below.sums[place_in_tile(column, row)].add(x.share(column) * y.share(row), sums);
+        }
+      }
+    }
+  }
+}
+
+void FlowMaps::gather(const Grid& grid, const Particles& particles, double time) {
+  const bool same_tiles = std::equal(seen_.begin(), seen_.end(), grid.tiles().begin(), grid.tiles().end(),
+                                     [](std::uint64_t key, const auto& tile) { return key == tile.key; });
+  if (!same_tiles) {
+    find_stacks(grid);
+  }
+  for (std::size_t c = 0; c + 1 < colours_.size(); ++c) {
+    const std::size_t first = colours_[c];
+    parallel_for(colours_[c + 1] - first, [&](std::size_t k) { add_stack(grid, particles, stacks_[first + k]); });
+  }
+  parallel_for(active_.size(), [&](std::size_t k) {
+    MapTile& tile = *active_[k];
+    for (std::size_t place = 0; place < tile_cells; ++place) {
+      tile.cells[place].take(tile.sums[place], map_grid_.cell_area(), arrival_thickness_, time);
+    }
+    tile.sums.fill({});
+  });
+}
+
+void FlowMaps::start(const Grid& grid, const Particles& particles) {
+  gather(grid, particles, 0.0);
+  for (MapTile* tile : active_) {
+    for (MapCell& cell : tile->cells) {
+      cell.thickness_at_start = cell.thickness;
+    }
+  }
+}
+
+const MapCell& FlowMaps::cell(int column, int row) const {
+  static const MapCell like_new;
+  const std::int32_t number = tile_index_.find(tile_key(column >> edge_bits, row >> edge_bits));
+  return number == KeyIndex::absent ? like_new
+                                    : tiles_[static_cast<std::size_t>(number)]->cells[place_in_tile(column, row)];
+}
+
+std::vector<const FlowMaps::MapTile*> FlowMaps::tiles_in_order() const {
+  std::vector<const MapTile*> tiles;
+  for (const std::unique_ptr<MapTile>& tile : tiles_) {
+    tiles.push_back(tile.get());
+  }
+  std::sort(tiles.begin(), tiles.end(), [](const MapTile* a, const MapTile* b) {
+    return std::tie(a->row, a->column) < std::tie(b->row, b->column);
+  });
+  return tiles;
+}
+
+Raster FlowMaps::raster(const MapKind& kind, MapExtent extent) const {
+  int first_column = 0, first_row = 0, last_column = map_grid_.columns - 1, last_row = map_grid_.rows - 1;
+  if (extent == MapExtent::slide) {
+    first_column = map_grid_.columns;
+    first_row = map_grid_.rows;
+    last_column = last_row = -1;
+    for_cells([&](int column, int row, const MapCell& /*cell*/) {
+      first_column = std::min(first_column, column);
+      last_column = std::max(last_column, column);
+      first_row = std::min(first_row, row);
+      last_row = std::max(last_row, row);
+    });
+  }
+  Raster raster;
+  raster.cell_x = map_grid_.cell_x;
+  raster.cell_y = map_grid_.cell_y;
+  raster.x = map_grid_.x + first_column * map_grid_.cell_x;
+  raster.y = map_grid_.y + first_row * map_grid_.cell_y;
+  raster.columns = std::max(0, last_column - first_column + 1);
+  raster.rows = std::max(0, last_row - first_row + 1);
+  raster.crs = map_grid_.crs;
+  raster.values.assign(static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows), MapCell::none);
+  for_cells([&](int column, int row, const MapCell& cell) {
+    raster.values[raster.index(column - first_column, row - first_row)] = kind.value(cell);
+  });
+  return raster;
+}
+
+Deposit FlowMaps::deposit() const {
+  Deposit deposit;
+  for_cells([&](int /*column*/, int /*row*/, const MapCell& cell) {
+    if (cell.thickness > arrival_thickness_) {
+      deposit.volume += cell.thickness * map_grid_.cell_area();
+      deposit.area += map_grid_.cell_area();
+    }
+  });
+  return deposit;
+}
+
+std::vector<double> FlowMaps::state() const {
+  std::vector<double> numbers{static_cast<double>(map_grid_.columns), static_cast<double>(map_grid_.rows)};
+  for_cells([&](int column, int row, const MapCell& cell) {
+    numbers.push_back(static_cast<double>(row) * map_grid_.columns + column);
+    const MapCellNumbers values = numbers_of(cell);
+    numbers.insert(numbers.end(), values.begin(), values.end());
+  });
+  return numbers;
+}
+
+void FlowMaps::restore(const std::vector<double>& numbers) {
+  THAWSLIDE_ASSERT(numbers.size() >= header_numbers && (numbers.size() - header_numbers) % row_numbers == 0 &&
+                       numbers[0] == map_grid_.columns && numbers[1] == map_grid_.rows,
+                   "a state of {} numbers for maps of {} x {} cells", numbers.size(), map_grid_.columns,
+                   map_grid_.rows);
+  tile_index_.clear();
+  tiles_.clear();
+  active_.clear();
+  seen_.clear();
+  for (std::size_t k = header_numbers; k < numbers.size(); k += row_numbers) {
+    const auto number = static_cast<std::int64_t>(numbers[k]);
+    const int column = static_cast<int>(number % map_grid_.columns), row = static_cast<int>(number / map_grid_.columns);
+    MapCellNumbers values;
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(k) + 1, map_cell_numbers, values.begin());
+    touch(column >> edge_bits, row >> edge_bits).cells[place_in_tile(column, row)] = map_cell_of(values);
+  }
+  // Any of them may hold what lies on it now.
+  for (const std::unique_ptr<MapTile>& tile : tiles_) {
+    active_.push_back(tile.get());
+  }
+}
+
+}  // namespace thawslide::sim

@@ -1,0 +1,140 @@
+// Maps of a slide in space: its thickness, speed and more over the cells of a regular grid, gathered every step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/key_index.hpp"
+#include "base/raster.hpp"
+#include "mpm/sparse_grid.hpp"
+#include "sim/map_cell.hpp"
+#include "sim/map_grid.hpp"
+
+namespace thawslide::sim {
+
+// One of the maps.
+struct MapKind {
+  const char* name;
+  const char* unit;
+  const char* description;
+  double (*value)(const MapCell&);
+};
+
+// All maps, in the order in which they are told of. A cell that the slide never was in has no data in any of them.
+[[nodiscard]] const std::vector<MapKind>& map_kinds();
+
+enum class MapExtent { whole_grid, slide };
+
+// What lies on the ground.
+struct Deposit {
+  double volume = 0.0;  // [m3]
+  double area = 0.0;    // [m2], horizontal
+};
+
+// A particle's volume, mass and momentum count to the cells below its box, by the share of the box over each. The sum
+// of thickness times cell area is the particles' volume: of a box that pokes out of the grid all counts to the cells at
+// its edge. Sums go by stack of the background grid's tiles, in an order that follows from the tiles, so that results
+// depend neither on threads nor on the particles' places in memory. Memory and work follow the slide.
+class FlowMaps {
+ public:
+  using Grid = mpm::SparseGrid<3, double>;
+  using Particles = mpm::Particles<3, double>;
+
+  // origin: of the particles' positions [m]; half_sizes: of particles by body [m]; arrival_thickness: maps' [m].
+  // Particle centres lie over the map grid.
+  FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const std::vector<double>& half_sizes,
+           double arrival_thickness);
+
+  // Takes the particles as they are at a time [s], with the tiles and the order of the step that brought them there.
+  void gather(const Grid& grid, const Particles& particles, double time);
+  // The same at t = 0: what changes of elevation count from.
+  void start(const Grid& grid, const Particles& particles);
+
+  [[nodiscard]] const MapGrid& map_grid() const { return map_grid_; }
+  [[nodiscard]] double arrival_thickness() const { return arrival_thickness_; }
+  // The cell at a column and row of the map grid; a cell like new where the slide never was near.
+  [[nodiscard]] const MapCell& cell(int column, int row) const;
+  // Calls visit(column, row, cell) for every cell that the slide ever was in, south to north by tiles of the map.
+  template <class Visit>
+  void for_cells(const Visit& visit) const;
+
+  // One map. Over the slide: the smallest raster with every cell it ever was in, empty if there is none.
+  [[nodiscard]] Raster raster(const MapKind& kind, MapExtent extent) const;
+  // Volume and area of all that is thicker than the arrival thickness now.
+  [[nodiscard]] Deposit deposit() const;
+
+  // All that gathering goes on from, as numbers; and its way back.
+  [[nodiscard]] std::vector<double> state() const;
+  void restore(const std::vector<double>& numbers);
+
+ private:
+  static constexpr int edge_bits = 4;
+  static constexpr int edge = 1 << edge_bits;  // cells of a map tile along each axis
+  static constexpr auto tile_cells = static_cast<std::size_t>(edge) * edge;
+
+  struct MapTile {
+    int column = 0, row = 0;  // of its first cell
+    bool active = false;
+    std::array<ColumnSums, tile_cells> sums;
+    std::array<MapCell, tile_cells> cells;
+  };
+  // A particle's box in cells.
+  struct Box {
+    double half_x, half_y, inverse_width_x, inverse_width_y;
+  };
+  // Tiles of the background grid above one another, and the map tiles that their particles may reach.
+  struct Stack {
+    std::uint32_t first, last;   // places_[first .. last-1]
+    int tile_x, tile_y, across;  // the window of map tiles: its first one, its width
+    int deep;                    // and its height
+    std::size_t window;          // its first one in window_tiles_
+  };
+  // Where a tile of the background grid stands among the stacks.
+  struct TilePlace {
+    std::uint64_t colour, stack;
+    std::uint32_t tile;
+  };
+
+  static std::uint64_t tile_key(int tile_x, int tile_y);
+  static std::size_t place_in_tile(int column, int row);
+  MapTile& touch(int tile_x, int tile_y);
+  void find_stacks(const Grid& grid);
+  void place_tiles(const Grid& grid, double reach);
+  void set_window(const Grid& grid, double reach, Stack& stack);
+  void note_active();
+  void add_stack(const Grid& grid, const Particles& particles, const Stack& stack);
+  [[nodiscard]] static ColumnSums box_sums(const Particles& particles, std::size_t particle);
+  [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;
+
+  MapGrid map_grid_;
+  double corner_x_, corner_y_;              // of the map grid in the particles' frame [m]
+  double inverse_cell_x_, inverse_cell_y_;  // [1/m]
+  double largest_half_ = 0.0;               // of particles [m]
+  std::vector<Box> boxes_;                  // by body
+  double arrival_thickness_;                // [m]
+  KeyIndex tile_index_;
+  std::vector<std::unique_ptr<MapTile>> tiles_;     // in the order in which the slide came
+  std::vector<MapTile*> active_, formerly_active_;  // those that particles may reach
+  std::vector<std::uint64_t> seen_;                 // keys of the background grid's tiles that all below is of
+  std::vector<TilePlace> places_;                   // by colour, then by stack, then upwards
+  std::vector<Stack> stacks_;
+  std::vector<std::size_t> colours_;  // first stack of each, and the end; stacks of a colour share no map cell
+  std::vector<MapTile*> window_tiles_;
+};
+
+template <class Visit>
+void FlowMaps::for_cells(const Visit& visit) const {
+  for (const MapTile* tile : tiles_in_order()) {
+    for (std::size_t k = 0; k < tile_cells; ++k) {
+      if (tile->cells[k].max_thickness > 0.0) {
+        const int place = static_cast<int>(k);
+        visit(tile->column + place % edge, tile->row + place / edge, tile->cells[k]);
+      }
+    }
+  }
+}
+
+}  // namespace thawslide::sim

@@ -1,0 +1,109 @@
+// What a map cell holds: the sums over the boxes above it in one step, and the records of the run.
+//   h = V/A,  v = p/m,  rho = m/V     averages over the column (Savage and Hutter 1989)
+//   h v2                              flux of momentum through a metre across the flow, over the density
+//   rho v2                            pressure on a wide wall that stops the flow (balance of momentum)
+// V, m, p: volume [m3], mass [kg] and momentum [kg m/s] of the slide over the cell; A: the cell's area [m2].
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace thawslide::sim {
+
+// Sums over the parts of boxes that lie over a cell.
+struct ColumnSums {
+  double volume = 0.0;                                          // [m3]
+  double mass = 0.0;                                            // [kg]
+  double momentum_x = 0.0, momentum_y = 0.0, momentum_z = 0.0;  // [kg m/s]
+  double water = 0.0;                                           // volume of liquid water [m3]
+  double band_volume = 0.0;                                     // of the band [m3]
+  double band_volume_temperature = 0.0;                         // of the band: V T [m3 C]
+  double band_volume_pressure = 0.0;                            // of the band: V P [m3 Pa]
+
+  void add(double share, const ColumnSums& box) {
+    volume += share * box.volume;
+    mass += share * box.mass;
+    momentum_x += share * box.momentum_x;
+    momentum_y += share * box.momentum_y;
+    momentum_z += share * box.momentum_z;
+    water += share * box.water;
+    band_volume += share * box.band_volume;
+    band_volume_temperature += share * box.band_volume_temperature;
+    band_volume_pressure += share * box.band_volume_pressure;
+  }
+};
+
+// h [m] of a volume V [m3] over a cell of area A [m2].
+[[nodiscard]] inline double thickness_of(double volume, double area) { return volume / area; }
+// h v2 [m3/s2].
+[[nodiscard]] inline double momentum_flux(double thickness, double speed) { return thickness * speed * speed; }
+// rho v2 [Pa].
+[[nodiscard]] inline double dynamic_pressure(double density, double speed) { return density * speed * speed; }
+
+// A cell in a run. The largest values are NaN until there is one.
+struct MapCell {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  double thickness_at_start = 0.0;                              // [m]
+  double thickness = 0.0;                                       // now [m]
+  double velocity_x = 0.0, velocity_y = 0.0, velocity_z = 0.0;  // now, depth-averaged [m/s]
+  double max_thickness = 0.0;                                   // [m]; 0: the slide never was here
+  double max_speed = none;                                      // [m/s]
+  double max_momentum_flux = none;                              // [m3/s2]
+  double max_pressure = none;                                   // [Pa]
+  double arrival_time = none;                                   // [s]
+  double max_basal_temperature = none;                          // [C]
+  double max_melt = 0.0;                                        // of water [m]
+  double max_pore_pressure = none;                              // [Pa]
+
+  [[nodiscard]] double speed() const {
+    return std::sqrt(velocity_x * velocity_x + velocity_y * velocity_y + velocity_z * velocity_z);
+  }
+
+  // Takes the state at a time [s]. area: of the cell [m2]; arrival_thickness [m]: where the slide is not thicker, its
+  // speed and pressure are those of single particles and no record.
+  void take(const ColumnSums& sums, double area, double arrival_thickness, double time) {
+    if (!(sums.volume > 0.0)) {
+      thickness = velocity_x = velocity_y = velocity_z = 0.0;
+      return;
+    }
+    thickness = thickness_of(sums.volume, area);
+    const double inverse_mass = 1.0 / sums.mass;
+    velocity_x = sums.momentum_x * inverse_mass;
+    velocity_y = sums.momentum_y * inverse_mass;
+    velocity_z = sums.momentum_z * inverse_mass;
+    const double speed_now = speed();
+    raise(max_thickness, thickness);
+    raise(max_momentum_flux, momentum_flux(thickness, speed_now));
+    raise(max_melt, thickness_of(sums.water, area));
+    if (thickness > arrival_thickness) {
+      raise(max_speed, speed_now);
+      raise(max_pressure, dynamic_pressure(sums.mass / sums.volume, speed_now));
+      if (std::isnan(arrival_time)) {
+        arrival_time = time;
+      }
+    }
+    if (sums.band_volume > 0.0) {
+      raise(max_basal_temperature, sums.band_volume_temperature / sums.band_volume);
+      raise(max_pore_pressure, sums.band_volume_pressure / sums.band_volume);
+    }
+  }
+
+ private:
+  static void raise(double& record, double value) {
+    if (!(record >= value)) {
+      record = value;
+    }
+  }
+};
+
+// A cell as plain numbers, for a checkpoint.
+constexpr std::size_t map_cell_numbers = sizeof(MapCell) / sizeof(double);
+using MapCellNumbers = std::array<double, map_cell_numbers>;
+[[nodiscard]] inline MapCellNumbers numbers_of(const MapCell& cell) { return std::bit_cast<MapCellNumbers>(cell); }
+[[nodiscard]] inline MapCell map_cell_of(const MapCellNumbers& numbers) { return std::bit_cast<MapCell>(numbers); }
+
+}  // namespace thawslide::sim

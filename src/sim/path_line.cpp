@@ -1,0 +1,85 @@
+#include "sim/path_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace thawslide::sim {
+
+PathLine::PathLine(const config::Polyline2& corners) {
+  for (const Place2& corner : corners) {
+    add(corner);
+  }
+}
+
+void PathLine::add(const Place2& corner) {
+  if (corners_.empty()) {
+    corners_.push_back(corner);
+    along_.push_back(0.0);
+    return;
+  }
+  const double step = std::hypot(corner[0] - corners_.back()[0], corner[1] - corners_.back()[1]);
+  if (step > 0.0) {
+    corners_.push_back(corner);
+    along_.push_back(along_.back() + step);
+  }
+}
+
+PlaceOnLine PathLine::project(const Place2& place) const {
+  THAWSLIDE_ASSERT(!empty(), "a line of {} corners", corners_.size());
+  const std::size_t segments = corners_.size() - 1;
+  PlaceOnLine nearest;
+  double least2 = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < segments; ++k) {
+    const Place2 &from = corners_[k], &to = corners_[k + 1];
+    const double length = along_[k + 1] - along_[k];
+    const double direction_x = (to[0] - from[0]) / length, direction_y = (to[1] - from[1]) / length;
+    const double x = place[0] - from[0], y = place[1] - from[1];
+    double along = x * direction_x + y * direction_y;
+    along = k > 0 ? std::max(along, 0.0) : along;
+    along = k + 1 < segments ? std::min(along, length) : along;
+    const double away_x = x - along * direction_x, away_y = y - along * direction_y;
+    const double distance2 = away_x * away_x + away_y * away_y;
+    if (distance2 < least2) {
+      least2 = distance2;
+      nearest = {along_[k] + along, std::copysign(std::sqrt(distance2), direction_x * y - direction_y * x)};
+    }
+  }
+  return nearest;
+}
+
+Place2 PathLine::point_at(double along) const {
+  THAWSLIDE_ASSERT(!empty(), "a line of {} corners", corners_.size());
+  const auto above = std::upper_bound(along_.begin() + 1, along_.end() - 1, along) - along_.begin();
+  const auto k = static_cast<std::size_t>(above) - 1;
+  const double share = (along - along_[k]) / (along_[k + 1] - along_[k]);
+  return {corners_[k][0] + share * (corners_[k + 1][0] - corners_[k][0]),
+          corners_[k][1] + share * (corners_[k + 1][1] - corners_[k][1])};
+}
+
+void CentreWay::note(const Place2& centre) {
+  const config::Polyline2& corners = line_.corners();
+  if (corners.empty() || std::hypot(centre[0] - corners.back()[0], centre[1] - corners.back()[1]) >= spacing_) {
+    line_.add(centre);
+  }
+}
+
+std::vector<double> CentreWay::state() const {
+  std::vector<double> numbers;
+  for (const Place2& corner : line_.corners()) {
+    numbers.insert(numbers.end(), corner.begin(), corner.end());
+  }
+  return numbers;
+}
+
+void CentreWay::restore(const std::vector<double>& numbers) {
+  THAWSLIDE_ASSERT(numbers.size() % 2 == 0, "{} numbers for corners of two", numbers.size());
+  line_ = PathLine();
+  for (std::size_t k = 0; k < numbers.size(); k += 2) {
+    line_.add({numbers[k], numbers[k + 1]});
+  }
+}
+
+}  // namespace thawslide::sim

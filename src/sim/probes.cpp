@@ -1,0 +1,108 @@
+#include "sim/probes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// Adds the shares of the way from one number to another at which it passes a whole one.
+void add_crossings(double from, double to, std::vector<double>& shares) {
+  const double lower = std::min(from, to), upper = std::max(from, to);
+  for (double border = std::floor(lower) + 1.0; border < upper; border += 1.0) {
+    shares.push_back((border - from) / (to - from));
+  }
+}
+
+void add_segment(const std::array<double, 2>& from, const std::array<double, 2>& to, const MapGrid& map_grid,
+                 std::vector<SectionPart>& parts) {
+  const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+  if (!(length > 0.0)) {
+    return;
+  }
+  const double column = map_grid.column_of(from[0]), row = map_grid.row_of(from[1]);
+  const double columns = map_grid.column_of(to[0]) - column, rows = map_grid.row_of(to[1]) - row;
+  std::vector<double> shares{0.0, 1.0};
+  add_crossings(column, column + columns, shares);
+  add_crossings(row, row + rows, shares);
+  std::sort(shares.begin(), shares.end());
+  for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
+    const double part = shares[k + 1] - shares[k], middle = 0.5 * (shares[k] + shares[k + 1]);
+    if (part > 0.0) {
+      parts.push_back({static_cast<int>(std::floor(column + middle * columns)),
+                       static_cast<int>(std::floor(row + middle * rows)), part * length, (to[1] - from[1]) / length,
+                       (from[0] - to[0]) / length});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<SectionPart> parts_of_section(const config::Polyline2& line, const MapGrid& map_grid) {
+  std::vector<SectionPart> parts;
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+    add_segment(line[k], line[k + 1], map_grid, parts);
+  }
+  return parts;
+}
+
+SectionFlow flow_through(const std::vector<SectionPart>& section, const FlowMaps& maps) {
+  SectionFlow flow;
+  for (const SectionPart& part : section) {
+    const MapCell& cell = maps.cell(part.column, part.row);
+    const double area = cell.thickness * part.length;
+    flow.area += area;
+    flow.discharge += area * (cell.velocity_x * part.normal_x + cell.velocity_y * part.normal_y);
+    flow.max_thickness = std::max(flow.max_thickness, cell.thickness);
+  }
+  return flow;
+}
+
+Probes::Probes(const config::Case& parameters, const std::map<std::string, config::Polyline2>& probes,
+               const MapGrid& map_grid) {
+  for (const auto& [name, corners] : probes) {
+    for (const auto& corner : corners) {
+      if (!map_grid.contains(corner[0], corner[1])) {
+        throw UserError(fmt::format(
+            "{}: probe '{}' has a point at x = {:.10g} m, y = {:.10g} m, beside the maps; allowed: x from {:.10g} to "
+            "{:.10g} m, y from {:.10g} to {:.10g} m. Move it, or make the domain larger.",
+            config::place_of(parameters, "probe." + name), name, corner[0], corner[1],
+            map_grid.x - 0.5 * map_grid.cell_x, map_grid.x + (map_grid.columns - 0.5) * map_grid.cell_x,
+            map_grid.y - 0.5 * map_grid.cell_y, map_grid.y + (map_grid.rows - 0.5) * map_grid.cell_y));
+      }
+    }
+    if (corners.size() == 1) {
+      points_.push_back({name, static_cast<int>(map_grid.column_of(corners[0][0])),
+                         static_cast<int>(map_grid.row_of(corners[0][1]))});
+      continue;
+    }
+    sections_.push_back({name, parts_of_section(corners, map_grid)});
+    if (sections_.back().parts.empty()) {
+      throw UserError(
+          fmt::format("{}: the line of probe '{}' has no length; allowed: one point, or a line of at least "
+                      "two different ones.",
+                      config::place_of(parameters, "probe." + name), name));
+    }
+  }
+}
+
+std::vector<std::pair<std::string, double>> Probes::row(const FlowMaps& maps, double time) const {
+  std::vector<std::pair<std::string, double>> row{{"time_s", time}};
+  for (const Point& point : points_) {
+    const MapCell& cell = maps.cell(point.column, point.row);
+    row.emplace_back(point.name + "_thickness_m", cell.thickness);
+    row.emplace_back(point.name + "_speed_m_s", cell.speed());
+  }
+  for (const Section& section : sections_) {
+    const SectionFlow flow = flow_through(section.parts, maps);
+    row.emplace_back(section.name + "_flow_area_m2", flow.area);
+    row.emplace_back(section.name + "_discharge_m3_s", flow.discharge);
+    row.emplace_back(section.name + "_max_thickness_m", flow.max_thickness);
+  }
+  return row;
+}
+
+}  // namespace thawslide::sim

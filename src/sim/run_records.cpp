@@ -1,0 +1,180 @@
+#include "sim/run_records.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "sim/front.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// Half sizes of particles by body [m].
+template <int Dim>
+std::vector<double> half_sizes(const Simulation<Dim, double>& simulation) {
+  std::vector<double> halves;
+  for (std::size_t body = 0; body < simulation.model().body_names.size(); ++body) {
+    halves.push_back(simulation.model().motion.sizes.half(body) * simulation.grid().cell());
+  }
+  return halves;
+}
+
+struct MassMoments {
+  double mass = 0.0, mass_x = 0.0, mass_y = 0.0;  // [kg, kg m], about the origin of the particles' positions
+
+  MassMoments& operator+=(const MassMoments& part) {
+    mass += part.mass;
+    mass_x += part.mass_x;
+    mass_y += part.mass_y;
+    return *this;
+  }
+};
+
+// Of the mass over the horizontal plane [m].
+Place2 centre_of_mass(const Simulation<3, double>& simulation) {
+  const auto& particles = simulation.particles();
+  const auto& grid = simulation.grid();
+  const auto sums = parallel_sum<MassMoments>(grid.tiles().size(), [&](std::size_t t, MassMoments& sum) {
+    for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
+      const std::size_t p = grid.order()[k];
+      sum += {particles.mass(p), particles.mass(p) * particles.position(p, 0),
+              particles.mass(p) * particles.position(p, 1)};
+    }
+  });
+  return {sums.mass_x / sums.mass + simulation.model().origin[0],
+          sums.mass_y / sums.mass + simulation.model().origin[1]};
+}
+
+double highest_point(const Simulation<3, double>& simulation) {
+  const auto& particles = simulation.particles();
+  const std::vector<double> halves = half_sizes(simulation);
+  double highest = -HUGE_VAL;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    highest = std::max(highest, particles.position(p, 2) + halves[static_cast<std::size_t>(particles.body(p))]);
+  }
+  return highest + simulation.model().origin[2];
+}
+
+// Arc length at which what was the slide at t = 0 begins: the smallest of the map cells' middles [m].
+double rear_of_release(const FlowMaps& maps, const PathLine& path) {
+  double rear = HUGE_VAL;
+  maps.for_cells([&](int column, int row, const MapCell& cell) {
+    if (cell.thickness_at_start > 0.0) {
+      const MapGrid& grid = maps.map_grid();
+      rear = std::min(rear, path.project({grid.x + column * grid.cell_x, grid.y + row * grid.cell_y}).along);
+    }
+  });
+  return rear;
+}
+
+const std::vector<double>& block(const NamedNumbers& blocks, const char* name) {
+  const auto found = blocks.find(name);
+  THAWSLIDE_ASSERT(found != blocks.end(), "no block '{}' among {}", name, blocks.size());
+  return found->second;
+}
+
+}  // namespace
+
+template <int Dim>
+RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& site)
+    : way_(simulation.parameters().grid.cell) {
+  if constexpr (Dim == 3) {
+    given_ = PathLine(site.path);
+    path_given_ = !site.path.empty();
+    const config::Case& parameters = simulation.parameters();
+    const MapGrid map_grid = map_grid_of(parameters, site);
+    const auto& origin = simulation.model().origin;
+    maps_.emplace(map_grid, std::array<double, 2>{origin[0], origin[1]}, half_sizes(simulation),
+                  parameters.maps.arrival_thickness);
+    probes_ = Probes(parameters, site.probes, map_grid);
+    if (path_given_ && given_.empty()) {
+      throw UserError(fmt::format("{}: the path has no length; allowed: a line of at least two different points.",
+                                  config::place_of(parameters, "maps.path")));
+    }
+  }
+}
+
+template <int Dim>
+void RunRecords<Dim>::start(const Simulation& simulation) {
+  if constexpr (Dim == 3) {
+    maps_->start(simulation.grid(), simulation.particles());
+    way_.note(centre_of_mass(simulation));
+    release_top_ = highest_point(simulation);
+  }
+}
+
+template <int Dim>
+void RunRecords<Dim>::after_step(const Simulation& simulation) {
+  if constexpr (Dim == 3) {
+    maps_->gather(simulation.grid(), simulation.particles(), simulation.time());
+    way_.note(centre_of_mass(simulation));
+  }
+}
+
+template <int Dim>
+NamedNumbers RunRecords<Dim>::state() const {
+  if (!maps_) {
+    return {};
+  }
+  return {{"maps", maps_->state()}, {"centre_way", way_.state()}, {"release_top", {release_top_}}};
+}
+
+template <int Dim>
+void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
+  if (maps_) {
+    maps_->restore(block(blocks, "maps"));
+    way_.restore(block(blocks, "centre_way"));
+    release_top_ = block(blocks, "release_top").at(0);
+  }
+}
+
+template <int Dim>
+std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const {
+  if (Dim == 2 || path().empty()) {
+    return {};
+  }
+  const auto& particles = simulation.particles();
+  const auto& order = simulation.grid().order();
+  const auto& origin = simulation.model().origin;
+  const auto place_of = [&](std::size_t rank) {
+    const std::size_t p = order[rank];
+    return Place2{particles.position(p, 0) + origin[0], particles.position(p, 1) + origin[1]};
+  };
+  std::vector<MassOnWay> masses(order.size());
+  parallel_for(order.size(), [&](std::size_t rank) {
+    masses[rank] = {path().project(place_of(rank)).along, particles.mass(order[rank]), rank};
+  });
+  const MassOnWay foremost = front_of(masses);
+  return Front{foremost.along, place_of(foremost.rank)};
+}
+
+template <int Dim>
+HistoryRow RunRecords<Dim>::probe_row(const Simulation& simulation) const {
+  return maps_ && !probes_.empty() ? probes_.row(*maps_, simulation.time()) : HistoryRow{};
+}
+
+template <int Dim>
+std::optional<RunFigures> RunRecords<Dim>::figures(
+    const Simulation& simulation, const std::function<double(double x, double y)>& ground_height) const {
+  if (!maps_) {
+    return {};
+  }
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const Deposit deposit = maps_->deposit();
+  RunFigures figures{deposit.volume, deposit.area, unknown, unknown, unknown, unknown};
+  if (const std::optional<Front> foremost = front(simulation)) {
+    figures.front_distance = foremost->along;
+    figures.travel_distance = foremost->along - rear_of_release(*maps_, path());
+    figures.drop_height = release_top_ - ground_height(foremost->place[0], foremost->place[1]);
+    figures.reach_angle = angle_of_reach(figures.drop_height, figures.travel_distance);
+  }
+  return figures;
+}
+
+template class RunRecords<2>;
+template class RunRecords<3>;
+
+}  // namespace thawslide::sim

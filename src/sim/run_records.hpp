@@ -1,0 +1,67 @@
+// What a run in space gathers after every step beside its history: maps, the way of its centre of mass, probes. In 2D
+// there is nothing to gather, and all of this is empty.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "base/named_numbers.hpp"
+#include "config/site.hpp"
+#include "sim/flow_maps.hpp"
+#include "sim/history.hpp"
+#include "sim/path_line.hpp"
+#include "sim/probes.hpp"
+#include "sim/run_figures.hpp"
+
+namespace thawslide::sim {
+
+// The front of a slide in space.
+struct Front {
+  double along;  // arc length of the path up to which 99.5 % of the mass has come [m]
+  Place2 place;  // of the particle there [m]
+};
+
+template <int Dim>
+class RunRecords {
+ public:
+  using Simulation = sim::Simulation<Dim, double>;
+
+  // For the simulation of a case on a site; nothing is gathered yet. Throws UserError for maps of too many cells, and
+  // for probes beside them.
+  RunRecords(const Simulation& simulation, const config::Site& site);
+
+  // At t = 0, with everything settled.
+  void start(const Simulation& simulation);
+  // After every step.
+  void after_step(const Simulation& simulation);
+
+  // All that gathering goes on from, for a checkpoint; and its way back, in place of start().
+  [[nodiscard]] NamedNumbers state() const;
+  void restore(const NamedNumbers& blocks);
+
+  // Null in 2D.
+  [[nodiscard]] const FlowMaps* maps() const { return maps_ ? &*maps_ : nullptr; }
+  // The given one, or the way of the centre of mass so far; empty in 2D and while that has not gone one cell of the
+  // grid.
+  [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : way_.line(); }
+  [[nodiscard]] bool path_given() const { return path_given_; }
+  // The front along the path; none where that is empty.
+  [[nodiscard]] std::optional<Front> front(const Simulation& simulation) const;
+  [[nodiscard]] const Probes& probes() const { return probes_; }
+  // Of the state now. Empty where there are no probes.
+  [[nodiscard]] HistoryRow probe_row(const Simulation& simulation) const;
+  // Of the state now; nothing in 2D. ground_height: elevation of the ground at x, y, all in the case's coordinates [m].
+  // What is measured along the path is NaN while that is empty.
+  [[nodiscard]] std::optional<RunFigures> figures(const Simulation& simulation,
+                                                  const std::function<double(double x, double y)>& ground_height) const;
+
+ private:
+  std::optional<FlowMaps> maps_;
+  PathLine given_;
+  bool path_given_ = false;
+  CentreWay way_;
+  Probes probes_;
+  double release_top_ = 0.0;  // elevation of the highest point of the slide at t = 0 [m]
+};
+
+}  // namespace thawslide::sim

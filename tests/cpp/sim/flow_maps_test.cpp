@@ -1,0 +1,323 @@
+// Maps of a slide in space: shares of boxes, sums, records, independence of threads and of places in memory.
+#include "sim/flow_maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "../support/slide_in_space.hpp"
+#include "base/parallel.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using testing_support::slide_in_space;
+
+double volume_of(const mpm::Particles<3, double>& particles) {
+  double volume = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    volume += particles.volume(p);
+  }
+  return volume;
+}
+
+double map_volume(const FlowMaps& maps) {
+  double volume = 0.0;
+  maps.for_cells([&](int, int, const MapCell& cell) { volume += cell.thickness * maps.map_grid().cell_area(); });
+  return volume;
+}
+
+FlowMaps maps_of(const Simulation<3, double>& simulation, const MapGrid& map_grid, double arrival_thickness = 0.1) {
+  const auto& origin = simulation.model().origin;
+  return {map_grid,
+          {origin[0], origin[1]},
+          {simulation.model().motion.sizes.half(0) * simulation.grid().cell()},
+          arrival_thickness};
+}
+
+const MapKind& kind(const std::string& name) {
+  for (const MapKind& map : map_kinds()) {
+    if (map.name == name) {
+      return map;
+    }
+  }
+  throw std::logic_error("no map " + name);
+}
+
+TEST(CellSpan, SharesAreThoseOfTheBoxAndSumToOne) {
+  const CellSpan within = cell_span(2.5, 0.25, 2.0, 10);
+  EXPECT_EQ(within.first, 2);
+  EXPECT_EQ(within.last, 2);
+  EXPECT_EQ(within.share(2), 1.0);
+  const CellSpan across = cell_span(3.1, 0.5, 1.0, 10);
+  EXPECT_EQ(across.first, 2);
+  EXPECT_EQ(across.last, 3);
+  EXPECT_NEAR(across.share(2), 0.4, 1e-15);
+  EXPECT_NEAR(across.share(3), 0.6, 1e-15);
+  const CellSpan wide = cell_span(4.25, 1.5, 1.0 / 3.0, 10);
+  EXPECT_EQ(wide.first, 2);
+  EXPECT_EQ(wide.last, 5);
+  EXPECT_NEAR(wide.share(2), 0.25 / 3.0, 1e-15);
+  EXPECT_NEAR(wide.share(3), 1.0 / 3.0, 1e-15);
+  EXPECT_NEAR(wide.share(5), 0.75 / 3.0, 1e-15);
+}
+
+TEST(CellSpan, ABoxThatEndsOnABorderStaysOnItsSide) {
+  for (const double off : {0.0, 1e-13, -1e-13}) {
+    const CellSpan span = cell_span(2.5 + off, 0.5, 1.0, 10);
+    EXPECT_EQ(span.first, 2);
+    EXPECT_EQ(span.last, 2);
+  }
+}
+
+TEST(CellSpan, WhatLiesBesideTheGridCountsToItsEdge) {
+  const CellSpan left = cell_span(0.2, 0.5, 1.0, 10);
+  EXPECT_EQ(left.first, 0);
+  EXPECT_EQ(left.last, 0);
+  EXPECT_EQ(left.share(0), 1.0);
+  const CellSpan right = cell_span(9.2, 1.0, 0.5, 10);
+  EXPECT_EQ(right.first, 8);
+  EXPECT_EQ(right.last, 9);
+  EXPECT_NEAR(right.share(8), 0.4, 1e-15);
+  EXPECT_NEAR(right.share(9), 0.6, 1e-15);
+}
+
+TEST(MapGrid, IsThatOfTheGroundAndCoversTheDomain) {
+  config::Case parameters;
+  parameters.grid.cell = 4.0;
+  parameters.grid.min = {100.0, 200.0, 0.0};
+  parameters.grid.max = {150.0, 230.0, 10.0};
+  config::Site site;
+  const MapGrid own = map_grid_of(parameters, site);
+  EXPECT_EQ(own.x, 102.0);
+  EXPECT_EQ(own.columns, 13);  // 50 m
+  EXPECT_EQ(own.rows, 8);
+  site.crs = "a system";
+  site.ground = std::make_shared<Raster>(Raster{101.0, 190.0, 5.0, 10.0, 9, 6, {}, ""});
+  const MapGrid grid = map_grid_of(parameters, site);  // the ground's cells reach from 98.5 to 143.5 m, 185 to 245 m
+  EXPECT_EQ(grid.x, 101.0);
+  EXPECT_EQ(grid.cell_x, 5.0);
+  EXPECT_EQ(grid.columns, 11);
+  EXPECT_EQ(grid.y, 190.0);
+  EXPECT_EQ(grid.rows, 6);
+  EXPECT_EQ(grid.crs, "a system");
+  parameters.maps.cell = 2.5;
+  parameters.grid.min[0] = 98.0;
+  const MapGrid asked = map_grid_of(parameters, site);
+  EXPECT_EQ(asked.x, 98.5 - 2.5 + 1.25);
+  EXPECT_EQ(asked.columns, 22);  // 96 to 151 m
+  EXPECT_EQ(asked.cell_y, 2.5);
+  EXPECT_EQ(asked.rows, 24);
+}
+
+TEST(MapGrid, OfTooManyCellsIsRefused) {
+  config::Case parameters;
+  parameters.file = "case.toml";
+  parameters.grid.max = {1e5, 1e5, 1e3};
+  parameters.maps.cell = 0.1;
+  try {
+    static_cast<void>(map_grid_of(parameters, {}));
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_STREQ(error.what(),
+                 "case.toml: maps of 1000000 x 1000000 cells of 0.1 x 0.1 m are too many; allowed: 2147483647 cells. "
+                 "Use a larger maps.cell.");
+  }
+}
+
+TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
+  const Simulation<3, double> simulation(slide_in_space());
+  // Cells of 1.5 x 1 m from -5.25 m on: the box begins and ends in the middle of one along x.
+  FlowMaps maps = maps_of(simulation, {-4.5, -4.5, 1.5, 1.0, 60, 20, ""});
+  maps.start(simulation.grid(), simulation.particles());
+  int cells = 0;
+  maps.for_cells([&](int, int row, const MapCell& cell) {
+    ++cells;
+    EXPECT_GE(row, 8);
+    EXPECT_LE(row, 11);
+    EXPECT_EQ(cell.thickness, cell.thickness_at_start);
+    EXPECT_EQ(cell.thickness, cell.max_thickness);
+    EXPECT_EQ(cell.arrival_time, 0.0);
+    EXPECT_EQ(cell.max_speed, 0.0);
+  });
+  EXPECT_EQ(cells, 5 * 4);
+  EXPECT_NEAR(maps.cell(3, 8).thickness, 3.0 * 0.75 / 1.5, 1e-12);
+  EXPECT_NEAR(maps.cell(4, 8).thickness, 3.0, 1e-12);
+  EXPECT_NEAR(maps.cell(7, 11).thickness, 3.0 * 0.75 / 1.5, 1e-12);
+  EXPECT_TRUE(std::isnan(maps.cell(8, 8).max_speed));
+  EXPECT_NEAR(maps.deposit().volume, 72.0, 1e-10);
+  EXPECT_NEAR(maps.deposit().area, 30.0, 1e-12);
+}
+
+TEST(FlowMaps, SumsAreThoseOfTheParticlesOnAnyGrid) {
+  Simulation<3, double> simulation(slide_in_space("velocity = [3.0, 2.0, 0.5]"));
+  // The last one ends within the outermost boxes: what pokes out of it counts to its edge.
+  const std::vector<MapGrid> grids{{-4.0, -5.0, 0.4, 0.3, 180, 80, ""},
+                                   {-3.5, -4.5, 1.0, 1.0, 70, 30, ""},
+                                   {-10.0, -20.0, 23.0, 17.0, 9, 9, ""},
+                                   {0.7, 3.7, 1.0, 1.0, 7, 4, ""}};
+  std::vector<FlowMaps> maps;
+  for (const MapGrid& grid : grids) {
+    maps.push_back(maps_of(simulation, grid));
+    maps.back().start(simulation.grid(), simulation.particles());
+  }
+  for (int k = 0; k < 50; ++k) {
+    simulation.step(0.002);
+    for (FlowMaps& map : maps) {
+      map.gather(simulation.grid(), simulation.particles(), simulation.time());
+    }
+    const double volume = volume_of(simulation.particles());
+    for (const FlowMaps& map : maps) {
+      ASSERT_NEAR(map_volume(map), volume, 1e-12 * volume) << map.map_grid().cell_x;
+    }
+  }
+}
+
+// Each record against the particles above one cell so large that it holds them all.
+TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
+  Simulation<3, double> simulation(slide_in_space("velocity = [5.0, 0.0, 0.0]"));
+  FlowMaps maps = maps_of(simulation, {28.0, 5.0, 64.0, 20.0, 1, 1, ""});
+  FlowMaps of_thin = maps_of(simulation, maps.map_grid(), 0.05);  // the cell's thickness is 72/1280 m
+  maps.start(simulation.grid(), simulation.particles());
+  of_thin.start(simulation.grid(), simulation.particles());
+  const double area = 64.0 * 20.0;
+  double speed = 0.0, flux = 0.0, pressure = 0.0, temperature = -HUGE_VAL, melt = 0.0, pore = -HUGE_VAL;
+  const auto note = [&] {
+    const auto& particles = simulation.particles();
+    Vector<double, 3> momentum = Vector<double, 3>::Zero();
+    double mass = 0.0, water = 0.0, band = 0.0, warm = 0.0, pressed = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      mass += particles.mass(p);
+      momentum += particles.mass(p) * particles.velocity.get<Vector<double, 3>>(p);
+      water += particles.porosity(p) * particles.liquid_saturation(p) * particles.volume(p);
+      if (particles.in_band(p) != 0) {
+        band += particles.volume(p);
+        warm += particles.volume(p) * particles.temperature(p);
+        pressed += particles.volume(p) * particles.pore_pressure(p);
+      }
+    }
+    const double volume = volume_of(particles), v = momentum.norm() / mass;
+    speed = std::max(speed, v);
+    flux = std::max(flux, volume / area * v * v);
+    pressure = std::max(pressure, mass / volume * v * v);
+    temperature = std::max(temperature, warm / band);
+    melt = std::max(melt, water / area);
+    pore = std::max(pore, pressed / band);
+  };
+  note();
+  for (int k = 0; k < 60; ++k) {
+    simulation.step(0.002);
+    maps.gather(simulation.grid(), simulation.particles(), simulation.time());
+    of_thin.gather(simulation.grid(), simulation.particles(), simulation.time());
+    note();
+  }
+  EXPECT_EQ(maps.deposit().area, 0.0);
+  EXPECT_TRUE(std::isnan(maps.cell(0, 0).max_speed));
+  EXPECT_TRUE(std::isnan(maps.cell(0, 0).max_pressure));
+  EXPECT_TRUE(std::isnan(maps.cell(0, 0).arrival_time));
+  const auto value = [&](const char* name) { return maps.raster(kind(name), MapExtent::whole_grid).values.at(0); };
+  EXPECT_NEAR(value("max_momentum_flux"), flux, 1e-12 * flux);
+  EXPECT_NEAR(value("max_basal_temperature"), temperature, 1e-12);
+  EXPECT_NEAR(value("max_melt"), melt, 1e-12 * melt);
+  EXPECT_GT(melt, 0.0);
+  EXPECT_NEAR(value("max_pore_pressure"), pore, 1e-9 * std::abs(pore));
+  EXPECT_NE(pore, 0.0);
+  EXPECT_EQ(value("elevation_change"), value("final_thickness") - 72.0 / area);
+  const MapCell& thin = of_thin.cell(0, 0);
+  EXPECT_EQ(thin.arrival_time, 0.0);
+  EXPECT_NEAR(thin.max_speed, speed, 1e-12 * speed);
+  EXPECT_NEAR(thin.max_pressure, pressure, 1e-12 * pressure);
+  EXPECT_EQ(of_thin.deposit().area, area);
+}
+
+TEST(FlowMaps, ASlideThatWentOnLeavesNothingWhereItWas) {
+  Simulation<3, double> simulation(slide_in_space("velocity = [40.0, 0.0, 0.0]", {"basal.friction_angle=0.0"}));
+  FlowMaps maps = maps_of(simulation, {-3.75, -4.75, 0.5, 0.5, 128, 40, ""});
+  maps.start(simulation.grid(), simulation.particles());
+  while (simulation.time() < 0.8) {
+    simulation.step(0.002);
+    maps.gather(simulation.grid(), simulation.particles(), simulation.time());
+  }
+  const double volume = volume_of(simulation.particles());
+  EXPECT_NEAR(map_volume(maps), volume, 1e-12 * volume);
+  double changed = 0.0;
+  for (const double change : maps.raster(kind("elevation_change"), MapExtent::slide).values) {
+    changed += std::isnan(change) ? 0.0 : 0.25 * change;
+  }
+  EXPECT_NEAR(changed, volume - 72.0, 1e-9);
+  const MapCell& left = maps.cell(10, 20);  // x = 1.25 m, y = 5.25 m
+  EXPECT_EQ(left.thickness, 0.0);
+  EXPECT_EQ(left.speed(), 0.0);
+  EXPECT_NEAR(left.thickness_at_start, 3.0, 1e-12);
+  EXPECT_GE(left.max_thickness, 3.0);
+  EXPECT_GT(left.max_speed, 40.0);
+  // The box begins at 6 m and comes to 16.25 m after 0.25 s, a little earlier as gravity speeds it up.
+  const double arrival = maps.cell(40, 20).arrival_time;
+  EXPECT_GT(arrival, 0.23);
+  EXPECT_LT(arrival, 0.256);
+}
+
+TEST(FlowMaps, RastersLieWhereTheCellsAre) {
+  const Simulation<3, double> simulation(slide_in_space());
+  FlowMaps maps = maps_of(simulation, {-3.5, -4.5, 1.0, 1.0, 64, 20, "a system"});
+  EXPECT_TRUE(maps.raster(kind("max_thickness"), MapExtent::slide).empty());
+  maps.start(simulation.grid(), simulation.particles());
+  const Raster slide = maps.raster(kind("max_thickness"), MapExtent::slide);
+  EXPECT_EQ(slide.columns, 6);
+  EXPECT_EQ(slide.rows, 4);
+  EXPECT_EQ(slide.x, 0.5);
+  EXPECT_EQ(slide.y, 3.5);
+  EXPECT_EQ(slide.crs, "a system");
+  const Raster whole = maps.raster(kind("max_thickness"), MapExtent::whole_grid);
+  EXPECT_EQ(whole.columns, 64);
+  EXPECT_EQ(whole.rows, 20);
+  int known = 0;
+  for (int row = 0; row < whole.rows; ++row) {
+    for (int column = 0; column < whole.columns; ++column) {
+      const double value = whole.at(column, row);
+      known += std::isnan(value) ? 0 : 1;
+      if (!std::isnan(value)) {
+        EXPECT_NEAR(value, 3.0, 1e-12);
+        EXPECT_EQ(value, slide.at(column - 4, row - 8));
+      }
+    }
+  }
+  EXPECT_EQ(known, 24);
+}
+
+std::vector<double> state_after(int threads, int sorting_interval, int stop_at) {
+  const int threads_before = thread_count();
+  set_thread_count(threads);
+  Simulation<3, double> simulation(slide_in_space("velocity = [10.0, 3.0, 1.0]", {"body.box.max=[12.0, 11.0, 3.0]"}));
+  simulation.set_sorting_interval(sorting_interval);
+  FlowMaps maps = maps_of(simulation, {-3.83, -4.83, 0.34, 0.34, 189, 59, ""});
+  maps.start(simulation.grid(), simulation.particles());
+  for (int k = 0; k < 120; ++k) {
+    if (k == stop_at) {
+      const std::vector<double> state = maps.state();
+      maps = maps_of(simulation, maps.map_grid());
+      maps.restore(state);
+      EXPECT_EQ(std::memcmp(maps.state().data(), state.data(), state.size() * sizeof(double)), 0);
+    }
+    simulation.step(0.002);
+    maps.gather(simulation.grid(), simulation.particles(), simulation.time());
+  }
+  EXPECT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
+  set_thread_count(threads_before);
+  return maps.state();
+}
+
+TEST(FlowMaps, BitsDependNeitherOnThreadsNorOnPlacesInMemoryNorOnAStop) {
+  const std::vector<double> once = state_after(1, 64, -1);
+  for (const auto& [threads, interval, stop] : {std::array{4, 64, -1}, std::array{2, 3, -1}, std::array{3, 0, 57}}) {
+    const std::vector<double> again = state_after(threads, interval, stop);
+    ASSERT_EQ(again.size(), once.size());
+    EXPECT_EQ(std::memcmp(again.data(), once.data(), once.size() * sizeof(double)), 0) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

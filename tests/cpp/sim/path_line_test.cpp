@@ -1,0 +1,95 @@
+// Lines that a slide's way is measured along, and its front.
+#include "sim/path_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sim/front.hpp"
+#include "sim/run_figures.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+// East for 30 m, then north for 40 m.
+PathLine angled() { return PathLine({{10.0, 5.0}, {10.0, 5.0}, {40.0, 5.0}, {40.0, 45.0}}); }
+
+TEST(PathLine, MeasuresItsLength) {
+  EXPECT_EQ(angled().length(), 70.0);
+  EXPECT_EQ(angled().corners().size(), 3u);
+  EXPECT_TRUE(PathLine().empty());
+  EXPECT_TRUE(PathLine({{1.0, 1.0}, {1.0, 1.0}}).empty());
+}
+
+TEST(PathLine, ProjectsToTheNearestPoint) {
+  const PathLine line = angled();
+  const auto expect = [&](const Place2& place, double along, double offset) {
+    const PlaceOnLine found = line.project(place);
+    EXPECT_NEAR(found.along, along, 1e-12) << place[0] << " " << place[1];
+    EXPECT_NEAR(found.offset, offset, 1e-12) << place[0] << " " << place[1];
+  };
+  expect({20.0, 8.0}, 10.0, 3.0);
+  expect({20.0, 1.0}, 10.0, -4.0);
+  expect({43.0, 25.0}, 50.0, -3.0);
+  expect({38.0, 25.0}, 50.0, 2.0);
+  expect({43.0, 1.0}, 30.0, -5.0);  // outside the bend: the corner
+  expect({4.0, 6.0}, -6.0, 1.0);    // straight on before its beginning
+  expect({39.0, 60.0}, 85.0, 1.0);  // and beyond its end
+}
+
+TEST(PathLine, PointsProjectToWhereTheyAre) {
+  const PathLine line = angled();
+  for (const double along : {-7.0, 0.0, 12.5, 30.0, 55.0, 70.0, 100.0}) {
+    EXPECT_NEAR(line.project(line.point_at(along)).along, along, 1e-12);
+    EXPECT_NEAR(line.project(line.point_at(along)).offset, 0.0, 1e-12);
+  }
+}
+
+TEST(CentreWay, HasCornersASpacingApartAndGoesThroughNumbers) {
+  CentreWay way(2.0);
+  for (int k = 0; k <= 100; ++k) {
+    const double wavering = 0.01 * (k % 2);
+    way.note({0.1 * k, wavering});
+    EXPECT_EQ(way.line().empty(), k < 20);
+  }
+  EXPECT_NEAR(way.line().length(), 10.0, 0.2);
+  EXPECT_LE(way.line().corners().size(), 6u);
+  CentreWay again(2.0);
+  again.restore(way.state());
+  EXPECT_EQ(again.line().corners(), way.line().corners());
+  EXPECT_EQ(again.line().length(), way.line().length());
+}
+
+TEST(Front, LeavesHalfAPercentOfTheMassAhead) {
+  std::mt19937 random(3);
+  std::vector<MassOnWay> masses;
+  for (std::size_t k = 0; k < 1000; ++k) {
+    masses.push_back({static_cast<double>(k), 2.0, k});
+  }
+  std::shuffle(masses.begin(), masses.end(), random);
+  // Ahead of and at particle 994 there are 6 of 1000: less than 99.5 % lie behind it.
+  EXPECT_EQ(front_of(masses).along, 994.0);
+  masses.assign(1, {5.0, 1.0, 0});
+  EXPECT_EQ(front_of(masses).along, 5.0);
+  masses = {{0.0, 1.0, 0}, {1.0, 1e-6, 1}, {2.0, 1e-6, 2}};
+  EXPECT_EQ(front_of(masses).along, 0.0);
+}
+
+TEST(RunFigures, AngleOfReachIsTheSlopeFromTopToFront) {
+  EXPECT_NEAR(angle_of_reach(100.0, 100.0), 45.0, 1e-12);
+  EXPECT_NEAR(angle_of_reach(500.0, 500.0 * std::sqrt(3.0)), 30.0, 1e-12);
+  EXPECT_EQ(angle_of_reach(0.0, 10.0), 0.0);
+  EXPECT_TRUE(std::isnan(angle_of_reach(10.0, 0.0)));
+}
+
+TEST(RunFigures, AreToldByNameAndUnit) {
+  const auto figures = named({1.0, 2.0, 3.0, 4.0, 5.0, 6.0});
+  const std::vector<std::pair<std::string, double>> expected{
+      {"deposit_volume_m3", 1.0}, {"deposit_area_m2", 2.0}, {"front_distance_m", 3.0},
+      {"travel_distance_m", 4.0}, {"drop_height_m", 5.0},   {"angle_of_reach_degrees", 6.0}};
+  EXPECT_EQ(figures, expected);
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,207 @@
+// What a run in space gathers: probes against the maps and the particles, the front along a path, figures, resuming.
+#include "sim/run_records.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "../support/slide_in_space.hpp"
+#include "../support/two_bodies.hpp"
+#include "base/error.hpp"
+#include "io/checkpoint.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using testing_support::slide_in_space;
+using testing_support::value_of;
+
+constexpr auto level_ground = [](double /*x*/, double /*y*/) { return 0.0; };
+
+TEST(Section, PartsAreTheLineCutAtCellBorders) {
+  const MapGrid grid{0.5, 1.0, 1.0, 2.0, 10, 10, ""};  // borders at whole metres along x, at even ones along y
+  const auto parts = parts_of_section({{0.5, 1.0}, {3.5, 1.0}, {3.5, 4.5}}, grid);
+  ASSERT_EQ(parts.size(), 7u);
+  const std::vector<std::array<double, 5>> expected{{0, 0, 0.5, 0, -1}, {1, 0, 1.0, 0, -1}, {2, 0, 1.0, 0, -1},
+                                                    {3, 0, 0.5, 0, -1}, {3, 0, 1.0, 1, 0},  {3, 1, 2.0, 1, 0},
+                                                    {3, 2, 0.5, 1, 0}};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    EXPECT_EQ(parts[k].column, expected[k][0]);
+    EXPECT_EQ(parts[k].row, expected[k][1]);
+    EXPECT_NEAR(parts[k].length, expected[k][2], 1e-12);
+    EXPECT_NEAR(parts[k].normal_x, expected[k][3], 1e-12);
+    EXPECT_NEAR(parts[k].normal_y, expected[k][4], 1e-12);
+  }
+}
+
+TEST(Section, ObliquePartsSumToItsLength) {
+  const MapGrid grid{0.5, 1.0, 1.0, 2.0, 20, 20, ""};
+  double length = 0.0;
+  int column = 0;
+  for (const SectionPart& part : parts_of_section({{0.3, 0.1}, {17.1, 33.7}}, grid)) {
+    length += part.length;
+    EXPECT_GE(part.column, column);
+    column = part.column;
+    EXPECT_NEAR(part.normal_x * 16.8 + part.normal_y * 33.6, 0.0, 1e-12);
+    EXPECT_GT(part.normal_x, 0.0);  // to the right of a line to the north-east
+  }
+  EXPECT_NEAR(length, std::hypot(16.8, 33.6), 1e-12);
+}
+
+TEST(Probes, TellOfTheMovingBox) {
+  // A box that slides as one: what passes is its thickness, width and speed.
+  const Simulation<3, double> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  config::Site site;
+  site.probes = {{"gauge", {{3.5, 4.5}}},
+                 {"empty", {{30.5, 4.5}}},
+                 {"section", {{3.5, 15.0 - 1e-9}, {3.5, -4.5}}},
+                 {"back", {{3.5, -4.5}, {3.5, 14.5}}}};
+  RunRecords<3> records(simulation, site);
+  records.start(simulation);
+  const HistoryRow row = records.probe_row(simulation);
+  EXPECT_EQ(row.front().first, "time_s");
+  EXPECT_EQ(row.size(), 1u + 2 * 2 + 2 * 3);
+  EXPECT_NEAR(value_of(row, "gauge_thickness_m"), 3.0, 1e-12);
+  EXPECT_NEAR(value_of(row, "gauge_speed_m_s"), 8.0, 1e-12);
+  EXPECT_EQ(value_of(row, "empty_thickness_m"), 0.0);
+  EXPECT_EQ(value_of(row, "empty_speed_m_s"), 0.0);
+  EXPECT_NEAR(value_of(row, "section_flow_area_m2"), 12.0, 1e-10);
+  EXPECT_NEAR(value_of(row, "section_discharge_m3_s"), -96.0, 1e-9);  // the line leads south, to whose right is west
+  EXPECT_NEAR(value_of(row, "section_max_thickness_m"), 3.0, 1e-12);
+  EXPECT_NEAR(value_of(row, "back_discharge_m3_s"), 96.0, 1e-9);
+}
+
+TEST(Probes, BesideTheMapsAreRefused) {
+  const Simulation<3, double> simulation(slide_in_space());
+  config::Site site;
+  site.probes = {{"gauge", {{3.5, 40.0}}}};
+  try {
+    RunRecords<3>(simulation, site);
+    FAIL();
+  } catch (const UserError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find(": probe 'gauge' has a point at x = 3.5 m, y = 40 m, beside the maps; allowed: x from -4 to "
+                           "60 m, y from -5 to 15 m. Move it, or make the domain larger."),
+              std::string::npos)
+        << message;
+  }
+  site.probes = {{"gauge", {{3.5, 4.0}, {3.5, 4.0}}}};
+  try {
+    RunRecords<3>(simulation, site);
+    FAIL();
+  } catch (const UserError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("the line of probe 'gauge' has no length; allowed: one point, or a line of at least two "
+                           "different ones."),
+              std::string::npos)
+        << message;
+  }
+}
+
+TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
+  Simulation<3, double> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  config::Site site;
+  site.path = {{-2.0, 5.0}, {50.0, 5.0}};
+  RunRecords<3> records(simulation, site);
+  records.start(simulation);
+  for (int k = 0; k < 30; ++k) {
+    simulation.step(0.002);
+    records.after_step(simulation);
+  }
+  const auto front = records.front(simulation);
+  ASSERT_TRUE(front.has_value());
+  EXPECT_NEAR(front->along, front_position(simulation) + 2.0, 1e-12);
+  EXPECT_NEAR(front->place[0], front_position(simulation), 1e-12);
+  const auto figures = records.figures(simulation, level_ground);
+  ASSERT_TRUE(figures.has_value());
+  EXPECT_EQ(figures->front_distance, front->along);
+  EXPECT_NEAR(figures->travel_distance, front->place[0] - 0.5, 1e-12);  // from the middle of the first cell of 1 m
+  EXPECT_NEAR(figures->drop_height, 3.0, 1e-12);
+  EXPECT_EQ(figures->reach_angle, angle_of_reach(figures->drop_height, figures->travel_distance));
+  EXPECT_NEAR(figures->deposit_volume, 72.0, 0.5);
+}
+
+TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
+  Simulation<3, double> simulation(slide_in_space("velocity = [0.0, -16.0, 0.0]", {"case.gravity_tilt=0.0"}));
+  RunRecords<3> records(simulation, {});
+  records.start(simulation);
+  EXPECT_FALSE(records.path_given());
+  EXPECT_TRUE(records.path().empty());
+  EXPECT_FALSE(records.front(simulation).has_value());
+  const auto at_rest = records.figures(simulation, level_ground);
+  ASSERT_TRUE(at_rest.has_value());
+  EXPECT_TRUE(std::isnan(at_rest->travel_distance));
+  EXPECT_NEAR(at_rest->deposit_volume, 72.0, 1e-10);
+  for (int k = 0; k < 100; ++k) {
+    simulation.step(0.002);
+    records.after_step(simulation);
+  }
+  ASSERT_FALSE(records.path().empty());
+  EXPECT_NEAR(records.path().corners()[0][0], 3.0, 1e-12);
+  EXPECT_NEAR(records.path().corners()[0][1], 5.0, 1e-12);
+  EXPECT_NEAR(records.path().corners().back()[0], 3.0, 0.02);
+  EXPECT_NEAR(records.path().length(), 3.0, 0.3);
+  const auto front = records.front(simulation);
+  ASSERT_TRUE(front.has_value());
+  EXPECT_NEAR(front->along, 5.0 - front->place[1], 0.05);
+  // From the middle of the row of cells at 6.5 m.
+  EXPECT_NEAR(records.figures(simulation, level_ground)->travel_distance, 6.5 - front->place[1], 0.05);
+}
+
+TEST(RunRecords, AreTheSameBitsAfterAStopAndAResume) {
+  const config::Case parameters = slide_in_space("velocity = [8.0, 1.0, 0.0]");
+  config::Site site;
+  site.probes = {{"gauge", {{7.5, 5.5}}}, {"section", {{7.5, 0.0}, {8.5, 10.0}}}};
+  const auto steps = [](Simulation<3, double>& simulation, RunRecords<3>& records, int count) {
+    for (int k = 0; k < count; ++k) {
+      simulation.step(0.002);
+      records.after_step(simulation);
+    }
+  };
+  Simulation<3, double> whole(parameters);
+  RunRecords<3> of_whole(whole, site);
+  of_whole.start(whole);
+  steps(whole, of_whole, 40);
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "records_of_a_stop.bin";
+  io::write_checkpoint<3, double>(file, whole.particles(), whole.scalars(), of_whole.state());
+  const HistoryRow probes_then = of_whole.probe_row(whole);
+  steps(whole, of_whole, 60);
+
+  Simulation<3, double> resumed(parameters);
+  std::vector<double> scalars;
+  RunRecords<3> of_resumed(resumed, site);
+  of_resumed.restore(io::read_checkpoint<3, double>(file, resumed.particles(), scalars));
+  resumed.restore(scalars);
+  EXPECT_EQ(of_resumed.probe_row(resumed), probes_then);
+  steps(resumed, of_resumed, 60);
+
+  const NamedNumbers expected = of_whole.state(), found = of_resumed.state();
+  ASSERT_EQ(expected.size(), found.size());
+  for (const auto& [name, numbers] : expected) {
+    ASSERT_EQ(found.at(name).size(), numbers.size()) << name;
+    EXPECT_EQ(std::memcmp(found.at(name).data(), numbers.data(), numbers.size() * sizeof(double)), 0) << name;
+  }
+  EXPECT_EQ(of_resumed.probe_row(resumed), of_whole.probe_row(whole));
+  EXPECT_EQ(named(*of_resumed.figures(resumed, level_ground)), named(*of_whole.figures(whole, level_ground)));
+}
+
+TEST(RunRecords, AreEmptyInThePlane) {
+  const Simulation<2, double> simulation(testing_support::two_bodies<2>(5e3));
+  config::Site site;
+  site.path = {{0.0, 0.0}, {1.0, 0.0}};
+  RunRecords<2> records(simulation, site);
+  records.start(simulation);
+  records.after_step(simulation);
+  EXPECT_EQ(records.maps(), nullptr);
+  EXPECT_TRUE(records.path().empty());
+  EXPECT_FALSE(records.path_given());
+  EXPECT_FALSE(records.front(simulation).has_value());
+  EXPECT_TRUE(records.state().empty());
+  EXPECT_TRUE(records.probe_row(simulation).empty());
+  EXPECT_FALSE(records.figures(simulation, level_ground).has_value());
+}
+
+}  // namespace
+}  // namespace thawslide::sim
