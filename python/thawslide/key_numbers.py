@@ -88,6 +88,7 @@ def key_numbers(run: Run) -> list[KeyNumber]:
         rows.append(
             KeyNumber("Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mean of mass")
         )
+    rows += _map_numbers(run)
     rows += _band_numbers(run)
     if "seismic_force_x_N" in history:
         _, magnitude = seismic_force(run)
@@ -124,6 +125,30 @@ def boiling_note(run: Run) -> str:
 
 def _metres(value: float) -> str:
     return f"{value:,.0f} m".replace("-", "−") if abs(value) >= 1000.0 else shown(float(value), "m")
+
+
+def _map_numbers(run: Run) -> list[KeyNumber]:
+    """Return what run.json says of a slide on a DEM."""
+    rows = []
+    for words, key, text, remark in (
+        ("Deposit volume", "deposit_volume_m3", _volume, "at the end"),
+        ("Deposit area", "deposit_area_m2", _area, "at the end, seen from above"),
+        ("Travel distance", "travel_distance_m", _metres, "along the path, from the top of the release to the front"),
+        ("Drop height", "drop_height_m", _metres, "of the same two places"),
+        ("Angle of reach", "angle_of_reach_degrees", lambda value: f"{value:.1f}°", "slope of the line between them"),
+    ):
+        value = run.facts.get(key)
+        if isinstance(value, int | float):
+            rows.append(KeyNumber(words, text(float(value)), remark))
+    return rows
+
+
+def _volume(value: float) -> str:
+    return f"{value / 1e6:.3g} million m³" if value >= 1e6 else f"{value:,.0f} m³"
+
+
+def _area(value: float) -> str:
+    return f"{value / 1e6:.3g} km²" if value >= 1e5 else f"{value:,.0f} m²"
 
 
 def _band_numbers(run: Run) -> list[KeyNumber]:

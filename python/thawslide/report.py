@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,7 +11,9 @@ from typing import Any
 
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures import FIGURES
+from thawslide.figures.animation import Film
 from thawslide.key_numbers import boiling_note, key_numbers, shown
+from thawslide.maps import Maps, on_map
 from thawslide.run import Run
 
 
@@ -32,30 +35,40 @@ def make_report(
 ) -> Report:
     """Write figures/NAME.png and report.html into `output` (default: the run folder).
 
-    A figure the run has nothing for is left out and named on the page; it is an error if `names` asks for it.
+    Without `names` these are the figures that suit the run. One it has nothing for is left out and named on the page;
+    it is an error if `names` asks for it.
     """
     output = output or run.folder
     run.history  # noqa: B018  read first: without a history there is nothing to report
     report = Report(output / "report.html")
     try:
         (output / "figures").mkdir(parents=True, exist_ok=True)
-        for number, name in enumerate(chosen := list(names or FIGURES), 1):
+        chosen = list(names or figures_of(run))
+        for number, name in enumerate(chosen, 1):
             try:
-                figure = FIGURES[name].draw(run)
+                drawn = FIGURES[name].draw(run)
             except NotInRunError as error:
                 if names:
                     raise
                 report.left_out[name] = str(error)
                 progress(f"[{number}/{len(chosen)}] {name}: left out, {error}")
                 continue
-            path = output / "figures" / f"{name}.png"
-            figure.savefig(path, dpi=dpi)
+            path = output / "figures" / f"{name}{'.mp4' if isinstance(drawn, Film) else '.png'}"
+            if isinstance(drawn, Film):
+                drawn.write(path, dpi, progress)
+            else:
+                drawn.savefig(path, dpi=dpi)
             report.figures[name] = path
             progress(f"[{number}/{len(chosen)}] {name}: {path}")
         report.page.write_text(_page(run, report), encoding="utf-8")
     except OSError as error:
         raise ReportError(f"{error.filename or output}: cannot be written: {error.strerror or error}") from error
     return report
+
+
+def figures_of(run: Run) -> list[str]:
+    """Return the names of the figures that suit a run, in the page's order."""
+    return [name for name, kind in FIGURES.items() if kind.suits(run)]
 
 
 def _page(run: Run, report: Report) -> str:
@@ -73,11 +86,15 @@ def _page(run: Run, report: Report) -> str:
         parts.append(_details("Reported values to compare with", _table(targets, "facts")))
     for name, path in report.figures.items():
         kind = FIGURES[name]
-        link = f"figures/{path.name}"
-        parts.append(
-            f'<h2 id="{name}">{html.escape(kind.heading)}</h2>\n<figure><a href="{link}"><img src="{link}" '
-            f'alt="{html.escape(kind.heading)}"></a>\n<figcaption>{html.escape(kind.caption)}</figcaption></figure>'
-        )
+        heading, link = html.escape(kind.heading), f"figures/{path.name}"
+        if path.suffix == ".mp4":
+            shown_as = f'<video controls loop muted src="{link}" aria-label="{heading}"></video>'
+        else:
+            shown_as = f'<a href="{link}"><img src="{link}" alt="{heading}"></a>'
+        caption = f"<figcaption>{html.escape(kind.caption)}</figcaption>"
+        parts.append(f'<h2 id="{name}">{heading}</h2>\n<figure>{shown_as}\n{caption}</figure>')
+    if maps := _map_files(run, report.page.parent):
+        parts += [f'<h2 id="maps">Maps to open in a GIS</h2>\n{maps}']
     if report.left_out:
         reasons = ((FIGURES[name].heading, reason) for name, reason in report.left_out.items())
         parts += ["<h2>Left out</h2>", _table(reasons, "facts")]
@@ -85,6 +102,16 @@ def _page(run: Run, report: Report) -> str:
     links = " · ".join(f'<a href="#{name}">{html.escape(FIGURES[name].heading)}</a>' for name in report.figures)
     parts.insert(2, f"<nav>{links}</nav>")
     return page_frame(title, "\n".join(parts))
+
+
+def _map_files(run: Run, page_folder: Path) -> str:
+    """Return a table of the map files with their units, "" for a run without maps."""
+    if not on_map(run) or not (run.folder / "maps").is_dir():
+        return ""
+    maps = Maps(run)
+    rows = [(f"{name}.tif", *maps.about(name)) for name in maps.names]
+    where = html.escape(Path(os.path.relpath(maps.folder, page_folder)).as_posix())
+    return f'<p>In the folder <a href="{where}">{where}</a>.</p>\n' + _table(rows, "facts")
 
 
 def page_frame(title: str, body: str) -> str:
@@ -182,7 +209,7 @@ th { font-weight: 500; }
 details { margin: .8rem 0; }
 summary { cursor: pointer; color: #0a5fb4; margin-bottom: .4rem; }
 figure { margin: 0; }
-img { max-width: 100%; height: auto; display: block; }
+img, video { max-width: 100%; height: auto; display: block; }
 figcaption { font-size: .88rem; margin-top: .3rem; }
 @media print { nav { display: none; } figure { break-inside: avoid; } }
 </style>

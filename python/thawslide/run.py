@@ -6,7 +6,7 @@ import csv
 import difflib
 import json
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -22,17 +22,18 @@ Numbers = NDArray[np.float64]
 
 
 class History(Mapping[str, Numbers]):
-    """The columns of history.csv by name, each of shape (rows,), in the unit its name ends with."""
+    """The columns of history.csv or probes.csv by name, each of shape (rows,), in the unit its name ends with."""
 
-    def __init__(self, columns: dict[str, Numbers], rows: int) -> None:
+    def __init__(self, file: str, columns: dict[str, Numbers]) -> None:
+        self.file = file
         self._columns = columns
-        self.rows = rows
+        self.rows = len(columns["time_s"])
 
     def __getitem__(self, name: str) -> Numbers:
         if name not in self._columns:
             near = difflib.get_close_matches(name, self._columns, 1)
             hint = f" (nearest: {near[0]})" if near else ""
-            raise NotInRunError(f"history.csv has no column {name}{hint}")
+            raise NotInRunError(f"{self.file} has no column {name}{hint}")
         return self._columns[name]
 
     def __contains__(self, name: object) -> bool:
@@ -48,8 +49,8 @@ class History(Mapping[str, Numbers]):
 class Snapshot(Mapping[str, NDArray[Any]]):
     """Every particle at one time: points [m] of shape (n, 3) and the fields by name, rows sorted by id."""
 
-    def __init__(self, path: Path) -> None:
-        """Read one snapshot file; ReportError when it is missing, damaged or incomplete."""
+    def __init__(self, path: Path, fields: Collection[str] | None = None) -> None:
+        """Read one snapshot file, all its fields or those named; ReportError when it is damaged or incomplete."""
         self.path = path
         with _open_snapshot(path) as file:
             group = _snapshot_group(file, path)
@@ -61,6 +62,8 @@ class Snapshot(Mapping[str, NDArray[Any]]):
             self._fields: dict[str, NDArray[Any]] = {}
             self._units: dict[str, str] = {}
             for name, data in group["PointData"].items():
+                if fields is not None and name not in fields:
+                    continue
                 self._fields[name] = np.asarray(data)
                 self._units[name] = _text(data.attrs.get("unit", ""))
         for name, values in self._fields.items():
@@ -156,6 +159,14 @@ class Run:
         return _read_history(self.folder / "history.csv", self.warnings)
 
     @cached_property
+    def probes(self) -> History | None:
+        """What probes saw through time, None for a run without any."""
+        path = self.folder / "probes.csv"
+        if not path.is_file():
+            return None
+        return _read_history(path, self.warnings)
+
+    @cached_property
     def terrain(self) -> tuple[Numbers, Numbers] | None:
         """Distance and elevation [m] of the ground, or None for a run without terrain."""
         path = self.folder / "terrain.csv"
@@ -219,8 +230,13 @@ class Run:
                 times.append(float(_snapshot_group(file, path).attrs["time"]))
         return np.array(times, dtype=np.float64)
 
-    def snapshot(self, index: int | None = None, *, time: float | None = None) -> Snapshot:
-        """Read one snapshot by its place in `times` (negative: from the end), or the one nearest to a time [s]."""
+    def snapshot(
+        self, index: int | None = None, *, time: float | None = None, fields: Collection[str] | None = None
+    ) -> Snapshot:
+        """Read one snapshot by its place in `times` (negative: from the end), or the one nearest to a time [s].
+
+        Without `fields` all fields are read.
+        """
         if (index is None) == (time is None):
             raise ValueError("give either an index or a time")
         if not self.snapshot_files:
@@ -230,7 +246,7 @@ class Run:
         assert index is not None
         if not -len(self.snapshot_files) <= index < len(self.snapshot_files):
             raise ReportError(f"{self.folder}: no snapshot {index}; there are {len(self.snapshot_files)}")
-        return Snapshot(self.snapshot_files[index])
+        return Snapshot(self.snapshot_files[index], fields)
 
 
 def _text(value: Any) -> str:
@@ -297,4 +313,4 @@ def _read_history(path: Path, warnings: list[str]) -> History:
             raise ReportError(f"{path}:{number}: {len(cells)} values for {len(names)} columns")
         rows.append([_number(cell, path, number) for cell in cells])
     table = np.array(rows, dtype=np.float64)
-    return History({name: table[:, place] for place, name in enumerate(names)}, len(rows))
+    return History(path.name, {name: table[:, place] for place, name in enumerate(names)})

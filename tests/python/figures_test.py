@@ -287,7 +287,7 @@ def test_residual_is_none_where_nothing_changes(make_run: MakeRun) -> None:
     assert texts(titled(FIGURES["energy"].draw(run), "(a)")) == ["no account changes"]
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize("name", ["motion", *SNAPSHOT_FIGURES, "force", "band", "energy"])
 def test_a_run_of_one_row_and_one_snapshot_draws(make_run: MakeRun, tmp_path: Path, name: str) -> None:
     run = Run(make_run(rows=1, snapshots=1, targets=False))
     FIGURES[name].draw(run).savefig(tmp_path / "figure.png")

@@ -7,21 +7,28 @@ from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
+from thawslide.figures.animation import Film, animation
 from thawslide.figures.band import band
+from thawslide.figures.cross_sections import cross_sections
 from thawslide.figures.energy import energy
 from thawslide.figures.force import force
+from thawslide.figures.largest import extent_maps, impact_maps
 from thawslide.figures.motion import motion
+from thawslide.figures.probes import probes
+from thawslide.figures.slide_on_map import slide_speed, slide_temperature, slide_thickness
 from thawslide.figures.snapshots import plastic_strain, pore_pressure, temperature, velocity
+from thawslide.maps import on_map
 from thawslide.run import Run
 
 
 @dataclass(frozen=True)
 class FigureKind:
-    """One figure: its heading and caption on the page, and the function that draws it from a run."""
+    """One figure: its heading and caption on the page, the function that draws it, and which runs it is for."""
 
     heading: str
     caption: str
-    draw: Callable[[Run], Figure]
+    draw: Callable[[Run], Figure | Film]
+    suits: Callable[[Run], bool] = lambda run: True
 
 
 _PANELS = (
@@ -29,17 +36,63 @@ _PANELS = (
     "height above the ground right below. Particles are squares of their real size, or just large enough to be seen."
 )
 
+_FROM_ABOVE = (
+    "From above at chosen times, particles gathered on the cells of the maps. Contour lines and shading: the ground "
+    "below the slide."
+)
+
+
+def _in_section(run: Run) -> bool:
+    return not on_map(run)
+
+
 FIGURES: dict[str, FigureKind] = {
+    "extent_maps": FigureKind(
+        "Extent of the slide",
+        "Largest thickness and speed, arrival and deposit, gathered in every step of the run. White lines: equal "
+        "arrival time.",
+        extent_maps,
+        on_map,
+    ),
+    "animation": FigureKind(
+        "The slide in motion",
+        "Speed as mean over the thickness, one frame a snapshot.",
+        animation,
+        on_map,
+    ),
+    "slide_speed": FigureKind("Speed from above", _FROM_ABOVE, slide_speed, on_map),
+    "slide_thickness": FigureKind("Thickness from above", _FROM_ABOVE, slide_thickness, on_map),
+    "slide_temperature": FigureKind("Temperature from above", _FROM_ABOVE, slide_temperature, on_map),
+    "cross_sections": FigureKind(
+        "Sections",
+        "Through terrain and slide along the path line, and across it; where thin, the slide is drawn thicker than it "
+        "is, by the factor each panel names.",
+        cross_sections,
+        on_map,
+    ),
+    "impact_maps": FigureKind(
+        "Pressures, heat and change of the ground",
+        "The largest values of the whole run. Dynamic pressure is density times speed squared; momentum flux is "
+        "thickness times speed squared.",
+        impact_maps,
+        on_map,
+    ),
+    "probes": FigureKind(
+        "Probes",
+        "Thickness and speed at points; flow area and discharge through cross sections.",
+        probes,
+        lambda run: run.probes is not None,
+    ),
     "motion": FigureKind(
         "Velocity and displacement",
         "Mass means over the slide; the runout is the front (99.5 % of the mass lies behind it) less the rear at the "
         "start. Open markers: reported values, where the case names any.",
         motion,
     ),
-    "velocity": FigureKind("Velocity", _PANELS, velocity),
-    "plastic_strain": FigureKind("Equivalent plastic strain", _PANELS, plastic_strain),
-    "temperature": FigureKind("Temperature", _PANELS, temperature),
-    "pore_pressure": FigureKind("Pore pressure", _PANELS, pore_pressure),
+    "velocity": FigureKind("Velocity", _PANELS, velocity, _in_section),
+    "plastic_strain": FigureKind("Equivalent plastic strain", _PANELS, plastic_strain, _in_section),
+    "temperature": FigureKind("Temperature", _PANELS, temperature, _in_section),
+    "pore_pressure": FigureKind("Pore pressure", _PANELS, pore_pressure, _in_section),
     "force": FigureKind(
         "Seismic force and plastic strain",
         "The force of the slide on the ground less its static weight, which is what seismic waves are inverted for.",

@@ -25,6 +25,7 @@ class Painting:
 VELOCITY = Painting("velocity", "velocity", "m/s", "viridis")
 PLASTIC_STRAIN = Painting("plastic_strain", "equivalent plastic strain", "1", "cividis")
 TEMPERATURE = Painting("temperature", "temperature", "°C", "plasma")
+THICKNESS = Painting("thickness", "thickness", "m", "YlOrRd")
 PORE_PRESSURE = Painting("pore_pressure", "pore pressure", "Pa", "viridis")
 
 BOILING = 100.0  # °C: beyond it a scale of equal steps would show the hottest particles alone
@@ -62,8 +63,8 @@ def normalisation(values: Numbers, painting: Painting) -> tuple[Normalize, str]:
 
     Temperatures change pace where ice melts; where they pass 100 °C they go by decades, to the hottest particle.
     """
-    low, high, extend = colour_range(values, painting.field in ("velocity", "plastic_strain"))
-    if painting is not TEMPERATURE:
+    low, high, extend = colour_range(values, painting.field in ("velocity", "plastic_strain", "thickness"))
+    if painting.field != TEMPERATURE.field:
         return Normalize(low, high), extend
     if high > BOILING:
         hottest = float(values[np.isfinite(values)].max())

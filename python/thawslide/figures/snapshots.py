@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,13 +44,13 @@ _OVERVIEW_MARGINS = (1.0, 1.15)
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
-def chosen_snapshots(run: Run) -> list[Snapshot]:
+def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Snapshot]:
     """Return the snapshots nearest to the report times of the case, or to six even times, each once."""
     if not len(run.times):
         raise NotInRunError(f"{run.folder}: no snapshots; set [time] output_interval and run again")
     wanted = run.report_times or list(np.linspace(run.times[0], run.times[-1], 6))
     indices = sorted({int(np.argmin(np.abs(run.times - time))) for time in wanted})
-    return [run.snapshot(index) for index in indices[: len(_LETTERS)]]
+    return [run.snapshot(index, fields=fields) for index in indices[: len(_LETTERS)]]
 
 
 @styled

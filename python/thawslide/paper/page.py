@@ -10,7 +10,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError, ReportError
-from thawslide.figures import FIGURES
+from thawslide.figures.motion import motion
+from thawslide.figures.snapshots import pore_pressure, temperature
 from thawslide.paper import block, freezing, incline, lamplugh, lamplugh_figures, old_capacity, stages
 from thawslide.paper.sentences import MEANINGS, VERDICTS, filled, sentences, table
 from thawslide.report import page_frame
@@ -33,13 +34,13 @@ _OWN: dict[str, Callable[[Runs], Figure]] = {
     "deposit": lamplugh.figure_deposit,
 }
 # Those of any report, drawn of the Lamplugh run.
-_SHARED = {"figure-16": "motion", "figure-18": "temperature", "figure-19": "pore_pressure"}
+_SHARED = {"figure-16": motion, "figure-18": temperature, "figure-19": pore_pressure}
 NAMES = (*_OWN, *_SHARED)
 
 
 def draw(name: str, runs: Runs) -> Figure:
     """Return one figure by its name."""
-    return FIGURES[_SHARED[name]].draw(runs["lamplugh"]) if name in _SHARED else _OWN[name](runs)
+    return _SHARED[name](runs["lamplugh"]) if name in _SHARED else _OWN[name](runs)
 
 
 def measure(runs: Runs) -> dict[str, float]:

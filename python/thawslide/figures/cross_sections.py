@@ -1,0 +1,208 @@
+"""Sections through terrain and slide of a 3D run: along the path line, and across it at chosen places."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from thawslide.errors import NotInRunError
+from thawslide.figures.site import Site, distances, make_site
+from thawslide.figures.style import GROUND, GROUND_LINE, NOTE, ORANGE, RED, SKY, length_unit, styled
+from thawslide.figures.window import Window, fill_terrain, fit
+from thawslide.maps import Map
+from thawslide.relief import round_number
+from thawslide.run import Numbers, Run
+
+_PLACES = 4  # sections across the path
+_POINTS = 600  # of a section
+_SEEN = 0.06  # of the height of a panel: thinner bodies are drawn thicker than they are
+_RELEASE, _DEPOSIT, _LARGEST = SKY, ORANGE, RED
+_CHORD = 0.02  # of the path, to either side of a place: its direction there
+_MARGINS = (1.0, 1.25)
+_WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH = 10.0, 0.75, 0.2, 0.7, 2.45, 1.75  # inches
+
+
+@dataclass(frozen=True)
+class Section:
+    """Heights along a line: distance from its start, ground, and thicknesses upon it, shape (n,) [m]."""
+
+    distance: Numbers
+    ground: Numbers
+    release: Numbers
+    largest: Numbers
+    final: Numbers
+
+
+@dataclass(frozen=True)
+class _Fields:
+    terrain: Map
+    release: Map | None
+    largest: Map
+    final: Map
+
+
+def along(line: Numbers, count: int = _POINTS) -> tuple[Numbers, Numbers]:
+    """Return evenly spaced points of a line, shape (count, 2) [m], and their distances from its start [m]."""
+    reached = distances(line)
+    distance = np.linspace(0.0, reached[-1], count)
+    return np.stack([np.interp(distance, reached, line[:, axis]) for axis in (0, 1)], axis=1), distance
+
+
+def across(line: Numbers, place: float, half_width: float, chord: float) -> Numbers:
+    """Return the ends, left then right as one looks along the line, of a section across it at a distance [m].
+
+    Its direction is normal to the chord of the line that reaches `chord` [m] to either side of the place.
+    """
+    reached = distances(line)
+    before, at, after = (
+        np.array([np.interp(distance, reached, line[:, axis]) for axis in (0, 1)])
+        for distance in (max(place - chord, 0.0), place, min(place + chord, reached[-1]))
+    )
+    forward = (after - before) / np.hypot(*(after - before))
+    left = np.array([-forward[1], forward[0]])
+    return np.stack([at + half_width * left, at - half_width * left])
+
+
+def section(fields: _Fields, line: Numbers, start: float = 0.0) -> Section:
+    """Return what lies under evenly spaced points of a line; its distances [m] count from `start`."""
+    points, distance = along(line)
+    x, y = points.T
+
+    def thickness(field: Map | None) -> Numbers:
+        return np.zeros(len(x)) if field is None else np.nan_to_num(field.at(x, y), nan=0.0)
+
+    return Section(
+        start + distance,
+        fields.terrain.at(x, y),
+        thickness(fields.release),
+        thickness(fields.largest),
+        thickness(fields.final),
+    )
+
+
+@styled
+def cross_sections(run: Run) -> Figure:
+    """Draw the section along the path, thicknesses along it, and sections across it where the slide went."""
+    site = make_site(run)
+    if site.path is None:
+        raise NotInRunError(f"{site.maps.folder / 'results.gpkg'}: no path line, so there is nothing to cut along")
+    fields = _whole(site)
+    profile = section(fields, site.path)
+    if not np.isfinite(profile.ground).any():
+        raise NotInRunError("the path line lies outside the terrain")
+    places = _places(profile, site.threshold)
+    full = _WIDTH - _LEFT - _RIGHT
+    relief = float(np.ptp(profile.ground[np.isfinite(profile.ground)]))
+    first = float(np.clip(full * relief * _MARGINS[1] / profile.distance[-1], 1.6, 3.6))
+    head = 0.7 + first + 0.35
+    rows = -(-len(places) // 2)
+    height = head + 1.2 + 0.85 + rows * _ROW + 0.3
+    figure = Figure(figsize=(_WIDTH, height))
+    figure.suptitle(f"{run.title}: sections", x=_LEFT / _WIDTH, y=1 - 0.14 / height, ha="left", va="top", size=12)
+
+    def place(left: float, top: float, wide: float, high: float) -> Axes:
+        return figure.add_axes((left / _WIDTH, 1 - (top + high) / height, wide / _WIDTH, high / height))
+
+    upper, lower = place(_LEFT, 0.7, full, first), place(_LEFT, head, full, 1.2)
+    window = _window(profile, full / first, _MARGINS)
+    _draw_profile(upper, profile, window, "(a) along the path")
+    upper.set_xlabel("")
+    upper.tick_params(labelbottom=False)
+    _mark_places(upper, profile, places)
+    _draw_thicknesses(lower, profile, window)
+    wide = 0.5 * (full - _GAP)
+    for number, at in enumerate(places):
+        row, column = divmod(number, 2)
+        axes = place(_LEFT + column * (wide + _GAP), head + 2.05 + row * _ROW, wide, _HIGH)
+        _draw_across(axes, fields, site.path, at, wide / _HIGH, chr(ord("c") + number))
+    figure.legend(handles=_legend(site), loc="lower center", ncols=4, bbox_to_anchor=(0.5, 0.0), borderaxespad=0.5)
+    return figure
+
+
+def _whole(site: Site) -> _Fields:
+    """Return the maps at their own resolution, cut to the scene; the path may lead on over the terrain around."""
+    box = site.scene.box
+    release = site.maps["release"].cropped(box) if site.release is not None else None
+    largest = site.maps["max_thickness"].cropped(box)
+    return _Fields(site.maps["terrain"], release, largest, site.maps["final_thickness"].cropped(box))
+
+
+def _places(profile: Section, threshold: float) -> list[float]:
+    """Return distances [m] along the path for sections across it, evenly over where the slide was."""
+    touched = np.flatnonzero((profile.largest > threshold) & np.isfinite(profile.ground))
+    if touched.size < 2:
+        return []
+    start, end = (float(profile.distance[index]) for index in (touched[0], touched[-1]))
+    return [start + (number + 0.5) / _PLACES * (end - start) for number in range(_PLACES)]
+
+
+def _window(cut: Section, box: float, margins: tuple[float, float]) -> Window:
+    shown = np.isfinite(cut.ground)
+    x, ground = cut.distance[shown], cut.ground[shown]
+    heights = float(ground.min()), float((ground + cut.largest[shown]).max())
+    return fit((float(x[0]), float(x[-1])), heights, box, None, margins)
+
+
+def _draw_profile(axes: Axes, cut: Section, window: Window, title: str) -> None:
+    """Draw ground, release, deposit and the largest thickness over it; thin ones are drawn thicker, as told."""
+    shown = np.isfinite(cut.ground)
+    x, ground = cut.distance[shown], cut.ground[shown]
+    release, final, largest = cut.release[shown], cut.final[shown], cut.largest[shown]
+    thickest = float(np.max(np.maximum(release, largest)))
+    times = max(1.0, round_number(max(_SEEN * (window.top - window.bottom) / thickest, 1.0))) if thickest > 0.0 else 1.0
+    fill_terrain(axes, (x, ground), window.bottom)
+    axes.fill_between(x, ground, ground + times * release, color=_RELEASE, linewidth=0, zorder=2)
+    axes.fill_between(x, ground, ground + times * final, color=_DEPOSIT, linewidth=0, zorder=3)
+    axes.plot(x, np.where(largest > 0.0, ground + times * largest, np.nan), color=_LARGEST, linewidth=1.0, zorder=5)
+    window.apply(axes)
+    thicker = f", thickness ×{times:g}" if times > 1.0 else ""
+    axes.set_title(f"{title}, {window.note()}{thicker}", loc="left")
+
+
+def _mark_places(axes: Axes, profile: Section, places: list[float]) -> None:
+    """Name the sections across where they are."""
+    for number, at in enumerate(places):
+        top = float(np.interp(at, profile.distance, np.nan_to_num(profile.ground + profile.largest)))
+        axes.annotate(
+            f"({chr(ord('c') + number)})", (at, top), xytext=(0, 16), textcoords="offset points", ha="center", size=8,
+            color=NOTE, arrowprops={"arrowstyle": "-", "color": NOTE, "linewidth": 0.7},
+        )  # fmt: skip
+
+
+def _draw_thicknesses(axes: Axes, cut: Section, window: Window) -> None:
+    axes.fill_between(cut.distance, 0.0, cut.release, color=_RELEASE, linewidth=0)
+    axes.fill_between(cut.distance, 0.0, cut.final, color=_DEPOSIT, linewidth=0, alpha=0.9)
+    axes.plot(cut.distance, cut.largest, color=_LARGEST, linewidth=1.0)
+    axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
+    Window(window.left, window.right, 0.0, max(1.12 * float(cut.largest.max()), 1e-6), 1).apply(axes)
+    axes.set_xlabel(f"distance along the path ({length_unit(window.right - window.left)[1]})")
+    axes.set_ylabel("thickness (m)")
+    axes.set_title("(b) thickness along the path", loc="left")
+
+
+def _draw_across(axes: Axes, fields: _Fields, path: Numbers, place: float, box: float, letter: str) -> None:
+    """Draw a section as wide as the slide was there and half as much again, and the terrain beside it."""
+    length = float(distances(path)[-1])
+
+    def cut(half_width: float) -> Section:
+        return section(fields, across(path, place, half_width, _CHORD * length), -half_width)
+
+    whole = cut(0.25 * length)
+    reach = np.abs(whole.distance[whole.largest > 0.0])
+    window = _window(cut(1.5 * float(reach.max())), box, _MARGINS)
+    _draw_profile(axes, cut(0.5 * (window.right - window.left)), window, f"({letter}) across, at {place:,.0f} m")
+    axes.set_xlabel(f"distance to the right of the path ({length_unit(window.right - window.left)[1]})")
+
+
+def _legend(site: Site) -> list[Patch | Line2D]:
+    handles: list[Patch | Line2D] = [Patch(facecolor=GROUND, edgecolor=GROUND_LINE, label="ground")]
+    if site.release is not None:
+        handles.append(Patch(color=_RELEASE, label="release"))
+    handles.append(Patch(color=_DEPOSIT, label="at the end"))
+    handles.append(Line2D([], [], color=_LARGEST, label="largest thickness"))
+    return handles

@@ -1,0 +1,140 @@
+"""Maps of the largest values of a run: thickness, speed, arrival and deposit; pressures and heat."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize, TwoSlopeNorm
+from matplotlib.figure import Figure
+
+from thawslide.errors import NotInRunError
+from thawslide.figures.colours import colour_range, number_text
+from thawslide.figures.map_panel import HALO, MapPage, colour_map, outline, paint, quiet_corner, scale_bar
+from thawslide.figures.site import Site, make_site
+from thawslide.figures.style import BLACK, NOTE, prefixed, styled
+from thawslide.maps import Map
+from thawslide.relief import contour_levels
+from thawslide.run import Numbers, Run
+
+
+@dataclass(frozen=True)
+class MapKind:
+    """One map: the name of its file, words, unit, colours, and whether they begin at zero."""
+
+    name: str
+    words: str
+    unit: str
+    colours: str
+    from_zero: bool = True
+
+
+_EXTENT = (
+    MapKind("max_thickness", "largest thickness", "m", "YlOrRd"),
+    MapKind("max_speed", "largest speed", "m/s", "viridis"),
+    MapKind("arrival_time", "arrival time", "s", "cividis"),
+    MapKind("final_thickness", "thickness at the end", "m", "YlOrRd"),
+)
+_IMPACT = (
+    MapKind("max_pressure", "largest dynamic pressure", "Pa", "magma_r"),
+    MapKind("max_momentum_flux", "largest momentum flux", "m³/s²", "viridis"),
+    MapKind("max_pore_pressure", "largest pore pressure", "Pa", "viridis"),
+    MapKind("max_basal_temperature", "highest temperature at the base", "°C", "plasma", from_zero=False),
+    MapKind("max_melt", "most melt water", "m", "YlGnBu"),
+    MapKind("elevation_change", "change of elevation", "m", "RdBu", from_zero=False),
+)
+_FOOT = 0.45  # inches below the maps, for the legend and the notes
+
+
+@styled
+def extent_maps(run: Run) -> Figure:
+    """Draw largest thickness and speed, arrival time and final thickness, with release, path and probes."""
+    return _draw(run, _EXTENT, "extent of the slide")
+
+
+@styled
+def impact_maps(run: Run) -> Figure:
+    """Draw the largest pressures, momentum flux, temperature and melt, and the change of elevation."""
+    return _draw(run, _IMPACT, "pressures, heat and change of the ground")
+
+
+def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
+    site = make_site(run)
+    fields = [(kind, _touched(site, kind)) for kind in kinds if kind.name in site.maps]
+    fields = [(kind, field) for kind, field in fields if np.isfinite(field.values).any()]
+    if not fields:
+        raise NotInRunError(f"{site.maps.folder}: none of the maps {', '.join(kind.name for kind in kinds)} has values")
+    page = MapPage(f"{run.title}: {words}", site.scene, len(fields), _FOOT, bar=0.72)
+    corner = quiet_corner(site.reached, site.scene.box)
+    for number, (kind, field) in enumerate(fields):
+        axes = page.panel(number, labels=number == 0)
+        axes.set_title(f"({chr(ord('a') + number)}) {kind.words}", loc="left")
+        _paint(page, axes, kind, field)
+        site.draw_release(axes)
+        outline(axes, site.reached, site.threshold, colors=BLACK, linewidths=0.6)
+        if kind.name == "arrival_time":
+            _isochrones(axes, field)
+        if number == 0:
+            site.draw_path(axes)
+            site.draw_probes(axes)
+            scale_bar(axes, corner)
+    handles = site.legend()
+    page.figure.legend(
+        handles=handles, loc="lower left", ncols=5, bbox_to_anchor=(page.LEFT / page.WIDTH, 0.22 / page.height),
+        borderaxespad=0.0,
+    )  # fmt: skip
+    page.note(f"Thin line: where the slide was thicker than {site.threshold:g} m. {site.scene.note()}")
+    return page.figure
+
+
+def _touched(site: Site, kind: MapKind) -> Map:
+    """Return a map where the slide was; magnitudes of zero are left free as well."""
+    field = site.part(kind.name)
+    values = field.values
+    if kind.name in ("max_thickness", "final_thickness"):
+        values = np.where(values > site.threshold, values, np.nan)
+    elif kind.name == "elevation_change":
+        values = np.where(np.abs(values) > 0.0, values, np.nan)
+    elif kind.from_zero and kind.name != "arrival_time":
+        values = np.where(values > 0.0, values, np.nan)
+    return replace(field, values=values)
+
+
+def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map) -> None:
+    divisor, unit = prefixed(field.values, kind.unit) if kind.unit == "Pa" else (1.0, kind.unit)
+    field = replace(field, values=field.values / divisor)
+    norm, extend = _norm(field.values, kind)
+    painter = ScalarMappable(norm, colour_map(kind.colours))
+    paint(axes, field, painter)
+    bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
+    if isinstance(norm, TwoSlopeNorm):
+        bar.set_ticks([norm.vmin or 0.0, 0.5 * (norm.vmin or 0.0), 0.0, 0.5 * (norm.vmax or 0.0), norm.vmax or 0.0])
+        bar.ax.yaxis.set_major_formatter(lambda value, _: number_text(value))
+    bar.set_label(unit, labelpad=2)
+    low, high = float(np.nanmin(field.values)), float(np.nanmax(field.values))
+    ends = f"max {number_text(high)} {unit}" if kind.from_zero else f"{number_text(low)} to {number_text(high)} {unit}"
+    axes.set_title(ends, loc="right", color=NOTE, size=8)
+
+
+def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:
+    low, high, extend = colour_range(values[np.isfinite(values)], kind.from_zero)
+    if kind.name == "elevation_change" and low < 0.0 < high:
+        return TwoSlopeNorm(0.0, low, high), extend
+    return Normalize(low, high), extend
+
+
+def _isochrones(axes: Axes, field: Map) -> None:
+    """Draw lines of equal arrival time with their seconds."""
+    levels = contour_levels(field.values, 7)
+    if len(levels) < 2:
+        return
+    grid = field.grid
+    drawn = axes.contour(
+        grid.x, grid.y, np.ma.masked_invalid(field.values), levels=levels, colors="white", linewidths=0.8, zorder=5
+    )
+    for text in axes.clabel(drawn, fontsize=6.5, fmt="%g s", colors="black"):
+        text.set_path_effects(HALO)
+        text.set_zorder(7)

@@ -1,0 +1,257 @@
+"""What all maps share: shaded terrain with contour lines, coordinates, scale bar, north arrow, and their page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, cast
+
+import matplotlib.patheffects as patheffects
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, LinearSegmentedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from matplotlib.offsetbox import AnchoredOffsetbox, AuxTransformBox, HPacker, TextArea, VPacker
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+from thawslide.figures.style import BLACK, NOTE
+from thawslide.maps import Box, Map
+from thawslide.relief import contour_levels, hillshade, round_number
+from thawslide.run import Numbers
+
+MOST_CELLS = 800  # a side of what is drawn: as fine as the page shows
+COVER = 0.82  # opacity of a field over the terrain: the relief below still shows
+ASPECTS = (0.45, 2.4)  # width over height of a map, narrowest and widest
+_MOST_CONTOURS = 24
+_MARGIN = 0.12  # of the longer side of what a map is about, left free around it
+_SHADES = LinearSegmentedColormap.from_list("shades", ["#6F6A62", "#B9B4AA", "#E4E0D8", "#FBFAF7"])
+CONTOUR = "#5B4B37"
+HALO: list[patheffects.AbstractPathEffect] = [patheffects.withStroke(linewidth=2.2, foreground="white")]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """The stretch of terrain a map shows, thinned to what the page shows, and its hill shading."""
+
+    box: Box
+    terrain: Map  # elevation [m]
+    shade: Numbers  # 0..1, shape (rows, columns) of the terrain
+    exaggeration: float  # of heights in the shading
+
+    @property
+    def aspect(self) -> float:
+        """Width over height."""
+        west, east, south, north = self.box
+        return (east - west) / (north - south)
+
+    def note(self) -> str:
+        """Say what the coordinates are, and how the terrain is drawn."""
+        crs = f"Coordinates: {self.terrain.crs}." if self.terrain.crs else "No coordinate reference system is known."
+        levels = contour_levels(self.terrain.values, _MOST_CONTOURS)
+        lines = f", contour lines every {levels[1] - levels[0]:g} m" if len(levels) > 1 else ""
+        heights = "" if self.exaggeration == 1.0 else f", heights ×{self.exaggeration:g}"
+        return f"{crs} Terrain: shaded by light from the north-west{heights}{lines}."
+
+
+def make_scene(terrain: Map, box: Box, aspects: tuple[float, float] = ASPECTS) -> Scene:
+    """Return the scene of a box, widened to an aspect that fits a page, within the terrain."""
+    box = page_box(box, terrain.grid.box, aspects)
+    part = terrain.cropped(box).thinned(MOST_CELLS)
+    finite = part.values[np.isfinite(part.values)]
+    relief = float(np.ptp(finite)) / max(box[1] - box[0], box[3] - box[2]) if finite.size else 0.0
+    # Gentle ground would be one even grey.
+    exaggeration = float(np.clip(round_number(0.25 / relief), 1.0, 10.0)) if relief > 0.0 else 1.0
+    shade = hillshade(part.values, part.grid.cell_x, part.grid.cell_y, exaggeration)
+    return Scene(box, part, shade, exaggeration)
+
+
+def box_about(places: Sequence[Box]) -> Box:
+    """Return the box about boxes, with a margin for what surrounds them."""
+    west, east = min(box[0] for box in places), max(box[1] for box in places)
+    south, north = min(box[2] for box in places), max(box[3] for box in places)
+    margin = _MARGIN * max(east - west, north - south)
+    return west - margin, east + margin, south - margin, north + margin
+
+
+def page_box(box: Box, whole: Box, aspects: tuple[float, float] = ASPECTS) -> Box:
+    """Return the box cut to the whole, then its shorter side made longer where it is too slim for a page."""
+    west, east, south, north = (
+        max(box[0], whole[0]), min(box[1], whole[1]), max(box[2], whole[2]), min(box[3], whole[3]),
+    )  # fmt: skip
+    width, height = east - west, north - south
+    wanted = max(width, aspects[0] * height), max(height, width / aspects[1])
+    west, east = _longer(west, east, wanted[0], whole[0], whole[1])
+    south, north = _longer(south, north, wanted[1], whole[2], whole[3])
+    return west, east, south, north
+
+
+def _longer(low: float, high: float, length: float, least: float, most: float) -> tuple[float, float]:
+    length = min(length, most - least)
+    start = min(max(0.5 * (low + high - length), least), most - length)
+    return start, start + length
+
+
+def covered_box(field: Map, threshold: float = 0.0) -> Box | None:
+    """Return the box about the cells whose value is above a threshold, None where there is none."""
+    rows, columns = np.nonzero(np.nan_to_num(field.values, nan=-np.inf) > threshold)
+    if not rows.size:
+        return None
+    grid = field.grid
+    west, _, south, _ = grid.box
+    return (
+        west + float(columns.min()) * grid.cell_x,
+        west + float(columns.max() + 1) * grid.cell_x,
+        south + float(rows.min()) * grid.cell_y,
+        south + float(rows.max() + 1) * grid.cell_y,
+    )
+
+
+def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True) -> None:
+    """Draw the shaded terrain, its contour lines (with elevations where `labels`) and coordinates in km."""
+    axes.imshow(
+        scene.shade, cmap=_SHADES, vmin=0.15, vmax=1.0, extent=scene.terrain.grid.box, origin="lower",
+        interpolation="bilinear", zorder=1,
+    )  # fmt: skip
+    levels = contour_levels(scene.terrain.values, _MOST_CONTOURS)
+    if lines and len(levels):
+        grid = scene.terrain.grid
+        interval = levels[1] - levels[0] if len(levels) > 1 else levels[0]
+        heavy = np.isclose(np.mod(levels / (5.0 * interval) + 0.5, 1.0), 0.5)
+        drawn = axes.contour(
+            grid.x, grid.y, np.ma.masked_invalid(scene.terrain.values), levels=levels, colors=CONTOUR,
+            linewidths=np.where(heavy, 0.7, 0.35).tolist(), alpha=0.75, zorder=4,
+        )  # fmt: skip
+        if labels:
+            texts = axes.clabel(drawn, levels=levels[::2], fontsize=6, fmt="%g", inline_spacing=2)
+            for text in texts:
+                text.set_zorder(4.5)
+    west, east, south, north = scene.box
+    axes.set_xlim(west, east)
+    axes.set_ylim(south, north)
+    axes.set_aspect("equal")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 1000.0:.10g}".replace("-", "−")))
+    axes.tick_params(axis="y", labelrotation=90)
+    for text in axes.get_yticklabels():
+        text.set_verticalalignment("center")
+    for side in axes.spines.values():
+        side.set_visible(True)
+
+
+def paint(axes: Axes, field: Map, painter: ScalarMappable) -> AxesImage:
+    """Draw a field over the terrain; cells without a value stay free."""
+    return axes.imshow(
+        np.ma.masked_invalid(field.values), cmap=painter.get_cmap(), norm=cast(Normalize, painter.norm),
+        extent=field.grid.box, origin="lower", interpolation="nearest", alpha=COVER, zorder=3,
+    )  # fmt: skip
+
+
+def outline(axes: Axes, field: Map, level: float, **style: Any) -> None:
+    """Draw the line along which a field passes a level; places without data count as below it."""
+    grid = field.grid
+    values = np.pad(np.nan_to_num(field.values, nan=0.0), 1)
+    if values.max() <= level:
+        return
+    x = grid.x0 + grid.cell_x * np.arange(-1, grid.columns + 1)
+    y = grid.y0 + grid.cell_y * np.arange(-1, grid.rows + 1)
+    axes.contour(x, y, values, levels=[level], **({"zorder": 5} | style))
+
+
+def quiet_corner(field: Map | None, box: Box) -> str:
+    """Return the corner of a box in which a field covers least, as matplotlib names it."""
+    corners = {"lower left": (0, 0), "lower right": (1, 0), "upper left": (0, 1), "upper right": (1, 1)}
+    if field is None:
+        return "lower left"
+    west, east, south, north = box
+    width, height = (east - west) / 3.0, (north - south) / 3.0
+
+    def covered(corner: str) -> int:
+        right, top = corners[corner]
+        start_x, start_y = west + 2.0 * width * right, south + 2.0 * height * top
+        part = field.cropped((start_x, start_x + width, start_y, start_y + height))
+        return int(np.count_nonzero(part.values > 0.0))
+
+    return min(corners, key=covered)
+
+
+def scale_bar(axes: Axes, corner: str) -> None:
+    """Draw a bar of a round length and an arrow to grid north in a corner."""
+    west, east = axes.get_xlim()
+    length = round_number(0.3 * (east - west))
+    bar = AuxTransformBox(axes.transData)
+    bar.add_artist(Rectangle((0, 0), length, 0, fill=False, linewidth=2.2, edgecolor=BLACK))
+    words = f"{length / 1000:g} km" if length >= 1000.0 else f"{length:g} m"
+    ruler = VPacker(children=[TextArea(words, textprops={"size": 7.5}), bar], align="center", pad=0, sep=2)
+    north = TextArea("N\n▲", textprops={"size": 7.5, "ha": "center", "linespacing": 0.95, "multialignment": "center"})
+    anchored = AnchoredOffsetbox(
+        loc=corner, child=HPacker(children=[north, ruler], align="center", pad=0, sep=6), pad=0.35, borderpad=0.4
+    )
+    anchored.patch.set(facecolor="white", alpha=0.82, linewidth=0)
+    anchored.set_zorder(8)
+    axes.add_artist(anchored)
+
+
+class MapPage:
+    """A page of maps of equal size; sizes in inches from the top left corner."""
+
+    WIDTH, LEFT, RIGHT, GAP, HEAD, TITLE, TICKS = 10.0, 0.62, 0.2, 0.28, 0.38, 0.3, 0.5
+    HIGHEST, TALLEST = 12.0, 6.8  # of a page; of a map
+
+    def __init__(self, title: str, scene: Scene, count: int, foot: float, bar: float = 0.0) -> None:
+        """Lay out `count` maps with `bar` inches for a colourbar right of each, and `foot` inches below all."""
+        self.scene, self.count, self.bar = scene, count, bar
+        for columns in range(1, count + 1):
+            self.columns = columns
+            inside = self.WIDTH - self.LEFT - self.RIGHT - (columns - 1) * self.GAP
+            self.width = inside / columns - bar
+            self.high = self.width / scene.aspect
+            self.rows = -(-count // columns)
+            self.height = self.HEAD + self.rows * (self.high + self.TITLE) + self.TICKS + foot
+            if self.height <= self.HIGHEST and self.high <= self.TALLEST:
+                break
+        if self.high > self.TALLEST:  # too slim for the page: it stays narrower than its place
+            self.width, self.high = self.TALLEST * scene.aspect, self.TALLEST
+            self.height = self.HEAD + self.rows * (self.high + self.TITLE) + self.TICKS + foot
+        self.figure = Figure(figsize=(self.WIDTH, self.height))
+        self.figure.suptitle(title, x=self.LEFT / self.WIDTH, y=1 - 0.14 / self.height, ha="left", va="top", size=12)
+
+    def place(self, left: float, top: float, width: float, height: float) -> Axes:
+        """Return axes at a place."""
+        return self.figure.add_axes(
+            (left / self.WIDTH, 1 - (top + height) / self.height, width / self.WIDTH, height / self.height)
+        )
+
+    def panel(self, number: int, labels: bool) -> Axes:
+        """Return the map of a number with its terrain; coordinates stand at the left and lower ends of the page."""
+        row, column = divmod(number, self.columns)
+        left = self.LEFT + column * (self.width + self.bar + self.GAP)
+        axes = self.place(left, self.HEAD + row * (self.high + self.TITLE) + self.TITLE, self.width, self.high)
+        draw_scene(axes, self.scene, labels)
+        if column == 0:
+            axes.set_ylabel("northing (km)")
+        else:
+            axes.tick_params(labelleft=False)
+        if number + self.columns >= self.count:
+            axes.set_xlabel("easting (km)")
+        else:
+            axes.tick_params(labelbottom=False)
+        return axes
+
+    def panel_bar(self, axes: Axes) -> Axes:
+        """Return axes for the colourbar right of a map."""
+        box = axes.get_position()
+        width = 0.13 / self.WIDTH
+        return self.figure.add_axes((box.x1 + 0.08 / self.WIDTH, box.y0 + 0.1 * box.height, width, 0.8 * box.height))
+
+    def note(self, text: str, bottom: float = 0.08) -> None:
+        """Write a line at the foot of the page."""
+        self.figure.text(self.LEFT / self.WIDTH, bottom / self.height, text, size=7.5, color=NOTE, va="bottom")
+
+
+def colour_map(name: str) -> Colormap:
+    """Return a colour map of matplotlib by its name."""
+    return ScalarMappable(cmap=name).get_cmap()

@@ -1,0 +1,76 @@
+"""What the probes of a 3D run saw through time: thickness and speed at points, flow through sections."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from thawslide.errors import NotInRunError
+from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY, letters, styled, time_axis, time_line
+from thawslide.run import Run
+
+_COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY, BLACK)
+_DASHES = ("-", "--", ":")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One quantity of probes: how its columns in probes.csv end, words for it and its unit."""
+
+    ending: str
+    words: str
+    unit: str
+
+
+QUANTITIES = (
+    Quantity("_thickness_m", "thickness", "m"),
+    Quantity("_speed_m_s", "speed", "m/s"),
+    Quantity("_flow_area_m2", "flow area", "m²"),
+    Quantity("_discharge_m3_s", "discharge", "m³/s"),
+)
+
+
+@styled
+def probes(run: Run) -> Figure:
+    """Draw a panel for each quantity that probes hold, with a line a probe."""
+    columns = run.probes
+    if columns is None:
+        raise NotInRunError(f"{run.folder / 'probes.csv'}: no such file; the case has no [probes.NAME]")
+    time = columns["time_s"]
+    found = {
+        quantity: {
+            name.removesuffix(quantity.ending): values
+            for name, values in columns.items()
+            if name.endswith(quantity.ending)
+        }
+        for quantity in QUANTITIES
+    }
+    found = {quantity: lines for quantity, lines in found.items() if lines}
+    if not found:
+        endings = ", ".join(quantity.ending for quantity in QUANTITIES)
+        raise NotInRunError(f"probes.csv: no column ends with {endings}")
+    names = list(dict.fromkeys(name for lines in found.values() for name in lines))
+    rows = -(-len(found) // 2)
+    across = min(len(found), 2)
+    figure = Figure(figsize=(10.0 if across == 2 else 6.0, 0.9 + 2.6 * rows), layout="constrained")
+    figure.suptitle(f"{run.title}: probes", x=0.01, ha="left", size=12)
+    panels = list(figure.subplots(rows, across, squeeze=False, sharex=True).flat)
+    for axes, (quantity, lines) in zip(panels, found.items(), strict=False):
+        for name, values in lines.items():
+            number = names.index(name)
+            time_line(
+                axes, time, values, color=_COLOURS[number % len(_COLOURS)],
+                linestyle=_DASHES[number // len(_COLOURS) % len(_DASHES)], label=name,
+            )  # fmt: skip
+        axes.set_ylabel(f"{quantity.words} ({quantity.unit})")
+        if any(np.nanmax(values, initial=0.0) > 0.0 for values in lines.values()):
+            axes.set_ylim(bottom=0.0)
+        axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
+        axes.legend(loc="best")
+        time_axis(axes, time)
+    for axes in panels[len(found) :]:
+        axes.remove()
+    letters(panels[: len(found)], [quantity.words for quantity in found])
+    return figure

@@ -1,0 +1,124 @@
+"""What the figures of a 3D run on a DEM share: its terrain, where the slide was, outlines and lines over it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from thawslide.errors import NotInRunError
+from thawslide.figures.map_panel import ASPECTS, HALO, MOST_CELLS, Scene, box_about, covered_box, make_scene, outline
+from thawslide.figures.style import BLACK, BLUE, PURPLE
+from thawslide.geopackage import read_layer
+from thawslide.maps import Grid, Map, Maps
+from thawslide.run import Numbers, Run
+
+RELEASE, PATH = BLACK, BLUE
+
+
+@dataclass
+class Site:
+    """A run's terrain and maps, cut to what the slide touched and thinned to what a page shows."""
+
+    run: Run
+    maps: Maps
+    aspects: tuple[float, float] = ASPECTS  # width over height of the scene, narrowest and widest
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The terrain under and around all that the slide touched."""
+        about = [
+            covered_box(self.maps["max_thickness"], self.threshold),
+            covered_box(self.maps["release"]) if "release" in self.maps else None,
+        ]
+        boxes = [box for box in about if box is not None]
+        terrain = self.maps["terrain"]
+        return make_scene(terrain, box_about(boxes) if boxes else terrain.grid.box, self.aspects)
+
+    @property
+    def threshold(self) -> float:
+        """Thickness [m] from which on the slide counts as being there."""
+        return float(self.run.section("maps").get("arrival_thickness", 0.0))
+
+    @cached_property
+    def grid(self) -> Grid:
+        """The grid of the maps, cut to the scene and thinned; particles are gathered on it."""
+        grid = self.maps["max_thickness"].grid.cropped(self.scene.box)
+        return grid.thinned(grid.factor(MOST_CELLS))
+
+    @cached_property
+    def reached(self) -> Map:
+        """The largest thickness [m], in the scene."""
+        return self.part("max_thickness")
+
+    @cached_property
+    def release(self) -> Map | None:
+        """The thickness [m] at t = 0, in the scene, None where the run has not written it."""
+        return self.part("release") if "release" in self.maps else None
+
+    def part(self, name: str) -> Map:
+        """Return a map cut to the scene and thinned, the largest value of each block of cells."""
+        return self.maps[name].cropped(self.scene.box).thinned(MOST_CELLS, "largest")
+
+    @cached_property
+    def path(self) -> Numbers | None:
+        """The line along which the front is measured, shape (n, 2) [m], None where there is none."""
+        try:
+            features = read_layer(self.maps.folder / "results.gpkg", "path")
+        except NotInRunError:
+            return None
+        parts = [part for feature in features for part in feature.parts]
+        return parts[0] if parts and len(parts[0]) > 1 else None
+
+    @cached_property
+    def probes(self) -> dict[str, tuple[float, float]]:
+        """Where the probes of the case stand that are points, by name."""
+        points = {name: probe.get("point") for name, probe in self.run.section("probes").items()}
+        return {name: (float(point[0]), float(point[1])) for name, point in points.items() if point}
+
+    def draw_release(self, axes: Axes, width: float = 1.3) -> None:
+        """Draw the outline of the release."""
+        if self.release is not None:
+            outline(axes, self.release, 1e-6, colors=RELEASE, linewidths=width, linestyles="--")
+
+    def draw_path(self, axes: Axes) -> None:
+        """Draw the path line."""
+        if self.path is not None:
+            axes.plot(*self.path.T, color=PATH, linewidth=1.1, path_effects=HALO, zorder=6)
+
+    def draw_probes(self, axes: Axes) -> None:
+        """Mark the probes with their names."""
+        for name, (x, y) in self.probes.items():
+            axes.plot([x], [y], marker="D", color=PURPLE, markeredgecolor="white", markersize=5, zorder=7)
+            axes.annotate(
+                name, (x, y), xytext=(5, 4), textcoords="offset points", size=7.5, zorder=7, path_effects=HALO
+            )
+
+    def legend(self, *, path: bool = True, probes: bool = True) -> list[Line2D]:
+        """Return what the lines mean, of those that are there."""
+        handles = []
+        if self.release is not None:
+            handles.append(Line2D([], [], color=RELEASE, linestyle="--", linewidth=1.3, label="release"))
+        if path and self.path is not None:
+            handles.append(Line2D([], [], color=PATH, linewidth=1.3, label="path"))
+        if probes and self.probes:
+            handles.append(Line2D([], [], color=PURPLE, marker="D", linestyle="", markersize=5, label="probe"))
+        return handles
+
+
+def make_site(run: Run, aspects: tuple[float, float] = ASPECTS) -> Site:
+    """Return the site of a run; NotInRunError for a run that has no maps."""
+    site = Site(run, Maps(run), aspects)
+    for name in ("terrain", "max_thickness"):
+        if name not in site.maps:
+            raise NotInRunError(f"{site.maps.folder / name}.tif: no such map; without it no map can be drawn")
+    return site
+
+
+def distances(line: Numbers) -> Numbers:
+    """Return how far along a line each of its points lies, shape (n,) [m]."""
+    steps = np.hypot(*np.diff(line, axis=0).T)
+    return np.concatenate(([0.0], np.cumsum(steps)))

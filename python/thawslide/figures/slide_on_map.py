@@ -1,0 +1,88 @@
+"""The slide over its terrain from above at chosen times: speed, thickness, temperature next to the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.figure import Figure
+
+from thawslide.binning import FIELDS, Columns, gather
+from thawslide.errors import NotInRunError
+from thawslide.figures.colours import TEMPERATURE, THICKNESS, VELOCITY, Painting, label_bar, normalisation, number_text
+from thawslide.figures.map_panel import MapPage, colour_map, paint, quiet_corner, scale_bar
+from thawslide.figures.site import Site, make_site
+from thawslide.figures.snapshots import chosen_snapshots
+from thawslide.figures.style import NOTE, styled
+from thawslide.maps import Map
+from thawslide.run import Run
+
+SPEED = replace(VELOCITY, words="speed, mean over the thickness")
+BASE_TEMPERATURE = replace(TEMPERATURE, words="temperature next to the ground")
+_FOOT = 0.82  # inches below the maps, for the colourbar and the notes
+
+
+def columns_on(site: Site, index: int) -> Columns:
+    """Return what stands on the cells of the site in one snapshot."""
+    return gather(site.grid, site.run.snapshot(index, fields=FIELDS), cell_of(site.run))
+
+
+def cell_of(run: Run) -> float:
+    """Return the size [m] of the simulator's grid cells."""
+    return float(run.section("grid").get("cell", 0.0))
+
+
+def where_thick(field: Map, columns: Columns, threshold: float) -> Map:
+    """Return a field without the cells whose thickness [m] is not above a threshold."""
+    return replace(field, values=np.where(columns.thickness.values > threshold, field.values, np.nan))
+
+
+@styled
+def slide_speed(run: Run) -> Figure:
+    """Draw the speed of the slide, mean over its thickness."""
+    return _draw(run, SPEED, lambda columns: columns.speed)
+
+
+@styled
+def slide_thickness(run: Run) -> Figure:
+    """Draw the thickness of the slide."""
+    return _draw(run, THICKNESS, lambda columns: columns.thickness)
+
+
+@styled
+def slide_temperature(run: Run) -> Figure:
+    """Draw the temperature of the slide next to the ground."""
+    if not run.section("heat").get("enabled", True):
+        raise NotInRunError("heat.enabled is false: temperatures do not change")
+    return _draw(run, BASE_TEMPERATURE, lambda columns: columns.temperature)
+
+
+def _draw(run: Run, painting: Painting, field_of: Callable[[Columns], Map]) -> Figure:
+    site = make_site(run)
+    gathered = [gather(site.grid, shot, cell_of(run)) for shot in chosen_snapshots(run, FIELDS)]
+    fields = [where_thick(field_of(columns), columns, site.threshold) for columns in gathered]
+    values = np.concatenate([field.values.ravel() for field in fields])
+    if not np.isfinite(values).any():
+        raise NotInRunError(f"no snapshot has a {painting.words} to show on the map")
+    norm, extend = normalisation(values, painting)
+    painter = ScalarMappable(norm, colour_map(painting.colours))
+    page = MapPage(f"{run.title}: {painting.words.split(',')[0]}", site.scene, len(fields), _FOOT)
+    corner = quiet_corner(site.reached, site.scene.box)
+    for number, (columns, field) in enumerate(zip(gathered, fields, strict=True)):
+        axes = page.panel(number, labels=False)
+        paint(axes, field, painter)
+        site.draw_release(axes, 1.0)
+        axes.set_title(f"({chr(ord('a') + number)}) t = {number_text(columns.time)} s", loc="left")
+        if np.isfinite(field.values).any():
+            most = number_text(float(np.nanmax(field.values)))
+            axes.set_title(f"max {most} {painting.unit}", loc="right", color=NOTE, size=8)
+        if number == 0:
+            scale_bar(axes, corner)
+    bar_axes = page.place(2.6, page.height - 0.8, page.WIDTH - 5.2, 0.14)
+    bar = page.figure.colorbar(painter, cax=bar_axes, orientation="horizontal", extend=extend)
+    label_bar(bar, norm)
+    bar.set_label(f"{painting.words} ({painting.unit})", labelpad=1)
+    page.note(f"Dashed: release. Thinner than {site.threshold:g} m is not drawn. {site.scene.note()}")
+    return page.figure

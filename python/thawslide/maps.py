@@ -1,0 +1,222 @@
+"""The maps of a run: GeoTIFF files as numbers on a grid, parts of them, and values along lines."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import rasterio
+from rasterio.errors import NotGeoreferencedWarning, RasterioError
+
+from thawslide.errors import NotInRunError, ReportError
+from thawslide.run import Numbers, Run
+
+Box = tuple[float, float, float, float]  # west, east, south, north [m]
+
+# How the values of a block become one: of a terrain the mean, of a map of largest values the largest.
+_REDUCTIONS: dict[str, Callable[..., Numbers]] = {"mean": np.nanmean, "largest": np.nanmax}
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Points over the horizontal plane, each the centre of a cell; the first is in the south-west [m]."""
+
+    x0: float
+    y0: float
+    cell_x: float
+    cell_y: float
+    columns: int
+    rows: int
+
+    @property
+    def x(self) -> Numbers:
+        """Eastings of the columns [m]."""
+        return self.x0 + self.cell_x * np.arange(self.columns, dtype=np.float64)
+
+    @property
+    def y(self) -> Numbers:
+        """Northings of the rows [m], from south to north."""
+        return self.y0 + self.cell_y * np.arange(self.rows, dtype=np.float64)
+
+    @property
+    def box(self) -> Box:
+        """The outer edges of the cells."""
+        west, south = self.x0 - 0.5 * self.cell_x, self.y0 - 0.5 * self.cell_y
+        return west, west + self.columns * self.cell_x, south, south + self.rows * self.cell_y
+
+    @property
+    def cell_area(self) -> float:
+        """Area of one cell [m2]."""
+        return self.cell_x * self.cell_y
+
+    def part(self, box: Box) -> tuple[slice, slice]:
+        """Return the rows and columns whose cells overlap a box, at least one of each."""
+        west, _, south, _ = self.box
+        return (
+            _overlap(box[2], box[3], south, self.cell_y, self.rows),
+            _overlap(box[0], box[1], west, self.cell_x, self.columns),
+        )
+
+    def cropped(self, box: Box) -> Grid:
+        """Return the grid of the cells that overlap a box."""
+        rows, columns = self.part(box)
+        return replace(
+            self,
+            x0=self.x0 + columns.start * self.cell_x,
+            y0=self.y0 + rows.start * self.cell_y,
+            columns=columns.stop - columns.start,
+            rows=rows.stop - rows.start,
+        )
+
+    def thinned(self, factor: int) -> Grid:
+        """Return the grid whose cells are blocks of factor x factor cells; those at the edge may reach over it."""
+        return Grid(
+            self.x0 + 0.5 * (factor - 1) * self.cell_x,
+            self.y0 + 0.5 * (factor - 1) * self.cell_y,
+            self.cell_x * factor,
+            self.cell_y * factor,
+            -(-self.columns // factor),
+            -(-self.rows // factor),
+        )
+
+    def factor(self, most: int) -> int:
+        """Return the smallest factor that thins the grid to at most `most` cells a side."""
+        return max(1, -(-max(self.columns, self.rows) // most))
+
+
+@dataclass(frozen=True)
+class Map:
+    """Values on a grid, shape (rows, columns), rows from south to north, nan where there is none."""
+
+    grid: Grid
+    values: Numbers
+    unit: str = ""
+    description: str = ""
+    crs: str = ""  # the coordinate reference system in words, "" where none is known
+
+    def cropped(self, box: Box) -> Map:
+        """Return the part whose cells overlap a box."""
+        rows, columns = self.grid.part(box)
+        return replace(self, grid=self.grid.cropped(box), values=self.values[rows, columns])
+
+    def thinned(self, most: int, reduction: Literal["mean", "largest"] = "mean") -> Map:
+        """Return the map with at most `most` cells a side: blocks of cells become one, places without data aside."""
+        factor = self.grid.factor(most)
+        if factor == 1:
+            return self
+        grid = self.grid.thinned(factor)
+        missing = ((0, grid.rows * factor - self.grid.rows), (0, grid.columns * factor - self.grid.columns))
+        blocks = np.pad(self.values, missing, constant_values=np.nan).reshape(grid.rows, factor, grid.columns, factor)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # blocks without any data stay without
+            values = _REDUCTIONS[reduction](blocks, axis=(1, 3))
+        return replace(self, grid=grid, values=values)
+
+    def at(self, x: Numbers, y: Numbers) -> Numbers:
+        """Return the values at places [m], linear between the four points around; nan outside and next to no data."""
+        grid = self.grid
+        u, v = (np.asarray(x) - grid.x0) / grid.cell_x, (np.asarray(y) - grid.y0) / grid.cell_y
+        inside = (u >= 0.0) & (u <= grid.columns - 1) & (v >= 0.0) & (v <= grid.rows - 1)
+        column = np.clip(np.floor(u), 0, max(grid.columns - 2, 0)).astype(np.intp)
+        row = np.clip(np.floor(v), 0, max(grid.rows - 2, 0)).astype(np.intp)
+        a, b = u - column, v - row
+        total = np.zeros(np.broadcast(u, v).shape)
+        for dr, wr in ((0, 1.0 - b), (1, b)):
+            for dc, wc in ((0, 1.0 - a), (1, a)):
+                value = self.values[np.minimum(row + dr, grid.rows - 1), np.minimum(column + dc, grid.columns - 1)]
+                total += np.where(wr * wc == 0.0, 0.0, wr * wc * value)
+        return np.where(inside, total, np.nan)
+
+    def volume(self) -> float:
+        """Return the volume [m3] under a map of thickness [m]."""
+        return float(np.nansum(self.values)) * self.grid.cell_area
+
+
+class Maps:
+    """The maps of a run by name; each is read when asked for and not kept, since a whole one may take much memory."""
+
+    def __init__(self, run: Run) -> None:
+        """Find the maps; NotInRunError for a run without any."""
+        self.folder = run.folder / "maps"
+        if not self.folder.is_dir():
+            raise NotInRunError(f"{self.folder}: no such folder; only a 3D run on a DEM writes maps")
+
+    @cached_property
+    def names(self) -> list[str]:
+        """The names of all maps there are."""
+        return sorted(path.stem for path in self.folder.glob("*.tif"))
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
+    def __getitem__(self, name: str) -> Map:
+        if name not in self.names:
+            there = ", ".join(self.names) or "none"
+            raise NotInRunError(f"{self.folder / name}.tif: no such map; there are: {there}")
+        return read_map(self.folder / f"{name}.tif")
+
+    def about(self, name: str) -> tuple[str, str]:
+        """Return what a map is and its unit, as its file tells."""
+        with _open(self.folder / f"{name}.tif") as file:
+            return file.descriptions[0] or "", file.units[0] or ""
+
+
+def read_map(path: Path) -> Map:
+    """Read the first band of a GeoTIFF; ReportError when it is missing, damaged or not aligned with north."""
+    with _open(path) as file:
+        transform, crs = file.transform, file.crs
+        try:
+            band = file.read(1, masked=True)
+        except RasterioError as error:
+            raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
+        unit, description = file.units[0] or "", file.descriptions[0] or ""
+    if transform.b != 0.0 or transform.d != 0.0 or transform.a <= 0.0 or transform.e >= 0.0:
+        raise ReportError(f"{path}: rows must go from west to east and columns from north to south")
+    rows, columns = band.shape
+    grid = Grid(
+        transform.c + 0.5 * transform.a,
+        transform.f + (rows - 0.5) * transform.e,
+        transform.a,
+        -transform.e,
+        columns,
+        rows,
+    )
+    values = np.ma.filled(band.astype(np.float64), np.nan)[::-1]
+    return Map(grid, values, unit, description, _crs_words(crs))
+
+
+def on_map(run: Run) -> bool:
+    """Whether figures of a run are maps: a 3D run on a DEM."""
+    return run.dimension == 3 and (run.section("terrain").get("type") == "dem" or (run.folder / "maps").is_dir())
+
+
+def _open(path: Path) -> rasterio.DatasetReader:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", NotGeoreferencedWarning)
+            return rasterio.open(path)
+    except NotGeoreferencedWarning as error:
+        raise ReportError(f"{path}: has no coordinates; it is not a map the simulator wrote") from error
+    except (RasterioError, OSError) as error:
+        raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
+
+
+def _overlap(low: float, high: float, start: float, cell: float, count: int) -> slice:
+    first = int(np.clip(np.floor((low - start) / cell + 1e-9), 0, count - 1))
+    last = int(np.clip(np.ceil((high - start) / cell - 1e-9), first + 1, count))
+    return slice(first, last)
+
+
+def _crs_words(crs: rasterio.crs.CRS | None) -> str:
+    """Return a reference system by its name and number, e.g. "MGI / Austria GK West (EPSG:31254)"."""
+    if not crs:
+        return ""
+    name = str(crs.to_dict(projjson=True).get("name", ""))
+    code = crs.to_epsg()
+    number = f"EPSG:{code}" if code else ""
+    return f"{name} ({number})" if name and number and name != number else name or number
