@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes a synthetic mountain valley: valley.tif, release.geojson (the rock that comes down) and path.geojson (its way).
+"""Writes a synthetic mountain valley: valley.tif, release.geojson (what comes down) and path.geojson (its way).
 
 The valley's floor falls as the long profile of cases/lamplugh: a face of 48 degrees, a ramp of 8, a glacier of 1.3
 degrees. That profile is swept along a centre line that bends to the left at the foot of the face. Across, the floor is
 1 km wide and gently concave, the sides rise as a parabola and then straight, 280 m above the floor where the valley is
 2.5 km wide; up on the face the sides are a shallow hollow only. Ribs and gullies on the sides, which begin beyond the
-floor, are noise without any wave shorter than 120 m. All of it is synthetic, the place on the map too.
+floor, are waves of random phases, none shorter than 200 m. All of it is synthetic, the place on the map too.
 
 Needs rasterio:   .venv/bin/python cases/valley3d/make_valley.py
 """
