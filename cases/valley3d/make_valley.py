@@ -37,10 +37,8 @@ ACROSS = [0.0, 500.0, 950.0, 1_250.0, 2_400.0, 3_200.0, 6_000.0]
 SLOPE_ACROSS = [0.0, 0.03, 0.50, 0.50, 0.50, 0.0, 0.0]
 HOLLOW = 0.2  # share of those slopes on the face
 HOLLOW_TO, WALLS_FROM = 700.0, 2_000.0  # distances along between which the share rises from HOLLOW to 1 [m]
-CIRQUE_FROM, CIRQUE_RADIUS = (
-    500.0,
-    1_800.0,
-)  # the ridge curves forward from that distance across on, with that radius [m]
+CIRQUE_FROM = 500.0  # distance across from which on the ridge curves forward [m]
+CIRQUE_RADIUS = 1_800.0  # of that curve [m]
 
 RIBS_FROM, RIBS_WHOLE = 550.0, 1_300.0  # distances across between which ribs and gullies grow to their full height [m]
 RIBS_HEIGHT = 140.0  # [m]
