@@ -25,26 +25,30 @@ class Ground:
     title: str
     text: str
     friction_angle: float  # along the ground [degrees]
+    is_straight: bool  # whether the middle of the slide goes due east
 
 
 PLANE = Ground(
     "plane",
     "A plane that runs out on the flat",
-    "A slope of 30 degrees, rounded by a parabola over 300 m, then level ground; 200 m x 200 m of release on the slope.",
+    "A slope of 30 degrees, rounded by a parabola over 300 m, then level ground; 200 m x 200 m of release on it.",
     20.0,
+    is_straight=True,
 )
 BOWL = Ground(
     "bowl",
     "A bowl",
     "A paraboloid, z = r2/2000 m; 150 m x 150 m of release where it is 600 m from the middle, a slope of 31 degrees.",
     15.0,
+    is_straight=True,
 )
 ALR = Ground(
     "alr",
     "A slope of the Alps",
-    "A DEM of 5 m and a mapped snow-avalanche release polygon (data: Land Tirol, data.tirol.gv.at, from the test data of "
-    "AvaFrame); 10 m of rock and ice instead of the snow is our choice.",
+    "A DEM of 5 m and a mapped release polygon of a snow avalanche (data: Land Tirol, data.tirol.gv.at, from the test "
+    "data of AvaFrame); 10 m of rock and ice in place of the snow are our choice.",
     25.0,
+    is_straight=False,
 )
 GROUNDS = {ground.name: ground for ground in (PLANE, BOWL, ALR)}
 

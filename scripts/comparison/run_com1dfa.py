@@ -7,6 +7,7 @@ and FOLDER/avaframe.json (version, run time, AvaFrame's report).
 
 import json
 import math
+import re
 import shutil
 import sys
 import time
@@ -50,6 +51,12 @@ def prepare(folder: Path, friction_angle: float) -> Path:
     return place
 
 
+def particles_in(place: Path) -> int:
+    """Return the number of particles, which AvaFrame tells in its log alone."""
+    log = next(iter(place.glob("*.log"))).read_text()
+    return int(re.search(r"MTot = .* kg, (\d+) particles", log).group(1))
+
+
 def main() -> None:
     """Run it and write what the comparison needs to know besides the maps."""
     folder, friction_angle = Path(sys.argv[1]).resolve(), float(sys.argv[2])
@@ -63,7 +70,14 @@ def main() -> None:
     started = time.perf_counter()
     _, _, reports, _ = com1DFA.com1DFAMain(general, cfgInfo=cfgUtils.getModuleConfig(com1DFA, str(place)))
     wall = time.perf_counter() - started
-    facts = {"version": version("avaframe"), "wall_s": wall, "report": reports[0]}
+    report = reports[0]["Simulation Parameters"]
+    facts = {
+        "version": version("avaframe"),
+        "wall_s": wall,
+        "simulated_s": float(report["Process run time [s]"]),
+        "particles": particles_in(place),
+        "report": reports[0],
+    }
     (folder / "avaframe.json").write_text(json.dumps(facts, indent=1, default=str) + "\n")
 
 
