@@ -1,0 +1,128 @@
+"""The three grounds of the comparison with AvaFrame: DEMs and releases, written into a folder each."""
+
+import json
+import math
+import shutil
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import rasterio
+from rasterio.transform import from_origin
+
+CRS = "EPSG:31287"  # of the alr DEM; the two synthetic grounds take it too
+WEST, SOUTH = 400_000.0, 400_000.0  # lower left corner of the synthetic DEMs [m], made up
+POINT = 5.0  # distance of the DEMs' points [m]
+THICKNESS = 10.0  # of the releases, along the normal [m]
+
+
+@dataclass(frozen=True)
+class Ground:
+    """What the two programs are given, and how the page tells it."""
+
+    name: str
+    title: str
+    text: str
+    friction_angle: float  # along the ground [degrees]
+    is_straight: bool  # whether the middle of the slide goes due east
+
+
+PLANE = Ground(
+    "plane",
+    "A plane that runs out on the flat",
+    "A slope of 30 degrees, rounded by a parabola over 300 m, then level ground; 200 m x 200 m of release on it.",
+    20.0,
+    is_straight=True,
+)
+BOWL = Ground(
+    "bowl",
+    "A bowl",
+    "A paraboloid, z = r2/2000 m; 150 m x 150 m of release where it is 600 m from the middle, a slope of 31 degrees.",
+    15.0,
+    is_straight=True,
+)
+ALR = Ground(
+    "alr",
+    "A slope of the Alps",
+    "A DEM of 5 m and a mapped release polygon of a snow avalanche (data: Land Tirol, data.tirol.gv.at, from the test "
+    "data of AvaFrame); 10 m of rock and ice in place of the snow are our choice.",
+    25.0,
+    is_straight=False,
+)
+GROUNDS = {ground.name: ground for ground in (PLANE, BOWL, ALR)}
+
+
+def plane_profile(x: np.ndarray) -> np.ndarray:
+    """Return the elevation [m] of the plane that runs out, over the distance [m] from its upper edge."""
+    slope, foot, half = math.tan(math.radians(30.0)), 1_000.0, 150.0
+    way = np.clip(x - (foot - half), 0.0, 2.0 * half)
+    rounded = slope * half - slope * way + slope * way**2 / (4.0 * half)
+    return np.where(x < foot - half, slope * (foot - x), rounded)
+
+
+def write_dem(file: Path, elevation: np.ndarray) -> None:
+    """Write elevations [m], rows from south to north, as a GeoTIFF."""
+    rows, columns = elevation.shape
+    place = from_origin(WEST, SOUTH + POINT * rows, POINT, POINT)
+    options = {"driver": "GTiff", "count": 1, "dtype": "float64", "crs": CRS, "transform": place, "nodata": -9999.0}
+    with rasterio.open(file, "w", width=columns, height=rows, **options) as raster:
+        raster.write(elevation[::-1], 1)
+
+
+def write_release(folder: Path, corners: list[list[float]]) -> None:
+    """Write the outline [m] for AvaFrame's side (release.json) and for ours (release.geojson)."""
+    (folder / "release.json").write_text(json.dumps({"corners": corners, "thickness": THICKNESS}))
+    feature = {
+        "type": "Feature",
+        "properties": {"name": "slide", "thickness": THICKNESS},
+        "geometry": {"type": "Polygon", "coordinates": [corners]},
+    }
+    crs = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{CRS.split(':')[1]}"}}
+    collection = {"type": "FeatureCollection", "crs": crs, "features": [feature]}
+    (folder / "release.geojson").write_text(json.dumps(collection))
+
+
+def rectangle(x: float, y: float, long: float, wide: float) -> list[list[float]]:
+    """Return the closed corners of a rectangle about a place [m]."""
+    signs = [(-1, -1), (-1, 1), (1, 1), (1, -1), (-1, -1)]
+    return [[WEST + x + a * long / 2.0, SOUTH + y + b * wide / 2.0] for a, b in signs]
+
+
+def first_polygon(shapefile: Path) -> list[list[float]]:
+    """Return the first ring of the first polygon of a shapefile [m] (ESRI 1998, Shapefile Technical Description)."""
+    content = shapefile.read_bytes()[108:]
+    kind, _, _, _, _, parts, points = struct.unpack_from("<i4d2i", content)
+    if kind % 10 != 5:
+        raise SystemExit(f"{shapefile}: its first shape is of kind {kind}; a polygon is needed")
+    starts = struct.unpack_from(f"<{parts}i", content, 44)
+    end = starts[1] if parts > 1 else points
+    return np.frombuffer(content, dtype="<f8", count=2 * end, offset=44 + 4 * parts).reshape(-1, 2).tolist()
+
+
+def write_plane(folder: Path) -> None:
+    """Write the plane that runs out: 2,600 m x 1,000 m."""
+    x = POINT * (np.arange(520) + 0.5)
+    write_dem(folder / "dem.tif", np.tile(plane_profile(x), (200, 1)))
+    write_release(folder, rectangle(300.0, 500.0, 200.0, 200.0))
+
+
+def write_bowl(folder: Path) -> None:
+    """Write the bowl: 1,800 m x 1,800 m."""
+    across = POINT * (np.arange(360) + 0.5) - 900.0
+    write_dem(folder / "dem.tif", (across[:, None] ** 2 + across[None, :] ** 2) / 2_000.0)
+    write_release(folder, rectangle(300.0, 900.0, 150.0, 150.0))
+
+
+def write_ground(ground: Ground, folder: Path, alr: Path | None) -> None:
+    """Write dem.tif and both releases of a ground into a folder; `alr` is where alr.tif and release.shp lie."""
+    folder.mkdir(parents=True, exist_ok=True)
+    if ground is PLANE:
+        write_plane(folder)
+    elif ground is BOWL:
+        write_bowl(folder)
+    elif alr is None:
+        raise SystemExit("the ground 'alr' needs --alr FOLDER, where alr.tif and release.shp lie")
+    else:
+        shutil.copyfile(alr / "alr.tif", folder / "dem.tif")
+        write_release(folder, first_polygon(alr / "release.shp"))

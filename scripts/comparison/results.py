@@ -1,0 +1,141 @@
+"""What the two programs found on a ground, as maps and numbers that can be set side by side."""
+
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib.path import Path as Outline
+from thawslide.maps import Map, read_map
+from thawslide.relief import slopes
+from thawslide.run import Numbers, Run
+
+GRAVITY = 9.81  # m/s2
+AFFECTED = 0.5  # m, vertical: from that thickness on a place counts as reached
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one program found: maps on the DEM's grid, and facts about its run."""
+
+    program: str
+    thickness: Map  # largest, vertical [m]
+    speed: Map  # largest [m/s]
+    final_thickness: Map  # vertical [m]
+    particles: int
+    simulated: float  # time at the end [s]
+    wall: float  # run time on one core [s]
+
+
+def without_gaps(field: Map) -> Numbers:
+    """Return the values of a map, 0 where the slide never was."""
+    return np.nan_to_num(field.values, nan=0.0)
+
+
+def read_avaframe(folder: Path, terrain: Map) -> Outcome:
+    """Read AvaFrame's results; its thickness, which is along the normal, is turned to the vertical."""
+    facts = json.loads((folder / "avaframe.json").read_text())
+    peaks = folder / "avaframe" / "Outputs" / "com1DFA" / "peakFiles"
+    found = {kind: read_map(next(iter(peaks.glob(f"*_{kind}.tif")))) for kind in ("pft", "pfv", "FT")}
+    steepness = np.nan_to_num(np.hypot(*slopes(terrain.values, terrain.grid.cell_x, terrain.grid.cell_y)), nan=0.0)
+    over_cosine = np.sqrt(1.0 + steepness**2)
+
+    def vertical(kind: str) -> Map:
+        return Map(found[kind].grid, without_gaps(found[kind]) * over_cosine, "m")
+
+    return Outcome(
+        f"AvaFrame {facts['version']}",
+        vertical("pft"),
+        found["pfv"],
+        vertical("FT"),
+        int(facts["particles"]),
+        float(facts["simulated_s"]),
+        float(facts["wall_s"]),
+    )
+
+
+def read_thawslide(folder: Path) -> Outcome:
+    """Read the results of our own run."""
+    run = Run(folder / "thawslide")
+    facts = json.loads((run.folder / "run.json").read_text())
+    maps = {name: read_map(run.folder / "maps" / f"{name}.tif") for name in ("max_thickness", "max_speed")}
+    return Outcome(
+        f"Thawslide {facts['version']}",
+        maps["max_thickness"],
+        maps["max_speed"],
+        read_map(run.folder / "maps" / "final_thickness.tif"),
+        int(facts["particles"]),
+        float(facts["simulated_time_s"]),
+        float(facts["wall_s"]),
+    )
+
+
+@dataclass(frozen=True)
+class Numbered:
+    """The numbers of one outcome that the page shows."""
+
+    volume: float  # of the deposit [m3]
+    travel: float  # horizontal, from the top of the release to the farthest place reached [m]
+    reach_angle: float  # of the line between the two [degrees]
+    centre_way: float  # horizontal, of the centre of the slide, straight from release to deposit [m]
+    largest_speed: float  # where the slide was thick enough [m/s]
+    usual_speed: float  # largest speed of the median place reached [m/s]
+    largest_thickness: float  # vertical [m]
+    area: float  # reached [m2]
+
+
+def numbers(outcome: Outcome, terrain: Map, corners: list[list[float]]) -> Numbered:
+    """Return the numbers of an outcome; `corners` outline the release [m]."""
+    x, y = np.meshgrid(terrain.grid.x, terrain.grid.y)
+    places = np.column_stack([x.ravel(), y.ravel()])
+    source = Outline(np.array(corners)).contains_points(places).reshape(x.shape)
+    top = np.unravel_index(np.where(source, terrain.values, -np.inf).argmax(), x.shape)
+    thickness, speed, final = (
+        without_gaps(each) for each in (outcome.thickness, outcome.speed, outcome.final_thickness)
+    )
+    if thickness.shape != terrain.values.shape:
+        raise SystemExit(f"{outcome.program}: maps of {thickness.shape} cells, the DEM has {terrain.values.shape}")
+    reached = thickness >= AFFECTED
+    apart = np.where(reached, np.hypot(x - x[top], y - y[top]), -np.inf)
+    farthest = np.unravel_index(apart.argmax(), x.shape)
+    drop = terrain.values[top] - terrain.values[farthest]
+    deposit = [float((final * axis).sum() / final.sum()) for axis in (x, y)]
+    return Numbered(
+        volume=float(final.sum()) * terrain.grid.cell_area,
+        travel=float(apart[farthest]),
+        reach_angle=math.degrees(math.atan2(drop, apart[farthest])),
+        centre_way=math.hypot(deposit[0] - x[source].mean(), deposit[1] - y[source].mean()),
+        largest_speed=float(speed[reached].max()),
+        usual_speed=float(np.median(speed[reached])),
+        largest_thickness=float(thickness.max()),
+        area=float(np.count_nonzero(reached)) * terrain.grid.cell_area,
+    )
+
+
+@dataclass(frozen=True)
+class PointMass:
+    """What a point mass does that slides due east from the middle of the release."""
+
+    way: float  # horizontal [m]
+    largest_speed: float  # [m/s]
+
+
+def point_mass(terrain: Map, corners: list[list[float]], friction: float) -> PointMass:
+    """Return what a point mass does on the DEM with a coefficient of friction.
+
+    Its energy head E = v2/(2 g) over the horizontal distance x on a profile z(x), with friction on the weight across the
+    ground and on the centrifugal force: dE/dx = -z' - friction (1 + 2 E z''/(1 + z'2)).
+    """
+    east, north = np.array(corners[:-1]).mean(axis=0)
+    x = terrain.grid.x
+    slopes_at = np.gradient(terrain.at(x, np.full_like(x, north)), x)
+    bends_at = np.gradient(slopes_at, x)
+    step, head, largest = 0.1, 0.0, 0.0  # m
+    for place in np.arange(east, x[-1], step):
+        slope, bend = np.interp(place, x, slopes_at), np.interp(place, x, bends_at)
+        head += step * (-slope - friction * (1.0 + 2.0 * head * bend / (1.0 + slope**2)))
+        largest = max(largest, head)
+        if head <= 0.0:
+            return PointMass(float(place - east), math.sqrt(2.0 * GRAVITY * largest))
+    raise SystemExit("the point mass leaves the DEM")

@@ -1,0 +1,85 @@
+"""Runs AvaFrame's com1DFA with plain Coulomb friction: python run_com1dfa.py FOLDER FRICTION_ANGLE.
+
+scripts/compare-avaframe starts it with the Python that AvaFrame is installed in. FOLDER holds dem.tif and release.json:
+the corners of the outline [m] and the thickness along the normal [m]. Leaves FOLDER/avaframe (AvaFrame's own folders)
+and FOLDER/avaframe.json (version, run time, AvaFrame's report).
+"""
+
+import json
+import math
+import re
+import shutil
+import sys
+import time
+from importlib.metadata import version
+from pathlib import Path
+
+import shapefile
+from avaframe.com1DFA import com1DFA
+from avaframe.in3Utils import cfgUtils, logUtils
+
+# What differs from AvaFrame's own choices. Everything else is left as practitioners have it: cells of 5 m, SPH kernels
+# of 5 m, steps of 0.1 s, the end at 1 % of the largest kinetic energy.
+SETTINGS = {
+    "simTypeList": "null",  # no entrainment, no resistance
+    "frictModel": "Coulomb",
+    "rho": "2063",  # kg/m3: rock with 37.5 % of ice, as in our case
+    "relThFromFile": "True",
+    "secRelArea": "False",
+    "dam": "False",
+    "resType": "pft|pfv|FT",
+}
+
+
+def prepare(folder: Path, friction_angle: float) -> Path:
+    """Write AvaFrame's folders; return the one it runs in."""
+    place = folder / "avaframe"
+    shutil.rmtree(place, ignore_errors=True)
+    inputs = place / "Inputs"
+    (inputs / "REL").mkdir(parents=True)
+    (inputs / "CFGs").mkdir()
+    shutil.copy(folder / "dem.tif", inputs / "dem.tif")
+    release = json.loads((folder / "release.json").read_text())
+    with shapefile.Writer(str(inputs / "REL" / "release"), shapeType=shapefile.POLYGON) as file:
+        file.field("name", "C")
+        file.field("thickness", "N", decimal=3)
+        file.poly([release["corners"]])
+        file.record("slide", release["thickness"])
+    settings = {**SETTINGS, "mucoulomb": f"{math.tan(math.radians(friction_angle)):.9g}"}
+    lines = ["[GENERAL]", *(f"{key} = {value}" for key, value in settings.items())]
+    (inputs / "CFGs" / "com1DFACfg.ini").write_text("\n".join(lines) + "\n")
+    return place
+
+
+def particles_in(place: Path) -> int:
+    """Return the number of particles, which AvaFrame tells in its log alone."""
+    log = next(iter(place.glob("*.log"))).read_text()
+    return int(re.search(r"MTot = .* kg, (\d+) particles", log).group(1))
+
+
+def main() -> None:
+    """Run it and write what the comparison needs to know besides the maps."""
+    folder, friction_angle = Path(sys.argv[1]).resolve(), float(sys.argv[2])
+    place = prepare(folder, friction_angle)
+    general = cfgUtils.getGeneralConfig()
+    general["MAIN"]["avalancheDir"] = str(place)
+    general["MAIN"]["nCPU"] = "1"
+    for flag in ("savePlot", "createReport", "ReportDir"):
+        general["FLAGS"][flag] = "False"
+    logUtils.initiateLogger(str(place), "com1DFA")
+    started = time.perf_counter()
+    _, _, reports, _ = com1DFA.com1DFAMain(general, cfgInfo=cfgUtils.getModuleConfig(com1DFA, str(place)))
+    wall = time.perf_counter() - started
+    report = reports[0]["Simulation Parameters"]
+    facts = {
+        "version": version("avaframe"),
+        "wall_s": wall,
+        "simulated_s": float(report["Process run time [s]"]),
+        "particles": particles_in(place),
+        "report": reports[0],
+    }
+    (folder / "avaframe.json").write_text(json.dumps(facts, indent=1, default=str) + "\n")
+
+
+if __name__ == "__main__":
+    main()
