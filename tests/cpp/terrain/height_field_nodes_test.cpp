@@ -127,7 +127,8 @@ Node by_quadrature(const Raster& points, const Position& position, double cell, 
 }
 
 TEST(HeightField, OfRoughGroundIsTheIntegralOfTheShapeFunction) {
-  const Raster points = rough_raster();
+  Raster points = rough_raster();
+  points.cell_y = 6.0;
   const HeightField ground(points);
   for (const double h : {3.3, 11.0}) {
     for (const Position& position : {Position(13.0, 21.2, 7.0), Position(22.4, 9.1, 3.0), Position(40.0, 30.0, 10.0)}) {

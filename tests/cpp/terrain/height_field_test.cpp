@@ -17,7 +17,8 @@ namespace {
 using namespace testing_support;
 
 TEST(HeightField, DistanceIsThatOfTheNearestTriangle) {
-  const Raster points = rough_raster();
+  Raster points = rough_raster();
+  points.cell_y = 6.0;
   const HeightField ground(points);
   const auto all = triangles(points);
   for (const double h : {1.7, 5.0, 12.0}) {
