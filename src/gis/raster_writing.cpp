@@ -52,9 +52,8 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
   GDALDatasetUniquePtr dataset(driver->Create(whole.temporary().c_str(), raster.columns, raster.rows, 1,
                                               precision == Precision::float64 ? GDT_Float64 : GDT_Float32,
                                               const_cast<char**>(options)));
-  const auto fail = [&] { whole.fail(messages.remark().empty() ? "unknown" : messages.remark().substr(2)); };
   if (dataset == nullptr) {
-    fail();
+    whole.fail_with(messages);
   }
   double transform[6] = {raster.x - 0.5 * raster.cell_x,       raster.cell_x, 0.0,
                          raster.y_end() + 0.5 * raster.cell_y, 0.0,           -raster.cell_y};
@@ -70,7 +69,7 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
   const bool written = write_rows(band, raster);
   dataset.reset();
   if (!written || messages.any_error()) {
-    fail();
+    whole.fail_with(messages);
   }
   whole.put_in_place();
 }

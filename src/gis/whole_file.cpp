@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "gis/gdal_messages.hpp"
 
 namespace thawslide::gis {
 
@@ -32,6 +33,10 @@ void WholeFile::fail(const std::string& reason) const {
   throw UserError(
       fmt::format("cannot write {}: {}. Check that the folder exists, may be written to, and that the disk has room.",
                   file_, reason));
+}
+
+void WholeFile::fail_with(const GdalMessages& messages) const {
+  fail(messages.remark().empty() ? "for a reason that GDAL does not tell" : messages.remark().substr(2));
 }
 
 void WholeFile::put_in_place() {

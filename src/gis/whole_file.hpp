@@ -6,6 +6,8 @@
 
 namespace thawslide::gis {
 
+class GdalMessages;
+
 class WholeFile {
  public:
   explicit WholeFile(const std::string& file);
@@ -19,6 +21,7 @@ class WholeFile {
   void put_in_place();
   // Throws UserError: cannot write FILE, and why.
   [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void fail_with(const GdalMessages& messages) const;
 
  private:
   std::string file_, temporary_;

@@ -1,0 +1,107 @@
+#include "gis/geopackage.hpp"
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "gis/gdal_messages.hpp"
+#include "gis/geometry.hpp"
+#include "gis/spatial_reference.hpp"
+#include "gis/whole_file.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+OGRwkbGeometryType type_of(const MapLayer& layer) {
+  constexpr OGRwkbGeometryType types[] = {wkbMultiPolygon, wkbLineString, wkbPoint};
+  return types[layer.features.index()];
+}
+
+std::size_t count_of(const MapLayer& layer) {
+  return std::visit([](const auto& features) { return features.size(); }, layer.features);
+}
+
+void check_sizes(const MapLayer& layer) {
+  for (const Attribute& attribute : layer.attributes) {
+    const std::size_t values = std::visit([](const auto& all) { return all.size(); }, attribute.values);
+    THAWSLIDE_ASSERT(values == count_of(layer), "layer {}: {} features, {} values of {}", layer.name, count_of(layer),
+                     values, attribute.name);
+  }
+}
+
+void set_geometry(OGRFeature& feature, const MapLayer& layer, std::size_t k) {
+  if (const auto* areas = std::get_if<std::vector<Polygons>>(&layer.features)) {
+    const OGRMultiPolygon geometry = to_geometry((*areas)[k]);
+    feature.SetGeometry(&geometry);
+  } else if (const auto* lines = std::get_if<std::vector<Polyline2>>(&layer.features)) {
+    const OGRLineString geometry = to_geometry((*lines)[k]);
+    feature.SetGeometry(&geometry);
+  } else {
+    const auto& point = std::get<2>(layer.features)[k];
+    const OGRPoint geometry(point[0], point[1]);
+    feature.SetGeometry(&geometry);
+  }
+}
+
+void set_attributes(OGRFeature& feature, const MapLayer& layer, std::size_t k) {
+  for (const Attribute& attribute : layer.attributes) {
+    if (const auto* numbers = std::get_if<std::vector<double>>(&attribute.values)) {
+      if (std::isfinite((*numbers)[k])) {
+        feature.SetField(attribute.name.c_str(), (*numbers)[k]);
+      }
+    } else if (const std::string& text = std::get<1>(attribute.values)[k]; !text.empty()) {
+      feature.SetField(attribute.name.c_str(), text.c_str());
+    }
+  }
+}
+
+bool write_layer(GDALDataset& dataset, const MapLayer& layer, OGRSpatialReference* reference) {
+  check_sizes(layer);
+  OGRLayer* const written = dataset.CreateLayer(layer.name.c_str(), reference, type_of(layer), nullptr);
+  if (written == nullptr) {
+    return false;
+  }
+  for (const Attribute& attribute : layer.attributes) {
+    OGRFieldDefn field(attribute.name.c_str(), attribute.values.index() == 0 ? OFTReal : OFTString);
+    if (written->CreateField(&field) != OGRERR_NONE) {
+      return false;
+    }
+  }
+  for (std::size_t k = 0; k < count_of(layer); ++k) {
+    OGRFeature feature(written->GetLayerDefn());
+    set_geometry(feature, layer, k);
+    set_attributes(feature, layer, k);
+    if (written->CreateFeature(&feature) != OGRERR_NONE) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void write_geopackage(const std::string& file, const std::vector<MapLayer>& layers, const std::string& crs) {
+  WholeFile whole(file);
+  const GdalMessages messages;
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
+  THAWSLIDE_ASSERT(driver != nullptr, "GDAL has no driver for GeoPackage");
+  GDALDatasetUniquePtr dataset(driver->Create(whole.temporary().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  bool written = dataset != nullptr;
+  OGRSpatialReference reference = reference_from_wkt(crs);
+  if (written && dataset->StartTransaction() == OGRERR_NONE) {
+    for (const MapLayer& layer : layers) {
+      written = written && write_layer(*dataset, layer, crs.empty() ? nullptr : &reference);
+    }
+    written = dataset->CommitTransaction() == OGRERR_NONE && written;
+  }
+  dataset.reset();
+  if (!written || messages.any_error()) {
+    whole.fail_with(messages);
+  }
+  whole.put_in_place();
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,91 @@
+// What the user is told of a raster that cannot be used.
+#include "gis/raster_file.hpp"
+#include "map_files.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace map_files;
+
+std::string error_of_file(const std::string& file) {
+  return error_of([&] { static_cast<void>(RasterFile(file).read()); });
+}
+
+TEST(RasterFaultsTest, MissingFile) {
+  EXPECT_EQ(error_of_file(in_folder("none.tif")), "FOLDER/none.tif: there is no such file. Correct the path.");
+}
+
+TEST(RasterFaultsTest, NoRaster) {
+  const std::string message = error_of_file(text_file("dem.tif", "this is no raster"));
+  EXPECT_EQ(message.substr(0, message.find(';')), "FOLDER/dem.tif: the raster cannot be opened");
+  EXPECT_NE(message.find("Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is whole and may be read."),
+            std::string::npos)
+      << message;
+}
+
+TEST(RasterFaultsTest, SeveralBands) {
+  ForeignRaster what;
+  what.bands = 3;
+  EXPECT_EQ(error_of_file(foreign("rgb.tif", what)),
+            "FOLDER/rgb.tif: the raster has 3 bands; allowed: one. Take one out: gdal_translate -b 1 FOLDER/rgb.tif "
+            "one-band.tif");
+}
+
+TEST(RasterFaultsTest, Rotated) {
+  ForeignRaster what;
+  what.transform = {400000.0, 8.0, 6.0, 300030.0, 6.0, -8.0};
+  EXPECT_EQ(error_of_file(foreign("turned.tif", what)),
+            "FOLDER/turned.tif: the raster is rotated or mirrored (geotransform 400000, 8, 6, 300030, 6, -8); allowed: "
+            "columns from west to east, rows from north to south or back. Straighten it: gdalwarp -r bilinear "
+            "FOLDER/turned.tif straight.tif");
+}
+
+TEST(RasterFaultsTest, WithoutItsPlace) {
+  GDALAllRegister();
+  const std::string file = in_folder("picture.tif");
+  GDALDatasetUniquePtr(
+      GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file.c_str(), 4, 3, 1, GDT_Float32, nullptr));
+  EXPECT_EQ(
+      error_of_file(file),
+      "FOLDER/picture.tif: the raster is not georeferenced: nothing tells where its corner lies and how large its "
+      "cells are. Export it again with its place (GeoTIFF tags, or a world file beside it).");
+}
+
+TEST(RasterFaultsTest, ComplexNumbers) {
+  ForeignRaster what;
+  what.type = GDT_CFloat32;
+  EXPECT_EQ(error_of_file(foreign("radar.tif", what)),
+            "FOLDER/radar.tif: the values are of the type CFloat32; allowed: real numbers or integers.");
+}
+
+TEST(RasterFaultsTest, NothingButNodata) {
+  ForeignRaster what;
+  what.nodata = -1.0;
+  what.values.assign(12, -1.0);
+  EXPECT_EQ(error_of_file(foreign("holes.tif", what)),
+            "FOLDER/holes.tif: no point holds a value, all are nodata. Check that it is the right file.");
+}
+
+TEST(RasterFaultsTest, TruncatedFilesAreNotTakenForData) {
+  const Raster raster = raster_of([](double x, double y) { return std::sin(x * y); }, 0.0, 0.0, 5.0, 200, 150);
+  const std::string tiff = geotiff("cut.tif", raster);
+  std::filesystem::resize_file(tiff, std::filesystem::file_size(tiff) / 2);
+  EXPECT_NE(error_of_file(tiff).find("FOLDER/cut.tif: the "), std::string::npos) << error_of_file(tiff);
+  std::string text = "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2 3\n4 5 6\n7";
+  const std::string message = error_of_file(text_file("cut.asc", text));
+  EXPECT_EQ(message.substr(0, message.find(';')), "FOLDER/cut.asc: the values cannot be read") << message;
+  EXPECT_NE(message.find("The file seems to be damaged or cut off: copy it anew."), std::string::npos);
+}
+
+TEST(RasterFaultsTest, MapsAreNotWrittenWhereTheyCannotBe) {
+  const Raster raster = raster_of([](double, double) { return 1.0; }, 0.0, 0.0, 5.0, 4, 4);
+  const std::string message = error_of([&] {
+    write_geotiff(in_folder("no/such/folder/map.tif"), raster, {"m", "thickness"});
+  });
+  EXPECT_EQ(message.substr(0, 45), "cannot write FOLDER/no/such/folder/map.tif: G") << message;
+  EXPECT_NE(message.find("Check that the folder exists, may be written to, and that the disk has room."),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace thawslide::gis

@@ -1,0 +1,153 @@
+// Rasters in files: what is read is what was written, whatever the format, the type and the direction of rows.
+#include "gis/raster_file.hpp"
+
+#include <chrono>
+#include <numbers>
+
+#include "map_files.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace map_files;
+
+TEST(RasterFileTest, GeotiffRoundTripKeepsEveryBit) {
+  Raster raster =
+      raster_of([](double x, double y) { return std::sin(x) + 1e-3 * y; }, 400005.25, 300001.5, 4.9977, 7, 5);
+  raster.cell_y = 5.25;
+  raster.values[raster.index(2, 1)] = missing;
+  const std::string file = in_folder("map.tif");
+  write_geotiff(file, raster, {"m", "largest thickness"});
+  const RasterFile opened(file);
+  const Raster read = opened.read();
+  EXPECT_EQ(read.columns, 7);
+  EXPECT_EQ(read.rows, 5);
+  EXPECT_NEAR(read.x, raster.x, 1e-9);
+  EXPECT_NEAR(read.y, raster.y, 1e-9);
+  EXPECT_EQ(read.cell_x, raster.cell_x);
+  EXPECT_EQ(read.cell_y, raster.cell_y);
+  EXPECT_EQ(name_of(read.crs), "EPSG:31287");
+  EXPECT_EQ(opened.unit(), "m");
+  for (std::size_t k = 0; k < raster.values.size(); ++k) {
+    if (k == raster.index(2, 1)) {
+      EXPECT_TRUE(std::isnan(read.values[k]));
+    } else {
+      EXPECT_EQ(read.values[k], raster.values[k]);
+    }
+  }
+}
+
+TEST(RasterFileTest, GeotiffIsTiledCompressedAndTellsItsBand) {
+  const std::string file = in_folder("map.tif");
+  write_geotiff(file, raster_of([](double, double) { return 0.5; }, 0.0, 0.0, 5.0, 300, 280), {"m/s", "largest speed"},
+                Precision::float32);
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER));
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  int columns = 0, rows = 0;
+  band.GetBlockSize(&columns, &rows);
+  EXPECT_EQ(columns, 256);
+  EXPECT_EQ(rows, 256);
+  EXPECT_EQ(band.GetRasterDataType(), GDT_Float32);
+  EXPECT_EQ(band.GetNoDataValue(), -9999.0);
+  EXPECT_STREQ(band.GetUnitType(), "m/s");
+  EXPECT_STREQ(band.GetDescription(), "largest speed");
+  EXPECT_STREQ(dataset->GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE"), "DEFLATE");
+  EXPECT_LT(std::filesystem::file_size(file), 300U * 280U);
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(file).parent_path())) {
+    EXPECT_EQ(entry.path().filename(), "map.tif") << "left behind";
+  }
+}
+
+TEST(RasterFileTest, EveryTypeIsReadInBothDirectionsOfRows) {
+  for (const GDALDataType type : {GDT_Byte, GDT_Int16, GDT_UInt16, GDT_Int32, GDT_Int64, GDT_Float32, GDT_Float64}) {
+    for (const double direction : {-1.0, 1.0}) {
+      ForeignRaster what;
+      what.type = type;
+      what.transform[3] = direction < 0.0 ? 300030.0 : 300000.0;
+      what.transform[5] = direction * 10.0;
+      what.nodata = 6.0;
+      const Raster read = RasterFile(foreign("dem.tif", what)).read();
+      SCOPED_TRACE(fmt::format("{} {}", GDALGetDataTypeName(type), direction));
+      EXPECT_EQ(read.x, 400005.0);
+      EXPECT_EQ(read.y, 300005.0);
+      // The first line of the file is the northernmost one if it is north up.
+      EXPECT_EQ(read.at(0, direction < 0.0 ? 2 : 0), 1.0);
+      EXPECT_EQ(read.at(3, direction < 0.0 ? 0 : 2), 12.0);
+      EXPECT_TRUE(std::isnan(read.at(1, 1)));
+    }
+  }
+}
+
+TEST(RasterFileTest, NodataOfFloatsAndWhatIsNotFiniteIsMissing) {
+  ForeignRaster what;
+  what.nodata = -9999.9;  // as a float it is another number
+  what.values = {-9999.9, missing, std::numeric_limits<double>::infinity(), 7.5};
+  const Raster read = RasterFile(foreign("dem.tif", what)).read();
+  EXPECT_TRUE(std::isnan(read.at(0, 2)));
+  EXPECT_TRUE(std::isnan(read.at(1, 2)));
+  EXPECT_TRUE(std::isnan(read.at(2, 2)));
+  EXPECT_EQ(read.at(3, 2), 7.5);
+}
+
+TEST(RasterFileTest, WindowIsPartOfTheWhole) {
+  const Raster raster = raster_of([](double x, double y) { return x + 1000.0 * y; }, 10.0, 20.0, 5.0, 40, 30);
+  const RasterFile file(geotiff("dem.tif", raster));
+  const Raster part = file.read(Rectangle{32.0, 41.0, 70.0, 55.0});
+  EXPECT_EQ(part.x, 30.0);
+  EXPECT_EQ(part.x_end(), 70.0);
+  EXPECT_EQ(part.y, 40.0);
+  EXPECT_EQ(part.y_end(), 55.0);
+  for (int row = 0; row < part.rows; ++row) {
+    for (int column = 0; column < part.columns; ++column) {
+      EXPECT_EQ(part.at(column, row), part.x_of(column) + 1000.0 * part.y_of(row));
+    }
+  }
+  const Raster corner = file.read(Rectangle{-100.0, -100.0, 12.0, 22.0});
+  EXPECT_EQ(corner.columns, 2);
+  EXPECT_EQ(corner.rows, 2);
+}
+
+TEST(RasterFileTest, AsciiGridKeepsItsDigitsAndCellSize) {
+  // Integers first: a reader that guesses the type from the beginning of the file would lose the fractions.
+  std::string text = "ncols 3\nnrows 2\nxllcorner 400000.5\nyllcorner 300000.25\ncellsize 4.9977\nNODATA_value -9999\n";
+  text += "1234 1235 -9999\n1300 2345.6789012 1302\n";
+  const Raster read = RasterFile(text_file("dem.asc", text)).read();
+  EXPECT_EQ(read.cell_x, 4.9977);
+  EXPECT_EQ(read.cell_y, 4.9977);
+  EXPECT_NEAR(read.x, 400000.5 + 0.5 * 4.9977, 1e-9);
+  EXPECT_NEAR(read.y, 300000.25 + 0.5 * 4.9977, 1e-9);
+  EXPECT_EQ(read.at(0, 1), 1234.0);
+  EXPECT_EQ(read.at(1, 0), 2345.6789012);
+  EXPECT_TRUE(std::isnan(read.at(2, 1)));
+  EXPECT_EQ(read.crs, "");
+}
+
+TEST(RasterFileTest, AsciiGridByCentresWithItsPrj) {
+  text_file("dem.prj", reference_system_named("EPSG:31254"));
+  const std::string text = "ncols 2\nnrows 2\nxllcenter 10\nyllcenter 20\ncellsize 2.5\n1 2\n3 4\n";
+  const Raster read = RasterFile(text_file("dem.asc", text)).read();
+  EXPECT_EQ(read.x, 10.0);
+  EXPECT_EQ(read.y, 20.0);
+  EXPECT_EQ(read.at(0, 0), 3.0);
+  EXPECT_EQ(name_of(read.crs), "EPSG:31254");
+}
+
+TEST(RasterFileTest, LargeModelIsReadInSeconds) {
+  const int count = 3000;
+  Raster raster = raster_of([](double, double) { return 0.0; }, 0.0, 0.0, 10.0, 1, 1);
+  raster.columns = raster.rows = count;
+  raster.values.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < raster.values.size(); ++k) {
+    raster.values[k] = 2000.0 + 0.25 * static_cast<double>(k % 977);
+  }
+  const std::string file = geotiff("large.tif", raster);
+  const auto start = std::chrono::steady_clock::now();
+  const Raster read = RasterFile(file).read();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_EQ(read.values, raster.values);
+  EXPECT_LT(seconds, 10.0);
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace thawslide::gis
