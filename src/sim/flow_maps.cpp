@@ -61,8 +61,7 @@ FlowMaps::FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const 
       inverse_cell_y_(1.0 / map_grid.cell_y),
       arrival_thickness_(arrival_thickness) {
   for (const double half : half_sizes) {
-    boxes_.push_back(
-        {half * inverse_cell_x_, half * inverse_cell_y_, 0.5 * map_grid.cell_x / half, 0.5 * map_grid.cell_y / half});
+    sizes_.add(half);
     largest_half_ = std::max(largest_half_, half);
   }
 }
@@ -147,7 +146,7 @@ void FlowMaps::note_active() {
   for (MapTile* tile : formerly_active_) {
     if (!tile->active) {
       for (MapCell& cell : tile->cells) {
-        cell.take({}, map_grid_.cell_area(), arrival_thickness_, 0.0);
+        cell.take({}, {}, map_grid_.cell_area(), arrival_thickness_, 0.0);
       }
     }
   }
@@ -174,44 +173,51 @@ void FlowMaps::find_stacks(const Grid& grid) {
   note_active();
 }
 
-ColumnSums FlowMaps::box_sums(const Particles& particles, std::size_t p) {
-  ColumnSums box;
-  box.volume = particles.volume(p);
-  box.mass = particles.mass(p);
-  box.momentum_x = box.mass * particles.velocity(p, 0);
-  box.momentum_y = box.mass * particles.velocity(p, 1);
-  box.momentum_z = box.mass * particles.velocity(p, 2);
-  box.water = particles.porosity(p) * particles.liquid_saturation(p) * box.volume;
-  if (particles.in_band(p) != 0) {
-    box.band_volume = box.volume;
-    box.band_volume_temperature = box.volume * particles.temperature(p);
-    box.band_volume_pressure = box.volume * particles.pore_pressure(p);
+THAWSLIDE_ALWAYS_INLINE void FlowMaps::add_box(const Particles& particles, std::size_t p, const CellRange& x,
+                                               const CellRange& y, const Stack& stack) {
+  const double volume = particles.volume(p), mass = particles.mass(p);
+  const ColumnSums sums{volume,
+                        mass,
+                        mass * particles.velocity(p, 0),
+                        mass * particles.velocity(p, 1),
+                        mass * particles.velocity(p, 2),
+                        volume * particles.porosity(p) * particles.liquid_saturation(p)};
+  const bool in_band = particles.in_band(p) != 0;
+  const BandSums band{volume, volume * particles.temperature(p), volume * particles.pore_pressure(p)};
+  for (int row = y.first; row <= y.last; ++row) {
+    const double row_share = y.share(row);
+    const auto window_row = static_cast<std::size_t>(((row >> edge_bits) - stack.tile_y) * stack.across);
+    MapTile* const* const tiles_of_row = &window_tiles_[stack.window + window_row];
+    for (int column = x.first; column <= x.last; ++column) {
+      MapTile& below = *tiles_of_row[(column >> edge_bits) - stack.tile_x];
+      const std::size_t place = place_in_tile(column, row);
+      const double share = row_share * x.share(column);
+      below.sums[place].add(share, sums);
+      if (in_band) {
+        below.band[place].add(share, band);
+      }
+    }
   }
-  return box;
 }
 
 void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Stack& stack) {
-  MapTile* const* const window = &window_tiles_[stack.window];
+  const auto first_column = static_cast<double>(stack.tile_x << edge_bits),
+             first_row = static_cast<double>(stack.tile_y << edge_bits),
+             end_column = first_column + (stack.across << edge_bits), end_row = first_row + (stack.deep << edge_bits);
   for (std::uint32_t k = stack.first; k < stack.last; ++k) {
-    const auto& tile = grid.tiles()[places_[k].tile];
-    for (std::uint32_t place = tile.first; place < tile.last; ++place) {
-      const std::size_t p = grid.order()[place];
-      const Box& box = boxes_[static_cast<std::size_t>(particles.body(p))];
-      const double middle_x = (particles.position(p, 0) - corner_x_) * inverse_cell_x_;
-      const double middle_y = (particles.position(p, 1) - corner_y_) * inverse_cell_y_;
-      const CellSpan x = cell_span(middle_x, box.half_x, box.inverse_width_x, map_grid_.columns);
-      const CellSpan y = cell_span(middle_y, box.half_y, box.inverse_width_y, map_grid_.rows);
-      THAWSLIDE_ASSERT((x.first >> edge_bits) >= stack.tile_x && (x.last >> edge_bits) < stack.tile_x + stack.across &&
-                           (y.first >> edge_bits) >= stack.tile_y && (y.last >> edge_bits) < stack.tile_y + stack.deep,
-                       "particle {} over map cells {} ... {}, {} ... {} has left its tile", particles.id(p), x.first,
-                       x.last, y.first, y.last);
-      const ColumnSums sums = box_sums(particles, p);
-      for (int row = y.first; row <= y.last; ++row) {
-        MapTile* const* const tiles_of_row = window + ((row >> edge_bits) - stack.tile_y) * stack.across;
-        for (int column = x.first; column <= x.last; ++column) {
-          MapTile& below = *tiles_of_row[(column >> edge_bits) - stack.tile_x];
-          below.sums[place_in_tile(column, row)].add(x.share(column) * y.share(row), sums);
-        }
+    for (const auto& batch : grid.batches(places_[k].tile)) {
+      const auto size = sizes_.of(particles, batch);
+      const auto x =
+          cell_spans((particles.position.load(batch, 0) - corner_x_) * inverse_cell_x_, size.half * inverse_cell_x_,
+                     size.inverse * (0.5 * map_grid_.cell_x), map_grid_.columns);
+      const auto y = cell_spans((particles.position.load(batch, 1) - corner_y_) * inverse_cell_y_,
+                                size.half * inverse_cell_y_, size.inverse * (0.5 * map_grid_.cell_y), map_grid_.rows);
+      const auto inside =
+          (x.first >= first_column) & (x.last < end_column) & (y.first >= first_row) & (y.last < end_row);
+      THAWSLIDE_ASSERT(!any(!inside), "of particles {} ... one has left its tile: over map cells {} ..., {} ...",
+                       particles.id(batch.particle[0]), x.first[0], y.first[0]);
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        add_box(particles, batch.particle[lane], x.of_lane(lane), y.of_lane(lane), stack);
       }
     }
   }
@@ -230,9 +236,10 @@ void FlowMaps::gather(const Grid& grid, const Particles& particles, double time)
   parallel_for(active_.size(), [&](std::size_t k) {
     MapTile& tile = *active_[k];
     for (std::size_t place = 0; place < tile_cells; ++place) {
-      tile.cells[place].take(tile.sums[place], map_grid_.cell_area(), arrival_thickness_, time);
+      tile.cells[place].take(tile.sums[place], tile.band[place], map_grid_.cell_area(), arrival_thickness_, time);
     }
     tile.sums.fill({});
+    tile.band.fill({});
   });
 }
 

@@ -79,11 +79,8 @@ class FlowMaps {
     int column = 0, row = 0;  // of its first cell
     bool active = false;
     std::array<ColumnSums, tile_cells> sums;
+    std::array<BandSums, tile_cells> band;
     std::array<MapCell, tile_cells> cells;
-  };
-  // A particle's box in cells.
-  struct Box {
-    double half_x, half_y, inverse_width_x, inverse_width_y;
   };
   // Tiles of the background grid above one another, and the map tiles that their particles may reach.
   struct Stack {
@@ -106,14 +103,15 @@ class FlowMaps {
   void set_window(const Grid& grid, double reach, Stack& stack);
   void note_active();
   void add_stack(const Grid& grid, const Particles& particles, const Stack& stack);
-  [[nodiscard]] static ColumnSums box_sums(const Particles& particles, std::size_t particle);
+  void add_box(const Particles& particles, std::size_t particle, const CellRange& x, const CellRange& y,
+               const Stack& stack);
   [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;
 
   MapGrid map_grid_;
   double corner_x_, corner_y_;              // of the map grid in the particles' frame [m]
   double inverse_cell_x_, inverse_cell_y_;  // [1/m]
   double largest_half_ = 0.0;               // of particles [m]
-  std::vector<Box> boxes_;                  // by body
+  mpm::BodySizes<double> sizes_;            // of particles [m]
   double arrival_thickness_;                // [m]
   KeyIndex tile_index_;
   std::vector<std::unique_ptr<MapTile>> tiles_;     // in the order in which the slide came

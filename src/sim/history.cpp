@@ -115,6 +115,12 @@ double front_position(const Simulation<Dim, Real>& simulation) {
 
 template <int Dim, class Real>
 HistoryRow history_row(const Simulation<Dim, Real>& simulation) {
+  const double front = front_position(simulation);
+  return history_row(simulation, {front, front - simulation.rear_at_start()});
+}
+
+template <int Dim, class Real>
+HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow& front) {
   const config::Case& parameters = simulation.parameters();
   const Means means = means_over_body(simulation);
   const auto& contact = simulation.contact();
@@ -130,9 +136,8 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation) {
                        means.mass);
   row.emplace_back("max_velocity_m_s", std::sqrt(means.largest_speed2));
   row.emplace_back("mean_displacement_m", means.displacement / means.mass);
-  const double front = front_position(simulation);
-  row.emplace_back("front_position_m", front);
-  row.emplace_back("runout_m", front - simulation.rear_at_start());
+  row.emplace_back("front_position_m", front.position);
+  row.emplace_back("runout_m", front.runout);
   row.emplace_back("band_temperature_C", means.band_temperature / band_mass);
   row.emplace_back("band_saturation", means.band_saturation / band_mass);
   row.emplace_back("band_pore_pressure_Pa", means.band_pore_pressure / band_mass);
@@ -156,6 +161,8 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation) {
 
 template HistoryRow history_row<2, double>(const Simulation<2, double>&);
 template HistoryRow history_row<3, double>(const Simulation<3, double>&);
+template HistoryRow history_row<2, double>(const Simulation<2, double>&, const FrontInRow&);
+template HistoryRow history_row<3, double>(const Simulation<3, double>&, const FrontInRow&);
 template double front_position<2, double>(const Simulation<2, double>&);
 template double front_position<3, double>(const Simulation<3, double>&);
 

@@ -11,9 +11,17 @@ namespace thawslide::sim {
 
 using HistoryRow = std::vector<std::pair<std::string, double>>;  // name, value
 
-// The state after the last step. Extensive values are per metre of width in 2D, times case.width if that is given.
+// What a row tells of the front [m].
+struct FrontInRow {
+  double position, runout;
+};
+
+// The state after the last step. The front is measured along x, or is the one handed over. Extensive values are per
+// metre of width in 2D, times case.width if that is given.
 template <int Dim, class Real>
 HistoryRow history_row(const Simulation<Dim, Real>& simulation);
+template <int Dim, class Real>
+HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow& front);
 
 // x behind which 99.5 % of the mass lies [m].
 template <int Dim, class Real>

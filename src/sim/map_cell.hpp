@@ -11,6 +11,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portability.hpp"
+
 namespace thawslide::sim {
 
 // Sums over the parts of boxes that lie over a cell.
@@ -19,20 +21,27 @@ struct ColumnSums {
   double mass = 0.0;                                            // [kg]
   double momentum_x = 0.0, momentum_y = 0.0, momentum_z = 0.0;  // [kg m/s]
   double water = 0.0;                                           // volume of liquid water [m3]
-  double band_volume = 0.0;                                     // of the band [m3]
-  double band_volume_temperature = 0.0;                         // of the band: V T [m3 C]
-  double band_volume_pressure = 0.0;                            // of the band: V P [m3 Pa]
 
-  void add(double share, const ColumnSums& box) {
+  THAWSLIDE_ALWAYS_INLINE void add(double share, const ColumnSums& box) {
     volume += share * box.volume;
     mass += share * box.mass;
     momentum_x += share * box.momentum_x;
     momentum_y += share * box.momentum_y;
     momentum_z += share * box.momentum_z;
     water += share * box.water;
-    band_volume += share * box.band_volume;
-    band_volume_temperature += share * box.band_volume_temperature;
-    band_volume_pressure += share * box.band_volume_pressure;
+  }
+};
+
+// Those over the boxes in the band.
+struct BandSums {
+  double volume = 0.0;              // V [m3]
+  double volume_temperature = 0.0;  // V T [m3 C]
+  double volume_pressure = 0.0;     // V P [m3 Pa]
+
+  THAWSLIDE_ALWAYS_INLINE void add(double share, const BandSums& box) {
+    volume += share * box.volume;
+    volume_temperature += share * box.volume_temperature;
+    volume_pressure += share * box.volume_pressure;
   }
 };
 
@@ -65,7 +74,7 @@ struct MapCell {
 
   // Takes the state at a time [s]. area: of the cell [m2]; arrival_thickness [m]: where the slide is not thicker, its
   // speed and pressure are those of single particles and no record.
-  void take(const ColumnSums& sums, double area, double arrival_thickness, double time) {
+  void take(const ColumnSums& sums, const BandSums& band, double area, double arrival_thickness, double time) {
     if (!(sums.volume > 0.0)) {
       thickness = velocity_x = velocity_y = velocity_z = 0.0;
       return;
@@ -86,9 +95,9 @@ struct MapCell {
         arrival_time = time;
       }
     }
-    if (sums.band_volume > 0.0) {
-      raise(max_basal_temperature, sums.band_volume_temperature / sums.band_volume);
-      raise(max_pore_pressure, sums.band_volume_pressure / sums.band_volume);
+    if (band.volume > 0.0) {
+      raise(max_basal_temperature, band.volume_temperature / band.volume);
+      raise(max_pore_pressure, band.volume_pressure / band.volume);
     }
   }
 

@@ -20,8 +20,9 @@ void PathLine::add(const Place2& corner) {
     along_.push_back(0.0);
     return;
   }
-  const double step = std::hypot(corner[0] - corners_.back()[0], corner[1] - corners_.back()[1]);
+  const double x = corner[0] - corners_.back()[0], y = corner[1] - corners_.back()[1], step = std::hypot(x, y);
   if (step > 0.0) {
+    directions_.push_back({x / step, y / step});
     corners_.push_back(corner);
     along_.push_back(along_.back() + step);
   }
@@ -29,22 +30,20 @@ void PathLine::add(const Place2& corner) {
 
 PlaceOnLine PathLine::project(const Place2& place) const {
   THAWSLIDE_ASSERT(!empty(), "a line of {} corners", corners_.size());
-  const std::size_t segments = corners_.size() - 1;
+  const std::size_t segments = directions_.size();
   PlaceOnLine nearest;
   double least2 = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < segments; ++k) {
-    const Place2 &from = corners_[k], &to = corners_[k + 1];
-    const double length = along_[k + 1] - along_[k];
-    const double direction_x = (to[0] - from[0]) / length, direction_y = (to[1] - from[1]) / length;
-    const double x = place[0] - from[0], y = place[1] - from[1];
-    double along = x * direction_x + y * direction_y;
+    const Place2& direction = directions_[k];
+    const double x = place[0] - corners_[k][0], y = place[1] - corners_[k][1];
+    double along = x * direction[0] + y * direction[1];
     along = k > 0 ? std::max(along, 0.0) : along;
-    along = k + 1 < segments ? std::min(along, length) : along;
-    const double away_x = x - along * direction_x, away_y = y - along * direction_y;
+    along = k + 1 < segments ? std::min(along, along_[k + 1] - along_[k]) : along;
+    const double away_x = x - along * direction[0], away_y = y - along * direction[1];
     const double distance2 = away_x * away_x + away_y * away_y;
     if (distance2 < least2) {
       least2 = distance2;
-      nearest = {along_[k] + along, std::copysign(std::sqrt(distance2), direction_x * y - direction_y * x)};
+      nearest = {along_[k] + along, std::copysign(std::sqrt(distance2), direction[0] * y - direction[1] * x)};
     }
   }
   return nearest;

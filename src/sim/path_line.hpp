@@ -37,7 +37,8 @@ class PathLine {
 
  private:
   config::Polyline2 corners_;
-  std::vector<double> along_;  // arc length at each corner [m]
+  std::vector<double> along_;       // arc length at each corner [m]
+  std::vector<Place2> directions_;  // unit vectors from each corner but the last to the next
 };
 
 // The way of a centre of mass: a corner wherever it is a spacing [m] away from the last one, so that its direction does

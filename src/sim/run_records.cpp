@@ -12,6 +12,8 @@ namespace thawslide::sim {
 
 namespace {
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
 // Half sizes of particles by body [m].
 template <int Dim>
 std::vector<double> half_sizes(const Simulation<Dim, double>& simulation) {
@@ -56,18 +58,6 @@ double highest_point(const Simulation<3, double>& simulation) {
     highest = std::max(highest, particles.position(p, 2) + halves[static_cast<std::size_t>(particles.body(p))]);
   }
   return highest + simulation.model().origin[2];
-}
-
-// Arc length at which what was the slide at t = 0 begins: the smallest of the map cells' middles [m].
-double rear_of_release(const FlowMaps& maps, const PathLine& path) {
-  double rear = HUGE_VAL;
-  maps.for_cells([&](int column, int row, const MapCell& cell) {
-    if (cell.thickness_at_start > 0.0) {
-      const MapGrid& grid = maps.map_grid();
-      rear = std::min(rear, path.project({grid.x + column * grid.cell_x, grid.y + row * grid.cell_y}).along);
-    }
-  });
-  return rear;
 }
 
 const std::vector<double>& block(const NamedNumbers& blocks, const char* name) {
@@ -133,7 +123,7 @@ void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
 
 template <int Dim>
 std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const {
-  if (Dim == 2 || path().empty()) {
+  if (path().empty() || simulation.particles().size() == 0) {
     return {};
   }
   const auto& particles = simulation.particles();
@@ -152,6 +142,28 @@ std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const 
 }
 
 template <int Dim>
+double RunRecords<Dim>::rear_of_release() const {
+  double rear = HUGE_VAL;
+  const MapGrid& grid = maps_->map_grid();
+  maps_->for_cells([&](int column, int row, const MapCell& cell) {
+    if (cell.thickness_at_start > 0.0) {
+      rear = std::min(rear, path().project({grid.x + column * grid.cell_x, grid.y + row * grid.cell_y}).along);
+    }
+  });
+  return rear;
+}
+
+template <int Dim>
+HistoryRow RunRecords<Dim>::history_row(const Simulation& simulation) const {
+  if (!maps_) {
+    return sim::history_row(simulation);
+  }
+  const std::optional<Front> foremost = front(simulation);
+  return sim::history_row(simulation, foremost ? FrontInRow{foremost->along, foremost->along - rear_of_release()}
+                                               : FrontInRow{unknown, unknown});
+}
+
+template <int Dim>
 HistoryRow RunRecords<Dim>::probe_row(const Simulation& simulation) const {
   return maps_ && !probes_.empty() ? probes_.row(*maps_, simulation.time()) : HistoryRow{};
 }
@@ -162,12 +174,11 @@ std::optional<RunFigures> RunRecords<Dim>::figures(
   if (!maps_) {
     return {};
   }
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
   const Deposit deposit = maps_->deposit();
   RunFigures figures{deposit.volume, deposit.area, unknown, unknown, unknown, unknown};
   if (const std::optional<Front> foremost = front(simulation)) {
     figures.front_distance = foremost->along;
-    figures.travel_distance = foremost->along - rear_of_release(*maps_, path());
+    figures.travel_distance = foremost->along - rear_of_release();
     figures.drop_height = release_top_ - ground_height(foremost->place[0], foremost->place[1]);
     figures.reach_angle = angle_of_reach(figures.drop_height, figures.travel_distance);
   }

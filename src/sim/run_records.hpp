@@ -45,9 +45,11 @@ class RunRecords {
   // grid.
   [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : way_.line(); }
   [[nodiscard]] bool path_given() const { return path_given_; }
-  // The front along the path; none where that is empty.
+  // The front along the path; none where that is empty, or no particle is left.
   [[nodiscard]] std::optional<Front> front(const Simulation& simulation) const;
-  [[nodiscard]] const Probes& probes() const { return probes_; }
+  // A row of the history, in space with the front and the runout along the path: arc length, and how far that is from
+  // the rear end of the release; NaN while there is no front.
+  [[nodiscard]] HistoryRow history_row(const Simulation& simulation) const;
   // Of the state now. Empty where there are no probes.
   [[nodiscard]] HistoryRow probe_row(const Simulation& simulation) const;
   // Of the state now; nothing in 2D. ground_height: elevation of the ground at x, y, all in the case's coordinates [m].
@@ -56,6 +58,9 @@ class RunRecords {
                                                   const std::function<double(double x, double y)>& ground_height) const;
 
  private:
+  // Arc length of the path at which the release began: the smallest of the middles of the map cells that it lay in [m].
+  [[nodiscard]] double rear_of_release() const;
+
   std::optional<FlowMaps> maps_;
   PathLine given_;
   bool path_given_ = false;

@@ -132,16 +132,18 @@ TEST_F(Files, CheckpointComesBackWhateverTheStorageOrder) {
   fill(particles);
   loaded.resize(particles.size());
   const std::vector<double> scalars{1.5, -2.0, 1e300};
-  write_checkpoint<2, double>(folder_ / "a.bin", particles, scalars);
+  const NamedNumbers blocks{{"maps", {1.0, 2.0, 3.0}}, {"none", {}}};
+  write_checkpoint<2, double>(folder_ / "a.bin", particles, scalars, blocks);
   std::vector<double> back;
-  read_checkpoint<2, double>(folder_ / "a.bin", loaded, back);
+  const NamedNumbers blocks_back = read_checkpoint<2, double>(folder_ / "a.bin", loaded, back);
   EXPECT_EQ(back, scalars);
+  EXPECT_EQ(blocks_back, blocks);
   for (std::size_t f = 0; f < particles.fields.all().size(); ++f) {
     EXPECT_EQ(particles.fields.all()[f]->bytes(), loaded.fields.all()[f]->bytes())
         << particles.fields.all()[f]->info().name;
   }
   particles.reorder(another_order(particles.size()));
-  write_checkpoint<2, double>(folder_ / "b.bin", particles, scalars);
+  write_checkpoint<2, double>(folder_ / "b.bin", particles, scalars, blocks);
   EXPECT_EQ(read_file(folder_ / "a.bin"), read_file(folder_ / "b.bin"));
 }
 
@@ -149,7 +151,7 @@ TEST_F(Files, DamagedCheckpointsAreRefused) {
   mpm::Particles<2, double> particles, loaded;
   fill(particles);
   loaded.resize(particles.size());
-  write_checkpoint<2, double>(folder_ / "good.bin", particles, {1.0});
+  write_checkpoint<2, double>(folder_ / "good.bin", particles, {1.0}, {{"maps", std::vector<double>(2000, 1.5)}});
   const std::string good = read_file(folder_ / "good.bin");
   std::vector<double> scalars;
   std::mt19937 random(5);

@@ -1,4 +1,4 @@
-// A step allocates nothing once its rooms have grown.
+// A step and what is gathered of it allocate nothing once its rooms have grown.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -7,7 +7,7 @@
 
 #include "../support/two_bodies.hpp"
 #include "base/parallel.hpp"
-#include "sim/simulation.hpp"
+#include "sim/run_records.hpp"
 
 #ifndef __SANITIZE_ADDRESS__  // which counts allocations itself
 
@@ -46,12 +46,16 @@ long allocations_of_steps() {
   Simulation<Dim, double> simulation(testing_support::two_bodies<Dim>(5e3, 30.0));
   EXPECT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
   simulation.set_sorting_interval(5);
+  RunRecords<Dim> records(simulation, {});
+  records.start(simulation);
   for (int k = 0; k < 20; ++k) {
     simulation.step(0.002);
+    records.after_step(simulation);
   }
   const long before = allocations;
   for (int k = 0; k < 20; ++k) {
     simulation.step(0.002);
+    records.after_step(simulation);
   }
   const long during = allocations - before;
   set_thread_count(threads_before);

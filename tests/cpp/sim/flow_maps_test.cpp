@@ -47,17 +47,22 @@ const MapKind& kind(const std::string& name) {
   throw std::logic_error("no map " + name);
 }
 
-TEST(CellSpan, SharesAreThoseOfTheBoxAndSumToOne) {
-  const CellSpan within = cell_span(2.5, 0.25, 2.0, 10);
+// Of a box on an axis of ten cells.
+CellRange cells_below(double middle, double half) {
+  return cell_spans(Lanes<double>(middle), Lanes<double>(half), Lanes<double>(0.5 / half), 10).of_lane(0);
+}
+
+TEST(CellRange, SharesAreThoseOfTheBoxAndSumToOne) {
+  const CellRange within = cells_below(2.5, 0.25);
   EXPECT_EQ(within.first, 2);
   EXPECT_EQ(within.last, 2);
   EXPECT_EQ(within.share(2), 1.0);
-  const CellSpan across = cell_span(3.1, 0.5, 1.0, 10);
+  const CellRange across = cells_below(3.1, 0.5);
   EXPECT_EQ(across.first, 2);
   EXPECT_EQ(across.last, 3);
   EXPECT_NEAR(across.share(2), 0.4, 1e-15);
   EXPECT_NEAR(across.share(3), 0.6, 1e-15);
-  const CellSpan wide = cell_span(4.25, 1.5, 1.0 / 3.0, 10);
+  const CellRange wide = cells_below(4.25, 1.5);
   EXPECT_EQ(wide.first, 2);
   EXPECT_EQ(wide.last, 5);
   EXPECT_NEAR(wide.share(2), 0.25 / 3.0, 1e-15);
@@ -65,20 +70,20 @@ TEST(CellSpan, SharesAreThoseOfTheBoxAndSumToOne) {
   EXPECT_NEAR(wide.share(5), 0.75 / 3.0, 1e-15);
 }
 
-TEST(CellSpan, ABoxThatEndsOnABorderStaysOnItsSide) {
+TEST(CellRange, ABoxThatEndsOnABorderStaysOnItsSide) {
   for (const double off : {0.0, 1e-13, -1e-13}) {
-    const CellSpan span = cell_span(2.5 + off, 0.5, 1.0, 10);
+    const CellRange span = cells_below(2.5 + off, 0.5);
     EXPECT_EQ(span.first, 2);
     EXPECT_EQ(span.last, 2);
   }
 }
 
-TEST(CellSpan, WhatLiesBesideTheGridCountsToItsEdge) {
-  const CellSpan left = cell_span(0.2, 0.5, 1.0, 10);
+TEST(CellRange, WhatLiesBesideTheGridCountsToItsEdge) {
+  const CellRange left = cells_below(0.2, 0.5);
   EXPECT_EQ(left.first, 0);
   EXPECT_EQ(left.last, 0);
   EXPECT_EQ(left.share(0), 1.0);
-  const CellSpan right = cell_span(9.2, 1.0, 0.5, 10);
+  const CellRange right = cells_below(9.2, 1.0);
   EXPECT_EQ(right.first, 8);
   EXPECT_EQ(right.last, 9);
   EXPECT_NEAR(right.share(8), 0.4, 1e-15);

@@ -114,10 +114,22 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
   ASSERT_TRUE(front.has_value());
   EXPECT_NEAR(front->along, front_position(simulation) + 2.0, 1e-12);
   EXPECT_NEAR(front->place[0], front_position(simulation), 1e-12);
+  const HistoryRow row = records.history_row(simulation), along_x = history_row(simulation);
+  ASSERT_EQ(row.size(), along_x.size());
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    EXPECT_EQ(row[k].first, along_x[k].first);
+    if (row[k].first == "front_position_m") {
+      EXPECT_EQ(row[k].second, front->along);
+    } else if (row[k].first == "runout_m") {
+      EXPECT_NEAR(row[k].second, along_x[k].second - 0.5, 1e-12);  // from the middle of the first cell of 1 m
+    } else {
+      EXPECT_EQ(std::memcmp(&row[k].second, &along_x[k].second, sizeof(double)), 0) << row[k].first;
+    }
+  }
   const auto figures = records.figures(simulation, level_ground);
   ASSERT_TRUE(figures.has_value());
   EXPECT_EQ(figures->front_distance, front->along);
-  EXPECT_NEAR(figures->travel_distance, front->place[0] - 0.5, 1e-12);  // from the middle of the first cell of 1 m
+  EXPECT_NEAR(figures->travel_distance, front->place[0] - 0.5, 1e-12);
   EXPECT_NEAR(figures->drop_height, 3.0, 1e-12);
   EXPECT_EQ(figures->reach_angle, angle_of_reach(figures->drop_height, figures->travel_distance));
   EXPECT_NEAR(figures->deposit_volume, 72.0, 0.5);
@@ -130,6 +142,7 @@ TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
   EXPECT_FALSE(records.path_given());
   EXPECT_TRUE(records.path().empty());
   EXPECT_FALSE(records.front(simulation).has_value());
+  EXPECT_TRUE(std::isnan(value_of(records.history_row(simulation), "runout_m")));
   const auto at_rest = records.figures(simulation, level_ground);
   ASSERT_TRUE(at_rest.has_value());
   EXPECT_TRUE(std::isnan(at_rest->travel_distance));
@@ -200,6 +213,7 @@ TEST(RunRecords, AreEmptyInThePlane) {
   EXPECT_FALSE(records.front(simulation).has_value());
   EXPECT_TRUE(records.state().empty());
   EXPECT_TRUE(records.probe_row(simulation).empty());
+  EXPECT_EQ(value_of(records.history_row(simulation), "front_position_m"), front_position(simulation));
   EXPECT_FALSE(records.figures(simulation, level_ground).has_value());
 }
 
