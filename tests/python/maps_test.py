@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 import rasterio
 from map_runs import CELL, COLUMNS, ROWS, SOUTH, WEST, centres, ground, write_map
-
 from rasterio.errors import NotGeoreferencedWarning
 
 from thawslide import NotInRunError, ReportError, Run
