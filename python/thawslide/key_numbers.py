@@ -8,7 +8,7 @@ import numpy as np
 
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.force import seismic_force
-from thawslide.figures.style import prefixed
+from thawslide.figures.style import area_text, prefixed, volume_text
 from thawslide.run import Run
 
 STOPPED_SHARE = 0.01  # of the peak mean velocity
@@ -131,8 +131,8 @@ def _map_numbers(run: Run) -> list[KeyNumber]:
     """Return what run.json says of a slide on a DEM."""
     rows = []
     for words, key, text, remark in (
-        ("Deposit volume", "deposit_volume_m3", _volume, "at the end"),
-        ("Deposit area", "deposit_area_m2", _area, "at the end, seen from above"),
+        ("Deposit volume", "deposit_volume_m3", volume_text, "at the end"),
+        ("Deposit area", "deposit_area_m2", area_text, "at the end, seen from above"),
         ("Travel distance", "travel_distance_m", _metres, "along the path, from the top of the release to the front"),
         ("Drop height", "drop_height_m", _metres, "of the same two places"),
         ("Angle of reach", "angle_of_reach_degrees", lambda value: f"{value:.1f}°", "slope of the line between them"),
@@ -141,14 +141,6 @@ def _map_numbers(run: Run) -> list[KeyNumber]:
         if isinstance(value, int | float):
             rows.append(KeyNumber(words, text(float(value)), remark))
     return rows
-
-
-def _volume(value: float) -> str:
-    return f"{value / 1e6:.3g} million m³" if value >= 1e6 else f"{value:,.0f} m³"
-
-
-def _area(value: float) -> str:
-    return f"{value / 1e6:.3g} km²" if value >= 1e5 else f"{value:,.0f} m²"
 
 
 def _band_numbers(run: Run) -> list[KeyNumber]:

@@ -198,12 +198,14 @@ def on_map(run: Run) -> bool:
 def _open(path: Path) -> rasterio.DatasetReader:
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("error", NotGeoreferencedWarning)
-            return rasterio.open(path)
-    except NotGeoreferencedWarning as error:
-        raise ReportError(f"{path}: has no coordinates; it is not a map the simulator wrote") from error
+            warnings.simplefilter("ignore", NotGeoreferencedWarning)
+            file = rasterio.open(path)
+            placed = file.transform != rasterio.Affine.identity()
     except (RasterioError, OSError) as error:
         raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
+    if not placed:
+        raise ReportError(f"{path}: has no coordinates; it is not a map the simulator wrote")
+    return file
 
 
 def _overlap(low: float, high: float, start: float, cell: float, count: int) -> slice:

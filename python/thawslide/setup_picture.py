@@ -1,4 +1,4 @@
-"""Terrain, grid, bodies, boundaries and frames before a run: the whole domain, and a close look at the bodies."""
+"""A set-up before it runs, in section: terrain, grid, bodies, boundaries and frames; the whole, and the bodies near."""
 
 from __future__ import annotations
 
@@ -29,6 +29,7 @@ from thawslide.figures.style import (
 )
 from thawslide.figures.window import Window, fill_terrain, fit, squares
 from thawslide.run import Numbers
+from thawslide.setup_map import SetupOnMap, draw_setup_on_map, setup_on_map
 
 _BODY_COLOURS = (BLUE, ORANGE, GREEN, PURPLE, SKY)
 _SIDE_LINES: dict[str, Any] = {"fixed": "-", "roller": "--", "open": ":"}
@@ -73,8 +74,11 @@ class Setup:
     frames: list[Frame]
 
 
-def read_setup(path: Path) -> Setup:
-    """Read a set-up as the simulator writes it; ReportError when it is missing or lacks a part."""
+def read_setup(path: Path) -> Setup | SetupOnMap:
+    """Read a set-up as the simulator writes it; ReportError when it is missing or lacks a part.
+
+    One whose terrain has heights over the plane is on a DEM.
+    """
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -83,6 +87,8 @@ def read_setup(path: Path) -> Setup:
         raise ReportError(f"{path}: not valid JSON: {error}") from error
     try:
         terrain = data.get("terrain")
+        if terrain is not None and "heights" in terrain:
+            return setup_on_map(data)
         return Setup(
             str(data["title"]),
             float(data["cell"]),
@@ -107,7 +113,8 @@ def read_setup(path: Path) -> Setup:
 
 def draw_setup_file(setup: Path, picture: Path, dpi: int = 150) -> None:
     """Draw the set-up in the file `setup` into the file `picture`."""
-    figure = draw_setup(read_setup(setup))
+    found = read_setup(setup)
+    figure = draw_setup_on_map(found) if isinstance(found, SetupOnMap) else draw_setup(found)
     try:
         picture.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(picture, dpi=dpi)

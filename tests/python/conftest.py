@@ -155,3 +155,13 @@ def make_run(tmp_path: Path) -> MakeRun:
         return folder
 
     return make
+
+
+@pytest.fixture
+def map_run(tmp_path: Path) -> Path:
+    """Return the folder of a 3D run on a DEM, with six snapshots."""
+    import map_runs  # it uses what stands above
+
+    folder = tmp_path / "slab"
+    map_runs.write_map_run(folder, 6)
+    return folder

@@ -27,7 +27,7 @@ COVER = 0.82  # opacity of a field over the terrain: the relief below still show
 ASPECTS = (0.45, 2.4)  # width over height of a map, narrowest and widest
 _MOST_CONTOURS = 24
 _MARGIN = 0.12  # of the longer side of what a map is about, left free around it
-_SHADES = LinearSegmentedColormap.from_list("shades", ["#6F6A62", "#B9B4AA", "#E4E0D8", "#FBFAF7"])
+_SHADES = LinearSegmentedColormap.from_list("shades", ["#8B867D", "#B5B0A7", "#DFDBD3", "#FAF9F6"])
 CONTOUR = "#5B4B37"
 HALO: list[patheffects.AbstractPathEffect] = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 
@@ -112,7 +112,7 @@ def covered_box(field: Map, threshold: float = 0.0) -> Box | None:
 def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True) -> None:
     """Draw the shaded terrain, its contour lines (with elevations where `labels`) and coordinates in km."""
     axes.imshow(
-        scene.shade, cmap=_SHADES, vmin=0.15, vmax=1.0, extent=scene.terrain.grid.box, origin="lower",
+        scene.shade, cmap=_SHADES, vmin=0.0, vmax=1.0, extent=scene.terrain.grid.box, origin="lower",
         interpolation="bilinear", zorder=1,
     )  # fmt: skip
     levels = contour_levels(scene.terrain.values, _MOST_CONTOURS)
@@ -225,19 +225,22 @@ class MapPage:
             (left / self.WIDTH, 1 - (top + height) / self.height, width / self.WIDTH, height / self.height)
         )
 
-    def panel(self, number: int, labels: bool) -> Axes:
-        """Return the map of a number with its terrain; coordinates stand at the left and lower ends of the page."""
+    def panel(self, number: int, labels: bool, scene: Scene | None = None) -> Axes:
+        """Return the map of a number with the terrain of the page, or of a scene of its own and its coordinates.
+
+        Coordinates of the page's terrain stand at the left and lower ends of the page only.
+        """
         row, column = divmod(number, self.columns)
         left = self.LEFT + column * (self.width + self.bar + self.GAP)
         axes = self.place(left, self.HEAD + row * (self.high + self.TITLE) + self.TITLE, self.width, self.high)
-        draw_scene(axes, self.scene, labels)
+        draw_scene(axes, scene or self.scene, labels)
         if column == 0:
             axes.set_ylabel("northing (km)")
-        else:
+        elif scene is None:
             axes.tick_params(labelleft=False)
         if number + self.columns >= self.count:
             axes.set_xlabel("easting (km)")
-        else:
+        elif scene is None:
             axes.tick_params(labelbottom=False)
         return axes
 

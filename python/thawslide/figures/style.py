@@ -78,6 +78,16 @@ def prefixed(values: ArrayLike, unit: str) -> tuple[float, str]:
     return 1.0, unit
 
 
+def volume_text(value: float) -> str:
+    """Return a volume [m3] in words."""
+    return f"{value / 1e6:.3g} million m³" if value >= 1e6 else f"{value:,.0f} m³"
+
+
+def area_text(value: float) -> str:
+    """Return an area [m2] in words."""
+    return f"{value / 1e6:.3g} km²" if value >= 1e5 else f"{value:,.0f} m²"
+
+
 def length_unit(span: float) -> tuple[float, str]:
     """Return (divisor, unit) for an axis over `span` metres: km from 3 km up."""
     return (1000.0, "km") if span >= 3000.0 else (1.0, "m")

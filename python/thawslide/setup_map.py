@@ -1,0 +1,199 @@
+"""A set-up on a DEM from above, before it runs: shaded terrain, domain, release with its thickness, path and probes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Rectangle
+
+from thawslide.figures.colours import THICKNESS, colour_range, number_text
+from thawslide.figures.map_panel import (
+    HALO,
+    MapPage,
+    box_about,
+    colour_map,
+    covered_box,
+    make_scene,
+    paint,
+    quiet_corner,
+    scale_bar,
+)
+from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, PURPLE, RED, styled, volume_text
+from thawslide.maps import Box, Grid, Map
+from thawslide.run import Numbers
+
+_BODY_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
+_PATH = "#0B3C8C"
+
+
+@dataclass(frozen=True)
+class Release:
+    """A body of a set-up: closed outlines, each of shape (n, 2) [m], volume [m3], thickness [m] where it is known."""
+
+    name: str
+    material: str
+    outlines: list[Numbers]
+    volume: float
+    thickness: Map | None
+
+
+@dataclass(frozen=True)
+class SetupOnMap:
+    """What a case on a DEM sets up; lines are of shape (n, 2) [m]."""
+
+    title: str
+    cell: float  # m, of the simulator's grid
+    domain: Box
+    terrain: Map
+    releases: list[Release]
+    path: Numbers | None
+    probes: dict[str, Numbers]
+
+
+def setup_on_map(data: dict[str, Any]) -> SetupOnMap:
+    """Return a set-up from what the simulator wrote; KeyError, TypeError or ValueError where a part is missing."""
+    crs = str(data.get("crs") or "")
+    west, south = (float(value) for value in data["min"][:2])
+    east, north = (float(value) for value in data["max"][:2])
+    releases = [
+        Release(
+            str(body["name"]),
+            str(body["material"]),
+            [_line(outline) for outline in body.get("outlines") or []],
+            float(body["volume_m3"]),
+            _raster(body["thickness"], crs) if body.get("thickness") else None,
+        )
+        for body in data.get("bodies") or []
+    ]
+    return SetupOnMap(
+        str(data["title"]),
+        float(data["cell"]),
+        (west, east, south, north),
+        _raster(data["terrain"], crs),
+        releases,
+        _line(data["path"]) if data.get("path") else None,
+        {str(name): _line(probe) for name, probe in (data.get("probes") or {}).items()},
+    )
+
+
+def _line(points: Any) -> Numbers:
+    return np.array(points, dtype=np.float64).reshape(-1, 2)
+
+
+def _raster(data: dict[str, Any], crs: str) -> Map:
+    grid = Grid(
+        float(data["x0"]), float(data["y0"]), float(data["cell_x"]), float(data["cell_y"]),
+        int(data["columns"]), int(data["rows"]),
+    )  # fmt: skip
+    values = np.array(data["heights"], dtype=np.float64)  # null becomes nan
+    if values.size != grid.rows * grid.columns:
+        raise ValueError(f"{values.size} heights for {grid.columns} columns and {grid.rows} rows")
+    return Map(grid, values.reshape(grid.rows, grid.columns), "m", "", crs)
+
+
+@styled
+def draw_setup_on_map(setup: SetupOnMap) -> Figure:
+    """Draw the whole domain, and a close look at the release with the thickness it starts with."""
+    terrain = setup.terrain
+    overview = make_scene(terrain, box_about([setup.domain]))
+    boxes = [_box_of(outline) for release in setup.releases for outline in release.outlines]
+    boxes += [_box_with_values(release.thickness) for release in setup.releases if release.thickness is not None]
+    scenes = [overview]
+    if boxes:
+        scenes.append(make_scene(terrain, box_about(boxes), (overview.aspect, overview.aspect)))
+    handles = _legend(setup)
+    columns = 4 if len(setup.releases) < 2 else 3
+    page = MapPage(f"{setup.title}: set-up", overview, len(scenes), 0.28 + 0.18 * -(-len(handles) // columns), bar=0.62)
+    painter, extend = _painter(setup)
+    for number, (scene, words) in enumerate(zip(scenes, ("whole domain", "release"), strict=False)):
+        axes = page.panel(number, labels=True, scene=scene)
+        box = "; box: (b)" if number == 0 and len(scenes) > 1 else ""
+        axes.set_title(f"({chr(ord('a') + number)}) {words}{box}", loc="left")
+        _draw_parts(axes, setup, painter)
+        scale_bar(axes, quiet_corner(_all_thickness(setup), scene.box))
+        if number == 1:
+            axes.set_title(f"grid cells of {setup.cell:g} m", loc="right", color=NOTE, size=8)
+        if number == len(scenes) - 1 and painter is not None:
+            bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
+            bar.set_label("thickness (m)", labelpad=2)
+    if len(scenes) > 1:
+        _frame(page.figure.axes[0], scenes[1].box, RED, 1.0)
+    page.figure.legend(
+        handles=handles, loc="lower left", ncols=columns, bbox_to_anchor=(page.LEFT / page.WIDTH, 0.22 / page.height),
+        borderaxespad=0.0,
+    )  # fmt: skip
+    page.note(overview.note())
+    return page.figure
+
+
+def _draw_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -> None:
+    for number, release in enumerate(setup.releases):
+        if release.thickness is not None and painter is not None:
+            values = np.where(release.thickness.values > 0.0, release.thickness.values, np.nan)
+            paint(axes, Map(release.thickness.grid, values), painter)
+        for outline in release.outlines:
+            axes.plot(*outline.T, color=_BODY_COLOURS[number % len(_BODY_COLOURS)], linewidth=1.2, zorder=5)
+    _frame(axes, setup.domain, BLACK, 1.4, linestyle="--")
+    if setup.path is not None:
+        axes.plot(*setup.path.T, color=_PATH, linewidth=1.2, path_effects=HALO, zorder=6)
+    for name, points in setup.probes.items():
+        axes.plot(
+            *points.T, color=PURPLE, marker="D" if len(points) == 1 else "", markeredgecolor="white", markersize=5,
+            linewidth=1.6, path_effects=None if len(points) == 1 else HALO, zorder=7,
+        )  # fmt: skip
+        axes.annotate(
+            name, (points[-1][0], points[-1][1]), xytext=(5, 4), textcoords="offset points", size=7.5, zorder=7,
+            path_effects=HALO, annotation_clip=True,
+        )  # fmt: skip
+
+
+def _frame(axes: Axes, box: Box, colour: str, width: float, **style: Any) -> None:
+    corner, size = (box[0], box[2]), (box[1] - box[0], box[3] - box[2])
+    axes.add_patch(Rectangle(corner, *size, fill=False, edgecolor=colour, linewidth=width, zorder=7, **style))
+
+
+def _box_of(line: Numbers) -> Box:
+    low, high = line.min(axis=0), line.max(axis=0)
+    return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+
+def _box_with_values(thickness: Map) -> Box:
+    return covered_box(thickness) or thickness.grid.box
+
+
+def _all_thickness(setup: SetupOnMap) -> Map | None:
+    found = [release.thickness for release in setup.releases if release.thickness is not None]
+    return found[0] if found else None
+
+
+def _painter(setup: SetupOnMap) -> tuple[ScalarMappable | None, str]:
+    """Return what paints the thickness of all releases on one scale, None where none is known."""
+    found = [release.thickness.values.ravel() for release in setup.releases if release.thickness is not None]
+    values = np.concatenate(found) if found else np.zeros(0)
+    values = values[np.nan_to_num(values) > 0.0]
+    if not values.size:
+        return None, "neither"
+    _, high, extend = colour_range(values, from_zero=True)
+    return ScalarMappable(Normalize(0.0, high), colour_map(THICKNESS.colours)), extend
+
+
+def _legend(setup: SetupOnMap) -> list[Patch | Line2D]:
+    handles: list[Patch | Line2D] = []
+    for number, release in enumerate(setup.releases):
+        label = f"{release.name} ({release.material}): {volume_text(release.volume)}"
+        if release.thickness is not None and np.isfinite(release.thickness.values).any():
+            label += f", up to {number_text(float(np.nanmax(release.thickness.values)))} m thick"
+        handles.append(Line2D([], [], color=_BODY_COLOURS[number % len(_BODY_COLOURS)], linewidth=1.2, label=label))
+    handles.append(Line2D([], [], color=BLACK, linestyle="--", linewidth=1.4, label="domain"))
+    if setup.path is not None:
+        handles.append(Line2D([], [], color=_PATH, linewidth=1.2, label="path"))
+    if setup.probes:
+        handles.append(Line2D([], [], color=PURPLE, marker="D", markersize=5, label="probe"))
+    return handles

@@ -1,0 +1,63 @@
+"""Particles gathered on a grid: volumes are kept, shares are exact, means are those of mass."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from map_runs import LENGTH, MIDDLE, SPEED, THICKNESS, WEST, WIDTH
+
+from thawslide import Run
+from thawslide.binning import FIELDS, gather, spread
+from thawslide.maps import Grid, Maps
+
+GRID = Grid(0.5, 1.0, 1.0, 2.0, 20, 12)  # cells of 1 m x 2 m over 0..20 m x 0..24 m
+
+
+@pytest.mark.parametrize("width", [0.1, 1.0, 1.7, 4.0, 5.3])
+def test_sums_are_kept_whatever_the_width(width: float) -> None:
+    random = np.random.default_rng(3)
+    x, y = random.uniform(4.0, 16.0, 500), random.uniform(4.0, 20.0, 500)
+    amounts = [random.random(500), random.normal(size=500)]
+    for total, amount in zip(spread(GRID, x, y, width, amounts), amounts, strict=True):
+        assert total.shape == (12, 20)
+        assert total.sum() == pytest.approx(amount.sum(), rel=1e-12)
+
+
+def test_shares_are_areas() -> None:
+    (one,) = spread(GRID, np.array([5.75]), np.array([9.0]), 2.0, [np.array([8.0])])
+    # 4.75..6.75 m of x: a quarter of a cell, one, three quarters; 8..10 m of y: the fifth row.
+    wanted = np.zeros((12, 20))
+    wanted[4, 4:7] = 1.0, 4.0, 3.0
+    np.testing.assert_allclose(one, wanted, atol=1e-12)
+
+
+def test_what_lies_outside_is_left_out_by_its_share() -> None:
+    (one,) = spread(GRID, np.array([0.0, 20.0, -30.0]), np.array([1.0, 23.0, 1.0]), 2.0, [np.ones(3)])
+    assert one.sum() == pytest.approx(1.0)
+
+
+def test_a_slab_is_as_thick_as_its_map(map_run: Path) -> None:
+    run = Run(map_run)
+    grid = Maps(run)["release"].grid
+    columns = gather(grid, run.snapshot(0, fields=FIELDS), 10.0)
+    assert columns.thickness.volume() == pytest.approx(LENGTH * WIDTH * THICKNESS, rel=1e-12)
+    inside = columns.thickness.at(np.array([WEST + 100.0]), np.array([MIDDLE]))
+    assert inside == pytest.approx(THICKNESS)
+    assert np.nanmax(columns.speed.values) == pytest.approx(SPEED)
+    assert np.nanmin(columns.speed.values) == pytest.approx(SPEED)
+    assert np.isnan(columns.speed.values[0, 0])
+
+
+def test_temperature_is_that_of_particles_next_to_the_ground(map_run: Path) -> None:
+    run = Run(map_run)
+    columns = gather(Maps(run)["release"].grid, run.snapshot(5, fields=FIELDS), 10.0)
+    values = columns.temperature.values[np.isfinite(columns.temperature.values)]
+    np.testing.assert_allclose(values, 10.0)  # those above are at -50
+    assert columns.time == 10.0
+
+
+def test_only_the_fields_asked_for_are_read(map_run: Path) -> None:
+    shot = Run(map_run).snapshot(0, fields=FIELDS)
+    assert sorted(shot) == sorted(FIELDS)

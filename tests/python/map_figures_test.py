@@ -1,0 +1,259 @@
+"""Figures of a 3D run on a DEM: what they show is what the files hold, with units, coordinates and terrain."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import imageio_ffmpeg
+import numpy as np
+import pytest
+from map_runs import MIDDLE, SOUTH, SPEED, THICKNESS, WEST, centres, ground, write_map
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+
+from thawslide import NotInRunError, Run
+from thawslide.command_line import main
+from thawslide.figures import FIGURES
+from thawslide.figures.animation import MOST_FRAMES, Film
+from thawslide.figures.cross_sections import across, along
+from thawslide.figures.map_panel import MOST_CELLS, covered_box, make_scene, page_box, quiet_corner
+from thawslide.figures.site import distances, make_site
+from thawslide.key_numbers import key_numbers
+from thawslide.maps import Grid, Map
+from thawslide.report import figures_of, make_report
+
+ON_MAP = [
+    "extent_maps", "animation", "slide_speed", "slide_thickness", "slide_temperature", "cross_sections", "impact_maps",
+    "probes", "motion", "force", "band", "energy",
+]  # fmt: skip
+
+
+def drawn(name: str, folder: Path) -> Figure:
+    figure = FIGURES[name].draw(Run(folder))
+    assert isinstance(figure, Figure)
+    return figure
+
+
+def maps_of(figure: Figure) -> list[Axes]:
+    return [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
+
+
+def field(axes: Axes) -> AxesImage:
+    """Return the field over the shaded terrain."""
+    shade, *fields = [image for image in axes.images if isinstance(image, AxesImage)]
+    assert shade.get_zorder() < fields[-1].get_zorder()
+    return fields[-1]
+
+
+def labels(figure: Figure) -> set[str]:
+    return {label for axes in figure.axes for label in (axes.get_xlabel(), axes.get_ylabel()) if label}
+
+
+def notes(figure: Figure) -> str:
+    return " ".join(text.get_text() for text in figure.texts)
+
+
+@pytest.mark.parametrize(
+    ("name", "label", "value"),
+    [
+        ("slide_speed", "speed, mean over the thickness (m/s)", SPEED),
+        ("slide_thickness", "thickness (m)", THICKNESS),
+        ("slide_temperature", "temperature next to the ground (°C)", 10.0),
+    ],
+)
+def test_the_slide_from_above_at_each_time(map_run: Path, name: str, label: str, value: float) -> None:
+    figure = drawn(name, map_run)
+    panels = maps_of(figure)
+    assert [axes.get_title(loc="left") for axes in panels] == [
+        f"({letter}) t = {time} s" for letter, time in zip("abcdef", (0, 2, 4, 6, 8, 10), strict=True)
+    ]
+    assert {label, "easting (km)", "northing (km)"} <= labels(figure)
+    values = field(panels[-1]).get_array()
+    assert values is not None
+    assert np.ma.max(values) == pytest.approx(value)
+    west, east, south, _ = field(panels[-1]).get_extent()
+    shown = np.argwhere(~np.ma.getmaskarray(values).all(axis=0)).ravel()
+    start = west + (east - west) * shown[0] / values.shape[1]
+    assert start == pytest.approx(WEST + 60.0 + SPEED * 10.0, abs=10.0)
+    assert south >= SOUTH
+    assert "Coordinates: MGI / Austria Lambert (EPSG:31287)." in notes(figure)
+    assert "light from the north-west" in notes(figure)
+
+
+def test_extent_maps(map_run: Path) -> None:
+    figure = drawn("extent_maps", map_run)
+    panels = maps_of(figure)
+    assert [(axes.get_title(loc="left"), axes.get_title(loc="right")) for axes in panels] == [
+        ("(a) largest thickness", "max 6 m"),
+        ("(b) largest speed", "max 20 m/s"),
+        ("(c) arrival time", "max 9.8 s"),
+        ("(d) thickness at the end", "max 6 m"),
+    ]
+    assert {"m", "m/s", "s"} <= labels(figure)
+    final = field(panels[3]).get_array()
+    assert final is not None
+    assert np.ma.count(final) == 8 * 6
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["release", "path", "probe"]
+    assert "gate" in {text.get_text() for text in panels[0].texts}
+
+
+def test_impact_maps_leave_out_what_never_happened(map_run: Path) -> None:
+    titles = [axes.get_title(loc="left")[4:] for axes in maps_of(drawn("impact_maps", map_run))]
+    assert titles == [
+        "largest dynamic pressure", "largest momentum flux", "largest pore pressure", "highest temperature at the base",
+        "change of elevation",
+    ]  # fmt: skip
+
+
+def test_sections_along_and_across_the_path(map_run: Path) -> None:
+    figure = drawn("cross_sections", map_run)
+    panels = maps_of(figure)
+    assert panels[0].get_title(loc="left").startswith("(a) along the path, true scale")
+    assert [axes.get_title(loc="left").split(",")[0] for axes in panels[2:]] == [f"({c}) across" for c in "cdef"]
+    (surface,) = [line for line in panels[0].lines if line.get_color() == "#6B6459"]
+    x, z = (np.asarray(values, dtype=float) for values in surface.get_data())
+    np.testing.assert_allclose(z, ground(WEST + 20.0 + x, np.full(len(x), MIDDLE)), rtol=1e-9)
+    largest = panels[1].lines[0]
+    assert float(np.max(np.asarray(largest.get_ydata(), dtype=float))) == pytest.approx(THICKNESS)
+
+
+def test_a_thin_slide_is_drawn_thicker_and_the_panel_says_so(map_run: Path) -> None:
+    y = centres()[1]
+    thin = np.where(np.abs(y - MIDDLE) < 30.0, 0.5, 0.0)
+    for name in ("release", "max_thickness", "final_thickness"):
+        write_map(map_run / "maps" / f"{name}.tif", thin)
+    panel = maps_of(drawn("cross_sections", map_run))[0]
+    title = panel.get_title(loc="left")
+    times = float(title.split("thickness ×")[1])
+    assert times > 5.0
+    (line,) = [line for line in panel.lines if line.get_color() == "#D55E00"]
+    distance, height = (np.asarray(values, dtype=float) for values in line.get_data())
+    above = height - ground(WEST + 20.0 + distance, np.full(len(distance), MIDDLE))
+    assert np.nanmax(above) == pytest.approx(0.5 * times)
+
+
+def test_sections_run_from_left_to_right_across_the_path() -> None:
+    line = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 100.0]])
+    np.testing.assert_allclose(distances(line), [0.0, 100.0, 200.0])
+    np.testing.assert_allclose(across(line, 50.0, 10.0, 5.0), [[50.0, 10.0], [50.0, -10.0]])
+    np.testing.assert_allclose(across(line, 150.0, 10.0, 5.0), [[90.0, 50.0], [110.0, 50.0]])
+    points, distance = along(line, 5)
+    np.testing.assert_allclose(points[:, 0], [0.0, 50.0, 100.0, 100.0, 100.0])
+    np.testing.assert_allclose(distance, [0.0, 50.0, 100.0, 150.0, 200.0])
+
+
+def test_probes(map_run: Path) -> None:
+    figure = drawn("probes", map_run)
+    assert {"thickness (m)", "speed (m/s)", "flow area (m²)", "discharge (m³/s)"} <= labels(figure)
+    discharge = maps_of(figure)[3].lines[0]
+    assert discharge.get_label() == "weir"
+    np.testing.assert_array_equal(np.asarray(discharge.get_ydata()), [0.0, 7200.0, 0.0])
+
+
+def test_the_film_has_a_frame_for_each_snapshot(map_run: Path, tmp_path: Path) -> None:
+    film = FIGURES["animation"].draw(Run(map_run))
+    assert isinstance(film, Film)
+    film.write(tmp_path / "film.mp4", 40)
+    frames, seconds = imageio_ffmpeg.count_frames_and_secs(str(tmp_path / "film.mp4"))
+    assert frames == 6
+    assert seconds == pytest.approx(6 / film.frames_per_second, abs=0.1)
+    assert [path.name for path in tmp_path.glob("*.mp4")] == ["film.mp4"]
+
+
+def test_frames_differ_and_their_sides_are_even(map_run: Path) -> None:
+    film = FIGURES["animation"].draw(Run(map_run))
+    assert isinstance(film, Film)
+    first, *_, last = list(film.frames(41))
+    assert first.shape == last.shape
+    assert first.shape[0] % 2 == 0 and first.shape[1] % 2 == 0
+    assert np.any(first != last)
+
+
+def test_many_snapshots_are_thinned_to_the_most_frames(map_run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run = Run(map_run)
+    monkeypatch.setitem(run.__dict__, "times", np.arange(1000.0))
+    film = Film(run)
+    assert len(film.indices) == MOST_FRAMES
+    assert (film.indices[0], film.indices[-1]) == (0, 999)
+
+
+def test_a_report_has_the_figures_the_film_and_the_maps(map_run: Path) -> None:
+    run = Run(map_run)
+    assert figures_of(run) == ON_MAP
+    lines: list[str] = []
+    report = make_report(run, dpi=40, progress=lines.append)
+    assert list(report.figures) == ON_MAP
+    assert lines[0] == f"[1/12] extent_maps: {map_run / 'figures' / 'extent_maps.png'}"
+    page = report.page.read_text(encoding="utf-8")
+    assert '<video controls loop muted src="figures/animation.mp4"' in page
+    assert '<th scope="row">max_pressure.tif</th><td>max pressure</td><td>Pa</td>' in page
+    assert '<p>In the folder <a href="maps">maps</a>.</p>' in page
+    assert "Left out" not in page
+
+
+def test_key_numbers_of_the_deposit(map_run: Path) -> None:
+    found = {row.words: row.value for row in key_numbers(Run(map_run))}
+    assert found["Deposit volume"] == "28,800 m³"
+    assert found["Deposit area"] == "4,800 m²"
+    assert found["Travel distance"] == "280 m"
+    assert found["Angle of reach"] == "21.8°"
+
+
+def test_missing_maps_have_their_words(map_run: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (map_run / "maps" / "results.gpkg").unlink()
+    with pytest.raises(NotInRunError, match=r"results\.gpkg: no path line, so there is nothing to cut along"):
+        drawn("cross_sections", map_run)
+    (map_run / "maps" / "max_speed.tif").unlink()
+    with pytest.raises(NotInRunError, match=r"max_speed\.tif: no such map; there are: "):
+        list(Film(Run(map_run)).frames(40))
+    (map_run / "maps" / "terrain.tif").unlink()
+    assert main([str(map_run), "--only", "slide_speed"]) == 2
+    assert "terrain.tif: no such map; without it no map can be drawn" in capsys.readouterr().err
+
+
+def test_without_snapshots_or_heat(map_run: Path) -> None:
+    case = (map_run / "case.toml").read_text()
+    (map_run / "case.toml").write_text(case.replace("enabled = true", "enabled = false"))
+    with pytest.raises(NotInRunError, match=r"heat\.enabled is false"):
+        drawn("slide_temperature", map_run)
+    for path in (map_run / "snapshots").iterdir():
+        path.unlink()
+    with pytest.raises(NotInRunError, match="no snapshots; set"):
+        drawn("slide_speed", map_run)
+    with pytest.raises(NotInRunError, match="an animation needs two snapshots; set"):
+        Film(Run(map_run))
+
+
+def test_a_slide_that_never_moved_still_draws(map_run: Path) -> None:
+    x, _ = centres()
+    for name in ("max_thickness", "final_thickness", "max_speed", "release"):
+        write_map(map_run / "maps" / f"{name}.tif", np.zeros(x.shape))
+    assert make_site(Run(map_run)).scene.box == pytest.approx((WEST, WEST + 600.0, SOUTH, SOUTH + 300.0))
+    assert [axes.get_title(loc="left") for axes in maps_of(drawn("extent_maps", map_run))] == ["(a) arrival time"]
+
+
+def test_large_terrain_is_thinned_for_drawing() -> None:
+    heights = np.add.outer(np.arange(3000.0), np.arange(3000.0))
+    scene = make_scene(Map(Grid(5.0, 5.0, 10.0, 10.0, 3000, 3000), heights), (0.0, 30_000.0, 0.0, 30_000.0))
+    assert max(scene.shade.shape) <= MOST_CELLS
+    assert scene.terrain.grid.cell_x == 40.0
+
+
+def test_boxes_fit_a_page_and_stay_on_the_terrain() -> None:
+    whole = (0.0, 1000.0, 0.0, 2000.0)
+    west, east, south, north = page_box((900.0, 1100.0, 0.0, 2000.0), whole)
+    assert (east, south, north) == (1000.0, 0.0, 2000.0)
+    assert (east - west) / (north - south) == pytest.approx(0.45)
+    assert page_box((100.0, 500.0, 100.0, 400.0), whole) == (100.0, 500.0, 100.0, 400.0)
+
+
+def test_the_scale_bar_stands_where_nothing_is() -> None:
+    values = np.zeros((30, 30))
+    values[:12, :] = 1.0
+    values[12:, :12] = 1.0
+    found = Map(Grid(0.5, 0.5, 1.0, 1.0, 30, 30), values)
+    assert quiet_corner(found, found.grid.box) == "upper right"
+    assert covered_box(found) == (0.0, 30.0, 0.0, 30.0)
+    assert covered_box(found, 2.0) is None

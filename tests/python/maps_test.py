@@ -1,0 +1,129 @@
+"""Maps: what is read is what was written; parts, thinning and values along lines; every fault has its text."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rasterio
+from map_runs import CELL, COLUMNS, ROWS, SOUTH, WEST, centres, ground, write_map
+from rasterio.errors import NotGeoreferencedWarning
+
+from thawslide import NotInRunError, ReportError, Run
+from thawslide.maps import Grid, Map, Maps, on_map, read_map
+
+
+def test_a_map_is_read_with_its_grid_unit_and_reference_system(tmp_path: Path) -> None:
+    x, y = centres()
+    values = ground(x, y)
+    values[2, 5] = np.nan
+    write_map(tmp_path / "a.tif", values, "m3/s2", "momentum flux")
+    found = read_map(tmp_path / "a.tif")
+    np.testing.assert_array_equal(found.values, values)
+    np.testing.assert_allclose(found.grid.x, x[0])
+    np.testing.assert_allclose(found.grid.y, y[:, 0])
+    assert found.grid.box == (WEST, WEST + COLUMNS * CELL, SOUTH, SOUTH + ROWS * CELL)
+    assert (found.unit, found.description) == ("m3/s2", "momentum flux")
+    assert found.crs == "MGI / Austria Lambert (EPSG:31287)"
+
+
+def test_a_map_without_reference_system(tmp_path: Path) -> None:
+    write_map(tmp_path / "a.tif", np.ones((3, 4)), crs=None)
+    assert read_map(tmp_path / "a.tif").crs == ""
+
+
+def test_part_of_a_map_holds_the_cells_a_box_touches() -> None:
+    x, y = centres()
+    whole = Map(Grid(WEST + 5.0, SOUTH + 5.0, CELL, CELL, COLUMNS, ROWS), ground(x, y))
+    part = whole.cropped((WEST + 20.0, WEST + 41.0, SOUTH - 100.0, SOUTH + 10.0))
+    assert (part.grid.columns, part.grid.rows) == (3, 1)
+    np.testing.assert_array_equal(part.values, whole.values[:1, 2:5])
+    assert part.grid.x0 == WEST + 25.0
+    outside = whole.cropped((WEST + 1e6, WEST + 2e6, SOUTH, SOUTH + 5.0))
+    assert outside.values.shape == (1, 1)
+
+
+def test_thinning_keeps_means_or_largest_values_and_what_has_data() -> None:
+    values = np.arange(35, dtype=float).reshape(5, 7)
+    values[0, 0] = np.nan
+    values[2:4, 2:4] = np.nan
+    whole = Map(Grid(0.5, 0.5, 1.0, 1.0, 7, 5), values)
+    mean, largest = whole.thinned(4), whole.thinned(4, "largest")
+    assert mean.grid == Grid(1.0, 1.0, 2.0, 2.0, 4, 3)
+    assert mean.values[0, 0] == pytest.approx((1.0 + 7.0 + 8.0) / 3.0)
+    assert np.isnan(mean.values[1, 1])
+    assert largest.values[2, 3] == 34.0
+    assert largest.values.shape == (3, 4)
+    assert whole.thinned(7) is whole
+
+
+def test_thinning_a_full_map_keeps_its_volume() -> None:
+    values = np.random.default_rng(1).random((12, 18))
+    whole = Map(Grid(0.0, 0.0, 2.0, 3.0, 18, 12), values)
+    assert whole.thinned(6).volume() == pytest.approx(whole.volume(), rel=1e-12)
+
+
+def test_values_between_points_are_linear_and_end_with_the_map() -> None:
+    x, y = centres()
+    field = Map(Grid(WEST + 5.0, SOUTH + 5.0, CELL, CELL, COLUMNS, ROWS), ground(x, y))
+    at_x, at_y = (
+        np.array([WEST + 5.0, WEST + 123.4, WEST + 595.0]),
+        np.array([SOUTH + 5.0, SOUTH + 77.7, SOUTH + 295.0]),
+    )
+    np.testing.assert_allclose(field.at(at_x, at_y), ground(at_x, at_y), rtol=1e-12)
+    assert np.isnan(field.at(np.array([WEST + 4.0]), np.array([SOUTH + 50.0]))).all()
+    field.values[3, 4] = np.nan
+    beside = field.at(np.array([WEST + 40.0, WEST + 35.0]), np.array([SOUTH + 35.0, SOUTH + 35.0]))
+    assert np.isnan(beside[0]) and np.isfinite(beside[1])
+
+
+def test_maps_of_a_run(map_run: Path) -> None:
+    maps = Maps(Run(map_run))
+    assert "max_thickness" in maps and "depth" not in maps
+    assert maps["release"].volume() == pytest.approx(80.0 * 60.0 * 6.0)
+    assert maps.about("max_pressure") == ("max pressure", "Pa")
+    with pytest.raises(NotInRunError, match=r"depth\.tif: no such map; there are: arrival_time, elevation_change, "):
+        maps["depth"]
+
+
+def test_which_runs_are_on_a_map(map_run: Path) -> None:
+    assert on_map(Run(map_run))
+    for path in [*(map_run / "maps").iterdir()]:
+        path.unlink()
+    (map_run / "maps").rmdir()
+    assert on_map(Run(map_run))
+    with pytest.raises(NotInRunError, match="maps: no such folder; only a 3D run on a DEM writes maps"):
+        Maps(Run(map_run))
+    case = (map_run / "case.toml").read_text()
+    (map_run / "case.toml").write_text(case.replace('"dem"', '"plane"'))
+    assert not on_map(Run(map_run))
+
+
+def write_raw(path: Path, transform: rasterio.Affine) -> None:
+    with rasterio.open(
+        path, "w", driver="GTiff", width=4, height=3, count=1, dtype="float64", transform=transform
+    ) as file:
+        file.write(np.ones((3, 4)), 1)
+
+
+def fails(path: Path, text: str) -> None:
+    with pytest.raises(ReportError, match=re.escape(text)):
+        read_map(path)
+
+
+def test_faulty_files(tmp_path: Path) -> None:
+    path = tmp_path / "a.tif"
+    fails(path, "a.tif: cannot be read as a GeoTIFF (")
+    path.write_text("no map")
+    fails(path, "a.tif: cannot be read as a GeoTIFF (")
+    write_map(path, np.random.default_rng(0).random((300, 300)))
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    fails(path, "a.tif: cannot be read as a GeoTIFF (")
+    path.unlink()
+    write_raw(path, rasterio.Affine(1.0, 0.2, 0.0, 0.0, -1.0, 5.0))
+    fails(path, "a.tif: rows must go from west to east and columns from north to south")
+    with pytest.warns(NotGeoreferencedWarning):
+        write_raw(path, rasterio.Affine.identity())
+    fails(path, "a.tif: has no coordinates; it is not a map the simulator wrote")

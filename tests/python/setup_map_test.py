@@ -1,0 +1,120 @@
+"""The picture of a set-up on a DEM: what the file says is what is drawn."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from map_runs import MIDDLE, SOUTH, WEST, centres, ground, slab
+from matplotlib.patches import Rectangle
+
+from thawslide.command_line import main
+from thawslide.setup_map import SetupOnMap, draw_setup_on_map
+from thawslide.setup_picture import read_setup
+
+
+def grid_form(values: np.ndarray) -> dict[str, Any]:
+    rows, columns = values.shape
+    heights = [None if np.isnan(value) else value for value in values.ravel().tolist()]
+    start = {"x0": WEST + 5.0, "y0": SOUTH + 5.0, "cell_x": 10.0, "cell_y": 10.0}
+    return start | {"columns": columns, "rows": rows, "heights": heights}
+
+
+def setup(**changes: Any) -> dict[str, Any]:
+    x, y = centres()
+    heights = ground(x, y)
+    heights[:3, :3] = np.nan
+    corners = [[60.0, -30.0], [140.0, -30.0], [140.0, 30.0], [60.0, 30.0], [60.0, -30.0]]
+    outline = (np.array(corners) + np.array([WEST, MIDDLE])).tolist()
+    body = {"name": "slab", "material": "ice", "outlines": [outline], "volume_m3": 28800.0}
+    return {
+        "title": "Slab",
+        "crs": "EPSG:31287",
+        "cell": 10.0,
+        "min": [WEST + 20.0, SOUTH + 20.0],
+        "max": [WEST + 580.0, SOUTH + 280.0],
+        "terrain": grid_form(heights),
+        "bodies": [body | {"thickness": grid_form(slab(x, y, 0.0))}],
+        "path": [[WEST + 30.0, MIDDLE], [WEST + 500.0, MIDDLE]],
+        "probes": {"gate": [[WEST + 300.0, MIDDLE]], "weir": [[WEST + 400.0, SOUTH + 50.0], [WEST + 400.0, MIDDLE]]},
+    } | changes
+
+
+@pytest.fixture
+def write(tmp_path: Path) -> Any:
+    def write_setup(data: Any) -> Path:
+        path = tmp_path / "setup.json"
+        path.write_text(json.dumps(data))
+        return path
+
+    return write_setup
+
+
+def read(path: Path) -> SetupOnMap:
+    found = read_setup(path)
+    assert isinstance(found, SetupOnMap)
+    return found
+
+
+def test_a_set_up_on_a_dem_is_read(write: Any) -> None:
+    found = read(write(setup()))
+    x, y = centres()
+    assert np.isnan(found.terrain.values[:3, :3]).all()
+    np.testing.assert_allclose(found.terrain.values[3:], ground(x, y)[3:])
+    assert found.domain == (WEST + 20.0, WEST + 580.0, SOUTH + 20.0, SOUTH + 280.0)
+    (release,) = found.releases
+    assert release.thickness is not None
+    assert release.thickness.volume() == pytest.approx(28800.0)
+
+
+def test_both_views_hold_domain_release_path_and_probes(write: Any) -> None:
+    figure = draw_setup_on_map(read(write(setup())))
+    overview, near, bar = figure.axes
+    assert overview.get_title(loc="left") == "(a) whole domain; box: (b)"
+    assert (near.get_title(loc="left"), near.get_title(loc="right")) == ("(b) release", "grid cells of 10 m")
+    assert bar.get_ylabel() == "thickness (m)"
+    frames = [patch for patch in overview.patches if isinstance(patch, Rectangle)]
+    assert (WEST + 20.0, 560.0, 260.0) in [(f.get_x(), f.get_width(), f.get_height()) for f in frames]
+    (left, right), (low, high) = near.get_xlim(), near.get_ylim()
+    assert left < WEST + 60.0 and right > WEST + 140.0 and right - left < 250.0
+    assert low < MIDDLE - 30.0 and high > MIDDLE + 30.0
+    (legend,) = figure.legends
+    words = [text.get_text() for text in legend.get_texts()]
+    assert words == ["slab (ice): 28,800 m³, up to 6 m thick", "domain", "path", "probe"]
+    assert {"gate", "weir"} <= {text.get_text() for text in overview.texts}
+    assert "Coordinates: EPSG:31287." in figure.texts[-1].get_text()
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"bodies": []},
+        {"path": None, "probes": None, "crs": None},
+        {"bodies": [{"name": "a", "material": "ice", "outlines": [], "volume_m3": 2e7, "thickness": None}]},
+    ],
+)
+def test_parts_may_be_absent(write: Any, tmp_path: Path, changes: dict[str, Any]) -> None:
+    picture = tmp_path / "out.png"
+    assert main(["--setup", str(write(setup(**changes))), "--picture", str(picture), "--dpi", "50"]) == 0
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        ({"terrain": {"heights": []}}, "setup.json: no key 'x0'; this is not a set-up the simulator wrote"),
+        (
+            {"terrain": grid_form(np.ones((3, 4))) | {"rows": 5}},
+            "setup.json: not a set-up the simulator wrote: 12 heights for 4 columns and 5 rows",
+        ),
+        ({"bodies": [{"name": "a", "material": "ice"}]}, "setup.json: no key 'volume_m3'"),
+    ],
+)
+def test_faulty_set_ups(
+    write: Any, tmp_path: Path, changes: dict[str, Any], text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["--setup", str(write(setup(**changes))), "--picture", str(tmp_path / "out.png")]) == 2
+    assert text in capsys.readouterr().err
