@@ -1,6 +1,7 @@
 """The page of the comparison: one picture and one table a ground, and the reasons for what differs."""
 
 import math
+import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -97,8 +98,7 @@ def section(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: 
     reasons = (FOLDER / f"{ground.name}.md").read_text().strip()
     parts = [
         f"## {ground.title}",
-        ground.text,
-        friction,
+        textwrap.fill(f"{ground.text} {friction}", 118),
         *(f"![{words}](comparison/{ground.name}-{field}.png)" for field, words, _ in FIELDS),
     ]
     return "\n\n".join([*parts, table(outcomes, found, point), reasons]) + "\n\n"
