@@ -1,9 +1,10 @@
 """The page of the comparison: one picture and one table a ground, and the reasons for what differs."""
 
 import math
+import textwrap
 from pathlib import Path
 
-import matplotlib.pyplot as plt
+import numpy as np
 from grounds import Ground
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
@@ -27,14 +28,17 @@ no cohesion. This page is written by `scripts/compare-avaframe`, from what the t
   the vertical here, by the slope of the DEM, as ours are.
 - "Reached" is a place where the largest thickness is at least {AFFECTED} m. The travel distance is horizontal, from
   the top of the release to the farthest place reached, the reach angle that of the straight line between them. Run
-  times are of one thread on the same machine, which had other work: good to a quarter.
+  times are what the processes took of their core, one thread each, on a machine that had other work: good to a quarter.
 - "Point mass": a point that slides from the middle of the release, with friction on its weight across the ground and on
   the centrifugal force, integrated along the DEM. Where the way is straight the centre of a slide should do about that.
 
 """
 
+FIELDS = [
+    ("thickness", "largest thickness (m, vertical)", "YlOrRd"),
+    ("speed", "largest speed (m/s)", "viridis"),
+]
 ROWS = {
-    "deposit volume (m3)": lambda found: f"{found.volume:,.0f}",
     "travel distance (m)": lambda found: f"{found.travel:,.0f}",
     "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",
     "way of the centre (m)": lambda found: f"{found.centre_way:,.0f}",
@@ -50,9 +54,11 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
     columns = [outcome.program for outcome in outcomes]
     rows = [[what, *(text(each) for each in found)] for what, text in ROWS.items()]
     rows += [
-        ["particles", *(f"{outcome.particles:,}" for outcome in outcomes)],
+        ["volume released (m3)", *(f"{outcome.released:,.0f}" for outcome in outcomes)],
+        ["share of it that left the DEM", *(f"{100.0 * outcome.left_share:.1f} %" for outcome in outcomes)],
+        ["particles at the start", *(f"{outcome.particles:,}" for outcome in outcomes)],
         ["simulated (s)", *(f"{outcome.simulated:.0f}" for outcome in outcomes)],
-        ["run time, one thread (s)", *(f"{outcome.wall:.0f}" for outcome in outcomes)],
+        ["run time of one thread (s)", *(f"{outcome.processor:.0f}" for outcome in outcomes)],
     ]
     if point is not None:
         columns.append("point mass")
@@ -62,37 +68,25 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
-def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], file: Path) -> None:
-    """Draw largest thickness and largest speed of the programs beside each other, over the terrain."""
+def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], folder: Path) -> None:
+    """Draw two pictures, largest thickness and largest speed, the programs beside each other over the terrain."""
     places = [covered_box(outcome.thickness, AFFECTED) for outcome in outcomes]
-    scene = make_scene(terrain, box_about([place for place in places if place is not None]))
-    fields = {
-        "largest thickness (m)": ([outcome.thickness for outcome in outcomes], "YlOrRd"),
-        "largest speed (m/s)": ([outcome.speed for outcome in outcomes], "viridis"),
-    }
-    page = MapPage(ground.title, scene, 2 * len(outcomes), foot=0.35, bar=0.55)
-    number = 0
-    for words, (maps, colours) in fields.items():
-        reached = [
-            each.values[outcome.thickness.values >= AFFECTED] for each, outcome in zip(maps, outcomes, strict=True)
-        ]
-        most = max(float(values.max()) for values in reached)
+    scene = make_scene(terrain, box_about([place for place in places if place is not None]), aspects=(0.45, 1.6))
+    for field, words, colours in FIELDS:
+        page = MapPage(f"{ground.title}: {words}", scene, len(outcomes), foot=0.35, bar=0.55)
+        shown = [np.where(each.thickness.values >= AFFECTED, getattr(each, field).values, np.nan) for each in outcomes]
+        most = max(float(np.nanquantile(values, 0.998)) for values in shown)
         painter = ScalarMappable(Normalize(0.0, most), colours)
-        for outcome, field in zip(outcomes, maps, strict=True):
+        for number, (outcome, values) in enumerate(zip(outcomes, shown, strict=True)):
             axes = page.panel(number, labels=False)
-            shown = field.values.copy()
-            shown[~(outcome.thickness.values >= AFFECTED)] = math.nan
-            paint(axes, Map(field.grid, shown), painter)
+            paint(axes, Map(terrain.grid, values), painter)
             outline(axes, outcome.thickness, AFFECTED, colors="#222222", linewidths=0.6)
             axes.plot(*zip(*corners, strict=True), color="#0072B2", linewidth=1.0, zorder=6)
-            axes.set_title(f"{outcome.program}: {words}", loc="left", size=8.5)
-            page.figure.colorbar(painter, cax=page.panel_bar(axes))
-            if number == 0:
-                scale_bar(axes, "lower left")
-            number += 1
-    page.note(f"Where the thickness was at least {AFFECTED} m. Blue: the release. {scene.note()}")
-    page.figure.savefig(file, dpi=110)
-    plt.close("all")
+            axes.set_title(outcome.program, loc="left", size=9)
+            page.figure.colorbar(painter, cax=page.panel_bar(axes), extend="max")
+            scale_bar(axes, "lower left")
+        page.note(f"Reached: at least {AFFECTED} m thick. Blue: the release. {scene.note()}")
+        page.figure.savefig(folder / f"{ground.name}-{field}.png", dpi=100)
 
 
 def section(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome]) -> str:
@@ -104,8 +98,7 @@ def section(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: 
     reasons = (FOLDER / f"{ground.name}.md").read_text().strip()
     parts = [
         f"## {ground.title}",
-        ground.text,
-        friction,
-        f"![Largest thickness and speed](comparison/{ground.name}.png)",
+        textwrap.fill(f"{ground.text} {friction}", 118),
+        *(f"![{words}](comparison/{ground.name}-{field}.png)" for field, words, _ in FIELDS),
     ]
     return "\n\n".join([*parts, table(outcomes, found, point), reasons]) + "\n\n"

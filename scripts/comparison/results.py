@@ -25,7 +25,9 @@ class Outcome:
     final_thickness: Map  # vertical [m]
     particles: int
     simulated: float  # time at the end [s]
-    wall: float  # run time on one core [s]
+    released: float  # volume [m3]
+    left_share: float  # share of it that left the DEM
+    processor: float  # time on one core [s]
 
 
 def without_gaps(field: Map) -> Numbers:
@@ -33,9 +35,14 @@ def without_gaps(field: Map) -> Numbers:
     return np.nan_to_num(field.values, nan=0.0)
 
 
+def processor_time(file: Path) -> float:
+    """Return the time [s] that a program took of its core, with its start and its output."""
+    return float(json.loads(file.read_text())["processor_s"])
+
+
 def read_avaframe(folder: Path, terrain: Map) -> Outcome:
     """Read AvaFrame's results; its thickness, which is along the normal, is turned to the vertical."""
-    facts = json.loads((folder / "avaframe.json").read_text())
+    facts = json.loads((folder / "com1dfa.json").read_text())
     peaks = folder / "avaframe" / "Outputs" / "com1DFA" / "peakFiles"
     found = {kind: read_map(next(iter(peaks.glob(f"*_{kind}.tif")))) for kind in ("pft", "pfv", "FT")}
     steepness = np.nan_to_num(np.hypot(*slopes(terrain.values, terrain.grid.cell_x, terrain.grid.cell_y)), nan=0.0)
@@ -51,23 +58,29 @@ def read_avaframe(folder: Path, terrain: Map) -> Outcome:
         vertical("FT"),
         int(facts["particles"]),
         float(facts["simulated_s"]),
-        float(facts["wall_s"]),
+        float(facts["released_m3"]),
+        float(facts["left_share"]),
+        processor_time(folder / "avaframe.json"),
     )
 
 
 def read_thawslide(folder: Path) -> Outcome:
-    """Read the results of our own run."""
+    """Read the results of our own run. What leaves the DEM is taken out, so that the mass tells how much that was."""
     run = Run(folder / "thawslide")
-    facts = json.loads((run.folder / "run.json").read_text())
-    maps = {name: read_map(run.folder / "maps" / f"{name}.tif") for name in ("max_thickness", "max_speed")}
+    thickness, speed, final = (
+        read_map(run.folder / "maps" / f"{name}.tif") for name in ("max_thickness", "max_speed", "final_thickness")
+    )
+    mass = run.history["mass_kg"]
     return Outcome(
-        f"Thawslide {facts['version']}",
-        maps["max_thickness"],
-        maps["max_speed"],
-        read_map(run.folder / "maps" / "final_thickness.tif"),
-        int(facts["particles"]),
-        float(facts["simulated_time_s"]),
-        float(facts["wall_s"]),
+        f"Thawslide {run.facts['version']}",
+        thickness,
+        speed,
+        final,
+        int(run.facts["particles"]),
+        float(run.facts["simulated_time_s"]),
+        float(run.snapshot(0, fields=["volume"])["volume"].sum()),
+        1.0 - float(mass[-1] / mass[0]),
+        processor_time(folder / "thawslide.json"),
     )
 
 
@@ -75,7 +88,6 @@ def read_thawslide(folder: Path) -> Outcome:
 class Numbered:
     """The numbers of one outcome that the page shows."""
 
-    volume: float  # of the deposit [m3]
     travel: float  # horizontal, from the top of the release to the farthest place reached [m]
     reach_angle: float  # of the line between the two [degrees]
     centre_way: float  # horizontal, of the centre of the slide, straight from release to deposit [m]
@@ -102,7 +114,6 @@ def numbers(outcome: Outcome, terrain: Map, corners: list[list[float]]) -> Numbe
     drop = terrain.values[top] - terrain.values[farthest]
     deposit = [float((final * axis).sum() / final.sum()) for axis in (x, y)]
     return Numbered(
-        volume=float(final.sum()) * terrain.grid.cell_area,
         travel=float(apart[farthest]),
         reach_angle=math.degrees(math.atan2(drop, apart[farthest])),
         centre_way=math.hypot(deposit[0] - x[source].mean(), deposit[1] - y[source].mean()),
@@ -124,8 +135,8 @@ class PointMass:
 def point_mass(terrain: Map, corners: list[list[float]], friction: float) -> PointMass:
     """Return what a point mass does on the DEM with a coefficient of friction.
 
-    Its energy head E = v2/(2 g) over the horizontal distance x on a profile z(x), with friction on the weight across the
-    ground and on the centrifugal force: dE/dx = -z' - friction (1 + 2 E z''/(1 + z'2)).
+    Its energy head E = v2/(2 g) over the horizontal distance x on a profile z(x), with friction on the weight across
+    the ground and on the centrifugal force: dE/dx = -z' - friction (1 + 2 E z''/(1 + z'2)).
     """
     east, north = np.array(corners[:-1]).mean(axis=0)
     x = terrain.grid.x

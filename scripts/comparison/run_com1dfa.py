@@ -2,7 +2,7 @@
 
 scripts/compare-avaframe starts it with the Python that AvaFrame is installed in. FOLDER holds dem.tif and release.json:
 the corners of the outline [m] and the thickness along the normal [m]. Leaves FOLDER/avaframe (AvaFrame's own folders)
-and FOLDER/avaframe.json (version, run time, AvaFrame's report).
+and FOLDER/com1dfa.json (version, what it began and ended with, AvaFrame's report).
 """
 
 import json
@@ -10,7 +10,6 @@ import math
 import re
 import shutil
 import sys
-import time
 from importlib.metadata import version
 from pathlib import Path
 
@@ -67,18 +66,17 @@ def main() -> None:
     for flag in ("savePlot", "createReport", "ReportDir"):
         general["FLAGS"][flag] = "False"
     logUtils.initiateLogger(str(place), "com1DFA")
-    started = time.perf_counter()
     _, _, reports, _ = com1DFA.com1DFAMain(general, cfgInfo=cfgUtils.getModuleConfig(com1DFA, str(place)))
-    wall = time.perf_counter() - started
     report = reports[0]["Simulation Parameters"]
     facts = {
         "version": version("avaframe"),
-        "wall_s": wall,
         "simulated_s": float(report["Process run time [s]"]),
         "particles": particles_in(place),
+        "released_m3": float(report["Initial mass [kg]"]) / float(report["Density [kgm-3]"]),
+        "left_share": 1.0 - float(report["Final mass [kg]"]) / float(report["Initial mass [kg]"]),
         "report": reports[0],
     }
-    (folder / "avaframe.json").write_text(json.dumps(facts, indent=1, default=str) + "\n")
+    (folder / "com1dfa.json").write_text(json.dumps(facts, indent=1, default=str) + "\n")
 
 
 if __name__ == "__main__":
