@@ -1,5 +1,7 @@
 #include "app/map_files.hpp"
 
+#include <utility>
+
 #include "base/error.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
@@ -13,12 +15,11 @@ config::Site read_map_files(const config::Case& parameters) {
     return {};
   }
 #ifdef THAWSLIDE_WITH_GIS
-  std::vector<std::string> notes;
-  config::Site site = gis::load_site(parameters, notes);
-  for (const std::string& note : notes) {
+  gis::SiteAndNotes read = gis::load_site(parameters);
+  for (const std::string& note : read.notes) {
     fmt::print("note: {}\n", note);
   }
-  return site;
+  return std::move(read.site);
 #else
   throw UserError(
       fmt::format("{}: terrain.type is \"dem\", and this build of thawslide cannot read maps: it was made without "

@@ -20,6 +20,17 @@ class ConvexPolygon {
     std::copy(triangle.begin(), triangle.end(), corner_.begin());
   }
 
+  // Only the corners there are.
+  ConvexPolygon(const ConvexPolygon& other) : size_(other.size_) {
+    std::copy_n(other.corner_.begin(), size_, corner_.begin());
+  }
+  ConvexPolygon& operator=(const ConvexPolygon& other) {
+    size_ = other.size_;
+    std::copy_n(other.corner_.begin(), size_, corner_.begin());
+    return *this;
+  }
+  ~ConvexPolygon() = default;
+
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] const Vector<double, 3>& operator[](int k) const { return corner_[static_cast<std::size_t>(k)]; }
 
