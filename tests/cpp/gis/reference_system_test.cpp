@@ -1,0 +1,110 @@
+// Coordinate reference systems: which ones a run can be computed in, and what the user is told of the others.
+#include "gis/reference_system.hpp"
+
+#include "map_files.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace map_files;
+
+const Located metric_raster{"dem.tif", {49280.0, 193490.0, 52280.0, 195690.0}, 10.0, 10.0};
+const Located degree_raster{"alps/dem.tif", {10.2, 46.85, 10.3, 46.95}, 1.0 / 3600.0, 1.0 / 3600.0};
+
+std::string error_of_system(const Located& raster, const std::string& of_file, const std::string& given = "") {
+  return error_of(
+      [&] { static_cast<void>(metric_system(raster, of_file.empty() ? "" : reference_system_named(of_file), given)); });
+}
+
+TEST(ReferenceSystemTest, ProjectionsInMetresAreTaken) {
+  EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:31254"), "")), "EPSG:31254");
+  EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:4326"), "EPSG:31254")), "EPSG:31254");
+  EXPECT_EQ(name_of(metric_system(metric_raster, "", "EPSG:32632")), "EPSG:32632");
+}
+
+TEST(ReferenceSystemTest, NoSystem) {
+  EXPECT_EQ(error_of_system(metric_raster, ""),
+            "dem.tif: the file names no coordinate reference system (x from 49280 to 52280, y from 193490 to 195690). "
+            "Set terrain.crs to the one its maker states, such as terrain.crs = \"EPSG:31287\".");
+  EXPECT_EQ(error_of_system(degree_raster, ""),
+            "alps/dem.tif: the file names no coordinate reference system (x from 10.2 to 10.3, y from 46.85 to 46.95). "
+            "If these are degrees, reproject to metres: gdalwarp -s_srs EPSG:4326 -t_srs EPSG:32632 -tr 31 31 -r "
+            "bilinear alps/dem.tif alps/dem-EPSG32632.tif. If they are metres, set terrain.crs to the system they are "
+            "in, such as terrain.crs = \"EPSG:31287\".");
+}
+
+TEST(ReferenceSystemTest, Degrees) {
+  EXPECT_EQ(
+      error_of_system(degree_raster, "EPSG:4326"),
+      "alps/dem.tif: the coordinates are degrees (EPSG:4326; x from 10.2 to 10.3, y from 46.85 to 46.95); allowed: "
+      "a map projection in metres. Reproject: gdalwarp -t_srs EPSG:32632 -tr 31 31 -r bilinear alps/dem.tif "
+      "alps/dem-EPSG32632.tif");
+  const Located andes{"my dem.tif", {-77.7, -9.2, -77.6, -9.0}, 0.0001, 0.0001};
+  EXPECT_NE(error_of_system(andes, "EPSG:4326")
+                .find("gdalwarp -t_srs EPSG:32718 -tr 11 11 -r bilinear \"my dem.tif\" \"my dem-EPSG32718.tif\""),
+            std::string::npos);
+}
+
+TEST(ReferenceSystemTest, TagOfDegreesOverMetricNumbers) {
+  EXPECT_EQ(
+      error_of_system(metric_raster, "EPSG:4326"),
+      "dem.tif: the tag says degrees (EPSG:4326), the numbers are metric (x from 49280 to 52280, y from 193490 to "
+      "195690). Set terrain.crs = \"EPSG:...\" to the system the numbers are in; its maker states it.");
+}
+
+TEST(ReferenceSystemTest, Feet) {
+  const Located feet{"dem.tif", {6000000.0, 2000000.0, 6010000.0, 2010000.0}, 10.0, 10.0};
+  EXPECT_EQ(error_of_system(feet, "EPSG:2227"),
+            "dem.tif: the coordinates are in the unit 'US survey foot' (EPSG:2227); allowed: a map projection in "
+            "metres, and elevations in metres. Reproject: gdalwarp -t_srs EPSG:32610 -tr 3 3 -r bilinear dem.tif "
+            "dem-EPSG32610.tif");
+}
+
+TEST(ReferenceSystemTest, KeyThatDoesNotHelp) {
+  EXPECT_EQ(error_of_system(metric_raster, "", "EPSG:99999"),
+            "'EPSG:99999' is no coordinate reference system that is known; allowed: a number of the EPSG registry such "
+            "as \"EPSG:31287\" (epsg.io finds it), or a WKT.");
+  EXPECT_EQ(error_of_system(metric_raster, "EPSG:31254", "EPSG:4326"),
+            "EPSG:4326 is in degrees; allowed: a map projection in metres, such as \"EPSG:31287\".");
+  EXPECT_EQ(error_of_system(metric_raster, "EPSG:31254", "EPSG:2227"),
+            "EPSG:2227 is in the unit 'US survey foot'; allowed: a map projection in metres, such as \"EPSG:31287\".");
+}
+
+TEST(ReferenceSystemTest, SystemsThatAreNoProjection) {
+  EXPECT_EQ(error_of_system(metric_raster, "EPSG:4978"),
+            "dem.tif: the coordinate reference system 'EPSG:4978' is no map projection; allowed: a projection in "
+            "metres. Set terrain.crs, such as terrain.crs = \"EPSG:31287\".");
+}
+
+// In a process of its own, where nothing of the database is remembered: another program's proj.db, which is none.
+TEST(ReferenceSystemTest, MissingDatabaseIsNamed) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  const std::string folder = std::filesystem::path(text_file("proj.db", "no database")).parent_path().string();
+  const auto tell = [&] {
+    const char* const paths[] = {folder.c_str(), nullptr};
+    OSRSetPROJSearchPaths(paths);
+    const std::string message = error_of([] { static_cast<void>(reference_system_named("EPSG:31254")); });
+    fmt::print(stderr, "{}", message);
+    std::exit(0);
+  };
+  EXPECT_EXIT(
+      tell(), testing::ExitedWithCode(0),
+      "PROJ's database of coordinate reference systems, proj.db, cannot be used; GDAL says: .*Install it .Debian: "
+      "apt-get install proj-data., or let PROJ_LIB name the folder that holds it");
+}
+
+TEST(ReferenceSystemTest, WayThereAndBackIsTheSamePlace) {
+  const std::string lambert = reference_system_named("EPSG:31287"), degrees = reference_system_named("EPSG:4326");
+  std::vector<double> x{350000.0}, y{400000.0};
+  ASSERT_TRUE(Reprojection(lambert, degrees).apply(x, y));
+  EXPECT_NEAR(x[0], 12.66, 0.05);  // longitude first, as files have it
+  EXPECT_NEAR(y[0], 47.5, 0.05);
+  ASSERT_TRUE(Reprojection(degrees, lambert).apply(x, y));
+  EXPECT_NEAR(x[0], 350000.0, 1e-3);
+  EXPECT_NEAR(y[0], 400000.0, 1e-3);
+  EXPECT_TRUE(Reprojection(lambert, lambert).changes_nothing());
+  EXPECT_TRUE(Reprojection("", lambert).changes_nothing());
+}
+
+}  // namespace
+}  // namespace thawslide::gis
