@@ -65,21 +65,21 @@ def read_avaframe(folder: Path, terrain: Map) -> Outcome:
 
 
 def read_thawslide(folder: Path) -> Outcome:
-    """Read the results of our own run. What leaves the DEM is taken out, so that the mass tells how much that was."""
+    """Read the results of our own run."""
     run = Run(folder / "thawslide")
     thickness, speed, final = (
         read_map(run.folder / "maps" / f"{name}.tif") for name in ("max_thickness", "max_speed", "final_thickness")
     )
-    mass = run.history["mass_kg"]
+    volumes = run.snapshot(0, fields=["volume"])["volume"]
     return Outcome(
         f"Thawslide {run.facts['version']}",
         thickness,
         speed,
         final,
-        int(run.facts["particles"]),
+        len(volumes),
         float(run.facts["simulated_time_s"]),
-        float(run.snapshot(0, fields=["volume"])["volume"].sum()),
-        1.0 - float(mass[-1] / mass[0]),
+        float(volumes.sum()),
+        float(run.history["left_mass_kg"][-1] / run.history["mass_kg"][0]),
         processor_time(folder / "thawslide.json"),
     )
 

@@ -1,0 +1,113 @@
+"""The script that compares with AvaFrame: its grounds, and the numbers it takes from maps."""
+
+from __future__ import annotations
+
+import math
+import struct
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
+
+import grounds
+import results
+
+from thawslide.maps import Grid, Map, read_map
+
+SLOPE = math.tan(math.radians(30.0))
+
+
+def test_plane_is_a_slope_a_parabola_and_level_ground_without_a_kink() -> None:
+    x = np.arange(0.0, 2_600.0, 0.5)
+    slope = np.diff(grounds.plane_profile(x)) / 0.5
+    assert slope[:1_699] == pytest.approx(-SLOPE, abs=1e-9)
+    assert slope[2_300:] == pytest.approx(0.0, abs=1e-9)
+    assert np.abs(np.diff(slope)).max() == pytest.approx(SLOPE * 0.5 / 300.0, rel=1e-6)
+
+
+def test_grounds_are_written_as_they_are_told(tmp_path: Path) -> None:
+    for ground, place, height in [
+        (grounds.PLANE, (400_302.5, 400_502.5), SLOPE * (1_000.0 - 302.5)),
+        (grounds.BOWL, (400_302.5, 400_902.5), (597.5**2 + 2.5**2) / 2_000.0),
+    ]:
+        grounds.write_ground(ground, tmp_path / ground.name, None)
+        terrain = read_map(tmp_path / ground.name / "dem.tif")
+        assert terrain.at(*(np.array([each]) for each in place))[0] == pytest.approx(height, abs=1e-9)
+        assert "EPSG:31287" in terrain.crs
+
+
+def test_ground_of_the_user_needs_its_folder(tmp_path: Path) -> None:
+    with pytest.raises(SystemExit, match="needs --alr FOLDER"):
+        grounds.write_ground(grounds.ALR, tmp_path / "alr", None)
+
+
+def shapefile(kind: int, parts: list[int], points: list[tuple[float, float]]) -> bytes:
+    """Return a shapefile of one shape; the reader looks at nothing but that."""
+    content = struct.pack("<i4d2i", kind, 0, 0, 0, 0, len(parts), len(points)) + struct.pack(f"<{len(parts)}i", *parts)
+    return bytes(108) + content + b"".join(struct.pack("<2d", *point) for point in points)
+
+
+def test_first_ring_of_a_shapefile_is_read(tmp_path: Path) -> None:
+    outer, hole = [(0.0, 0.0), (0.0, 9.0), (9.0, 0.0), (0.0, 0.0)], [(1.0, 1.0), (2.0, 1.0), (1.0, 2.0), (1.0, 1.0)]
+    file = tmp_path / "release.shp"
+    file.write_bytes(shapefile(5, [0], outer))
+    assert grounds.first_polygon(file) == [list(point) for point in outer]
+    file.write_bytes(shapefile(5, [0, 4], outer + hole))
+    assert grounds.first_polygon(file) == [list(point) for point in outer]
+    file.write_bytes(shapefile(3, [0], outer))
+    with pytest.raises(SystemExit, match="of kind 3; a polygon is needed"):
+        grounds.first_polygon(file)
+
+
+def dem(profile: np.ndarray) -> Map:
+    """Return a DEM of 5 m whose sections along x are all this profile [m]."""
+    grid = Grid(0.0, 0.0, 5.0, 5.0, len(profile), 41)
+    return Map(grid, np.tile(profile, (41, 1)))
+
+
+def square(x: float) -> list[list[float]]:
+    return [[x - 19.0, 81.0], [x + 19.0, 81.0], [x + 19.0, 119.0], [x - 19.0, 119.0], [x - 19.0, 81.0]]
+
+
+def test_point_mass_on_a_straight_slope_up_and_down_follows_the_energy_line() -> None:
+    x = 5.0 * np.arange(400)
+    friction = 0.3
+    # On a V of slopes 0.5 its one bend takes energy too: from there on only the share exp(-2 friction turn) is left.
+    found = results.point_mass(dem(0.5 * np.abs(x - 1_000.0)), square(500.0), friction)
+    head = (0.5 - friction) * 500.0
+    assert found.largest_speed == pytest.approx(math.sqrt(2.0 * 9.81 * head), rel=0.02)
+    left = head * math.exp(-2.0 * friction * 2.0 * math.atan(0.5))
+    assert found.way == pytest.approx(500.0 + left / (0.5 + friction), rel=0.02)
+
+
+def test_point_mass_that_does_not_stop_is_told() -> None:
+    x = 5.0 * np.arange(400)
+    with pytest.raises(SystemExit, match="the point mass leaves the DEM"):
+        results.point_mass(dem(-0.5 * x), square(500.0), 0.3)
+
+
+def test_numbers_of_a_known_outcome() -> None:
+    x = 5.0 * np.arange(400)
+    terrain = dem(-0.5 * x)
+    thickness, final = np.full(terrain.values.shape, np.nan), np.full(terrain.values.shape, np.nan)
+    speed = np.full(terrain.values.shape, np.nan)
+    thickness[18:23, 96:201] = 2.0
+    thickness[20, 201:210] = 0.4  # thinner than what counts as reached
+    speed[18:23, 96:201] = 10.0
+    speed[20, 150], speed[20, 205] = 30.0, 99.0
+    final[18:23, 190:201] = 3.0
+    outcome = results.Outcome(
+        "X", *(Map(terrain.grid, each) for each in (thickness, speed, final)), 7, 60.0, 1e3, 0.0, 1.0
+    )
+    found = results.numbers(outcome, terrain, square(502.5))
+    assert found.area == 25.0 * 5 * 105
+    assert found.largest_speed == 30.0
+    assert found.usual_speed == 10.0
+    assert found.largest_thickness == 2.0
+    # From the top of the release, x = 485, its first row at y = 85, to the farthest corner of what was reached.
+    assert found.travel == pytest.approx(math.hypot(1_000.0 - 485.0, 110.0 - 85.0))
+    assert found.reach_angle == pytest.approx(math.degrees(math.atan2(0.5 * (1_000.0 - 485.0), found.travel)))
+    assert found.centre_way == pytest.approx(975.0 - 502.5, abs=1e-9)
