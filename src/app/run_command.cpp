@@ -64,14 +64,15 @@ int resume_run(const ResumeOptions& options) {
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
     std::vector<double> scalars;
-    io::read_checkpoint<Dim, double>(folder / "checkpoint.bin", simulation.particles(), scalars);
+    const NamedNumbers blocks =
+        io::read_checkpoint<Dim, double>(folder / "checkpoint.bin", simulation.particles(), scalars);
     simulation.restore(scalars);
     if (simulation.time() >= parameters.time.end - 0.5 * simulation.last_step()) {
       fmt::print("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
       return static_cast<int>(ExitCode::done);
     }
     fmt::print("going on from t = {:g} s\n", simulation.time());
-    RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation);
+    RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks);
     return run_to_end<Dim>(simulation, output, folder);
   });
 }

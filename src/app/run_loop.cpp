@@ -29,9 +29,9 @@ double warmest(const sim::Simulation<Dim, double>& simulation) {
 // What the progress line tells of the front.
 class FrontWatch {
  public:
+  // front: how far it has come [m].
   template <int Dim>
-  ProgressState state(const sim::Simulation<Dim, double>& simulation, std::int64_t steps) {
-    const double front = sim::front_position(simulation);
+  ProgressState state(const sim::Simulation<Dim, double>& simulation, double front, std::int64_t steps) {
     const double elapsed = simulation.time() - time_;
     const double speed = elapsed > 0.0 && std::isfinite(front_) ? (front - front_) / elapsed : 0.0;
     front_ = front;
@@ -44,8 +44,9 @@ class FrontWatch {
 };
 
 template <int Dim>
-void print_summary(const sim::Simulation<Dim, double>& simulation, const Stopwatch::Seconds& stage_seconds,
-                   std::int64_t steps, double wall, const std::filesystem::path& folder) {
+void print_summary(const sim::Simulation<Dim, double>& simulation, const sim::HistoryRow& row,
+                   const Stopwatch::Seconds& stage_seconds, std::int64_t steps, double wall,
+                   const std::filesystem::path& folder) {
   const double count = static_cast<double>(simulation.particles().size());
   fmt::print("{} particles, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n",
              simulation.particles().size(), steps, duration_text(wall), count * static_cast<double>(steps) / wall / 1e6,
@@ -58,7 +59,6 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const Stopwat
   for (const auto& [seconds, name] : stages) {
     fmt::print("  {:<28}{:8.2f} s {:5.1f} %\n", name, seconds, 100.0 * seconds / wall);
   }
-  const auto row = sim::history_row(simulation);
   const auto value = [&](const std::string& name) {
     return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
   };
@@ -101,8 +101,8 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
     output.write_index();
     output.write_provenance(simulation, status, message, wall());
     progress.finish();
-    print_summary(simulation, output.seconds_per_stage(simulation), simulation.step_number() - first_step, wall(),
-                  folder);
+    print_summary(simulation, output.history_row(simulation), output.seconds_per_stage(simulation),
+                  simulation.step_number() - first_step, wall(), folder);
   };
   catch_signals();
   try {
@@ -111,6 +111,7 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
           {snapshots.next(), checkpoints.next(), times.history_interval > 0.0 ? history.next() : times.end, times.end});
       step(next_event);
       const double dt = simulation.last_step();
+      output.after_step(simulation);
       if (times.history_interval <= 0.0 || history.reached(simulation.time(), dt)) {
         output.write_history(simulation);
       }
@@ -128,12 +129,14 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
         output.write_checkpoint(simulation);
       }
       if (progress.due(simulation.time(), times.end)) {
-        progress.show(front.state(simulation, simulation.step_number() - first_step));
+        progress.show(
+            front.state(simulation, output.front_position(simulation), simulation.step_number() - first_step));
       }
     }
   } catch (const RunError& error) {
     output.write_history(simulation);
     output.write_snapshot(simulation);
+    output.write_maps(simulation);
     close("failed", error.what());
     throw;
   }

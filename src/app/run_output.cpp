@@ -64,6 +64,7 @@ io::Provenance start_provenance(const sim::Simulation<Dim, double>& simulation) 
   const auto& model = simulation.model();
   provenance.threads = thread_count();
   provenance.particles = simulation.particles().size();
+  provenance.crs = simulation.site().crs_name;
   for (int a = 0; a < Dim; ++a) {
     provenance.origin.push_back(model.origin[a]);
     provenance.gravity.push_back(static_cast<double>(model.motion.gravity[a]));
@@ -71,18 +72,46 @@ io::Provenance start_provenance(const sim::Simulation<Dim, double>& simulation) 
   return provenance;
 }
 
+// Fronts as numbers of a checkpoint: time, x, y.
+std::vector<double> numbers_of(const std::vector<FrontAt>& fronts) {
+  std::vector<double> numbers;
+  for (const FrontAt& front : fronts) {
+    numbers.insert(numbers.end(), {front.time, front.place[0], front.place[1]});
+  }
+  return numbers;
+}
+
+std::vector<FrontAt> fronts_of(const std::vector<double>& numbers) {
+  std::vector<FrontAt> fronts;
+  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
+    fronts.push_back({numbers[k], {numbers[k + 1], numbers[k + 2]}});
+  }
+  return fronts;
+}
+
+constexpr const char* fronts_block = "fronts";
+
 }  // namespace
 
 template <int Dim>
-RunOutput<Dim>::RunOutput(const fs::path& folder, io::HistoryWriter history, io::SnapshotSeries snapshots)
-    : folder_(folder), history_(std::move(history)), snapshots_(std::move(snapshots)) {}
+RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation, io::HistoryWriter history,
+                          io::SnapshotSeries snapshots)
+    : folder_(folder),
+      history_(std::move(history)),
+      snapshots_(std::move(snapshots)),
+      records_(simulation, simulation.site()) {}
 
 template <int Dim>
 RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation)
-    : RunOutput(folder, io::HistoryWriter(folder / "history.csv"), io::SnapshotSeries(folder)) {
+    : RunOutput(folder, simulation, io::HistoryWriter(folder / "history.csv"), io::SnapshotSeries(folder)) {
   provenance_ = start_provenance(simulation);
   provenance_.inputs = write_resolved_case(simulation.parameters(), folder);
   write_terrain(folder, simulation);
+  write_ground_maps(folder, simulation.site());
+  records_.start(simulation);
+  if (records_.has_probes()) {
+    probes_.emplace(folder / "probes.csv");
+  }
   write_provenance(simulation, "running", "", 0.0);
   write_history(simulation);
   write_snapshot(simulation);
@@ -90,11 +119,19 @@ RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation)
 }
 
 template <int Dim>
-RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& simulation) {
-  RunOutput output(folder, io::HistoryWriter::continue_after(folder / "history.csv", simulation.time()),
+RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& simulation,
+                                      const NamedNumbers& blocks) {
+  RunOutput output(folder, simulation, io::HistoryWriter::continue_after(folder / "history.csv", simulation.time()),
                    io::SnapshotSeries::continue_after(folder, simulation.time()));
   output.provenance_ = start_provenance(simulation);
   output.provenance_.inputs = io::read_inputs(folder);
+  output.records_.restore(blocks);
+  if (const auto fronts = blocks.find(fronts_block); fronts != blocks.end()) {
+    output.fronts_ = fronts_of(fronts->second);
+  }
+  if (output.records_.has_probes()) {
+    output.probes_.emplace(io::HistoryWriter::continue_after(folder / "probes.csv", simulation.time()));
+  }
   output.history_step_ = output.snapshot_step_ = output.provenance_.steps_before = simulation.step_number();
   return output;
 }
@@ -103,7 +140,55 @@ template <int Dim>
 void RunOutput<Dim>::write_history(const Simulation& simulation) {
   if (history_step_ != simulation.step_number()) {
     history_step_ = simulation.step_number();
-    stopwatch_.time("write_history", [&] { history_.add(sim::history_row(simulation)); });
+    stopwatch_.time("write_history", [&] {
+      history_.add(records_.history_row(simulation));
+      if (probes_) {
+        probes_->add(records_.probe_row(simulation));
+      }
+    });
+  }
+}
+
+template <int Dim>
+void RunOutput<Dim>::after_step(const Simulation& simulation) {
+  if constexpr (Dim == 3) {
+    stopwatch_.time("gather_maps", [&] { records_.after_step(simulation); });
+  }
+}
+
+template <int Dim>
+double RunOutput<Dim>::front_position(const Simulation& simulation) const {
+  if constexpr (Dim == 3) {
+    const auto front = records_.front(simulation);
+    return front ? front->along : std::nan("");
+  } else {
+    return sim::front_position(simulation);
+  }
+}
+
+template <int Dim>
+void RunOutput<Dim>::write_maps(const Simulation& /*simulation*/) {
+  if constexpr (Dim == 3) {
+    if (can_write_maps()) {
+      stopwatch_.time("write_maps", [&] { app::write_maps(folder_, records_, fronts_); });
+    }
+  }
+}
+
+// What the run comes to so far, for run.json.
+template <int Dim>
+void RunOutput<Dim>::add_figures(const Simulation& simulation) {
+  const auto height = [&](double x, double y) {
+    typename terrain::Surface<Dim>::Place place;
+    place[0] = x - simulation.model().origin[0];
+    if constexpr (Dim == 3) {
+      place[1] = y - simulation.model().origin[1];
+    }
+    return simulation.model().ground ? simulation.model().ground->height(place) + simulation.model().origin[Dim - 1]
+                                     : std::nan("");
+  };
+  if (const auto figures = records_.figures(simulation, height)) {
+    provenance_.figures = sim::named(*figures);
   }
 }
 
@@ -111,6 +196,9 @@ template <int Dim>
 void RunOutput<Dim>::write_snapshot(const Simulation& simulation) {
   if (snapshot_step_ != simulation.step_number()) {
     snapshot_step_ = simulation.step_number();
+    if (const auto front = records_.front(simulation)) {
+      fronts_.push_back({simulation.time(), front->place});
+    }
     stopwatch_.time("write_snapshot", [&] {
       snapshots_.add(io::take_snapshot<Dim, double>(simulation.particles(), simulation.model().origin,
                                                     simulation.time(), simulation.step_number()));
@@ -122,8 +210,13 @@ template <int Dim>
 void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
   stopwatch_.time("write_checkpoint", [&] {
     snapshots_.finish_writing();  // a run that goes on from here must find all snapshots before
-    io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(), simulation.scalars());
+    NamedNumbers blocks = records_.state();
+    if constexpr (Dim == 3) {
+      blocks[fronts_block] = numbers_of(fronts_);
+    }
+    io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(), simulation.scalars(), blocks);
   });
+  write_maps(simulation);
 }
 
 template <int Dim>
@@ -138,6 +231,7 @@ void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::s
                                       const std::string& message, double wall_seconds) {
   provenance_.status = status;
   provenance_.message = message;
+  add_figures(simulation);
   provenance_.simulated_time = simulation.time();
   provenance_.steps = simulation.step_number();
   provenance_.wall_seconds = wall_seconds;

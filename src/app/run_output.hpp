@@ -3,13 +3,16 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/map_output.hpp"
 #include "base/stopwatch.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"
 #include "io/snapshot_series.hpp"
+#include "sim/run_records.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::app {
@@ -37,10 +40,21 @@ class RunOutput {
 
   // A new run in a folder that is there and empty: writes the resolved case, the inputs and the first state.
   RunOutput(const std::filesystem::path& folder, const Simulation& simulation);
-  // Goes on with a run at the simulation's time.
-  static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation);
+  // Goes on with a run at the simulation's time; blocks: what its checkpoint holds beside the particles.
+  static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation,
+                          const NamedNumbers& blocks);
 
+  // Gathers what maps and probes tell; after every step.
+  void after_step(const Simulation& simulation);
+  // One row of history.csv, and of probes.csv where there are probes.
   void write_history(const Simulation& simulation);
+  [[nodiscard]] sim::HistoryRow history_row(const Simulation& simulation) const {
+    return records_.history_row(simulation);
+  }
+  // maps/ in 3D, of what was gathered so far.
+  void write_maps(const Simulation& simulation);
+  // How far the front has come [m]: along x in 2D, along the path in 3D, NaN while there is none.
+  [[nodiscard]] double front_position(const Simulation& simulation) const;
   void write_snapshot(const Simulation& simulation);
   // particles.vtkhdf over all snapshots so far.
   void write_index() {
@@ -54,11 +68,16 @@ class RunOutput {
   [[nodiscard]] Stopwatch::Seconds seconds_per_stage(const Simulation& simulation) const;
 
  private:
-  RunOutput(const std::filesystem::path& folder, io::HistoryWriter history, io::SnapshotSeries snapshots);
+  RunOutput(const std::filesystem::path& folder, const Simulation& simulation, io::HistoryWriter history,
+            io::SnapshotSeries snapshots);
+  void add_figures(const Simulation& simulation);
 
   std::filesystem::path folder_;
   io::HistoryWriter history_;
   io::SnapshotSeries snapshots_;
+  sim::RunRecords<Dim> records_;
+  std::vector<FrontAt> fronts_;              // at the moments of snapshots
+  std::optional<io::HistoryWriter> probes_;  // none without probes
   io::Provenance provenance_;
   Stopwatch stopwatch_;
   std::int64_t history_step_ = -1, snapshot_step_ = -1;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -92,7 +93,10 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["seconds_beside"] = p.seconds_beside;
   json["origin_m"] = p.origin;
   json["gravity_m_s2"] = p.gravity;
-  json["crs"] = nullptr;
+  json["crs"] = p.crs.empty() ? Json() : Json(p.crs);
+  for (const auto& [name, value] : p.figures) {
+    json[name] = std::isfinite(value) ? Json(value) : Json();
+  }
   json["inputs"] = Json::array();
   for (const InputFile& input : p.inputs) {
     json["inputs"].push_back(

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/stopwatch.hpp"
@@ -29,6 +30,8 @@ struct Provenance {
   std::int64_t steps = 0;
   std::int64_t steps_before = 0;  // of them, those before this process went on with the run: not in wall_seconds
   Stopwatch::Seconds seconds_per_stage;
+  std::vector<std::pair<std::string, double>> figures;  // what the run comes to, in 3D; NaN: not known
+  std::string crs;                                      // name of the reference system; empty: none is known
   double seconds_beside = 0.0;  // processor time that writing snapshots took while steps went on
 };
 

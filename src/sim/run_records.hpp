@@ -50,6 +50,7 @@ class RunRecords {
   // A row of the history, in space with the front and the runout along the path: arc length, and how far that is from
   // the rear end of the release; NaN while there is no front.
   [[nodiscard]] HistoryRow history_row(const Simulation& simulation) const;
+  [[nodiscard]] bool has_probes() const { return !probes_.empty(); }
   // Of the state now. Empty where there are no probes.
   [[nodiscard]] HistoryRow probe_row(const Simulation& simulation) const;
   // Of the state now; nothing in 2D. ground_height: elevation of the ground at x, y, all in the case's coordinates [m].

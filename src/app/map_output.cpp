@@ -1,0 +1,145 @@
+#include "app/map_output.hpp"
+
+#ifdef THAWSLIDE_WITH_GIS
+
+#include <algorithm>
+#include <cmath>
+
+#include "gis/geopackage.hpp"
+#include "gis/map_style.hpp"
+#include "gis/raster_file.hpp"
+
+namespace thawslide::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr gis::Color dark_red{178, 24, 43}, black{0, 0, 0}, blue{33, 102, 172};
+
+void write_map(const fs::path& folder, const std::string& name, const Raster& map, const gis::BandText& text) {
+  fs::create_directories(folder / "maps");
+  gis::write_geotiff((folder / "maps" / (name + ".tif")).string(), map, text);
+}
+
+// The colours span the values there are; all of one value get a span about it.
+void write_style(const fs::path& folder, const std::string& name, const Raster& map, const std::string& unit,
+                 double nothing_below) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const double value : map.values) {
+    if (std::isfinite(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  if (low > high) {
+    return;  // nothing to draw
+  }
+  high = high > low ? high : low + 1.0;
+  gis::write_raster_style((folder / "maps" / (name + ".qml")).string(), gis::even_stops(low, high), unit,
+                          nothing_below);
+}
+
+// The cells where the slide was ever thicker than it takes to have arrived.
+gis::Polygons affected_area(const sim::FlowMaps& maps) {
+  const auto& kinds = sim::map_kinds();
+  const auto largest = std::find_if(kinds.begin(), kinds.end(),
+                                    [](const sim::MapKind& kind) { return std::string(kind.name) == "max_thickness"; });
+  Raster mask = maps.raster(*largest, sim::MapExtent::slide);
+  if (mask.empty()) {
+    return {};
+  }
+  for (double& value : mask.values) {
+    value = value > maps.arrival_thickness() ? 1.0 : 0.0;
+  }
+  return gis::areas_of_mask(mask);
+}
+
+gis::MapLayer front_layer(const std::vector<FrontAt>& fronts) {
+  std::vector<std::array<double, 2>> places;
+  std::vector<double> times;
+  for (const FrontAt& front : fronts) {
+    places.push_back(front.place);
+    times.push_back(front.time);
+  }
+  return {"front", places, {{"time_s", times}}};
+}
+
+void write_layers(const fs::path& folder, const sim::RunRecords<3>& records, const std::vector<FrontAt>& fronts) {
+  const gis::Polygons area = affected_area(*records.maps());
+  std::vector<gis::MapLayer> layers;
+  layers.push_back({"affected_area", std::vector<gis::Polygons>{area}, {{"area_m2", std::vector{gis::area_of(area)}}}});
+  if (!records.path().empty()) {
+    layers.push_back(
+        {"path",
+         std::vector<config::Polyline2>{records.path().corners()},
+         {{"length_m", std::vector{records.path().length()}},
+          {"kind", std::vector<std::string>{records.path_given() ? "given" : "way of the centre of mass"}}}});
+  }
+  layers.push_back(front_layer(fronts));
+  gis::write_geopackage((folder / "maps" / "results.gpkg").string(), layers, records.maps()->map_grid().crs);
+  const auto style = [&](const std::string& layer, const gis::VectorStyle& how) {
+    gis::write_vector_style((folder / "maps" / (layer + ".qml")).string(), how);
+  };
+  style("affected_area",
+        {.kind = gis::LayerKind::polygons, .color = dark_red, .width = 0.5, .opacity = 0.25, .label = ""});
+  style("path", {.kind = gis::LayerKind::lines, .color = black, .width = 0.5, .opacity = 1.0, .label = ""});
+  style("front", {.kind = gis::LayerKind::points, .color = blue, .width = 2.0, .opacity = 1.0, .label = "time_s"});
+}
+
+}  // namespace
+
+bool can_write_maps() { return true; }
+
+void write_ground_maps(const fs::path& folder, const config::Site& site) {
+  if (site.ground == nullptr) {
+    return;
+  }
+  write_map(folder, "terrain", *site.ground, {"m", "ground that the slide moves on"});
+  Raster release = site.ground->filled(0.0);
+  for (const auto& [name, body] : site.releases) {
+    const Raster& thickness = body.thickness;
+    const auto column = static_cast<int>(std::lround((thickness.x - release.x) / release.cell_x));
+    const auto row = static_cast<int>(std::lround((thickness.y - release.y) / release.cell_y));
+    for (int j = 0; j < thickness.rows; ++j) {
+      for (int i = 0; i < thickness.columns; ++i) {
+        const double value = thickness.at(i, j);
+        release.values[release.index(column + i, row + j)] += std::isnan(value) ? 0.0 : value;
+      }
+    }
+  }
+  write_map(folder, "release", release, {"m", "thickness of the release, vertical"});
+  write_style(folder, "release", release, "m", 0.0);
+}
+
+void write_maps(const fs::path& folder, const sim::RunRecords<3>& records, const std::vector<FrontAt>& fronts) {
+  for (const sim::MapKind& kind : sim::map_kinds()) {
+    const Raster map = records.maps()->raster(kind, sim::MapExtent::whole_grid);
+    write_map(folder, kind.name, map, {kind.unit, kind.description});
+    write_style(folder, kind.name, map, kind.unit, -HUGE_VAL);
+  }
+  write_layers(folder, records, fronts);
+}
+
+}  // namespace thawslide::app
+
+#else
+
+#include "base/error.hpp"
+
+namespace thawslide::app {
+
+bool can_write_maps() { return false; }
+
+void write_ground_maps(const std::filesystem::path& /*folder*/, const config::Site& site) {
+  THAWSLIDE_ASSERT(site.ground == nullptr, "a raster of {} columns in a build without maps", site.ground->columns);
+}
+
+void write_maps(const std::filesystem::path& folder, const sim::RunRecords<3>& /*records*/,
+                const std::vector<FrontAt>& /*fronts*/) {
+  THAWSLIDE_ASSERT(false, "no maps can be written to {} without GDAL", folder.string());
+}
+
+}  // namespace thawslide::app
+
+#endif
