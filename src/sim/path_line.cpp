@@ -28,6 +28,19 @@ void PathLine::add(const Place2& corner) {
   }
 }
 
+void PathLine::remove_last() {
+  THAWSLIDE_ASSERT(!empty(), "a line of {} corners", corners_.size());
+  corners_.pop_back();
+  along_.pop_back();
+  directions_.pop_back();
+}
+
+void PathLine::reserve(std::size_t corners) {
+  corners_.reserve(corners);
+  along_.reserve(corners);
+  directions_.reserve(corners);
+}
+
 PlaceOnLine PathLine::project(const Place2& place) const {
   THAWSLIDE_ASSERT(!empty(), "a line of {} corners", corners_.size());
   const std::size_t segments = directions_.size();
@@ -59,8 +72,17 @@ Place2 PathLine::point_at(double along) const {
 }
 
 void CentreWay::note(const Place2& centre) {
+  constexpr double first_sight = 0.01;  // of the spacing: enough to tell the direction
+  if (end_moves()) {
+    line_.remove_last();
+  }
   const config::Polyline2& corners = line_.corners();
-  if (corners.empty() || std::hypot(centre[0] - corners.back()[0], centre[1] - corners.back()[1]) >= spacing_) {
+  if (corners.empty()) {
+    line_.add(centre);
+    return;
+  }
+  const double gone = std::hypot(centre[0] - corners.back()[0], centre[1] - corners.back()[1]);
+  if (gone >= (line_.empty() ? first_sight * spacing_ : spacing_)) {
     line_.add(centre);
   }
 }
@@ -76,6 +98,7 @@ std::vector<double> CentreWay::state() const {
 void CentreWay::restore(const std::vector<double>& numbers) {
   THAWSLIDE_ASSERT(numbers.size() % 2 == 0, "{} numbers for corners of two", numbers.size());
   line_ = PathLine();
+  line_.reserve(usual_corners);
   for (std::size_t k = 0; k < numbers.size(); k += 2) {
     line_.add({numbers[k], numbers[k + 1]});
   }

@@ -34,6 +34,9 @@ class PathLine {
 
   // A further corner, unless it repeats the last one.
   void add(const Place2& corner);
+  void remove_last();
+  // Makes room for so many corners.
+  void reserve(std::size_t corners);
 
  private:
   config::Polyline2 corners_;
@@ -42,10 +45,11 @@ class PathLine {
 };
 
 // The way of a centre of mass: a corner wherever it is a spacing [m] away from the last one, so that its direction does
-// not come from a few millimetres of wavering. Empty until the centre has gone that far.
+// not come from a few millimetres of wavering. Until the first of them the way ends where the centre is, and is empty
+// while that is less than a hundredth of the spacing from where it was.
 class CentreWay {
  public:
-  explicit CentreWay(double spacing) : spacing_(spacing) {}
+  explicit CentreWay(double spacing) : spacing_(spacing) { line_.reserve(usual_corners); }
 
   void note(const Place2& centre);
   [[nodiscard]] const PathLine& line() const { return line_; }
@@ -55,6 +59,11 @@ class CentreWay {
   void restore(const std::vector<double>& numbers);
 
  private:
+  static constexpr std::size_t usual_corners = 1024;
+
+  // Whether the last corner only stands for the first one a spacing away.
+  [[nodiscard]] bool end_moves() const { return !line_.empty() && line_.length() < spacing_; }
+
   double spacing_;
   PathLine line_;
 };

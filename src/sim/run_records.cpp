@@ -91,7 +91,7 @@ template <int Dim>
 void RunRecords<Dim>::start(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     maps_->start(simulation.grid(), simulation.particles());
-    way_.note(centre_of_mass(simulation));
+    note_way(simulation);
     release_top_ = highest_point(simulation);
   }
 }
@@ -100,7 +100,16 @@ template <int Dim>
 void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     maps_->gather(simulation.grid(), simulation.particles(), simulation.time());
-    way_.note(centre_of_mass(simulation));
+    note_way(simulation);
+  }
+}
+
+template <int Dim>
+void RunRecords<Dim>::note_way(const Simulation& simulation) {
+  if constexpr (Dim == 3) {
+    if (!path_given_) {
+      way_.note(centre_of_mass(simulation));
+    }
   }
 }
 

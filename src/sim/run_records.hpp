@@ -41,8 +41,8 @@ class RunRecords {
 
   // Null in 2D.
   [[nodiscard]] const FlowMaps* maps() const { return maps_ ? &*maps_ : nullptr; }
-  // The given one, or the way of the centre of mass so far; empty in 2D and while that has not gone one cell of the
-  // grid.
+  // The given one, or the way of the centre of mass so far, a corner each cell of the grid; empty in 2D, and while the
+  // centre has hardly moved (CentreWay).
   [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : way_.line(); }
   [[nodiscard]] bool path_given() const { return path_given_; }
   // The front along the path; none where that is empty, or no particle is left.
@@ -59,6 +59,7 @@ class RunRecords {
                                                   const std::function<double(double x, double y)>& ground_height) const;
 
  private:
+  void note_way(const Simulation& simulation);
   // Arc length of the path at which the release began: the smallest of the middles of the map cells that it lay in [m].
   [[nodiscard]] double rear_of_release() const;
 

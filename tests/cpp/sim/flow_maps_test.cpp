@@ -293,14 +293,14 @@ TEST(FlowMaps, RastersLieWhereTheCellsAre) {
   EXPECT_EQ(known, 24);
 }
 
-std::vector<double> state_after(int threads, int sorting_interval, int stop_at) {
+std::vector<double> state_after(const MapGrid& map_grid, int threads, int sorting_interval, int stop_at) {
   const int threads_before = thread_count();
   set_thread_count(threads);
   Simulation<3, double> simulation(slide_in_space("velocity = [10.0, 3.0, 1.0]", {"body.box.max=[12.0, 11.0, 3.0]"}));
   simulation.set_sorting_interval(sorting_interval);
-  FlowMaps maps = maps_of(simulation, {-3.83, -4.83, 0.34, 0.34, 189, 59, ""});
+  FlowMaps maps = maps_of(simulation, map_grid);
   maps.start(simulation.grid(), simulation.particles());
-  for (int k = 0; k < 120; ++k) {
+  for (int k = 0; k < 60; ++k) {
     if (k == stop_at) {
       const std::vector<double> state = maps.state();
       maps = maps_of(simulation, maps.map_grid());
@@ -316,12 +316,30 @@ std::vector<double> state_after(int threads, int sorting_interval, int stop_at) 
 }
 
 TEST(FlowMaps, BitsDependNeitherOnThreadsNorOnPlacesInMemoryNorOnAStop) {
-  const std::vector<double> once = state_after(1, 64, -1);
-  for (const auto& [threads, interval, stop] : {std::array{4, 64, -1}, std::array{2, 3, -1}, std::array{3, 0, 57}}) {
-    const std::vector<double> again = state_after(threads, interval, stop);
-    ASSERT_EQ(again.size(), once.size());
-    EXPECT_EQ(std::memcmp(again.data(), once.data(), once.size() * sizeof(double)), 0) << threads;
+  // The coarse grid's cells are wider than the background grid's tiles.
+  for (const MapGrid& grid :
+       {MapGrid{-3.83, -4.83, 0.34, 0.34, 189, 59, ""}, MapGrid{-1.0, -2.0, 6.0, 6.0, 11, 4, ""}}) {
+    const std::vector<double> once = state_after(grid, 1, 64, -1);
+    for (const auto& [threads, interval, stop] : {std::array{4, 64, -1}, std::array{2, 3, -1}, std::array{3, 0, 37}}) {
+      const std::vector<double> again = state_after(grid, threads, interval, stop);
+      ASSERT_EQ(again.size(), once.size());
+      EXPECT_EQ(std::memcmp(again.data(), once.data(), once.size() * sizeof(double)), 0) << threads;
+    }
   }
+}
+
+// A map of 18 billion cells would not fit into any memory.
+TEST(FlowMaps, MemoryFollowsTheSlide) {
+  const Simulation<3, double> simulation(slide_in_space());
+  FlowMaps maps = maps_of(simulation, {-299.995, -299.995, 0.01, 0.01, 200000, 90000, ""});
+  maps.start(simulation.grid(), simulation.particles());
+  int cells = 0;
+  maps.for_cells([&](int, int, const MapCell&) { ++cells; });
+  EXPECT_EQ(cells, 600 * 400);
+  const Raster raster = maps.raster(kind("max_thickness"), MapExtent::slide);
+  EXPECT_EQ(raster.columns, 600);
+  EXPECT_EQ(raster.rows, 400);
+  EXPECT_NEAR(raster.x, 0.005, 1e-9);
 }
 
 }  // namespace
