@@ -20,6 +20,16 @@ class ConvexPolygon {
     std::copy(triangle.begin(), triangle.end(), corner_.begin());
   }
 
+  // Copies have the corners there are, and nothing in the places of others.
+  ConvexPolygon(const ConvexPolygon& other) : size_(other.size_) {
+    std::copy_n(other.corner_.begin(), other.size_, corner_.begin());
+  }
+  ConvexPolygon& operator=(const ConvexPolygon& other) {
+    size_ = other.size_;
+    std::copy_n(other.corner_.begin(), other.size_, corner_.begin());
+    return *this;
+  }
+
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] const Vector<double, 3>& operator[](int k) const { return corner_[static_cast<std::size_t>(k)]; }
 
@@ -54,12 +64,12 @@ class ConvexPolygon {
 
   // The part over the rectangle between two places, its sides included.
   [[nodiscard]] ConvexPolygon over(const Vector<double, 2>& from, const Vector<double, 2>& to) const {
-    ConvexPolygon kept = *this, part, outside;
-    for (int axis = 0; axis < 2; ++axis) {
-      kept.split(axis, from[axis], outside, part);
-      part.split(axis, to[axis], kept, outside);
-    }
-    return kept;
+    ConvexPolygon first, second, outside;
+    split(0, from[0], outside, first);
+    first.split(0, to[0], second, outside);
+    second.split(1, from[1], outside, first);
+    first.split(1, to[1], second, outside);
+    return second;
   }
 
   // The parts on both sides of the plane where the coordinate along `axis` is `at`; both hold what lies in the plane.
