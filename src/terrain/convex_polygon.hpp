@@ -20,15 +20,16 @@ class ConvexPolygon {
     std::copy(triangle.begin(), triangle.end(), corner_.begin());
   }
 
-  // Copies have the corners there are, and nothing in the places of others.
+  // Only the corners there are.
   ConvexPolygon(const ConvexPolygon& other) : size_(other.size_) {
-    std::copy_n(other.corner_.begin(), other.size_, corner_.begin());
+    std::copy_n(other.corner_.begin(), size_, corner_.begin());
   }
   ConvexPolygon& operator=(const ConvexPolygon& other) {
     size_ = other.size_;
-    std::copy_n(other.corner_.begin(), other.size_, corner_.begin());
+    std::copy_n(other.corner_.begin(), size_, corner_.begin());
     return *this;
   }
+  ~ConvexPolygon() = default;
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] const Vector<double, 3>& operator[](int k) const { return corner_[static_cast<std::size_t>(k)]; }
