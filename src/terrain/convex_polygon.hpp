@@ -65,12 +65,12 @@ class ConvexPolygon {
 
   // The part over the rectangle between two places, its sides included.
   [[nodiscard]] ConvexPolygon over(const Vector<double, 2>& from, const Vector<double, 2>& to) const {
-    ConvexPolygon kept = *this, part, outside;
-    for (int axis = 0; axis < 2; ++axis) {
-      kept.split(axis, from[axis], outside, part);
-      part.split(axis, to[axis], kept, outside);
-    }
-    return kept;
+    ConvexPolygon first, second, outside;
+    split(0, from[0], outside, first);
+    first.split(0, to[0], second, outside);
+    second.split(1, from[1], outside, first);
+    first.split(1, to[1], second, outside);
+    return second;
   }
 
   // The parts on both sides of the plane where the coordinate along `axis` is `at`; both hold what lies in the plane.

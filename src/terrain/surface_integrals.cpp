@@ -80,10 +80,9 @@ SurfaceIntegrals::SurfaceIntegrals(const Vector<double, 3>& lowest, double cell,
       edge_(edge),
       nodes_(nodes),
       top_(static_cast<std::size_t>((edge + 1) * (edge + 1)), -HUGE_VAL) {
-  for (int k = 0; k < edge * edge * edge; ++k) {
-    nodes[k] = {};
-    nodes[k].normal.setZero();
-  }
+  GroundAtNode<3, double> empty;
+  empty.normal.setZero();
+  std::fill_n(nodes, edge * edge * edge, empty);
 }
 
 void SurfaceIntegrals::add(const std::array<Vector<double, 3>, 3>& triangle) {
