@@ -38,6 +38,15 @@ struct BlockOptions {
 };
 int run_block_model(const BlockOptions& options);
 
+struct NewOptions {
+  std::string folder;
+  std::string dem, release, crs;  // crs: for a DEM whose file does not tell
+  double thickness = 0.0;         // m, vertical; 0: the attribute "thickness"
+  bool cut = false;               // out of the DEM, not on top of it
+  double reach_angle = 8.0;       // degrees
+};
+int make_new_case(const NewOptions& options);
+
 struct DescribeOptions {
   bool json = false, markdown = false, schema = false;
 };

@@ -78,6 +78,31 @@ int run_program(int count, char** arguments) {
   block->add_option("--output", block_options.output, "CSV file (default: a table of some rows to the terminal)");
   block->callback([&] { exit_code = run_block_model(block_options); });
 
+  NewOptions new_options;
+  CLI::App* make_new = program.add_subcommand("new", "Make a case folder from a terrain model and a release area");
+  make_new->add_option("folder", new_options.folder, "Folder to make")->required();
+  make_new->add_option("--dem", new_options.dem, "Terrain model, GeoTIFF or ESRI ASCII, in projected metres")
+      ->required();
+  make_new->add_option("--release", new_options.release, "Polygons: Shapefile, GeoPackage or GeoJSON")->required();
+  make_new
+      ->add_option("--thickness", new_options.thickness,
+                   "Vertical thickness of the release [m] (default: the polygons' attribute 'thickness')")
+      ->check(CLI::PositiveNumber);
+  auto* placement = make_new->add_option_group("placement");
+  placement->add_flag("--cut", new_options.cut,
+                      "Cut the release out of the DEM: the DEM is the surface before the slide");
+  bool on_top = false;
+  placement->add_flag("--on-top", on_top, "Put the release on top of the DEM (default)");
+  placement->require_option(0, 1);
+  make_new->add_option("--crs", new_options.crs,
+                       "Coordinate reference system of a DEM that does not tell it: EPSG:31287");
+  make_new
+      ->add_option("--reach-angle", new_options.reach_angle,
+                   "The domain holds all ground above a line that falls so much from the top of the release [degrees]")
+      ->check(CLI::Range(1.0, 45.0))
+      ->capture_default_str();
+  make_new->callback([&] { exit_code = make_new_case(new_options); });
+
   DescribeOptions describe_options;
   CLI::App* describe = program.add_subcommand("describe", "The reference of the case file");
   auto* forms = describe->add_option_group("form");

@@ -15,13 +15,14 @@ constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double particles_across = 6.0;
 constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
-constexpr int margin_cells = 4;  // between the release and the sides of the domain
+constexpr double snapshots = 40.0;  // about as many
+constexpr int margin_cells = 4;                             // between the release and the sides of the domain
 
 // The release in numbers.
 struct ReleaseExtent {
-  double volume = 0.0, weighted_thickness = 0.0;                     // [m3], [m]
+  double volume = 0.0, weighted_thickness = 0.0;  // [m3], [m]
   double west = HUGE_VAL, east = -HUGE_VAL, south = HUGE_VAL, north = -HUGE_VAL;
-  double top = -HUGE_VAL, top_x = 0.0, top_y = 0.0;                  // highest point of its surface
+  double top = -HUGE_VAL, top_x = 0.0, top_y = 0.0;  // highest point of its surface
 };
 
 double nearest_height(const Raster& dem, double x, double y) {
@@ -114,8 +115,95 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle)
     proposal.max[a] = proposal.min[a] + cells_over(proposal.max[a] - proposal.min[a], proposal.cell) * proposal.cell;
   }
   proposal.end = std::clamp(10.0 * std::ceil(farthest / slow / 10.0), shortest_run, longest_run);
-  proposal.output_interval = proposal.end / 40.0;
+  proposal.output_interval = round_down(proposal.end / snapshots);
   return proposal;
+}
+
+namespace {
+
+std::string thickness_text(const MapValue& thickness) {
+  return thickness.from == MapValue::From::attribute ? fmt::format("{{ attribute = \"{}\" }}", thickness.source)
+                                                     : number_text(thickness.number);
+}
+
+std::string point_text(const Point& point) {
+  return fmt::format("[{}, {}, {}]", number_text(point[0]), number_text(point[1]), number_text(point[2]));
+}
+
+}  // namespace
+
+std::string case_text(const ProposalInput& input, const Proposal& proposal) {
+  const bool is_cut = input.placement == Placement::cut;
+  std::string text = fmt::format(
+      R"(# Made by `thawslide new`. Every number may be changed; `thawslide describe` tells what keys there are.
+
+[case]
+title = "{title}"
+dimension = 3  # x is east, y is north, z is up
+
+[time]
+end = {end}  # s; make it longer if the slide still moves
+stepping = "adaptive"
+output_interval = {interval}  # s between snapshots of all particles; maps are gathered every step
+history_interval = {history}
+
+# The domain: a box about the release and all ground above a line that falls {angle} degrees from its top. Its size costs
+# nothing, as only cells near the slide take memory and time.
+[grid]
+cell = {cell}  # m; two particles a cell and axis make {across:.1f} across the mean thickness of {thickness:.3g} m
+min = {min}
+max = {max}
+leaving = "stop"  # what reaches the edge of the domain or of the DEM ends the run; "remove" counts and removes it
+
+[terrain]
+type = "dem"
+file = "{dem}"
+
+[body.slide]
+material = "rock_ice"
+shape = "release"
+release = "{release}"
+thickness = {given}  # m
+thickness_along = "vertical"  # "normal": across the slope
+placement = "{placement}"  # {placement_text}
+particles_per_axis = 2
+temperature = -5.0  # C, of rock and ice at the start
+porosity = 0.375  # share of ice in the volume: all pores are full of it
+
+# Broken rock and ice.
+[material.rock_ice]
+law = "mohr_coulomb"
+youngs_modulus = 1.0e8
+poisson_ratio = 0.2
+friction_angle = 35.0
+cohesion = 1.0e3
+viscosity_time = 0.02
+hydraulic_conductivity = 1.0e-6  # m/s; the smaller, the longer meltwater stays under pressure
+
+# The base. Sliding heats a shear band, its ice melts, friction falls, and the meltwater carries part of the weight.
+[basal]
+friction = "lubricated"  # "constant": plain Coulomb friction
+friction_angle = 30.0  # degrees, before anything has melted
+heat_fraction = 0.35  # share of the friction work that heats the band
+
+[band]
+thickness = 0.2  # m; the thinner, the sooner it melts
+
+[maps]
+arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
+)",
+      fmt::arg("title", input.title), fmt::arg("end", number_text(proposal.end)),
+      fmt::arg("interval", number_text(proposal.output_interval)),
+      fmt::arg("history", number_text(proposal.output_interval / 5.0)), fmt::arg("angle", input.reach_angle),
+      fmt::arg("cell", number_text(proposal.cell)),
+      fmt::arg("across", proposal.thickness * proposal.particles_per_axis / proposal.cell),
+      fmt::arg("thickness", proposal.thickness), fmt::arg("min", point_text(proposal.min)),
+      fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", input.dem_file),
+      fmt::arg("release", input.release_file), fmt::arg("given", thickness_text(input.thickness)),
+      fmt::arg("placement", is_cut ? "cut" : "on_top"),
+      fmt::arg("placement_text", is_cut ? "out of the DEM, which is the surface before the slide; \"on_top\": onto it"
+                                        : "the DEM is what it slides on; \"cut\": out of the DEM"));
+  return text;
 }
 
 }  // namespace thawslide::config

@@ -12,14 +12,13 @@ namespace thawslide::config {
 struct ProposalInput {
   std::string title;
   std::string dem_file, release_file;  // as the case is to name them
-  std::string crs;                     // for terrain.crs; empty: the file tells it
   MapValue thickness;
   Placement placement = Placement::on_top;
   double reach_angle = 8.0;  // degrees: how far the slide is given room to run
 };
 
 struct Proposal {
-  double cell = 0.0;             // [m]
+  double cell = 0.0;  // [m]
   int particles_per_axis = 2;
   Point min{}, max{};            // of the domain [m]
   double end = 0.0;              // [s]
@@ -33,8 +32,8 @@ struct Proposal {
 [[nodiscard]] double round_down(double x);
 
 // The domain holds every point of the DEM that lies above a line that falls by the reach angle from the release's
-// highest point, and all of the release. The cell gives at least six particles across the mean thickness. dem: NaN where
-// there is no data; thickness: vertical [m], on points of the same places.
+// highest point, and all of the release. The cell gives at least six particles across the mean thickness. dem: NaN
+// where there is no data; thickness: vertical [m], on points of the same places.
 [[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle);
 
 // The commented case file.

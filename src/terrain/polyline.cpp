@@ -48,7 +48,8 @@ Polyline::Nearest Polyline::nearest(double x, double z) const {
     const Vector<double, 2> a(x_[k], height_[k]);
     const Vector<double, 2> along = Vector<double, 2>(x_[k + 1], height_[k + 1]) - a;
     double t = (point - a).dot(along) / along.squaredNorm();
-    t = std::max(k == 0 ? t : 0.0, std::min(k + 2 == x_.size() ? t : 1.0, t));  // the end segments go on for ever
+    // The end segments go on for ever, each beyond its own end of the line.
+    t = std::max(k == 0 ? -HUGE_VAL : 0.0, std::min(k + 2 == x_.size() ? HUGE_VAL : 1.0, t));
     const Vector<double, 2> candidate = a + t * along;
     const double distance = (point - candidate).norm();
     if (distance < best) {

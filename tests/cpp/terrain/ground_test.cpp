@@ -29,6 +29,13 @@ TEST(Polyline, NearestPointIsTheFootOfTheNormal) {
   }
 }
 
+TEST(Polyline, EndSegmentsGoOnBeyondTheirOwnEndsOnly) {
+  const Polyline line({0.0, 10.0, 20.0, 30.0}, {10.0, 0.0, 0.0, 10.0});
+  EXPECT_NEAR(line.nearest(12.0, -3.0).distance, -3.0, 1e-12);
+  EXPECT_NEAR(line.nearest(18.0, -3.0).distance, -3.0, 1e-12);
+  EXPECT_NEAR(line.nearest(-10.0, 20.0).distance, 0.0, 1e-12);
+}
+
 // The hats of a grid sum to one, so nodal shares sum to the whole surface and the whole space: within the grid's last
 // columns and rows, where the sum of hats falls from 1 to 0.
 TEST(HatShare, SumsToTheSurfaceAndToTheSpaceAboveIt) {
