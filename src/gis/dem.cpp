@@ -109,8 +109,9 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   dem.span = span_of_points(layout);
   check_domain(parameters, file.file(), dem.span);
   const Rectangle area = area_to_read(parameters, layout);
-  const double reach = smoothing_reach * terrain.smooth;
-  dem.raster = read_and_resample(parameters, file, layout, area.widened(reach, reach));
+  // The filter's reach, and the points that a window holds beyond its sides.
+  const double reach = smoothing_reach * terrain.smooth + 2.0 * std::max(layout.cell_x, layout.cell_y);
+  dem.raster = read_and_resample(parameters, file, layout, terrain.smooth > 0.0 ? area.widened(reach, reach) : area);
   const std::string name = std::filesystem::path(file.file()).filename().string();
   if (terrain.resample > 0.0) {
     notes.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,

@@ -134,13 +134,21 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
                   raster.file, unit, name_of(wkt), remedy));
 }
 
+// GDAL leaves out what follows the digits of a number.
+bool is_sound_number(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const bool is_number_of_epsg = colon == 4 && (text[0] == 'E' || text[0] == 'e');
+  return !is_number_of_epsg || (text.size() > 5 && text.find_first_not_of("0123456789", 5) == std::string::npos);
+}
+
 }  // namespace
 
 std::string reference_system_named(const std::string& text) {
   const GdalMessages messages;
   OGRSpatialReference reference;
-  if (reference.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
-      OGRERR_NONE) {
+  if (!is_sound_number(text) ||
+      reference.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
+          OGRERR_NONE) {
     require_projection_database();
     throw UserError(
         fmt::format("'{}' is no coordinate reference system that is known; allowed: a number of the EPSG registry such "

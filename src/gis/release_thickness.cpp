@@ -104,7 +104,7 @@ class ThicknessMaker {
 
   Raster of_release_raster() {
     const Raster thickness = sampled(area_.source, area_.share, Missing::zero);
-    require_not_negative(area_.source, "release", body_.release);
+    require_not_negative(area_.source, nullptr, "release", body_.release);
     const double told = volume_of(area_.source), made = volume_of(thickness);
     if (area_.source.crs == ground_.crs && std::abs(made - told) > 1e-3 * told) {
       notes_.push_back(
@@ -164,9 +164,9 @@ class ThicknessMaker {
   }
 
   Raster of_raster() const {
-    const Raster thickness = map_at_points(body_.thickness.source, Missing::zero);
-    require_not_negative(thickness, "thickness", body_.thickness.source);
-    return times_share([&](std::size_t k) { return thickness.values[k]; });
+    const Raster map = map_at_points(body_.thickness.source, Missing::zero);
+    require_not_negative(map, &area_.share, "thickness", body_.thickness.source);
+    return times_share([&](std::size_t k) { return map.values[k]; });
   }
 
   Raster of_surface() const {
@@ -215,10 +215,11 @@ class ThicknessMaker {
     return thickness;
   }
 
-  void require_not_negative(const Raster& raster, const char* key, const std::string& file) const {
+  // `share`: of the same points, those that count; null: all of them.
+  void require_not_negative(const Raster& raster, const Raster* share, const char* key, const std::string& file) const {
     for (int row = 0; row < raster.rows; ++row) {
       for (int column = 0; column < raster.columns; ++column) {
-        if (raster.at(column, row) < 0.0) {
+        if (raster.at(column, row) < 0.0 && (share == nullptr || share->at(column, row) > 0.0)) {
           fail(key, fmt::format("{}: the thickness at {:.10g}, {:.10g} is {:g} m; allowed: 0 and more.", file,
                                 raster.x_of(column), raster.y_of(row), raster.at(column, row)));
         }

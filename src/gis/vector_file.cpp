@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "base/error.hpp"
 #include "config/problems.hpp"
@@ -301,21 +302,26 @@ std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<
   }
   const std::string attribute = attribute_named(layer, name_attribute, "name_attribute");
   std::vector<std::string> there;
+  std::vector<Feature> chosen;
+  std::set<std::string> found;
   for (const Feature& feature : layer.features) {
     const auto text = feature.texts.find(attribute);
-    there.push_back(text == feature.texts.end() ? "" : text->second);
-  }
-  std::vector<Feature> chosen;
-  for (const std::string& name : names) {
-    const std::size_t before = chosen.size();
-    for (std::size_t k = 0; k < there.size(); ++k) {
-      if (there[k] == name) {
-        chosen.push_back(layer.features[k]);
-      }
+    if (text == feature.texts.end()) {
+      continue;
     }
-    if (chosen.size() == before) {
+    if (std::find(there.begin(), there.end(), text->second) == there.end()) {
+      there.push_back(text->second);
+    }
+    if (std::find(names.begin(), names.end(), text->second) != names.end()) {
+      chosen.push_back(feature);
+      found.insert(text->second);
+    }
+  }
+  for (const std::string& name : names) {
+    if (found.count(name) == 0) {
       throw UserError(fmt::format("{}: no polygon has the {} '{}'; the file has: {}{}", layer.file, attribute, name,
-                                  config::list_words(there), config::did_you_mean(name, there)));
+                                  there.empty() ? "none" : config::list_words(there),
+                                  config::did_you_mean(name, there)));
     }
   }
   return chosen;

@@ -1,0 +1,103 @@
+// What a run hands to a GIS: GeoPackages that open again, and styles that are sound XML.
+#include <cpl_minixml.h>
+#include <ogrsf_frmts.h>
+
+#include "gis/geopackage.hpp"
+#include "gis/map_style.hpp"
+#include "gis/vector_file.hpp"
+#include "map_files.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace map_files;
+
+std::vector<MapLayer> layers() {
+  const Polygon with_hole{{{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}}, {{{2, 2}, {2, 4}, {4, 4}, {4, 2}, {2, 2}}}};
+  const Polygon beside{{{20, 0}, {29, 0}, {29, 9}, {20, 0}}, {}};
+  return {
+      {"affected_area", std::vector<Polygons>{{with_hole, beside}}, {{"area_m2", std::vector<double>{117.5}}}},
+      {"front",
+       std::vector<Polyline2>{{{0, 0}, {3, 4}}, {{1, 1}, {2, 2}, {3, 1}}},
+       {{"time_s", std::vector<double>{10.0, missing}}, {"note", std::vector<std::string>{"first", ""}}}},
+      {"probes", std::vector<std::array<double, 2>>{{5.5, 6.5}}, {{"name", std::vector<std::string>{"hut <A&B>"}}}}};
+}
+
+TEST(MapWritingTest, GeopackageOpensAgain) {
+  const std::string file = in_folder("maps.gpkg"), ground = reference_system_named("EPSG:31287");
+  write_geopackage(file, layers(), ground);
+  write_geopackage(file, layers(), ground);  // an older one is replaced
+  const VectorLayer area = read_polygons(file, ground);
+  EXPECT_EQ(area.notes, std::vector<std::string>{});
+  ASSERT_EQ(area.features.size(), 1U);
+  EXPECT_NEAR(area_of(area.features[0].polygons), 81.0 - 4.0 + 40.5, 1e-12);
+  EXPECT_EQ(area.features[0].numbers.at("area_m2"), 117.5);
+  const VectorLayer front = read_lines(file, ground);
+  ASSERT_EQ(front.features.size(), 2U);
+  EXPECT_EQ(front.features[1].lines[0], (Polyline2{{1, 1}, {2, 2}, {3, 1}}));
+  EXPECT_EQ(front.features[0].texts.at("note"), "first");
+  EXPECT_EQ(front.features[1].numbers.count("time_s"), 0U);
+  EXPECT_EQ(front.features[1].texts.count("note"), 0U);
+  const VectorLayer probes = read_points(file, ground);
+  EXPECT_EQ(probes.features[0].points[0], (std::array<double, 2>{5.5, 6.5}));
+  EXPECT_EQ(probes.features[0].title, "point 1 (hut <A&B>)");
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(file).parent_path())) {
+    EXPECT_EQ(entry.path().filename(), "maps.gpkg") << "left behind";
+  }
+}
+
+TEST(MapWritingTest, GeopackageWithoutASystem) {
+  write_geopackage(in_folder("maps.gpkg"), layers(), "");
+  EXPECT_EQ(read_lines(in_folder("maps.gpkg"), "").features.size(), 2U);
+}
+
+TEST(MapWritingTest, FoldersThatAreNotThere) {
+  const std::string message = error_of([] { write_geopackage(in_folder("no/such/maps.gpkg"), layers(), ""); });
+  EXPECT_EQ(message.substr(0, 37), "cannot write FOLDER/no/such/maps.gpkg") << message;
+}
+
+// Returns the value of the attribute at a path of an XML file that GDAL's reader takes.
+std::string in_xml(const std::string& file, const char* path) {
+  CPLXMLNode* const root = CPLParseXMLFile(file.c_str());
+  EXPECT_NE(root, nullptr);
+  CPLXMLNode* const qgis = CPLGetXMLNode(root, "=qgis");
+  const std::string value = qgis == nullptr ? "no root" : CPLGetXMLValue(qgis, path, "missing");
+  CPLDestroyXMLNode(root);
+  return value;
+}
+
+TEST(MapWritingTest, RasterStyleHoldsItsStops) {
+  const std::string file = in_folder("max_speed.qml");
+  write_raster_style(file, even_stops(0.0, 80.0), "m/s", 0.0);
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.type"), "singlebandpseudocolor");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.classificationMax"), "80");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rasterTransparency.singleValuePixelList.pixelListEntry.max"), "0");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.color"), "#440154");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.label"), "0 m/s");
+}
+
+TEST(MapWritingTest, ColoursGetLighterAllTheWay) {
+  double before = 0.0;
+  for (const ColorStop& stop : even_stops(0.0, 1.0)) {
+    const double lightness = 0.2126 * stop.color[0] + 0.7152 * stop.color[1] + 0.0722 * stop.color[2];  // Rec. 709
+    EXPECT_GT(lightness, before);
+    before = lightness;
+  }
+}
+
+TEST(MapWritingTest, VectorStylesAreSound) {
+  const std::string file = in_folder("style.qml");
+  write_vector_style(file, {LayerKind::polygons, {200, 30, 30}, 0.6, 0.2, ""});
+  EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.type"), "fill");
+  EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.layer.Option.Option.value"), "200,30,30,51");
+  EXPECT_EQ(in_xml(file, "labelsEnabled"), "0");
+  write_vector_style(file, {LayerKind::lines, {0, 0, 0}, 0.4, 1.0, "time_s"});
+  EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.type"), "line");
+  EXPECT_EQ(in_xml(file, "labeling.settings.text-style.fieldName"), "time_s");
+  write_vector_style(file, {LayerKind::points, {0, 0, 0}, 2.0, 1.0, "a<b"});
+  EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.layer.class"), "SimpleMarker");
+  EXPECT_EQ(in_xml(file, "labeling.settings.text-style.fieldName"), "a<b");
+}
+
+}  // namespace
+}  // namespace thawslide::gis

@@ -1,0 +1,71 @@
+// A case whose ground is a plane that falls to the east, 3 m on 4 m: points 5 m apart over 1000 m x 800 m, and
+// bodies on it. Built by hand, without a case file.
+#pragma once
+
+#include <numeric>
+
+#include "gis/site.hpp"
+#include "map_files.hpp"
+
+namespace thawslide::gis::site_case {
+
+using namespace map_files;
+
+inline constexpr double west = 400000.0, south = 300000.0;  // of the first point of the ground
+
+inline double plane(double x, double) { return 2000.0 - 0.75 * (x - west); }
+
+inline Raster ground(const std::string& crs = "EPSG:31287") {
+  return raster_of(plane, west, south, 5.0, 201, 161, crs);
+}
+
+inline config::Case plain_case(const Raster& dem) {
+  config::Case made;
+  made.file = "case.toml";
+  made.places = {{"terrain.file", "case.toml:5:8"}, {"body.rock.release", "case.toml:9:11"}};
+  made.terrain.kind = config::TerrainKind::dem;
+  made.terrain.file = geotiff("dem.tif", dem);
+  made.general.dimension = 3;
+  made.grid.cell = 10.0;
+  made.grid.min = {west + 100.0, south + 100.0, 1000.0};
+  made.grid.max = {west + 900.0, south + 700.0, 2500.0};
+  return made;
+}
+
+inline config::Body release_body(const std::string& file, double thickness) {
+  config::Body body;
+  body.shape = config::BodyShape::release;
+  body.release = file;
+  body.thickness.number = thickness;
+  return body;
+}
+
+// In metres from the first point of the ground.
+inline std::string box_at(double min_x, double min_y, double max_x, double max_y) {
+  return box_json(west + min_x, south + min_y, west + max_x, south + max_y);
+}
+
+inline config::Case case_with_release(const std::vector<JsonFeature>& features, double thickness = 10.0) {
+  config::Case made = plain_case(ground());
+  made.bodies["rock"] = release_body(geojson("release.geojson", features), thickness);
+  return made;
+}
+
+inline double volume_of(const Raster& thickness) {
+  return std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0) * thickness.cell_x * thickness.cell_y;
+}
+
+// The thickness at a place in metres from the first point of the ground; 0 beyond the raster.
+inline double thickness_at(const config::Release& release, double x, double y) {
+  const Raster& raster = release.thickness;
+  const auto column = static_cast<int>(std::lround((west + x - raster.x) / raster.cell_x));
+  const auto row = static_cast<int>(std::lround((south + y - raster.y) / raster.cell_y));
+  const bool is_inside = column >= 0 && row >= 0 && column < raster.columns && row < raster.rows;
+  return is_inside ? raster.at(column, row) : 0.0;
+}
+
+inline std::string error_of_site(const config::Case& parameters) {
+  return error_of([&] { static_cast<void>(load_site(parameters)); });
+}
+
+}  // namespace thawslide::gis::site_case

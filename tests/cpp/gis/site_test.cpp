@@ -1,0 +1,153 @@
+// The ground of a case, its path and its probes.
+#include "gis/site.hpp"
+
+#include "site_case.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace site_case;
+
+TEST(SiteTest, GroundIsCroppedToTheDomainAndSomeCells) {
+  const SiteAndNotes loaded = load_site(plain_case(ground()));
+  const Raster& raster = *loaded.site.ground;
+  // 3 cells of the grid and 2 of the terrain model: 40 m, and a point more.
+  EXPECT_NEAR(raster.x, west + 60.0, 5.0 + 1e-6);
+  EXPECT_NEAR(raster.x_end(), west + 940.0, 5.0 + 1e-6);
+  EXPECT_NEAR(raster.y, south + 60.0, 5.0 + 1e-6);
+  EXPECT_NEAR(raster.y_end(), south + 740.0, 5.0 + 1e-6);
+  for (int row = 0; row < raster.rows; ++row) {
+    for (int column = 0; column < raster.columns; ++column) {
+      ASSERT_EQ(raster.at(column, row), plane(raster.x_of(column), raster.y_of(row)));
+    }
+  }
+  EXPECT_EQ(loaded.site.crs_name, "EPSG:31287");
+  EXPECT_EQ(name_of(loaded.site.crs), "EPSG:31287");
+  EXPECT_EQ(raster.crs, loaded.site.crs);
+  EXPECT_EQ(loaded.notes, std::vector<std::string>{});
+  EXPECT_TRUE(loaded.site.releases.empty());
+}
+
+TEST(SiteTest, CroppingChangesNoValueOfResampledAndSmoothedGround) {
+  const auto hills = [](double x, double y) { return 2000.0 + 40.0 * std::sin(0.03 * x) * std::cos(0.05 * y); };
+  for (const double distance : {0.0, 3.0, 12.5}) {
+    config::Case small = plain_case(raster_of(hills, west, south, 5.0, 201, 161));
+    small.terrain.resample = distance;
+    small.terrain.smooth = 8.0;
+    config::Case large = small;
+    large.grid.min = {west + 50.0, south + 50.0, 0.0};
+    large.grid.max = {west + 950.0, south + 750.0, 3000.0};
+    const SiteAndNotes loaded = load_site(small), more = load_site(large);
+    const Raster &part = *loaded.site.ground, &whole = *more.site.ground;
+    EXPECT_EQ(part.cell_x, distance > 0.0 ? distance : 5.0);
+    const auto column = static_cast<int>(std::lround((part.x - whole.x) / part.cell_x));
+    const auto row = static_cast<int>(std::lround((part.y - whole.y) / part.cell_y));
+    ASSERT_GT(column, 0);
+    for (int k = 0; k < std::min(part.columns, part.rows); ++k) {
+      EXPECT_NEAR(part.at(k, k), whole.at(column + k, row + k), 1e-9) << distance;
+    }
+    std::vector<std::string> notes;
+    if (distance > 0.0) {
+      notes.push_back(fmt::format("dem.tif was taken from points 5 m x 5 m apart to points {:g} m apart", distance));
+    }
+    notes.emplace_back("dem.tif was smoothed with a standard deviation of 8 m");
+    EXPECT_EQ(loaded.notes, notes);
+  }
+}
+
+TEST(SiteTest, KeyOverrulesTheFile) {
+  config::Case parameters = plain_case(ground("EPSG:4326"));
+  parameters.terrain.crs = "EPSG:31254";
+  const SiteAndNotes loaded = load_site(parameters);
+  EXPECT_EQ(loaded.site.crs_name, "EPSG:31254");
+  EXPECT_EQ(loaded.notes,
+            std::vector<std::string>{"dem.tif is taken to be in EPSG:31254, as terrain.crs says; the file "
+                                     "says EPSG:4326"});
+}
+
+TEST(SiteTest, WrongTagIsToldAtTheKey) {
+  EXPECT_EQ(error_of_site(plain_case(ground("EPSG:4326"))),
+            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the tag says degrees (EPSG:4326), the numbers are metric (x "
+            "from 399997.5 to 401002.5, y from 299997.5 to 300802.5). Set terrain.crs = \"EPSG:...\" to the system the "
+            "numbers are in; its maker states it.");
+  config::Case parameters = plain_case(ground(""));
+  parameters.terrain.crs = "EPSG:31278x";
+  EXPECT_EQ(error_of_site(parameters).substr(0, 62), "case.toml: terrain.crs: 'EPSG:31278x' is no coordinate referen");
+}
+
+TEST(SiteTest, DomainBeyondTheTerrainModel) {
+  config::Case parameters = plain_case(ground());
+  parameters.places["grid.min"] = "case.toml:3:1";
+  parameters.grid.min = {west - 12.5, south + 100.0, 0.0};
+  parameters.grid.max = {west + 900.0, south + 840.0, 3000.0};
+  EXPECT_EQ(
+      error_of_site(parameters),
+      "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, by 12.5 m in the "
+      "west and 40 m in the north; allowed: x from 400000 to 401000, y from 300000 to 300800. Set grid.min and "
+      "grid.max so, or take a larger terrain model.");
+  parameters.grid.min = {0.0, 0.0, 0.0};
+  parameters.grid.max = {100.0, 50.0, 3000.0};
+  EXPECT_NE(error_of_site(parameters).find("the domain lies outside FOLDER/dem.tif, by 4e+05 m in the west"),
+            std::string::npos)
+      << error_of_site(parameters);
+  parameters.grid.min = {west, south, 0.0};
+  parameters.grid.max = {west + 1000.0, south + 800.0, 0.0};
+  EXPECT_EQ(load_site(parameters).site.ground->columns, 201);
+}
+
+TEST(SiteTest, ElevationsThatAreNone) {
+  Raster dem = ground();
+  dem.values[dem.index(100, 80)] = -32768.0;
+  EXPECT_EQ(
+      error_of_site(plain_case(dem)),
+      "case.toml:5:8: terrain.file: FOLDER/dem.tif: the elevation at 400500, 300400 is -32768 m, which is none on "
+      "Earth. If it stands for no data, say so in the file: gdal_translate -a_nodata -32768 FOLDER/dem.tif "
+      "with-nodata.tif");
+}
+
+TEST(SiteTest, ElevationsInFeet) {
+  config::Case parameters = plain_case(ground());
+  write_geotiff(parameters.terrain.file, ground(), {"ft", "elevation"});
+  EXPECT_EQ(
+      error_of_site(parameters),
+      "case.toml:5:8: terrain.file: FOLDER/dem.tif: the elevations are in the unit 'ft'; allowed: metres. Convert "
+      "them: gdal_translate -ot Float64 -scale 0 1 0 0.3048 FOLDER/dem.tif metres.tif");
+}
+
+TEST(SiteTest, PathAndProbes) {
+  config::Case parameters = plain_case(ground());
+  const std::string line = line_json({{west + 150.0, south + 200.0}, {west + 800.0, south + 210.5}});
+  parameters.maps.path = geojson("path.geojson", {{"", line}});
+  parameters.probes["hut"].point = {west + 300.0, south + 400.0, 0.0};
+  parameters.probes["section"].line = geojson("section.geojson", {{"", line}});
+  const config::Site site = load_site(parameters).site;
+  EXPECT_EQ(site.path, (config::Polyline2{{west + 150.0, south + 200.0}, {west + 800.0, south + 210.5}}));
+  EXPECT_EQ(site.probes.at("hut"), (config::Polyline2{{west + 300.0, south + 400.0}}));
+  EXPECT_EQ(site.probes.at("section"), site.path);
+  parameters.maps.path = geojson("path.geojson", {{"", line}, {"", line}});
+  EXPECT_EQ(error_of_site(parameters),
+            "case.toml: maps.path: FOLDER/path.geojson: the file has 2 lines; allowed: one. "
+            "Join them, or delete the others.");
+  parameters.maps.path = geojson("path.geojson", {{"", line_json({{0, 0}, {10, 10}})}});
+  EXPECT_EQ(
+      error_of_site(parameters),
+      "case.toml: maps.path: FOLDER/path.geojson: the line (x from 0 to 10, y from 0 to 10) lies outside the domain "
+      "(x from 400100 to 400900, y from 300100 to 300700). Check that both have the same place and reference "
+      "system.");
+}
+
+TEST(SiteTest, WithoutATerrainModelThereIsNoGround) {
+  config::Case parameters;
+  parameters.file = "case.toml";
+  parameters.terrain.kind = config::TerrainKind::flat;
+  const config::Site site = load_site(parameters).site;
+  EXPECT_EQ(site.ground, nullptr);
+  EXPECT_EQ(site.crs_name, "");
+  parameters.bodies["rock"] = release_body("release.shp", 10.0);
+  EXPECT_EQ(error_of_site(parameters),
+            "case.toml: body.rock.shape: a release lies on a terrain model. Set terrain.type = "
+            "\"dem\" and terrain.file.");
+}
+
+}  // namespace
+}  // namespace thawslide::gis

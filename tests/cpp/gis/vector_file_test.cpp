@@ -1,0 +1,171 @@
+// Polygons, lines and points in files, and what the user is told of those that cannot be used.
+#include "gis/vector_file.hpp"
+
+#include <ogrsf_frmts.h>
+
+#include "gis/geopackage.hpp"
+#include "map_files.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace map_files;
+
+std::string ground() { return reference_system_named("EPSG:31287"); }
+
+std::string error_of_polygons(const std::string& file) {
+  return error_of([&] { static_cast<void>(read_polygons(file, ground())); });
+}
+
+// One box of 100 m x 50 m with its attributes, in the format of the driver.
+std::string foreign_polygon(const char* driver, const std::string& name, const std::string& crs) {
+  GDALAllRegister();
+  const std::string file = in_folder(name);
+  const GDALDatasetUniquePtr dataset(
+      GetGDALDriverManager()->GetDriverByName(driver)->Create(file.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  OGRSpatialReference reference;
+  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (!crs.empty()) {
+    reference.SetFromUserInput(crs.c_str());
+  }
+  OGRLayer* layer = dataset->CreateLayer("release", crs.empty() ? nullptr : &reference, wkbPolygon, nullptr);
+  OGRFieldDefn title("Name", OFTString), thickness("THICKNESS", OFTReal), class_of("class", OFTInteger);
+  layer->CreateField(&title);
+  layer->CreateField(&thickness);
+  layer->CreateField(&class_of);
+  OGRFeature feature(layer->GetLayerDefn());
+  feature.SetField("Name", "north");
+  feature.SetField("THICKNESS", 12.5);
+  feature.SetField("class", 3);
+  OGRLinearRing ring;
+  for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.0, 50.0}, {100.0, 50.0}, {100.0, 0.0}, {0.0, 0.0}}) {
+    ring.addPoint(400000.0 + x, 300000.0 + y);
+  }
+  OGRPolygon polygon;
+  polygon.addRing(&ring);
+  feature.SetGeometry(&polygon);
+  EXPECT_EQ(layer->CreateFeature(&feature), OGRERR_NONE);
+  return file;
+}
+
+TEST(VectorFileTest, EveryFormatIsRead) {
+  for (const auto& [driver, name] : {std::pair{"ESRI Shapefile", "release.shp"}, {"GPKG", "release.gpkg"}}) {
+    const VectorLayer layer = read_polygons(foreign_polygon(driver, name, "EPSG:31287"), ground());
+    SCOPED_TRACE(name);
+    ASSERT_EQ(layer.features.size(), 1U);
+    const Feature& feature = layer.features.front();
+    EXPECT_NEAR(area_of(feature.polygons), 5000.0, 1e-6);
+    EXPECT_EQ(feature.title, "polygon 1 (north)");
+    EXPECT_EQ(feature.texts.at("Name"), "north");
+    EXPECT_EQ(feature.numbers.at("THICKNESS"), 12.5);
+    EXPECT_EQ(feature.numbers.at("class"), 3.0);
+    EXPECT_EQ(feature.numbers.count("Name"), 0U);
+    EXPECT_EQ(layer.notes, std::vector<std::string>{});
+    EXPECT_EQ(attribute_named(layer, "thickness", "body.rock.thickness"), "THICKNESS");
+    EXPECT_EQ(error_of([&] { static_cast<void>(attribute_named(layer, "thicknes", "body.rock.thickness")); }),
+              "FOLDER/" + std::string(name) +
+                  ": there is no attribute 'thicknes', which body.rock.thickness asks for; the file has: Name, "
+                  "THICKNESS, class; did you mean 'THICKNESS'?");
+  }
+  const VectorLayer layer =
+      read_polygons(geojson("r.geojson", {{R"("a":1.5)", box_json(400000, 300000, 400100, 300050)}}), ground());
+  EXPECT_NEAR(area_of(layer.features.front().polygons), 5000.0, 1e-6);
+  EXPECT_EQ(layer.features.front().title, "polygon 1");
+}
+
+TEST(VectorFileTest, ShapefileWithoutPrjIsInTheSystemOfTheGround) {
+  const std::string file = foreign_polygon("ESRI Shapefile", "bare.shp", "");
+  const VectorLayer layer = read_polygons(file, ground());
+  EXPECT_EQ(layer.features.front().polygons.front().outline.front()[0], 400000.0);
+  EXPECT_EQ(layer.notes, std::vector<std::string>{"bare.shp names no coordinate reference system: taken to be in the "
+                                                  "ground's, EPSG:31287"});
+}
+
+TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
+  std::vector<double> x{400000.0, 400100.0, 400100.0, 400000.0}, y{300000.0, 300000.0, 300050.0, 300050.0};
+  ASSERT_TRUE(Reprojection(ground(), reference_system_named("EPSG:4326")).apply(x, y));
+  const std::string file =
+      geojson("r.geojson", {{"", polygon_json({{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}, {x[3], y[3]}})}}, "4326");
+  const VectorLayer layer = read_polygons(file, ground());
+  EXPECT_EQ(layer.notes, std::vector<std::string>{"r.geojson was taken from EPSG:4326 to EPSG:31287"});
+  EXPECT_NEAR(layer.features.front().polygons.front().outline.front()[0], 400000.0, 0.01);
+  EXPECT_NEAR(area_of(layer.features.front().polygons), 5000.0, 2.0);
+}
+
+TEST(VectorFileTest, DegreesThatCannotBeAreSaid) {
+  const VectorLayer layer =
+      read_polygons(geojson("r.geojson", {{"", box_json(400000, 300000, 400100, 300050)}}, "4326"), ground());
+  EXPECT_EQ(layer.notes, std::vector<std::string>{"r.geojson says that its coordinates are degrees (EPSG:4326), which "
+                                                  "400000, 300000 cannot be: taken to be in the ground's system, "
+                                                  "EPSG:31287"});
+}
+
+TEST(VectorFileTest, FeaturesAreChosenByName) {
+  const std::string box = box_json(0, 0, 10, 10);
+  const VectorLayer layer = read_polygons(geojson("r.geojson", {{R"("name":"north")", box},
+                                                                {R"("name":"south")", box},
+                                                                {R"("name":"north")", box},
+                                                                {R"("name":null)", box}}),
+                                          ground());
+  EXPECT_EQ(features_named(layer, {}, "name").size(), 4U);
+  EXPECT_EQ(features_named(layer, {"north"}, "NAME").size(), 2U);
+  EXPECT_EQ(features_named(layer, {"north", "south"}, "name").size(), 3U);
+  EXPECT_EQ(error_of([&] { static_cast<void>(features_named(layer, {"suoth"}, "name")); }),
+            "FOLDER/r.geojson: no polygon has the name 'suoth'; the file has: north, south; did you mean 'south'?");
+  EXPECT_EQ(error_of([&] { static_cast<void>(features_named(layer, {"north"}, "title")); }),
+            "FOLDER/r.geojson: there is no attribute 'title', which name_attribute asks for; the file has: name");
+}
+
+TEST(VectorFileTest, WrongFiles) {
+  EXPECT_EQ(error_of_polygons(in_folder("none.shp")), "FOLDER/none.shp: there is no such file. Correct the path.");
+  const std::string nonsense = error_of_polygons(text_file("bad.gpkg", "this is no GeoPackage"));
+  EXPECT_NE(nonsense.find("FOLDER/bad.gpkg: the file cannot be opened; GDAL says: "), std::string::npos) << nonsense;
+  EXPECT_NE(
+      nonsense.find("Allowed: Shapefile (with its .shx and .dbf beside it), GeoPackage or GeoJSON; check that the "
+                    "file is whole and may be read."),
+      std::string::npos);
+  EXPECT_EQ(error_of_polygons(geojson("empty.geojson", {})),
+            "FOLDER/empty.geojson: the layer is empty; needed: polygons.");
+  EXPECT_EQ(error_of_polygons(geojson("way.geojson", {{"", line_json({{0, 0}, {5, 5}})}})),
+            "FOLDER/way.geojson: the file has no polygons, but 'way' (Line String, 1 features).");
+  EXPECT_EQ(error_of_polygons(geojson("hollow.geojson", {{"", box_json(0, 0, 9, 9)}, {"", "null"}})),
+            "FOLDER/hollow.geojson: polygon 2 has no geometry; needed: polygons. Delete it or draw it.");
+  EXPECT_EQ(
+      error_of_polygons(geojson("mixed.geojson", {{"", box_json(0, 0, 9, 9)}, {"", line_json({{0, 0}, {5, 5}})}})),
+      "FOLDER/mixed.geojson: polygon 2 is of the kind LINESTRING; allowed: polygons.");
+}
+
+TEST(VectorFileTest, TruncatedShapefile) {
+  const std::string file = foreign_polygon("ESRI Shapefile", "cut.shp", "EPSG:31287");
+  std::filesystem::resize_file(file, 120);
+  const std::string message = error_of_polygons(file);
+  EXPECT_NE(message.find("FOLDER/cut.shp: "), std::string::npos) << message;
+  EXPECT_NE(message, "no error");
+}
+
+TEST(VectorFileTest, PolygonsWithoutAnArea) {
+  EXPECT_EQ(error_of_polygons(geojson("flat.geojson", {{R"("name":"crack")", polygon_json({{0, 0}, {5, 5}, {9, 9}})}})),
+            "FOLDER/flat.geojson: polygon 1 (crack) has no area. Delete it, or draw its outline.");
+  EXPECT_EQ(error_of_polygons(geojson("two.geojson", {{"", polygon_json({{0, 0}, {5, 5}})}})),
+            "FOLDER/two.geojson: polygon 1 has no area. Delete it, or draw its outline.");
+}
+
+TEST(VectorFileTest, PolygonsThatCrossThemselves) {
+  const std::string bow = polygon_json({{0, 0}, {10, 10}, {10, 0}, {0, 10}});
+  EXPECT_EQ(error_of_polygons(geojson("bow.geojson", {{"", box_json(0, 0, 9, 9)}, {R"("name":"scarp")", bow}})),
+            "FOLDER/bow.geojson: polygon 2 (scarp) crosses itself at or near 5 5. Correct its outline there (QGIS: "
+            "Vector > Geometry Tools > Check Validity).");
+}
+
+TEST(VectorFileTest, SeveralLayersOfPolygons) {
+  const Polygons area{{{{0, 0}, {1, 0}, {1, 1}, {0, 0}}, {}}};
+  write_geopackage(in_folder("two.gpkg"),
+                   {{"scarp", std::vector<Polygons>{area}, {}}, {"lake", std::vector<Polygons>{area}, {}}}, ground());
+  EXPECT_EQ(
+      error_of_polygons(in_folder("two.gpkg")),
+      "FOLDER/two.gpkg: the file has 2 layers of polygons: scarp, lake; allowed: one. Export the one meant to a file "
+      "of its own.");
+}
+
+}  // namespace
+}  // namespace thawslide::gis
