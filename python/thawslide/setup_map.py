@@ -14,9 +14,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 from thawslide.figures.colours import THICKNESS, colour_range, number_text
+from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import (
     HALO,
-    MapPage,
     box_about,
     colour_map,
     covered_box,
@@ -25,7 +25,7 @@ from thawslide.figures.map_panel import (
     quiet_corner,
     scale_bar,
 )
-from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, PURPLE, RED, styled, volume_text
+from thawslide.figures.style import BLACK, BLUE, GREEN, PURPLE, RED, styled, volume_text
 from thawslide.maps import Box, Grid, Map
 from thawslide.run import Numbers
 
@@ -110,26 +110,23 @@ def draw_setup_on_map(setup: SetupOnMap) -> Figure:
         scenes.append(make_scene(terrain, box_about(boxes), (overview.aspect, overview.aspect)))
     handles = _legend(setup)
     columns = 4 if len(setup.releases) < 2 else 3
-    page = MapPage(f"{setup.title}: set-up", overview, len(scenes), 0.28 + 0.18 * -(-len(handles) // columns), bar=0.62)
+    foot = 0.05 + 0.18 * -(-len(handles) // columns)
+    page = MapPage(
+        f"{setup.title}: set-up", overview, len(scenes), note=overview.note(), foot=foot, bar=0.62, own_scenes=True
+    )
     painter, extend = _painter(setup)
     for number, (scene, words) in enumerate(zip(scenes, ("whole domain", "release"), strict=False)):
         axes = page.panel(number, labels=True, scene=scene)
         box = "; box: (b)" if number == 0 and len(scenes) > 1 else ""
-        axes.set_title(f"({chr(ord('a') + number)}) {words}{box}", loc="left")
+        page.name(axes, number, words + box, f"grid cells of {setup.cell:g} m" if number == 1 else "")
         _draw_parts(axes, setup, painter)
         scale_bar(axes, quiet_corner(_all_thickness(setup), scene.box))
-        if number == 1:
-            axes.set_title(f"grid cells of {setup.cell:g} m", loc="right", color=NOTE, size=8)
         if number == len(scenes) - 1 and painter is not None:
             bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
             bar.set_label("thickness (m)", labelpad=2)
     if len(scenes) > 1:
         _frame(page.figure.axes[0], scenes[1].box, RED, 1.0)
-    page.figure.legend(
-        handles=handles, loc="lower left", ncols=columns, bbox_to_anchor=(page.LEFT / page.WIDTH, 0.22 / page.height),
-        borderaxespad=0.0,
-    )  # fmt: skip
-    page.note(overview.note())
+    page.legend(handles, columns)
     return page.figure
 
 

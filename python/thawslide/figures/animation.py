@@ -10,25 +10,31 @@ from typing import Any, cast
 import imageio_ffmpeg
 import matplotlib as mpl
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
+from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
 from thawslide.errors import NotInRunError, ReportError
-from thawslide.figures.colours import colour_range
-from thawslide.figures.map_panel import MapPage, colour_map, paint, quiet_corner, scale_bar
+from thawslide.figures.colours import THICKNESS, Painting, colour_range
+from thawslide.figures.map_page import WIDTH, MapPage
+from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
 from thawslide.figures.slide_on_map import SPEED, columns_on, where_thick
 from thawslide.figures.style import BLUE, RED, STYLE, time_axis, time_line
+from thawslide.maps import Map
 from thawslide.run import Run
 
 MOST_FRAMES = 240
 _SECONDS = 12.0  # that a film lasts, where its frames are neither too slow nor too fast
 _TELL_EVERY = 3.0  # s
 _LARGEST_DPI = 128  # 1280 pixels wide
-_ASPECTS = (1.4, 2.4)  # of the map: films are wider than high
-_FOOT = 1.62  # inches below the map, for colourbar, course of the speed and notes
+_SLIM = 1.2  # width over height of a map, below which two stand side by side
+_FOOT = 1.3  # inches below the maps, for the course of the speed
+
+_PASSED = "#8A4B2A66"
 
 Pixels = NDArray[np.uint8]
 
@@ -38,7 +44,7 @@ class Film:
 
     def __init__(self, run: Run) -> None:
         """Choose the frames; NotInRunError for a run without maps or without snapshots to move between."""
-        self.site: Site = make_site(run, _ASPECTS)
+        self.site: Site = make_site(run)
         if len(run.times) < 2:
             raise NotInRunError(f"{run.folder}: an animation needs two snapshots; set [time] output_interval")
         count = min(len(run.times), MOST_FRAMES)
@@ -83,65 +89,77 @@ class Film:
 
 
 class _Picture:
-    """The map of a film, of which only the slide, the clock and what it has passed change from frame to frame."""
+    """The maps of a film, of which only the slide, the clock and what it has passed change from frame to frame."""
 
     def __init__(self, site: Site, dpi: int) -> None:
         run = site.run
         self.site = site
-        _, high, extend = colour_range(_positive(site.part("max_speed").values), from_zero=True)
-        painter = ScalarMappable(Normalize(0.0, high), colour_map(SPEED.colours))
-        self.page = page = MapPage(f"{run.title}: {SPEED.words}", site.scene, 1, _FOOT)
-        self.axes = page.panel(0, labels=True)
+        # The thickness is shown as well where that leaves the map of speeds no smaller.
+        self.paintings = (SPEED, THICKNESS) if site.scene.aspect < _SLIM else (SPEED,)
+        note = f"Dashed: release. Brown: passed by the slide. {site.scene.note()}"
+        title = f"{run.title}: {' and '.join(painting.words.split(',')[0] for painting in self.paintings)}"
+        count = len(self.paintings)
+        self.page = page = MapPage(title, site.scene, count, note=note, foot=_FOOT, bar=0.72, narrowest=WIDTH)
         self.passed = np.zeros((site.grid.rows, site.grid.columns), dtype=bool)
-        veil = ScalarMappable(Normalize(0.0, 1.0), ListedColormap(["#00000000", "#8A4B2A66"]))
-        empty = np.full(self.passed.shape, np.nan)
-        field = site.reached
-        self.trace = paint(self.axes, type(field)(site.grid, empty), veil)
-        self.slide = paint(self.axes, type(field)(site.grid, empty), painter)
-        site.draw_release(self.axes)
-        site.draw_probes(self.axes)
-        scale_bar(self.axes, quiet_corner(site.reached, site.scene.box))
-        bar_axes = page.place(page.LEFT, page.height - 1.1, 3.6, 0.14)
-        bar = page.figure.colorbar(painter, cax=bar_axes, orientation="horizontal", extend=extend)
-        bar.set_label(f"speed ({SPEED.unit})", labelpad=1)
-        drawn = [artist for artist in self.axes.get_children() if artist.get_zorder() > self.slide.get_zorder()]
-        self.above = sorted(
-            (artist for artist in drawn if artist.get_visible()), key=lambda artist: artist.get_zorder()
-        )
-        self.clock = self.axes.set_title("", loc="left", size=12)
-        course = page.place(page.LEFT + 4.6, page.height - 1.48, page.WIDTH - page.LEFT - 4.6 - page.RIGHT, 0.72)
+        panels = [self._panel(number, painting) for number, painting in enumerate(self.paintings)]
+        self.slides = [slide for _, slide in panels]
+        self.traces = [trace for trace, _ in panels]
+        self.clock = page.figure.axes[0].set_title("", loc="left", size=12)
+        course = page.place(page.left, page.below + 0.1, page.width - page.left - 0.25, 0.68)
         time_line(course, run.history["time_s"], run.history["mean_velocity_m_s"], color=BLUE)
         time_axis(course, run.history["time_s"])
         course.set_ylim(bottom=0.0)
-        course.set_ylabel("mean speed\n(m/s)")
+        course.set_ylabel("mean\nspeed (m/s)")
         self.hand = course.axvline(0.0, color=RED, linewidth=1.2)
-        page.note(f"Dashed: release. Brown: passed by the slide. {site.scene.note()}")
         page.figure.set_dpi(dpi)
-        self.canvas = cast(Any, FigureCanvasAgg(page.figure))  # its methods are untyped
-        # Drawing all anew would take most of the time of a film: what does not change is drawn once.
-        self.changing = [self.trace, self.slide, *self.above, self.clock, self.hand]
+        self._draw_what_stays()
+
+    def _panel(self, number: int, painting: Painting) -> tuple[AxesImage, AxesImage]:
+        """Draw a map of the film; return what the slide has passed and the slide itself, both still empty."""
+        site, page = self.site, self.page
+        largest = site.part("max_speed").values if painting is SPEED else site.reached.values
+        _, high, extend = colour_range(largest[np.nan_to_num(largest) > 0.0], from_zero=True)
+        painter = ScalarMappable(Normalize(0.0, high), colour_map(painting.colours))
+        axes = page.panel(number, labels=True)
+        empty = Map(site.grid, np.full(self.passed.shape, np.nan))
+        trace = paint(axes, empty, ScalarMappable(Normalize(0.0, 1.0), ListedColormap([_PASSED])))
+        slide = paint(axes, empty, painter)
+        site.draw_release(axes)
+        site.draw_probes(axes)
+        if number == 0:
+            scale_bar(axes, quiet_corner(site.reached, site.scene.box))
+        bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
+        bar.set_label(f"{painting.words.split(',')[0]} ({painting.unit})", labelpad=2)
+        return trace, slide
+
+    def _draw_what_stays(self) -> None:
+        """Draw once what does not change: drawing all anew would take most of the time of a film."""
+        self.canvas = cast(Any, FigureCanvasAgg(self.page.figure))  # its methods are untyped
+        self.changing: list[Artist] = [self.clock, self.hand]
+        for trace, slide in zip(self.traces, self.slides, strict=True):
+            axes = slide.axes
+            above = [artist for artist in axes.get_children() if artist.get_zorder() > slide.get_zorder()]
+            lines = sorted((artist for artist in above if artist.get_visible()), key=lambda artist: artist.get_zorder())
+            self.changing += [trace, slide, *lines]
         for artist in self.changing:
             artist.set_animated(True)
         self.canvas.draw()
-        self.still = self.canvas.copy_from_bbox(page.figure.bbox)
+        self.still = self.canvas.copy_from_bbox(self.page.figure.bbox)
 
     def show(self, index: int) -> Pixels:
         """Return the picture of a snapshot, shape (height, width, 3)."""
         columns = columns_on(self.site, index)
         self.passed |= columns.thickness.values > self.site.threshold
-        self.trace.set_data(np.where(self.passed, 1.0, np.nan))
-        field = where_thick(columns.speed, columns, self.site.threshold)
-        self.slide.set_data(np.ma.masked_invalid(field.values))
+        for trace, slide, painting in zip(self.traces, self.slides, self.paintings, strict=True):
+            trace.set_data(np.ma.masked_invalid(np.where(self.passed, 1.0, np.nan)))
+            field = columns.speed if painting is SPEED else columns.thickness
+            slide.set_data(np.ma.masked_invalid(where_thick(field, columns, self.site.threshold).values))
         self.clock.set_text(f"t = {columns.time:.1f} s")
         self.hand.set_xdata([columns.time, columns.time])
         self.canvas.restore_region(self.still)
         for artist in self.changing:
             self.page.figure.draw_artist(artist)
         return np.asarray(self.canvas.buffer_rgba())[:, :, :3]
-
-
-def _positive(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    return values[np.nan_to_num(values) > 0.0]
 
 
 def animation(run: Run) -> Film:

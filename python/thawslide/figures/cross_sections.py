@@ -98,7 +98,7 @@ def cross_sections(run: Run) -> Figure:
     places = _places(profile, site.threshold)
     full = _WIDTH - _LEFT - _RIGHT
     relief = float(np.ptp(profile.ground[np.isfinite(profile.ground)]))
-    first = float(np.clip(full * relief * _MARGINS[1] / profile.distance[-1], 1.6, 3.6))
+    first = float(np.clip(full * relief * _MARGINS[1] / profile.distance[-1], 1.6, 4.8))
     head = 0.7 + first + 0.35
     rows = -(-len(places) // 2)
     height = head + 1.2 + 0.85 + rows * _ROW + 0.3

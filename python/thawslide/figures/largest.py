@@ -13,9 +13,10 @@ from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
 from thawslide.figures.colours import colour_range, number_text
-from thawslide.figures.map_panel import HALO, MapPage, colour_map, outline, paint, quiet_corner, scale_bar
+from thawslide.figures.map_page import MapPage
+from thawslide.figures.map_panel import HALO, colour_map, outline, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
-from thawslide.figures.style import BLACK, NOTE, prefixed, styled
+from thawslide.figures.style import BLACK, prefixed, styled
 from thawslide.maps import Map
 from thawslide.relief import contour_levels
 from thawslide.run import Numbers, Run
@@ -46,7 +47,7 @@ _IMPACT = (
     MapKind("max_melt", "most melt water", "m", "YlGnBu"),
     MapKind("elevation_change", "change of elevation", "m", "RdBu", from_zero=False),
 )
-_FOOT = 0.45  # inches below the maps, for the legend and the notes
+_FOOT = 0.25  # inches below the maps, for the legend
 
 
 @styled
@@ -67,12 +68,12 @@ def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
     fields = [(kind, field) for kind, field in fields if np.isfinite(field.values).any()]
     if not fields:
         raise NotInRunError(f"{site.maps.folder}: none of the maps {', '.join(kind.name for kind in kinds)} has values")
-    page = MapPage(f"{run.title}: {words}", site.scene, len(fields), _FOOT, bar=0.72)
+    note = f"Thin line: where the slide was thicker than {site.threshold:g} m. {site.scene.note()}"
+    page = MapPage(f"{run.title}: {words}", site.scene, len(fields), note=note, foot=_FOOT, bar=0.72)
     corner = quiet_corner(site.reached, site.scene.box)
     for number, (kind, field) in enumerate(fields):
         axes = page.panel(number, labels=number == 0)
-        axes.set_title(f"({chr(ord('a') + number)}) {kind.words}", loc="left")
-        _paint(page, axes, kind, field)
+        page.name(axes, number, kind.words, _paint(page, axes, kind, field))
         site.draw_release(axes)
         outline(axes, site.reached, site.threshold, colors=BLACK, linewidths=0.6)
         if kind.name == "arrival_time":
@@ -81,12 +82,7 @@ def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
             site.draw_path(axes)
             site.draw_probes(axes)
             scale_bar(axes, corner)
-    handles = site.legend()
-    page.figure.legend(
-        handles=handles, loc="lower left", ncols=5, bbox_to_anchor=(page.LEFT / page.WIDTH, 0.22 / page.height),
-        borderaxespad=0.0,
-    )  # fmt: skip
-    page.note(f"Thin line: where the slide was thicker than {site.threshold:g} m. {site.scene.note()}")
+    page.legend(site.legend(), 5)
     return page.figure
 
 
@@ -103,7 +99,8 @@ def _touched(site: Site, kind: MapKind) -> Map:
     return replace(field, values=values)
 
 
-def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map) -> None:
+def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map) -> str:
+    """Draw a field with its colourbar; return its largest value in words, or both ends of its range."""
     divisor, unit = prefixed(field.values, kind.unit) if kind.unit == "Pa" else (1.0, kind.unit)
     field = replace(field, values=field.values / divisor)
     norm, extend = _norm(field.values, kind)
@@ -115,8 +112,7 @@ def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map) -> None:
         bar.ax.yaxis.set_major_formatter(lambda value, _: number_text(value))
     bar.set_label(unit, labelpad=2)
     low, high = float(np.nanmin(field.values)), float(np.nanmax(field.values))
-    ends = f"max {number_text(high)} {unit}" if kind.from_zero else f"{number_text(low)} to {number_text(high)} {unit}"
-    axes.set_title(ends, loc="right", color=NOTE, size=8)
+    return f"max {number_text(high)} {unit}" if kind.from_zero else f"{number_text(low)} to {number_text(high)} {unit}"
 
 
 def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:

@@ -1,4 +1,4 @@
-"""What all maps share: shaded terrain with contour lines, coordinates, scale bar, north arrow, and their page."""
+"""What all maps share: shaded terrain with contour lines, coordinates, scale bar, north arrow."""
 
 from __future__ import annotations
 
@@ -11,13 +11,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, LinearSegmentedColormap, Normalize
-from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.offsetbox import AnchoredOffsetbox, AuxTransformBox, HPacker, TextArea, VPacker
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from thawslide.figures.style import BLACK, NOTE
+from thawslide.figures.style import BLACK
 from thawslide.maps import Box, Map
 from thawslide.relief import contour_levels, hillshade, round_number
 from thawslide.run import Numbers
@@ -193,66 +192,6 @@ def scale_bar(axes: Axes, corner: str) -> None:
     anchored.patch.set(facecolor="white", alpha=0.82, linewidth=0)
     anchored.set_zorder(8)
     axes.add_artist(anchored)
-
-
-class MapPage:
-    """A page of maps of equal size; sizes in inches from the top left corner."""
-
-    WIDTH, LEFT, RIGHT, GAP, HEAD, TITLE, TICKS = 10.0, 0.62, 0.2, 0.28, 0.38, 0.3, 0.5
-    HIGHEST, TALLEST = 12.0, 6.8  # of a page; of a map
-
-    def __init__(self, title: str, scene: Scene, count: int, foot: float, bar: float = 0.0) -> None:
-        """Lay out `count` maps with `bar` inches for a colourbar right of each, and `foot` inches below all."""
-        self.scene, self.count, self.bar = scene, count, bar
-        for columns in range(1, count + 1):
-            self.columns = columns
-            inside = self.WIDTH - self.LEFT - self.RIGHT - (columns - 1) * self.GAP
-            self.width = inside / columns - bar
-            self.high = self.width / scene.aspect
-            self.rows = -(-count // columns)
-            self.height = self.HEAD + self.rows * (self.high + self.TITLE) + self.TICKS + foot
-            if self.height <= self.HIGHEST and self.high <= self.TALLEST:
-                break
-        if self.high > self.TALLEST:  # too slim for the page: it stays narrower than its place
-            self.width, self.high = self.TALLEST * scene.aspect, self.TALLEST
-            self.height = self.HEAD + self.rows * (self.high + self.TITLE) + self.TICKS + foot
-        self.figure = Figure(figsize=(self.WIDTH, self.height))
-        self.figure.suptitle(title, x=self.LEFT / self.WIDTH, y=1 - 0.14 / self.height, ha="left", va="top", size=12)
-
-    def place(self, left: float, top: float, width: float, height: float) -> Axes:
-        """Return axes at a place."""
-        return self.figure.add_axes(
-            (left / self.WIDTH, 1 - (top + height) / self.height, width / self.WIDTH, height / self.height)
-        )
-
-    def panel(self, number: int, labels: bool, scene: Scene | None = None) -> Axes:
-        """Return the map of a number with the terrain of the page, or of a scene of its own and its coordinates.
-
-        Coordinates of the page's terrain stand at the left and lower ends of the page only.
-        """
-        row, column = divmod(number, self.columns)
-        left = self.LEFT + column * (self.width + self.bar + self.GAP)
-        axes = self.place(left, self.HEAD + row * (self.high + self.TITLE) + self.TITLE, self.width, self.high)
-        draw_scene(axes, scene or self.scene, labels)
-        if column == 0:
-            axes.set_ylabel("northing (km)")
-        elif scene is None:
-            axes.tick_params(labelleft=False)
-        if number + self.columns >= self.count:
-            axes.set_xlabel("easting (km)")
-        elif scene is None:
-            axes.tick_params(labelbottom=False)
-        return axes
-
-    def panel_bar(self, axes: Axes) -> Axes:
-        """Return axes for the colourbar right of a map."""
-        box = axes.get_position()
-        width = 0.13 / self.WIDTH
-        return self.figure.add_axes((box.x1 + 0.08 / self.WIDTH, box.y0 + 0.1 * box.height, width, 0.8 * box.height))
-
-    def note(self, text: str, bottom: float = 0.08) -> None:
-        """Write a line at the foot of the page."""
-        self.figure.text(self.LEFT / self.WIDTH, bottom / self.height, text, size=7.5, color=NOTE, va="bottom")
 
 
 def colour_map(name: str) -> Colormap:

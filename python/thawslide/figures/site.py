@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from thawslide.errors import NotInRunError
-from thawslide.figures.map_panel import ASPECTS, HALO, MOST_CELLS, Scene, box_about, covered_box, make_scene, outline
+from thawslide.figures.map_panel import HALO, MOST_CELLS, Scene, box_about, covered_box, make_scene, outline
 from thawslide.figures.style import BLACK, BLUE, PURPLE
 from thawslide.geopackage import read_layer
 from thawslide.maps import Grid, Map, Maps
@@ -25,7 +25,6 @@ class Site:
 
     run: Run
     maps: Maps
-    aspects: tuple[float, float] = ASPECTS  # width over height of the scene, narrowest and widest
 
     @cached_property
     def scene(self) -> Scene:
@@ -36,7 +35,7 @@ class Site:
         ]
         boxes = [box for box in about if box is not None]
         terrain = self.maps["terrain"]
-        return make_scene(terrain, box_about(boxes) if boxes else terrain.grid.box, self.aspects)
+        return make_scene(terrain, box_about(boxes) if boxes else terrain.grid.box)
 
     @property
     def threshold(self) -> float:
@@ -109,9 +108,9 @@ class Site:
         return handles
 
 
-def make_site(run: Run, aspects: tuple[float, float] = ASPECTS) -> Site:
+def make_site(run: Run) -> Site:
     """Return the site of a run; NotInRunError for a run that has no maps."""
-    site = Site(run, Maps(run), aspects)
+    site = Site(run, Maps(run))
     for name in ("terrain", "max_thickness"):
         if name not in site.maps:
             raise NotInRunError(f"{site.maps.folder / name}.tif: no such map; without it no map can be drawn")

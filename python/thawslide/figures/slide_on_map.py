@@ -12,16 +12,17 @@ from matplotlib.figure import Figure
 from thawslide.binning import FIELDS, Columns, gather
 from thawslide.errors import NotInRunError
 from thawslide.figures.colours import TEMPERATURE, THICKNESS, VELOCITY, Painting, label_bar, normalisation, number_text
-from thawslide.figures.map_panel import MapPage, colour_map, paint, quiet_corner, scale_bar
+from thawslide.figures.map_page import MapPage
+from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
 from thawslide.figures.snapshots import chosen_snapshots
-from thawslide.figures.style import NOTE, styled
+from thawslide.figures.style import styled
 from thawslide.maps import Map
 from thawslide.run import Run
 
 SPEED = replace(VELOCITY, words="speed, mean over the thickness")
 BASE_TEMPERATURE = replace(TEMPERATURE, words="temperature next to the ground")
-_FOOT = 0.82  # inches below the maps, for the colourbar and the notes
+_FOOT = 0.62  # inches below the maps, for the colourbar
 
 
 def columns_on(site: Site, index: int) -> Columns:
@@ -68,21 +69,20 @@ def _draw(run: Run, painting: Painting, field_of: Callable[[Columns], Map]) -> F
         raise NotInRunError(f"no snapshot has a {painting.words} to show on the map")
     norm, extend = normalisation(values, painting)
     painter = ScalarMappable(norm, colour_map(painting.colours))
-    page = MapPage(f"{run.title}: {painting.words.split(',')[0]}", site.scene, len(fields), _FOOT)
+    note = f"Dashed: release. Thinner than {site.threshold:g} m is not drawn. {site.scene.note()}"
+    title = f"{run.title}: {painting.words.split(',')[0]}"
+    page = MapPage(title, site.scene, len(fields), note=note, foot=_FOOT)
     corner = quiet_corner(site.reached, site.scene.box)
     for number, (columns, field) in enumerate(zip(gathered, fields, strict=True)):
         axes = page.panel(number, labels=False)
         paint(axes, field, painter)
         site.draw_release(axes, 1.0)
-        axes.set_title(f"({chr(ord('a') + number)}) t = {number_text(columns.time)} s", loc="left")
-        if np.isfinite(field.values).any():
-            most = number_text(float(np.nanmax(field.values)))
-            axes.set_title(f"max {most} {painting.unit}", loc="right", color=NOTE, size=8)
+        finite = field.values[np.isfinite(field.values)]
+        remark = f"max {number_text(float(finite.max()))} {painting.unit}" if finite.size else ""
+        page.name(axes, number, f"t = {number_text(columns.time)} s", remark)
         if number == 0:
             scale_bar(axes, corner)
-    bar_axes = page.place(2.6, page.height - 0.8, page.WIDTH - 5.2, 0.14)
-    bar = page.figure.colorbar(painter, cax=bar_axes, orientation="horizontal", extend=extend)
+    bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
     bar.set_label(f"{painting.words} ({painting.unit})", labelpad=1)
-    page.note(f"Dashed: release. Thinner than {site.threshold:g} m is not drawn. {site.scene.note()}")
     return page.figure
