@@ -83,10 +83,13 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
                          const Rectangle& area) {
   const bool as_it_is = &layout == &file.layout();
   const Raster target = layout_of(layout, points_in(layout, area));
-  const Raster raster =
+  Raster raster =
       told_at(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
   check_elevations(parameters, file, raster);
-  return as_it_is ? raster : resampled(raster, target);
+  if (as_it_is) {
+    return raster;
+  }
+  return resampled(raster, target);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -81,6 +82,44 @@ bool write_layer(GDALDataset& dataset, const MapLayer& layer, OGRSpatialReferenc
   return true;
 }
 
+// The table where QGIS keeps the styles of a GeoPackage's layers, with its own names of columns.
+bool write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
+  if (std::all_of(layers.begin(), layers.end(), [](const MapLayer& layer) { return layer.style.empty(); })) {
+    return true;
+  }
+  OGRLayer* const table = dataset.CreateLayer("layer_styles", nullptr, wkbNone, nullptr);
+  if (table == nullptr) {
+    return false;
+  }
+  const auto add_column = [&](const char* name, OGRFieldType type, OGRFieldSubType subtype = OFSTNone) {
+    OGRFieldDefn field(name, type);
+    field.SetSubType(subtype);
+    return table->CreateField(&field) == OGRERR_NONE;
+  };
+  bool written = true;
+  for (const char* name : {"f_table_catalog", "f_table_schema", "f_table_name", "f_geometry_column", "styleName",
+                           "styleQML", "styleSLD", "description", "owner", "ui"}) {
+    written = written && add_column(name, OFTString);
+  }
+  written = written && add_column("useAsDefault", OFTInteger, OFSTBoolean) && add_column("update_time", OFTDateTime);
+  for (const MapLayer& layer : layers) {
+    if (layer.style.empty()) {
+      continue;
+    }
+    OGRFeature row(table->GetLayerDefn());
+    for (const char* name : {"f_table_catalog", "f_table_schema", "styleSLD", "description", "owner"}) {
+      row.SetField(name, "");
+    }
+    row.SetField("f_table_name", layer.name.c_str());
+    row.SetField("f_geometry_column", dataset.GetLayerByName(layer.name.c_str())->GetGeometryColumn());
+    row.SetField("styleName", layer.name.c_str());
+    row.SetField("styleQML", layer.style.c_str());
+    row.SetField("useAsDefault", 1);
+    written = written && table->CreateFeature(&row) == OGRERR_NONE;
+  }
+  return written;
+}
+
 }  // namespace
 
 void write_geopackage(const std::string& file, const std::vector<MapLayer>& layers, const std::string& crs) {
@@ -95,6 +134,7 @@ void write_geopackage(const std::string& file, const std::vector<MapLayer>& laye
     for (const MapLayer& layer : layers) {
       written = written && write_layer(*dataset, layer, crs.empty() ? nullptr : &reference);
     }
+    written = written && write_styles(*dataset, layers);
     written = dataset->CommitTransaction() == OGRERR_NONE && written;
   }
   dataset.reset();

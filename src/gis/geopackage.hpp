@@ -23,6 +23,7 @@ struct MapLayer {
   // One feature an element: polygons are areas of any number of parts.
   std::variant<std::vector<Polygons>, std::vector<Polyline2>, std::vector<std::array<double, 2>>> features;
   std::vector<Attribute> attributes;
+  std::string style = {};  // how QGIS draws it, as vector_style says; empty: as it likes
 };
 
 // `crs`: WKT; empty: unknown. Whole or not there: written beside its place and renamed; an older file is replaced.

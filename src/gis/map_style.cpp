@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/error.hpp"
 #include "gis/whole_file.hpp"
 
@@ -42,7 +44,7 @@ std::string option(const char* name, const std::string& value) {
 }
 
 std::string rgba(const Color& color, double opacity) {
-  return fmt::format("{},{},{},{}", color[0], color[1], color[2], static_cast<int>(255.0 * opacity + 0.5));
+  return fmt::format("{},{},{},{}", color[0], color[1], color[2], std::lround(255.0 * opacity));
 }
 
 std::string symbol_layer(const VectorStyle& style) {
@@ -88,6 +90,10 @@ std::vector<ColorStop> even_stops(double low, double high) {
   return stops;
 }
 
+std::vector<ColorStop> diverging_stops(double largest) {
+  return {{-largest, {0, 114, 178}}, {0.0, {247, 247, 247}}, {largest, {213, 94, 0}}};
+}
+
 void write_raster_style(const std::string& file, const std::vector<ColorStop>& stops, const std::string& unit,
                         double nothing_below) {
   THAWSLIDE_ASSERT(stops.size() >= 2, "{} stops of colour", stops.size());
@@ -102,10 +108,14 @@ void write_raster_style(const std::string& file, const std::vector<ColorStop>& s
   }
   const double low = stops.front().value, high = stops.back().value;
   // QGIS leaves out what `rasterTransparency` names.
-  const std::string left_out = fmt::format(
-      "   <rasterTransparency>\n    <singleValuePixelList>\n     <pixelListEntry min=\"-1e+38\" max=\"{:.9g}\" "
-      "percentTransparent=\"100\"/>\n    </singleValuePixelList>\n   </rasterTransparency>\n",
-      nothing_below);
+  const std::string left_out =
+      std::isfinite(nothing_below)
+          ? fmt::format(
+                "   <rasterTransparency>\n    <singleValuePixelList>\n     <pixelListEntry min=\"-1e+38\" "
+                "max=\"{:.9g}\" percentTransparent=\"100\"/>\n    </singleValuePixelList>\n"
+                "   </rasterTransparency>\n",
+                nothing_below)
+          : "";
   write_text(
       file, fmt::format("{}<qgis version=\"3.22\" styleCategories=\"Symbology\">\n <pipe>\n"
                         "  <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"0.85\" "
@@ -116,17 +126,20 @@ void write_raster_style(const std::string& file, const std::vector<ColorStop>& s
                         opening, low, high, left_out, low, high, items));
 }
 
-void write_vector_style(const std::string& file, const VectorStyle& style) {
+std::string vector_style(const VectorStyle& style) {
   constexpr const char* symbols[] = {"fill", "line", "marker"};
   constexpr int geometries[] = {2, 1, 0};
   const auto kind = static_cast<std::size_t>(style.kind);
-  write_text(file, fmt::format("{}<qgis version=\"3.22\" styleCategories=\"Symbology|Labeling\" "
-                               "labelsEnabled=\"{}\">\n <renderer-v2 type=\"singleSymbol\" forceraster=\"0\" "
-                               "enableorderby=\"0\">\n  <symbols>\n   <symbol type=\"{}\" name=\"0\" alpha=\"1\" "
-                               "clip_to_extent=\"1\">\n{}       </Option>\n      </layer>\n   </symbol>\n  </symbols>\n"
-                               " </renderer-v2>\n{} <layerGeometryType>{}</layerGeometryType>\n</qgis>\n",
-                               opening, style.label.empty() ? 0 : 1, symbols[kind], symbol_layer(style),
-                               style.label.empty() ? "" : labels(style.label), geometries[kind]));
+  return fmt::format(
+      "{}<qgis version=\"3.22\" styleCategories=\"Symbology|Labeling\" "
+      "labelsEnabled=\"{}\">\n <renderer-v2 type=\"singleSymbol\" forceraster=\"0\" "
+      "enableorderby=\"0\">\n  <symbols>\n   <symbol type=\"{}\" name=\"0\" alpha=\"1\" "
+      "clip_to_extent=\"1\">\n{}       </Option>\n      </layer>\n   </symbol>\n  </symbols>\n"
+      " </renderer-v2>\n{} <layerGeometryType>{}</layerGeometryType>\n</qgis>\n",
+      opening, style.label.empty() ? 0 : 1, symbols[kind], symbol_layer(style),
+      style.label.empty() ? "" : labels(style.label), geometries[kind]);
 }
+
+void write_vector_style(const std::string& file, const VectorStyle& style) { write_text(file, vector_style(style)); }
 
 }  // namespace thawslide::gis

@@ -1,12 +1,11 @@
-// How QGIS draws a map: style files (.qml), which it takes up by itself beside FILE.tif as FILE.qml.
+// How QGIS draws a map: style files (.qml). It takes up FILE.qml beside FILE.tif by itself, and what a layer of a
+// GeoPackage carries.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "gis/geopackage.hpp"
 
 namespace thawslide::gis {
 
@@ -21,8 +20,12 @@ struct ColorStop {
 // stay apart for eyes that see red and green alike (the map "viridis", van der Walt and Smith 2015, in nine colours).
 [[nodiscard]] std::vector<ColorStop> even_stops(double low, double high);
 
+// For what rises and falls: blue at -largest, nearly white at 0, vermilion at largest (Okabe and Ito 2008, Color
+// universal design).
+[[nodiscard]] std::vector<ColorStop> diverging_stops(double largest);
+
 // The colours between the stops are interpolated. `stops`: at least two, by rising value. Values at and below
-// `nothing_below` are not drawn.
+// `nothing_below` are not drawn; -infinity: all are.
 void write_raster_style(const std::string& file, const std::vector<ColorStop>& stops, const std::string& unit,
                         double nothing_below);
 
@@ -36,6 +39,8 @@ struct VectorStyle {
   std::string label;      // name of the attribute that stands beside each feature; empty: none
 };
 
+// The text of a style file, which a layer of a GeoPackage can also carry itself.
+[[nodiscard]] std::string vector_style(const VectorStyle& style);
 void write_vector_style(const std::string& file, const VectorStyle& style);
 
 }  // namespace thawslide::gis

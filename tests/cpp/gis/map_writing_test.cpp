@@ -46,6 +46,23 @@ TEST(MapWritingTest, GeopackageOpensAgain) {
   }
 }
 
+TEST(MapWritingTest, LayersCarryTheirStyles) {
+  std::vector<MapLayer> styled = layers();
+  styled[1].style = vector_style({LayerKind::lines, {1, 2, 3}, 0.4, 1.0, "time_s"});
+  write_geopackage(in_folder("maps.gpkg"), styled, "");
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(in_folder("maps.gpkg").c_str(), GDAL_OF_VECTOR));
+  EXPECT_EQ(dataset->GetLayerCount(), 4);
+  OGRLayer& table = *dataset->GetLayerByName("layer_styles");
+  ASSERT_EQ(table.GetFeatureCount(), 1);
+  const std::unique_ptr<OGRFeature> row(table.GetNextFeature());
+  EXPECT_STREQ(row->GetFieldAsString("f_table_name"), "front");
+  EXPECT_STREQ(row->GetFieldAsString("f_geometry_column"), "geom");
+  EXPECT_STREQ(row->GetFieldAsString("f_table_schema"), "");
+  EXPECT_EQ(row->GetFieldAsString("styleQML"), styled[1].style);
+  EXPECT_EQ(row->GetFieldAsInteger("useAsDefault"), 1);
+  EXPECT_EQ(read_lines(in_folder("maps.gpkg"), "").features.size(), 2U);
+}
+
 TEST(MapWritingTest, GeopackageWithoutASystem) {
   write_geopackage(in_folder("maps.gpkg"), layers(), "");
   EXPECT_EQ(read_lines(in_folder("maps.gpkg"), "").features.size(), 2U);
@@ -74,6 +91,14 @@ TEST(MapWritingTest, RasterStyleHoldsItsStops) {
   EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rasterTransparency.singleValuePixelList.pixelListEntry.max"), "0");
   EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.color"), "#440154");
   EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.label"), "0 m/s");
+}
+
+TEST(MapWritingTest, RasterStyleOfWhatRisesAndFalls) {
+  const std::string file = in_folder("elevation_change.qml");
+  write_raster_style(file, diverging_stops(12.0), "", -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rasterTransparency"), "missing");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.minimumValue"), "-12");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.label"), "-12");
 }
 
 TEST(MapWritingTest, ColoursGetLighterAllTheWay) {
