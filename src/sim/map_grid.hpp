@@ -26,8 +26,11 @@ struct MapGrid {
   [[nodiscard]] double row_of(double place) const { return (place - y) / cell_y + 0.5; }
   [[nodiscard]] bool contains(double east, double north) const {
     const double column = column_of(east), row = row_of(north);
-    return column >= 0.0 && column < columns && row >= 0.0 && row < rows;
+    return column >= 0.0 && column <= columns && row >= 0.0 && row <= rows;
   }
+  // The cell that holds a place given in cells; on the grid's last border the one before it.
+  [[nodiscard]] int cell_column(double column) const { return std::min(static_cast<int>(column), columns - 1); }
+  [[nodiscard]] int cell_row(double row) const { return std::min(static_cast<int>(row), rows - 1); }
 };
 
 // The grid of the case's maps: on the points of the ground's raster, or on cells of maps.cell that begin at that

@@ -32,9 +32,8 @@ void add_segment(const std::array<double, 2>& from, const std::array<double, 2>&
   for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
     const double part = shares[k + 1] - shares[k], middle = 0.5 * (shares[k] + shares[k + 1]);
     if (part > 0.0) {
-      parts.push_back({static_cast<int>(std::floor(column + middle * columns)),
-                       static_cast<int>(std::floor(row + middle * rows)), part * length, (to[1] - from[1]) / length,
-                       (from[0] - to[0]) / length});
+      parts.push_back({map_grid.cell_column(column + middle * columns), map_grid.cell_row(row + middle * rows),
+                       part * length, (to[1] - from[1]) / length, (from[0] - to[0]) / length});
     }
   }
 }
@@ -75,8 +74,8 @@ Probes::Probes(const config::Case& parameters, const std::map<std::string, confi
       }
     }
     if (corners.size() == 1) {
-      points_.push_back({name, static_cast<int>(map_grid.column_of(corners[0][0])),
-                         static_cast<int>(map_grid.row_of(corners[0][1]))});
+      points_.push_back({name, map_grid.cell_column(map_grid.column_of(corners[0][0])),
+                         map_grid.cell_row(map_grid.row_of(corners[0][1]))});
       continue;
     }
     sections_.push_back({name, parts_of_section(corners, map_grid)});

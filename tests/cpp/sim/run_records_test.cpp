@@ -50,6 +50,17 @@ TEST(Section, ObliquePartsSumToItsLength) {
   EXPECT_NEAR(length, std::hypot(16.8, 33.6), 1e-12);
 }
 
+TEST(Section, OnTheLastBorderLiesInTheCellsBeforeIt) {
+  const MapGrid grid{0.5, 0.5, 1.0, 1.0, 3, 2, ""};
+  EXPECT_TRUE(grid.contains(3.0, 2.0));
+  EXPECT_FALSE(grid.contains(3.001, 2.0));
+  for (const SectionPart& part : parts_of_section({{0.0, 2.0}, {3.0, 2.0}}, grid)) {
+    EXPECT_EQ(part.row, 1);
+    EXPECT_LT(part.column, 3);
+  }
+  EXPECT_EQ(grid.cell_column(grid.column_of(3.0)), 2);
+}
+
 TEST(Probes, TellOfTheMovingBox) {
   // A box that slides as one: what passes is its thickness, width and speed.
   const Simulation<3, double> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
@@ -133,6 +144,10 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
   EXPECT_NEAR(figures->drop_height, 3.0, 1e-12);
   EXPECT_EQ(figures->reach_angle, angle_of_reach(figures->drop_height, figures->travel_distance));
   EXPECT_NEAR(figures->deposit_volume, 72.0, 0.5);
+  const auto on_slope = records.figures(simulation, [](double x, double y) { return 0.25 - 0.1 * x + 0.01 * y; });
+  EXPECT_NEAR(on_slope->drop_height, 2.75 + 0.1 * front->place[0] - 0.01 * front->place[1], 1e-12);
+  simulation.particles().resize(0);
+  EXPECT_FALSE(records.front(simulation).has_value());
 }
 
 TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
