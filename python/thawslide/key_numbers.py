@@ -131,11 +131,11 @@ def _map_numbers(run: Run) -> list[KeyNumber]:
     """Return what run.json says of a slide on a DEM."""
     rows = []
     for words, key, text, remark in (
-        ("Deposit volume", "deposit_volume_m3", volume_text, "at the end"),
-        ("Deposit area", "deposit_area_m2", area_text, "at the end, seen from above"),
-        ("Travel distance", "travel_distance_m", _metres, "along the path, from the top of the release to the front"),
-        ("Drop height", "drop_height_m", _metres, "of the same two places"),
-        ("Angle of reach", "angle_of_reach_degrees", lambda value: f"{value:.1f}°", "slope of the line between them"),
+        ("Deposit volume", "deposit_volume_m3", volume_text, "at the end, where thicker than maps.arrival_thickness"),
+        ("Deposit area", "deposit_area_m2", area_text, "of the same, horizontal"),
+        ("Travel distance", "travel_distance_m", _metres, "along the path, from the release's rear end to the front"),
+        ("Drop height", "drop_height_m", _metres, "of the ground at the front below the highest point of the release"),
+        ("Angle of reach", "angle_of_reach_degrees", lambda value: f"{value:.1f}°", "drop height over travel distance"),
     ):
         value = run.facts.get(key)
         if isinstance(value, int | float):

@@ -35,12 +35,12 @@ _PATH = "#0B3C8C"
 
 @dataclass(frozen=True)
 class Release:
-    """A body of a set-up: closed outlines, each of shape (n, 2) [m], volume [m3], thickness [m] where it is known."""
+    """A body of a set-up: closed outlines, each of shape (n, 2) [m]; volume [m3] and thickness [m] where known."""
 
     name: str
     material: str
     outlines: list[Numbers]
-    volume: float
+    volume: float | None
     thickness: Map | None
 
 
@@ -67,7 +67,7 @@ def setup_on_map(data: dict[str, Any]) -> SetupOnMap:
             str(body["name"]),
             str(body["material"]),
             [_line(outline) for outline in body.get("outlines") or []],
-            float(body["volume_m3"]),
+            float(body["volume_m3"]) if body.get("volume_m3") is not None else None,
             _raster(body["thickness"], crs) if body.get("thickness") else None,
         )
         for body in data.get("bodies") or []
@@ -184,7 +184,9 @@ def _painter(setup: SetupOnMap) -> tuple[ScalarMappable | None, str]:
 def _legend(setup: SetupOnMap) -> list[Patch | Line2D]:
     handles: list[Patch | Line2D] = []
     for number, release in enumerate(setup.releases):
-        label = f"{release.name} ({release.material}): {volume_text(release.volume)}"
+        label = f"{release.name} ({release.material})"
+        if release.volume is not None:
+            label += f": {volume_text(release.volume)}"
         if release.thickness is not None and np.isfinite(release.thickness.values).any():
             label += f", up to {number_text(float(np.nanmax(release.thickness.values)))} m thick"
         handles.append(Line2D([], [], color=_BODY_COLOURS[number % len(_BODY_COLOURS)], linewidth=1.2, label=label))

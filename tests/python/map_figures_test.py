@@ -147,6 +147,9 @@ def test_sections_run_from_left_to_right_across_the_path() -> None:
 def test_probes(map_run: Path) -> None:
     figure = drawn("probes", map_run)
     assert {"thickness (m)", "speed (m/s)", "flow area (m²)", "discharge (m³/s)"} <= labels(figure)
+    thickness = maps_of(figure)[0]
+    assert [line.get_label() for line in thickness.lines] == ["gate", "weir"]
+    assert thickness.get_title(loc="left") == "(a) thickness; of a section, its largest"
     discharge = maps_of(figure)[3].lines[0]
     assert discharge.get_label() == "weir"
     np.testing.assert_array_equal(np.asarray(discharge.get_ydata()), [0.0, 7200.0, 0.0])

@@ -93,6 +93,7 @@ def test_both_views_hold_domain_release_path_and_probes(write: Any) -> None:
     [
         {"bodies": []},
         {"path": None, "probes": None, "crs": None},
+        {"path": [], "probes": {}, "crs": "", "bodies": [{"name": "a", "material": "ice"}]},
         {"bodies": [{"name": "a", "material": "ice", "outlines": [], "volume_m3": 2e7, "thickness": None}]},
     ],
 )
@@ -110,7 +111,7 @@ def test_parts_may_be_absent(write: Any, tmp_path: Path, changes: dict[str, Any]
             {"terrain": grid_form(np.ones((3, 4))) | {"rows": 5}},
             "setup.json: not a set-up the simulator wrote: 12 heights for 4 columns and 5 rows",
         ),
-        ({"bodies": [{"name": "a", "material": "ice"}]}, "setup.json: no key 'volume_m3'"),
+        ({"bodies": [{"name": "a"}]}, "setup.json: no key 'material'"),
     ],
 )
 def test_faulty_set_ups(

@@ -23,7 +23,7 @@ _POINTS = 600  # of a section
 _SEEN = 0.06  # of the height of a panel: thinner bodies are drawn thicker than they are
 _RELEASE, _DEPOSIT, _LARGEST = SKY, ORANGE, RED
 _CHORD = 0.02  # of the path, to either side of a place: its direction there
-_MARGINS = (1.0, 1.25)
+_MARGINS = (1.0, 1.3)
 _WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH = 10.0, 0.75, 0.2, 0.7, 2.45, 1.75  # inches
 
 
@@ -169,7 +169,7 @@ def _mark_places(axes: Axes, profile: Section, places: list[float]) -> None:
     for number, at in enumerate(places):
         top = float(np.interp(at, profile.distance, np.nan_to_num(profile.ground + profile.largest)))
         axes.annotate(
-            f"({chr(ord('c') + number)})", (at, top), xytext=(0, 16), textcoords="offset points", ha="center", size=8,
+            f"({chr(ord('c') + number)})", (at, top), xytext=(0, 12), textcoords="offset points", ha="center", size=8,
             color=NOTE, arrowprops={"arrowstyle": "-", "color": NOTE, "linewidth": 0.7},
         )  # fmt: skip
 

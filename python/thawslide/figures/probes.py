@@ -12,6 +12,7 @@ from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY
 from thawslide.run import Run
 
 _COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY, BLACK)
+_OF_SECTION = "_max"  # before the ending of what is the largest of a section
 _DASHES = ("-", "--", ":")
 
 
@@ -25,7 +26,7 @@ class Quantity:
 
 
 QUANTITIES = (
-    Quantity("_thickness_m", "thickness", "m"),
+    Quantity("_thickness_m", "thickness; of a section, its largest", "m"),
     Quantity("_speed_m_s", "speed", "m/s"),
     Quantity("_flow_area_m2", "flow area", "m²"),
     Quantity("_discharge_m3_s", "discharge", "m³/s"),
@@ -37,11 +38,11 @@ def probes(run: Run) -> Figure:
     """Draw a panel for each quantity that probes hold, with a line a probe."""
     columns = run.probes
     if columns is None:
-        raise NotInRunError(f"{run.folder / 'probes.csv'}: no such file; the case has no [probes.NAME]")
+        raise NotInRunError(f"{run.folder / 'probes.csv'}: no such file; the case has no [probe.NAME]")
     time = columns["time_s"]
     found = {
         quantity: {
-            name.removesuffix(quantity.ending): values
+            name.removesuffix(quantity.ending).removesuffix(_OF_SECTION): values
             for name, values in columns.items()
             if name.endswith(quantity.ending)
         }
@@ -64,7 +65,7 @@ def probes(run: Run) -> Figure:
                 axes, time, values, color=_COLOURS[number % len(_COLOURS)],
                 linestyle=_DASHES[number // len(_COLOURS) % len(_DASHES)], label=name,
             )  # fmt: skip
-        axes.set_ylabel(f"{quantity.words} ({quantity.unit})")
+        axes.set_ylabel(f"{quantity.words.split(';')[0]} ({quantity.unit})")
         if any(np.nanmax(values, initial=0.0) > 0.0 for values in lines.values()):
             axes.set_ylim(bottom=0.0)
         axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))

@@ -75,7 +75,7 @@ class Site:
     @cached_property
     def probes(self) -> dict[str, tuple[float, float]]:
         """Where the probes of the case stand that are points, by name."""
-        points = {name: probe.get("point") for name, probe in self.run.section("probes").items()}
+        points = {name: probe.get("point") for name, probe in self.run.section("probe").items()}
         return {name: (float(point[0]), float(point[1])) for name, point in points.items() if point}
 
     def draw_release(self, axes: Axes, width: float = 1.3) -> None:

@@ -22,7 +22,7 @@ from thawslide.run import Run
 
 SPEED = replace(VELOCITY, words="speed, mean over the thickness")
 BASE_TEMPERATURE = replace(TEMPERATURE, words="temperature next to the ground")
-_FOOT = 0.62  # inches below the maps, for the colourbar
+_FOOT = 0.7  # inches below the maps, for the colourbar
 
 
 def columns_on(site: Site, index: int) -> Columns:
