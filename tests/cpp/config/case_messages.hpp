@@ -78,11 +78,7 @@ inline std::string changed(const std::vector<Change>& changes, std::string text 
   return text;
 }
 
-// The folder that case_from_text writes to, which must name it alike.
-inline std::filesystem::path folder_of_this_test() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  return std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "." + test->name());
-}
+using testing_support::folder_of_this_test;
 
 inline void write_beside_the_case(const std::string& name, const std::string& text) {
   const std::filesystem::path file = folder_of_this_test() / name;

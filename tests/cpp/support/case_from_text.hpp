@@ -12,11 +12,17 @@
 
 namespace thawslide::testing_support {
 
-inline config::Case case_from_text(const std::string& text, const std::vector<std::string>& sets = {}) {
+// A temporary folder of the running test; made if it is not there.
+inline std::filesystem::path folder_of_this_test() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "." + test->name());
   std::filesystem::create_directories(folder);
+  return folder;
+}
+
+inline config::Case case_from_text(const std::string& text, const std::vector<std::string>& sets = {}) {
+  const std::filesystem::path folder = folder_of_this_test();
   std::ofstream(folder / "case.toml") << text;
   return config::read_case(folder, sets);
 }

@@ -1,0 +1,40 @@
+// A block on planes of a terrain model, all slopes and directions.
+#include "../verification/plane_on_dem.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace plane_on_dem;
+
+// By the symmetries of the square the azimuths stand for 0, 7.5, 15, ... 45 degrees.
+TEST(PlanesOnDem, SlidesOrSticksOnAllAlike) {
+  Record record = make_record("Block on planes of a terrain model, four slopes and eight directions");
+  for (const double slope : {0.0, 15.0, 30.0, 45.0}) {
+    double least = HUGE_VAL, greatest = -HUGE_VAL;
+    for (int k = 0; k < 8; ++k) {
+      const Plane plane{slope, 52.5 * k};
+      if (slope == 0.0 || k == 3) {
+        expect_rest(record, plane, slope + 5.0);
+      }
+      if (slope > 0.0) {
+        const double acceleration = expect_slide(record, plane, 0.5 * slope).acceleration;
+        least = std::min(least, acceleration);
+        greatest = std::max(greatest, acceleration);
+      }
+    }
+    if (slope > 0.0) {
+      record.expect_near(fmt::format("spread of the acceleration over all directions, {} degrees", slope),
+                         (greatest - least) / greatest, 0.0, 2e-3);
+    }
+  }
+}
+
+TEST(PlanesOnDem, CohesionBrakesInAllDirections) {
+  Record record = make_record("Block with cohesion on planes of a terrain model");
+  for (const double azimuth : {0.0, 52.5, 105.0, 157.5}) {
+    expect_slide(record, {30.0, azimuth}, 10.0, 4e4);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::verification

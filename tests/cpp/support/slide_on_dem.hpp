@@ -1,0 +1,68 @@
+// A slide on a terrain model, both made in memory.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "case_from_text.hpp"
+#include "config/site.hpp"
+#include "sim/simulation.hpp"
+#include "small_terrain.hpp"
+
+namespace thawslide::testing_support {
+
+using Height = std::function<double(double x, double y)>;  // [m], of places in [m]
+
+// The sole body of a case of slide_on_dem().
+const std::string release_table = "[body.slide]\nshape = \"release\"\nthickness = { raster = \"thickness.tif\" }\n";
+
+// A case with `text`, in which the terrain model is terrain.file = "dem.tif" and the release is `release_table`. The
+// files are there, and empty: what they stand for is in the site.
+inline config::Case case_on_dem(const std::string& text, const std::vector<std::string>& sets = {}) {
+  const std::filesystem::path folder = folder_of_this_test();
+  std::ofstream(folder / "dem.tif");
+  std::ofstream(folder / "thickness.tif");
+  return case_from_text(text, sets);
+}
+
+// Points `cell` [m] apart over the rectangle between two places.
+inline Raster raster_between(const Place& least, const Place& greatest, double cell, const Height& height) {
+  const auto count = [&](int axis) { return 1 + static_cast<int>(std::lround((greatest - least)[axis] / cell)); };
+  return raster(least[0], least[1], cell, count(0), count(1), height);
+}
+
+// The thickness [m] over the rectangle between two places, with points at the centres of squares of side `cell` [m]:
+// beyond the rectangle there is none, half a cell away.
+inline Raster thickness_between(const Place& least, const Place& greatest, double cell, const Height& thickness) {
+  const Place half = Place::Constant(0.5 * cell);
+  return raster_between(least + half, greatest - half, cell, thickness);
+}
+
+inline config::Site site_of(Raster ground, Raster thickness) {
+  config::Site site;
+  site.ground = std::make_shared<const Raster>(std::move(ground));
+  site.releases["slide"].thickness = std::move(thickness);
+  return site;
+}
+
+// Mean over the particles, by mass, of position [m, absolute] and velocity [m/s].
+struct CentreOfMass {
+  double mass = 0.0;
+  Position position = Position::Zero(), velocity = Position::Zero();
+
+  explicit CentreOfMass(const sim::Simulation<3, double>& simulation) {
+    const auto& particles = simulation.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      mass += particles.mass(p);
+      position += particles.mass(p) * particles.position.get<Position>(p);
+      velocity += particles.mass(p) * particles.velocity.get<Position>(p);
+    }
+    position = position / mass + simulation.model().origin;
+    velocity /= mass;
+  }
+};
+
+}  // namespace thawslide::testing_support

@@ -1,0 +1,27 @@
+// A block on planes of a terrain model.
+#include "plane_on_dem.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace plane_on_dem;
+
+TEST(PlaneOnDem, SlidesOrSticks) {
+  Record record = make_record("Block on planes of a terrain model");
+  expect_slide(record, {15.0, 22.5}, 10.0);
+  const Slide along_x = expect_slide(record, {30.0, 0.0}, 15.0);
+  const Slide askew = expect_slide(record, {30.0, 217.5}, 15.0);
+  record.expect_near("acceleration in two directions, over one another", askew.acceleration / along_x.acceleration, 1.0,
+                     2e-3);
+  expect_slide(record, {30.0, 100.0}, 10.0, 4e4);
+  expect_rest(record, {45.0, 52.5}, 50.0);
+}
+
+TEST(PlaneOnDem, Heats) {
+  Record record = make_record("Heat of a block on a plane of a terrain model");
+  const Slide seen = expect_slide(record, {45.0, 290.0}, 20.0, 0.0, {"heat.enabled=true"});
+  record.expect_near("heat over work", seen.heat / seen.work, 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace thawslide::verification
