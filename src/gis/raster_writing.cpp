@@ -47,8 +47,9 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
   const GdalMessages messages;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   THAWSLIDE_ASSERT(driver != nullptr, "GDAL has no driver for GeoTIFF");
-  // Predictor 3 is TIFF's for reals.
-  const char* const options[] = {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=3", "BIGTIFF=IF_SAFER", nullptr};
+  // Predictor 3 is TIFF's for reals. Tiles without data are left out, so that size and time follow the slide.
+  const char* const options[] = {"TILED=YES",        "COMPRESS=DEFLATE", "PREDICTOR=3",
+                                 "BIGTIFF=IF_SAFER", "SPARSE_OK=TRUE",   nullptr};
   GDALDatasetUniquePtr dataset(driver->Create(whole.temporary().c_str(), raster.columns, raster.rows, 1,
                                               precision == Precision::float64 ? GDT_Float64 : GDT_Float32,
                                               const_cast<char**>(options)));
