@@ -44,6 +44,7 @@ struct NewOptions {
   double thickness = 0.0;         // m, vertical; 0: the attribute "thickness"
   bool cut = false;               // out of the DEM, not on top of it
   double reach_angle = 8.0;       // degrees
+  double largest_volume = 0.0;    // m3; 0: the parameter's default
 };
 int make_new_case(const NewOptions& options);
 

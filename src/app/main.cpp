@@ -101,6 +101,10 @@ int run_program(int count, char** arguments) {
                    "The domain holds all ground above a line that falls so much from the top of the release [degrees]")
       ->check(CLI::Range(1.0, 45.0))
       ->capture_default_str();
+  make_new
+      ->add_option("--largest-volume", new_options.largest_volume,
+                   "Confirms a release above the usual limit of body.slide.largest_volume [m3]")
+      ->check(CLI::PositiveNumber);
   make_new->callback([&] { exit_code = make_new_case(new_options); });
 
   DescribeOptions describe_options;

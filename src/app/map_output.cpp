@@ -22,7 +22,7 @@ void write_map(const fs::path& folder, const std::string& name, const Raster& ma
   gis::write_geotiff((folder / "maps" / (name + ".tif")).string(), map, text);
 }
 
-// The colours span the values there are; all of one value get a span about it.
+// The colours span the values there are; those of what rises and falls, as much on both sides of 0.
 void write_style(const fs::path& folder, const std::string& name, const Raster& map, const std::string& unit,
                  double nothing_below) {
   double low = HUGE_VAL, high = -HUGE_VAL;
@@ -36,8 +36,10 @@ void write_style(const fs::path& folder, const std::string& name, const Raster& 
     return;  // nothing to draw
   }
   high = high > low ? high : low + 1.0;
-  gis::write_raster_style((folder / "maps" / (name + ".qml")).string(), gis::even_stops(low, high), unit,
-                          nothing_below);
+  const bool rises_and_falls = name == "elevation_change";
+  const auto stops =
+      rises_and_falls ? gis::diverging_stops(std::max(std::abs(low), std::abs(high))) : gis::even_stops(low, high);
+  gis::write_raster_style((folder / "maps" / (name + ".qml")).string(), stops, unit, nothing_below);
 }
 
 // The cells where the slide was ever thicker than it takes to have arrived.
@@ -55,6 +57,12 @@ gis::Polygons affected_area(const sim::FlowMaps& maps) {
   return gis::areas_of_mask(mask);
 }
 
+// Width: of lines, or the size of points [mm].
+std::string style(gis::LayerKind kind, const gis::Color& color, double width, const std::string& label) {
+  constexpr double fill = 0.25;
+  return gis::vector_style({.kind = kind, .color = color, .width = width, .opacity = fill, .label = label});
+}
+
 gis::MapLayer front_layer(const std::vector<FrontAt>& fronts) {
   std::vector<std::array<double, 2>> places;
   std::vector<double> times;
@@ -62,29 +70,25 @@ gis::MapLayer front_layer(const std::vector<FrontAt>& fronts) {
     places.push_back(front.place);
     times.push_back(front.time);
   }
-  return {"front", places, {{"time_s", times}}};
+  return {"front", places, {{"time_s", times}}, style(gis::LayerKind::points, blue, 2.0, "time_s")};
 }
 
 void write_layers(const fs::path& folder, const sim::RunRecords<3>& records, const std::vector<FrontAt>& fronts) {
   const gis::Polygons area = affected_area(*records.maps());
   std::vector<gis::MapLayer> layers;
-  layers.push_back({"affected_area", std::vector<gis::Polygons>{area}, {{"area_m2", std::vector{gis::area_of(area)}}}});
+  layers.push_back({"affected_area",
+                    std::vector<gis::Polygons>{area},
+                    {{"area_m2", std::vector{gis::area_of(area)}}},
+                    style(gis::LayerKind::polygons, dark_red, 0.5, "")});
   if (!records.path().empty()) {
-    layers.push_back(
-        {"path",
-         std::vector<config::Polyline2>{records.path().corners()},
-         {{"length_m", std::vector{records.path().length()}},
-          {"kind", std::vector<std::string>{records.path_given() ? "given" : "way of the centre of mass"}}}});
+    const std::string kind = records.path_given() ? "given" : "way of the centre of mass";
+    layers.push_back({"path",
+                      std::vector<config::Polyline2>{records.path().corners()},
+                      {{"length_m", std::vector{records.path().length()}}, {"kind", std::vector<std::string>{kind}}},
+                      style(gis::LayerKind::lines, black, 0.5, "")});
   }
   layers.push_back(front_layer(fronts));
   gis::write_geopackage((folder / "maps" / "results.gpkg").string(), layers, records.maps()->map_grid().crs);
-  const auto style = [&](const std::string& layer, const gis::VectorStyle& how) {
-    gis::write_vector_style((folder / "maps" / (layer + ".qml")).string(), how);
-  };
-  style("affected_area",
-        {.kind = gis::LayerKind::polygons, .color = dark_red, .width = 0.5, .opacity = 0.25, .label = ""});
-  style("path", {.kind = gis::LayerKind::lines, .color = black, .width = 0.5, .opacity = 1.0, .label = ""});
-  style("front", {.kind = gis::LayerKind::points, .color = blue, .width = 2.0, .opacity = 1.0, .label = "time_s"});
 }
 
 }  // namespace

@@ -41,6 +41,9 @@ config::Case trial_case(const NewOptions& options) {
   body.thickness.from = options.thickness > 0.0 ? config::MapValue::From::number : config::MapValue::From::attribute;
   body.thickness.number = options.thickness;
   body.thickness.source = "thickness";
+  if (options.largest_volume > 0.0) {
+    body.largest_volume = options.largest_volume;
+  }
   trial.bodies[body_name] = body;
   trial.places["terrain.file"] = "--dem";
   trial.places["terrain.crs"] = "--crs";
@@ -81,11 +84,39 @@ void copy_release(const fs::path& folder, const config::Case& trial) {
   }
 }
 
+// A message that names keys of a case, for a user who has not got one yet.
+std::string in_words_of_options(std::string message) {
+  const std::vector<std::pair<std::string, std::string>> words{
+      {"--dem: terrain.file: ", "--dem: "},
+      {"--release: body.slide.release: ", "--release: "},
+      {"terrain.crs = \"EPSG:...\"", "--crs EPSG:..."},
+      {"body.slide.largest_volume", "--largest-volume"},
+      {"body.slide.thickness", "--thickness"},
+      {"body.slide.release", "--release"},
+      {"terrain.crs", "--crs"},
+      {"terrain.file", "--dem"},
+  };
+  for (const auto& [key, option] : words) {
+    for (std::size_t at = message.find(key); at != std::string::npos; at = message.find(key, at + option.size())) {
+      message.replace(at, key.size(), option);
+    }
+  }
+  return message;
+}
+
+gis::SiteAndNotes look_at_files(const config::Case& trial) {
+  try {
+    return gis::load_site(trial);
+  } catch (const UserError& error) {
+    throw UserError(in_words_of_options(error.what()));
+  }
+}
+
 }  // namespace
 
 int make_new_case(const NewOptions& options) {
   const config::Case trial = trial_case(options);
-  const gis::SiteAndNotes read = gis::load_site(trial);
+  const gis::SiteAndNotes read = look_at_files(trial);
   for (const std::string& note : read.notes) {
     fmt::print("note: {}\n", note);
   }
@@ -98,6 +129,7 @@ int make_new_case(const NewOptions& options) {
   input.thickness = trial.bodies.at(body_name).thickness;
   input.placement = options.cut ? config::Placement::cut : config::Placement::on_top;
   input.reach_angle = options.reach_angle;
+  input.largest_volume = options.largest_volume;
 
   const fs::path folder = options.folder;
   require_new_folder(folder);

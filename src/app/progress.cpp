@@ -44,9 +44,11 @@ void Progress::show(const ProgressState& state) {
   const double elapsed = seconds_since(start_);
   const double share = (state.time - begin_) / (state.end - begin_);
   const double left = share > 0.0 ? elapsed * (1.0 - share) / share : 0.0;
-  const std::string text = fmt::format("{:.1f} of {:g} s | {:.0f} steps/s | {} left | front {:.0f} m at {:.1f} m/s",
-                                       state.time, state.end, static_cast<double>(state.steps) / elapsed,
-                                       duration_text(left), state.front_position, state.front_speed);
+  std::string text = fmt::format("{:.1f} of {:g} s | {:.0f} steps/s | {} left", state.time, state.end,
+                                 static_cast<double>(state.steps) / elapsed, duration_text(left));
+  if (std::isfinite(state.front_position)) {  // in 3D there is none before the slide has moved
+    text += fmt::format(" | front {:.0f} m at {:.1f} m/s", state.front_position, state.front_speed);
+  }
   if (terminal_) {
     const auto filled = static_cast<std::size_t>(share * bar_width);
     fmt::print("\r\033[K[{:<{}}] {:3.0f} % | {}", std::string(filled, '='), bar_width, 100.0 * share, text);

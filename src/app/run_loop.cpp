@@ -45,8 +45,8 @@ class FrontWatch {
 
 template <int Dim>
 void print_summary(const sim::Simulation<Dim, double>& simulation, const sim::HistoryRow& row,
-                   const Stopwatch::Seconds& stage_seconds, std::int64_t steps, double wall,
-                   const std::filesystem::path& folder) {
+                   const std::vector<std::pair<std::string, double>>& figures, const Stopwatch::Seconds& stage_seconds,
+                   std::int64_t steps, double wall, const std::filesystem::path& folder) {
   const double count = static_cast<double>(simulation.particles().size());
   fmt::print("{} particles, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n",
              simulation.particles().size(), steps, duration_text(wall), count * static_cast<double>(steps) / wall / 1e6,
@@ -65,6 +65,11 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const sim::Hi
   fmt::print("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, front at {:.0f} m, runout {:.0f} m\n",
              simulation.time(), value("mean_velocity_m_s"), value("mean_displacement_m"), value("front_position_m"),
              value("runout_m"));
+  for (const auto& [name, number] : figures) {
+    if (std::isfinite(number)) {
+      fmt::print("  {:<28}{:12.6g}\n", name, number);
+    }
+  }
   fmt::print("results in {}\n", folder.string());
 }
 
@@ -101,7 +106,7 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
     output.write_index();
     output.write_provenance(simulation, status, message, wall());
     progress.finish();
-    print_summary(simulation, output.history_row(simulation), output.seconds_per_stage(simulation),
+    print_summary(simulation, output.history_row(simulation), output.figures(), output.seconds_per_stage(simulation),
                   simulation.step_number() - first_step, wall(), folder);
   };
   catch_signals();

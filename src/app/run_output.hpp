@@ -64,6 +64,8 @@ class RunOutput {
   // run.json; status as architecture's words: running, done, stopped, failed.
   void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
                         double wall_seconds);
+  // What run.json tells the run came to, by name, in 3D.
+  [[nodiscard]] const std::vector<std::pair<std::string, double>>& figures() const { return provenance_.figures; }
   // Wall-clock time [s] of the step's stages and of writing.
   [[nodiscard]] Stopwatch::Seconds seconds_per_stage(const Simulation& simulation) const;
 

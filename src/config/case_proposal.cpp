@@ -15,7 +15,7 @@ constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double particles_across = 6.0;
 constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
-constexpr double snapshots = 40.0;  // about as many
+constexpr double snapshots = 40.0;                          // about as many
 constexpr int margin_cells = 4;                             // between the release and the sides of the domain
 
 // The release in numbers.
@@ -167,7 +167,7 @@ thickness = {given}  # m
 thickness_along = "vertical"  # "normal": across the slope
 placement = "{placement}"  # {placement_text}
 particles_per_axis = 2
-temperature = -5.0  # C, of rock and ice at the start
+{confirmed}temperature = -5.0  # C, of rock and ice at the start
 porosity = 0.375  # share of ice in the volume: all pores are full of it
 
 # Broken rock and ice.
@@ -200,6 +200,9 @@ arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
       fmt::arg("thickness", proposal.thickness), fmt::arg("min", point_text(proposal.min)),
       fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", input.dem_file),
       fmt::arg("release", input.release_file), fmt::arg("given", thickness_text(input.thickness)),
+      fmt::arg("confirmed", input.largest_volume > 0.0
+                                ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
+                                : std::string()),
       fmt::arg("placement", is_cut ? "cut" : "on_top"),
       fmt::arg("placement_text", is_cut ? "out of the DEM, which is the surface before the slide; \"on_top\": onto it"
                                         : "the DEM is what it slides on; \"cut\": out of the DEM"));
