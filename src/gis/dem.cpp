@@ -34,10 +34,7 @@ void check_unit(const config::Case& parameters, const RasterFile& file) {
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   for (const char* word : {"ft", "foot", "feet"}) {
     if (unit.find(word) != std::string::npos) {
-      fail_at(parameters, "terrain.file",
-              fmt::format("{}: the elevations are in the unit '{}'; allowed: metres. Convert them: gdal_translate -ot "
-                          "Float64 -scale 0 1 0 0.3048 {} metres.tif",
-                          file.file(), file.unit(), file.file()));
+      fail_at(parameters, "terrain.file", feet_message(file.file(), file.unit()));
     }
   }
 }
@@ -83,8 +80,7 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
                          const Rectangle& area) {
   const bool as_it_is = &layout == &file.layout();
   const Raster target = layout_of(layout, points_in(layout, area));
-  Raster raster =
-      told_at(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
+  Raster raster = told_at(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
   check_elevations(parameters, file, raster);
   if (as_it_is) {
     return raster;

@@ -1,6 +1,5 @@
 #include "gis/map_raster.hpp"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "gis/raster_file.hpp"
@@ -33,13 +32,7 @@ std::string likely_system(const RasterFile& file, const std::string& ground, std
 Raster read_map(const config::Case& parameters, const MapRequest& request, std::vector<std::string>& notes) {
   return told_at(parameters, request.key, [&] {
     const RasterFile file(request.file);
-    std::vector<std::string> more;
-    const std::string system = likely_system(file, request.crs, more);
-    for (const std::string& note : more) {
-      if (std::find(notes.begin(), notes.end(), note) == notes.end()) {
-        notes.push_back(note);
-      }
-    }
+    const std::string system = likely_system(file, request.crs, notes);
     const bool same_place = Reprojection(system, request.crs).changes_nothing();
     if (same_place && request.area && !request.area->touches(span_of_points(file.layout()))) {
       throw UserError(

@@ -134,11 +134,19 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
                   raster.file, unit, name_of(wkt), remedy));
 }
 
+// A system may tell of heights too.
+void check_vertical_unit(const Located& raster, const OGRSpatialReference& reference) {
+  const char* unit = nullptr;
+  if (reference.IsCompound() != 0 && std::abs(reference.GetTargetLinearUnits("VERT_CS", &unit) - 1.0) > 1e-9) {
+    throw UserError(feet_message(raster.file, unit == nullptr ? "unknown" : unit));
+  }
+}
+
 // GDAL leaves out what follows the digits of a number.
 bool is_sound_number(const std::string& text) {
   const std::size_t colon = text.find(':');
   const bool is_number_of_epsg = colon == 4 && (text[0] == 'E' || text[0] == 'e');
-  return !is_number_of_epsg || (text.size() > 5 && text.find_first_not_of("0123456789", 5) == std::string::npos);
+  return !is_number_of_epsg || (text.size() > 5 && text.find_first_not_of("0123456789+", 5) == std::string::npos);
 }
 
 }  // namespace
@@ -186,12 +194,12 @@ bool can_be_degrees(const Rectangle& extent) {
 std::string metric_system(const Located& raster, const std::string& wkt_of_file, const std::string& terrain_crs) {
   const bool from_key = !terrain_crs.empty();
   const std::string wkt = from_key ? reference_system_named(terrain_crs) : wkt_of_file;
+  require_projection_database();  // without it a file's system may not have been understood
   if (wkt.empty()) {
     fail_without_system(raster);
   }
   const GdalMessages messages;
-  require_projection_database();
-  const OGRSpatialReference reference = reference_from_wkt(wkt);
+  OGRSpatialReference reference = reference_from_wkt(wkt);
   if (reference.IsGeographic() != 0) {
     if (from_key) {
       throw UserError(
@@ -212,7 +220,16 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   if (std::abs(metres_per_unit - 1.0) > 1e-9) {
     fail_with_unit(raster, wkt, unit == nullptr ? "unknown" : unit, metres_per_unit, from_key);
   }
-  return wkt;
+  check_vertical_unit(raster, reference);
+  reference.StripVertical();
+  return wkt_from_reference(&reference);
+}
+
+std::string feet_message(const std::string& file, const std::string& unit) {
+  return fmt::format(
+      "{}: the elevations are in the unit '{}'; allowed: metres. Convert them, from feet: gdal_translate -ot "
+      "Float64 -a_srs EPSG:... -scale 0 1 0 0.3048 {} metres.tif",
+      file, unit, file);
 }
 
 std::string without_system_note(const std::string& file, const std::string& ground) {

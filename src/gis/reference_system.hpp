@@ -31,8 +31,12 @@ struct Located {
 
 // The system to compute in: the one that `terrain.crs` names, else the file's. Throws UserError where there is none,
 // and where it is not a map projection in metres; the text says how to mend that.
+// Only its horizontal part is returned.
 [[nodiscard]] std::string metric_system(const Located& raster, const std::string& wkt_of_file,
                                         const std::string& terrain_crs);
+
+// What the user is told of elevations in feet.
+[[nodiscard]] std::string feet_message(const std::string& file, const std::string& unit);
 
 // What the user is told of a file that names no system, one that its numbers cannot be in, or another than the
 // ground's.

@@ -1,7 +1,6 @@
 #include "gis/site.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "gis/dem.hpp"
@@ -69,6 +68,17 @@ Raster less_what_is_cut(const config::Case& parameters, const std::map<std::stri
   return ground;
 }
 
+// Bodies that come from one file have the same to say of it.
+std::vector<std::string> each_once(const std::vector<std::string>& notes) {
+  std::vector<std::string> once;
+  for (const std::string& note : notes) {
+    if (std::find(once.begin(), once.end(), note) == once.end()) {
+      once.push_back(note);
+    }
+  }
+  return once;
+}
+
 }  // namespace
 
 SiteAndNotes load_site(const config::Case& parameters) {
@@ -102,6 +112,7 @@ SiteAndNotes load_site(const config::Case& parameters) {
                                            : load_line(parameters, fmt::format("probe.{}.line", name), probe.line,
                                                        site.crs, loaded.notes);
   }
+  loaded.notes = each_once(loaded.notes);
   return loaded;
 }
 

@@ -11,7 +11,8 @@ void fail_at(const config::Case& parameters, const std::string& key, const std::
 std::string words_beyond(const Rectangle& inner, const Rectangle& outer) {
   std::vector<std::string> sides;
   const auto add = [&](double distance, const char* side) {
-    if (distance > 0.0) {
+    constexpr double rounding = 1e-6;  // m, of places computed in files
+    if (distance > rounding) {
       sides.push_back(fmt::format("{:.4g} m in the {}", distance, side));
     }
   };

@@ -22,6 +22,13 @@ TEST(ReferenceSystemTest, ProjectionsInMetresAreTaken) {
   EXPECT_EQ(name_of(metric_system(metric_raster, "", "EPSG:32632")), "EPSG:32632");
 }
 
+TEST(ReferenceSystemTest, HeightsAreLeftOutOfASystemButTheirUnitCounts) {
+  EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:31254+5778"), "")), "EPSG:31254");
+  EXPECT_EQ(error_of_system(metric_raster, "EPSG:26910+6360"),
+            "dem.tif: the elevations are in the unit 'US survey foot'; allowed: metres. Convert them, from feet: "
+            "gdal_translate -ot Float64 -a_srs EPSG:... -scale 0 1 0 0.3048 dem.tif metres.tif");
+}
+
 TEST(ReferenceSystemTest, NoSystem) {
   EXPECT_EQ(error_of_system(metric_raster, ""),
             "dem.tif: the file names no coordinate reference system (x from 49280 to 52280, y from 193490 to 195690). "

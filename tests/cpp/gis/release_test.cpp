@@ -49,6 +49,21 @@ TEST(ReleaseTest, PolygonsAreChosenByName) {
   EXPECT_NEAR(release_of(parameters).area, 4000.0, 1e-6);
 }
 
+TEST(ReleaseTest, BodiesOfOneFileSayItOnce) {
+  config::Case parameters = plain_case(ground());
+  const std::string file =
+      geojson("two.geojson",
+              {{R"("name":"a")", box_at(300, 300, 400, 400)}, {R"("name":"b")", box_at(500, 300, 540, 400)}}, "4326");
+  for (const char* name : {"a", "b"}) {
+    parameters.bodies[name] = release_body(file, 5.0);
+    parameters.bodies[name].polygons = {name};
+  }
+  const SiteAndNotes loaded = load_site(parameters);
+  EXPECT_EQ(loaded.notes.size(), 1U);
+  EXPECT_NEAR(volume_of(loaded.site.releases.at("a").thickness), 5e4, 1e-4);
+  EXPECT_NEAR(volume_of(loaded.site.releases.at("b").thickness), 2e4, 1e-4);
+}
+
 TEST(ReleaseTest, AttributeGivesEachPolygonItsThickness) {
   config::Case parameters = case_with_release({{R"("thickness":4.0)", box_at(300, 300, 400, 400)},
                                                {R"("thickness":6.5)", box_at(400, 300, 500, 400)},

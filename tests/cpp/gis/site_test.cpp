@@ -108,10 +108,10 @@ TEST(SiteTest, ElevationsThatAreNone) {
 TEST(SiteTest, ElevationsInFeet) {
   config::Case parameters = plain_case(ground());
   write_geotiff(parameters.terrain.file, ground(), {"ft", "elevation"});
-  EXPECT_EQ(
-      error_of_site(parameters),
-      "case.toml:5:8: terrain.file: FOLDER/dem.tif: the elevations are in the unit 'ft'; allowed: metres. Convert "
-      "them: gdal_translate -ot Float64 -scale 0 1 0 0.3048 FOLDER/dem.tif metres.tif");
+  EXPECT_EQ(error_of_site(parameters),
+            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the elevations are in the unit 'ft'; allowed: metres. "
+            "Convert them, "
+            "from feet: gdal_translate -ot Float64 -a_srs EPSG:... -scale 0 1 0 0.3048 FOLDER/dem.tif metres.tif");
 }
 
 TEST(SiteTest, PathAndProbes) {
