@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "config/site.hpp"
@@ -39,9 +40,25 @@ class PathLine {
   void reserve(std::size_t corners);
 
  private:
+  // The rectangle about some segments that follow one another: one look tells that none of them is near.
+  struct Box {
+    Place2 lower, upper;
+
+    void add(const Place2& place);
+    [[nodiscard]] double distance2(const Place2& place) const;  // squared [m2]
+  };
+  static constexpr std::size_t segments_of_box = 8;
+
+  struct Nearest {
+    PlaceOnLine place;
+    double distance2 = std::numeric_limits<double>::infinity();  // squared [m2]
+  };
+  void project_onto(std::size_t segment, const Place2& place, Nearest& nearest) const;
+
   config::Polyline2 corners_;
   std::vector<double> along_;       // arc length at each corner [m]
   std::vector<Place2> directions_;  // unit vectors from each corner but the last to the next
+  std::vector<Box> boxes_;          // about so many segments each; larger than need be after a corner was removed
 };
 
 // The way of a centre of mass: a corner wherever it is a spacing [m] away from the last one, so that its direction does

@@ -46,6 +46,30 @@ TEST(PathLine, PointsProjectToWhereTheyAre) {
   }
 }
 
+// Against the points of a long winding line, looked at one by one.
+TEST(PathLine, ProjectsOntoManySegments) {
+  PathLine line;
+  for (int k = 0; k < 100; ++k) {
+    line.add({3.0 * k, 40.0 * std::sin(0.1 * k)});
+  }
+  line.add({0.0, 500.0});
+  line.remove_last();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> east(0.0, 297.0), north(-80.0, 80.0);
+  for (int n = 0; n < 200; ++n) {
+    const Place2 place{east(random), north(random)};
+    const PlaceOnLine found = line.project(place);
+    const auto distance_at = [&](double along) {
+      const Place2 point = line.point_at(along);
+      return std::hypot(place[0] - point[0], place[1] - point[1]);
+    };
+    EXPECT_NEAR(distance_at(found.along), std::abs(found.offset), 1e-9);
+    for (double along = 0.0; along <= line.length(); along += 0.5) {
+      ASSERT_GE(distance_at(along), std::abs(found.offset) - 1e-9) << place[0] << " " << place[1];
+    }
+  }
+}
+
 TEST(CentreWay, HasCornersASpacingApart) {
   CentreWay way(2.0);
   for (int k = 0; k <= 100; ++k) {
