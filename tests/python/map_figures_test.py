@@ -148,8 +148,8 @@ def test_probes(map_run: Path) -> None:
     figure = drawn("probes", map_run)
     assert {"thickness (m)", "speed (m/s)", "flow area (m²)", "discharge (m³/s)"} <= labels(figure)
     thickness = maps_of(figure)[0]
-    assert [line.get_label() for line in thickness.lines] == ["gate", "weir"]
-    assert thickness.get_title(loc="left") == "(a) thickness; of a section, its largest"
+    assert [line.get_label() for line in thickness.lines] == ["gate", "weir (largest)"]
+    assert thickness.get_title(loc="left") == "(a) thickness"
     discharge = maps_of(figure)[3].lines[0]
     assert discharge.get_label() == "weir"
     np.testing.assert_array_equal(np.asarray(discharge.get_ydata()), [0.0, 7200.0, 0.0])
@@ -255,8 +255,8 @@ def test_boxes_fit_a_page_and_stay_on_the_terrain() -> None:
 def test_the_scale_bar_stands_where_nothing_is() -> None:
     values = np.zeros((30, 30))
     values[:12, :] = 1.0
-    values[12:, :12] = 1.0
+    values[12:, 12:] = 1.0
     found = Map(Grid(0.5, 0.5, 1.0, 1.0, 30, 30), values)
-    assert quiet_corner(found, found.grid.box) == "upper right"
+    assert quiet_corner(found, found.grid.box) == "upper left"
     assert covered_box(found) == (0.0, 30.0, 0.0, 30.0)
     assert covered_box(found, 2.0) is None
