@@ -68,14 +68,19 @@ def spread(grid: Grid, x: Numbers, y: Numbers, width: float, amounts: list[Numbe
 
 
 def gather(grid: Grid, snapshot: Snapshot, width: float) -> Columns:
-    """Return what stands on the cells of a grid; `width` [m] is the simulator's grid cell."""
+    """Return what stands on the cells of a grid; `width` [m] is the simulator's grid cell.
+
+    Particles of a run that went bad, whose place or volume is no number, are left out.
+    """
     mass = np.asarray(snapshot["mass"], dtype=np.float64)
     volume = np.asarray(snapshot["volume"], dtype=np.float64)
     speed = np.linalg.norm(np.asarray(snapshot["velocity"], dtype=np.float64), axis=1)
     base = mass * (np.asarray(snapshot["in_band"]) != 0)
     warm = base * np.asarray(snapshot["temperature"], dtype=np.float64)
     x, y = snapshot.points[:, 0], snapshot.points[:, 1]
-    volumes, masses, momenta, bases, warmth = spread(grid, x, y, width, [volume, mass, mass * speed, base, warm])
+    sound = np.isfinite(x) & np.isfinite(y) & np.isfinite(volume)
+    amounts = [amount[sound] for amount in (volume, mass, mass * speed, base, warm)]
+    volumes, masses, momenta, bases, warmth = spread(grid, x[sound], y[sound], width, amounts)
     return Columns(
         snapshot.time,
         Map(grid, volumes / grid.cell_area, "m", "thickness"),

@@ -21,6 +21,7 @@ from thawslide.figures.map_panel import (
     colour_map,
     covered_box,
     make_scene,
+    name_place,
     paint,
     quiet_corner,
     scale_bar,
@@ -145,10 +146,7 @@ def _draw_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -
             *points.T, color=PURPLE, marker="D" if len(points) == 1 else "", markeredgecolor="white", markersize=5,
             linewidth=1.6, path_effects=None if len(points) == 1 else HALO, zorder=7,
         )  # fmt: skip
-        axes.annotate(
-            name, (points[-1][0], points[-1][1]), xytext=(5, 4), textcoords="offset points", size=7.5, zorder=7,
-            path_effects=HALO, annotation_clip=True,
-        )  # fmt: skip
+        name_place(axes, name, (float(points[-1][0]), float(points[-1][1])))
 
 
 def _frame(axes: Axes, box: Box, colour: str, width: float, **style: Any) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from map_runs import LENGTH, MIDDLE, SPEED, THICKNESS, WEST, WIDTH
@@ -56,6 +57,15 @@ def test_temperature_is_that_of_particles_next_to_the_ground(map_run: Path) -> N
     values = columns.temperature.values[np.isfinite(columns.temperature.values)]
     np.testing.assert_allclose(values, 10.0)  # those above are at -50
     assert columns.time == 10.0
+
+
+def test_particles_of_a_run_gone_bad_are_left_out(map_run: Path) -> None:
+    with h5py.File(map_run / "snapshots" / "000000.vtkhdf", "a") as file:
+        file["VTKHDF/Points"][0] = np.nan
+        file["VTKHDF/PointData/volume"][1] = np.nan
+    run = Run(map_run)
+    columns = gather(Maps(run)["release"].grid, run.snapshot(0, fields=FIELDS), 10.0)
+    assert columns.thickness.volume() == pytest.approx(LENGTH * WIDTH * THICKNESS - 2 * 50.0, rel=1e-12)
 
 
 def test_only_the_fields_asked_for_are_read(map_run: Path) -> None:

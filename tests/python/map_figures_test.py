@@ -12,11 +12,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 
-from thawslide import NotInRunError, Run
+from thawslide import NotInRunError, ReportError, Run
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
 from thawslide.figures.animation import MOST_FRAMES, Film
 from thawslide.figures.cross_sections import across, along
+from thawslide.figures.map_page import HIGHEST, WIDTH, layout
 from thawslide.figures.map_panel import MOST_CELLS, covered_box, make_scene, page_box, quiet_corner
 from thawslide.figures.site import distances, make_site
 from thawslide.key_numbers import key_numbers
@@ -148,8 +149,8 @@ def test_probes(map_run: Path) -> None:
     figure = drawn("probes", map_run)
     assert {"thickness (m)", "speed (m/s)", "flow area (m²)", "discharge (m³/s)"} <= labels(figure)
     thickness = maps_of(figure)[0]
-    assert [line.get_label() for line in thickness.lines] == ["gate", "weir"]
-    assert thickness.get_title(loc="left") == "(a) thickness; of a section, its largest"
+    assert [line.get_label() for line in thickness.lines] == ["gate", "weir (largest)"]
+    assert thickness.get_title(loc="left") == "(a) thickness"
     discharge = maps_of(figure)[3].lines[0]
     assert discharge.get_label() == "weir"
     np.testing.assert_array_equal(np.asarray(discharge.get_ydata()), [0.0, 7200.0, 0.0])
@@ -172,6 +173,12 @@ def test_frames_differ_and_their_sides_are_even(map_run: Path) -> None:
     assert first.shape == last.shape
     assert first.shape[0] % 2 == 0 and first.shape[1] % 2 == 0
     assert np.any(first != last)
+
+
+def test_a_film_that_cannot_be_written_says_so(map_run: Path, tmp_path: Path) -> None:
+    film = Film(Run(map_run))
+    with pytest.raises(ReportError, match=r"film\.mp4: the film cannot be written: "):
+        film.write(tmp_path / "no such folder" / "film.mp4", 40)
 
 
 def test_many_snapshots_are_thinned_to_the_most_frames(map_run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -244,6 +251,19 @@ def test_large_terrain_is_thinned_for_drawing() -> None:
     assert scene.terrain.grid.cell_x == 40.0
 
 
+@pytest.mark.parametrize("bar", [0.0, 0.72])
+@pytest.mark.parametrize("aspect", [0.45, 0.7, 1.0, 1.6, 2.4])
+@pytest.mark.parametrize("count", [1, 2, 4, 5, 6])
+def test_maps_fill_a_page_without_reaching_over_it(count: int, aspect: float, bar: float) -> None:
+    found = layout(count, aspect, bar, 0.3, 1.5)
+    rows = -(-count // found.columns)
+    assert found.width == pytest.approx(found.height * aspect)
+    assert found.columns * (found.width + bar) <= WIDTH
+    assert rows * (found.height + 0.3) + 1.5 <= HIGHEST + 1e-9
+    assert rows * found.columns - count <= 1
+    assert found.width >= 1.8
+
+
 def test_boxes_fit_a_page_and_stay_on_the_terrain() -> None:
     whole = (0.0, 1000.0, 0.0, 2000.0)
     west, east, south, north = page_box((900.0, 1100.0, 0.0, 2000.0), whole)
@@ -255,8 +275,8 @@ def test_boxes_fit_a_page_and_stay_on_the_terrain() -> None:
 def test_the_scale_bar_stands_where_nothing_is() -> None:
     values = np.zeros((30, 30))
     values[:12, :] = 1.0
-    values[12:, :12] = 1.0
+    values[12:, 12:] = 1.0
     found = Map(Grid(0.5, 0.5, 1.0, 1.0, 30, 30), values)
-    assert quiet_corner(found, found.grid.box) == "upper right"
+    assert quiet_corner(found, found.grid.box) == "upper left"
     assert covered_box(found) == (0.0, 30.0, 0.0, 30.0)
     assert covered_box(found, 2.0) is None

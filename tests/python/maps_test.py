@@ -13,6 +13,7 @@ from rasterio.errors import NotGeoreferencedWarning
 
 from thawslide import NotInRunError, ReportError, Run
 from thawslide.maps import Grid, Map, Maps, on_map, read_map
+from thawslide.relief import hillshade
 
 
 def test_a_map_is_read_with_its_grid_unit_and_reference_system(tmp_path: Path) -> None:
@@ -127,3 +128,16 @@ def test_faulty_files(tmp_path: Path) -> None:
     with pytest.warns(NotGeoreferencedWarning):
         write_raw(path, rasterio.Affine.identity())
     fails(path, "a.tif: has no coordinates; it is not a map the simulator wrote")
+
+
+def test_real_terrain_with_holes_is_shaded_where_it_has_data() -> None:
+    path = Path(__file__).resolve().parents[3] / "shared" / "data" / "alr" / "alr.tif"
+    if not path.is_file():
+        pytest.skip("the shared terrain alr.tif is not here")
+    terrain = read_map(path)
+    assert (terrain.grid.columns, terrain.grid.rows, terrain.grid.cell_x) == (417, 915, 5.0)
+    assert terrain.crs == "MGI / Austria Lambert (EPSG:31287)"
+    shade = hillshade(terrain.values, 5.0, 5.0)
+    assert np.isnan(shade[np.isnan(terrain.values)]).all()
+    assert np.nanmin(shade) >= 0.0 and np.nanmax(shade) <= 1.0
+    assert np.isfinite(shade).sum() > 0.97 * np.isfinite(terrain.values).sum()

@@ -69,7 +69,13 @@ class Film:
                 if writer is None:
                     size = (frame.shape[1], frame.shape[0])
                     writer = imageio_ffmpeg.write_frames(
-                        beside, size, fps=self.frames_per_second, quality=8, macro_block_size=2, codec="libx264"
+                        beside,
+                        size,
+                        fps=self.frames_per_second,
+                        quality=8,
+                        macro_block_size=2,
+                        codec="libx264",
+                        ffmpeg_log_level="error",
                     )
                     writer.send(None)
                 writer.send(frame)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -127,9 +127,13 @@ def cross_sections(run: Run) -> Figure:
 def _whole(site: Site) -> _Fields:
     """Return the maps at their own resolution, cut to the scene; the path may lead on over the terrain around."""
     box = site.scene.box
-    release = site.maps["release"].cropped(box) if site.release is not None else None
-    largest = site.maps["max_thickness"].cropped(box)
-    return _Fields(site.maps["terrain"], release, largest, site.maps["final_thickness"].cropped(box))
+
+    def thickness(name: str) -> Map:
+        found = site.maps[name].cropped(box)
+        return replace(found, values=np.nan_to_num(found.values, nan=0.0))  # no data: the slide never was there
+
+    release = thickness("release") if site.release is not None else None
+    return _Fields(site.maps["terrain"], release, thickness("max_thickness"), thickness("final_thickness"))
 
 
 def _places(profile: Section, threshold: float) -> list[float]:

@@ -125,6 +125,7 @@ def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:
 def _isochrones(axes: Axes, field: Map) -> None:
     """Draw lines of equal arrival time with their seconds."""
     levels = contour_levels(field.values, 7)
+    levels = levels[levels > 0.0]
     if len(levels) < 2:
         return
     grid = field.grid

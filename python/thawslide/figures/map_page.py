@@ -18,7 +18,7 @@ WIDTH, HIGHEST, NARROWEST = 10.0, 12.0, 6.5  # of a page
 TALLEST = 6.8  # of a map
 _LEFT, _RIGHT, _GAP, _HEAD, _TITLE, _TICKS, _LINE = 0.62, 0.2, 0.28, 0.38, 0.3, 0.5, 0.15
 _NOTE_CHARACTERS = 17.0  # of a note in one inch
-_TITLE_CHARACTERS = 11.5  # of a panel's titles in one inch
+_TITLE_CHARACTERS = 12.8  # of a panel's titles in one inch
 
 
 @dataclass(frozen=True)

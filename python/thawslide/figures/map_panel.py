@@ -26,6 +26,7 @@ COVER = 0.82  # opacity of a field over the terrain: the relief below still show
 ASPECTS = (0.45, 2.4)  # width over height of a map, narrowest and widest
 _MOST_CONTOURS = 24
 _MARGIN = 0.12  # of the longer side of what a map is about, left free around it
+_ABOVE = 0.35  # share of the light that comes from above, so that steep slopes in the shadow are not one even grey
 _SHADES = LinearSegmentedColormap.from_list("shades", ["#8B867D", "#B5B0A7", "#DFDBD3", "#FAF9F6"])
 CONTOUR = "#5B4B37"
 HALO: list[patheffects.AbstractPathEffect] = [patheffects.withStroke(linewidth=2.2, foreground="white")]
@@ -52,7 +53,7 @@ class Scene:
         levels = contour_levels(self.terrain.values, _MOST_CONTOURS)
         lines = f", contour lines every {levels[1] - levels[0]:g} m" if len(levels) > 1 else ""
         heights = "" if self.exaggeration == 1.0 else f", heights ×{self.exaggeration:g}"
-        return f"{crs} Terrain: shaded by light from the north-west{heights}{lines}."
+        return f"{crs} Terrain: light from the north-west and above{heights}{lines}."
 
 
 def make_scene(terrain: Map, box: Box, aspects: tuple[float, float] = ASPECTS) -> Scene:
@@ -63,8 +64,10 @@ def make_scene(terrain: Map, box: Box, aspects: tuple[float, float] = ASPECTS) -
     relief = float(np.ptp(finite)) / max(box[1] - box[0], box[3] - box[2]) if finite.size else 0.0
     # Gentle ground would be one even grey.
     exaggeration = float(np.clip(round_number(0.25 / relief), 1.0, 10.0)) if relief > 0.0 else 1.0
-    shade = hillshade(part.values, part.grid.cell_x, part.grid.cell_y, exaggeration)
-    return Scene(box, part, shade, exaggeration)
+    cells = part.grid.cell_x, part.grid.cell_y
+    aside = hillshade(part.values, *cells, exaggeration)
+    above = hillshade(part.values, *cells, exaggeration, altitude=90.0)
+    return Scene(box, part, (1.0 - _ABOVE) * aside + _ABOVE * above, exaggeration)
 
 
 def box_about(places: Sequence[Box]) -> Box:
@@ -161,8 +164,8 @@ def outline(axes: Axes, field: Map, level: float, **style: Any) -> None:
 
 
 def quiet_corner(field: Map | None, box: Box) -> str:
-    """Return the corner of a box in which a field covers least, as matplotlib names it."""
-    corners = {"lower left": (0, 0), "lower right": (1, 0), "upper left": (0, 1), "upper right": (1, 1)}
+    """Return the corner of a box in which a field covers least, as matplotlib names it; remarks stand upper right."""
+    corners = {"lower left": (0, 0), "lower right": (1, 0), "upper left": (0, 1)}
     if field is None:
         return "lower left"
     west, east, south, north = box
@@ -192,6 +195,16 @@ def scale_bar(axes: Axes, corner: str) -> None:
     anchored.patch.set(facecolor="white", alpha=0.82, linewidth=0)
     anchored.set_zorder(8)
     axes.add_artist(anchored)
+
+
+def name_place(axes: Axes, name: str, place: tuple[float, float]) -> None:
+    """Write the name of a place beside it, on the side away from the nearer edge of the map; nothing outside."""
+    west, east = axes.get_xlim()
+    left = place[0] > 0.5 * (west + east)
+    axes.annotate(
+        name, place, xytext=(-5 if left else 5, 4), textcoords="offset points", ha="right" if left else "left",
+        size=7.5, zorder=7, path_effects=HALO, annotation_clip=True,
+    )  # fmt: skip
 
 
 def colour_map(name: str) -> Colormap:

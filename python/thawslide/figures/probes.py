@@ -26,7 +26,7 @@ class Quantity:
 
 
 QUANTITIES = (
-    Quantity("_thickness_m", "thickness; of a section, its largest", "m"),
+    Quantity("_thickness_m", "thickness", "m"),
     Quantity("_speed_m_s", "speed", "m/s"),
     Quantity("_flow_area_m2", "flow area", "m²"),
     Quantity("_discharge_m3_s", "discharge", "m³/s"),
@@ -42,7 +42,7 @@ def probes(run: Run) -> Figure:
     time = columns["time_s"]
     found = {
         quantity: {
-            name.removesuffix(quantity.ending).removesuffix(_OF_SECTION): values
+            name.removesuffix(quantity.ending): values
             for name, values in columns.items()
             if name.endswith(quantity.ending)
         }
@@ -52,7 +52,7 @@ def probes(run: Run) -> Figure:
     if not found:
         endings = ", ".join(quantity.ending for quantity in QUANTITIES)
         raise NotInRunError(f"probes.csv: no column ends with {endings}")
-    names = list(dict.fromkeys(name for lines in found.values() for name in lines))
+    names = list(dict.fromkeys(name.removesuffix(_OF_SECTION) for lines in found.values() for name in lines))
     rows = -(-len(found) // 2)
     across = min(len(found), 2)
     figure = Figure(figsize=(10.0 if across == 2 else 6.0, 0.9 + 2.6 * rows), layout="constrained")
@@ -60,14 +60,16 @@ def probes(run: Run) -> Figure:
     panels = list(figure.subplots(rows, across, squeeze=False, sharex=True).flat)
     for axes, (quantity, lines) in zip(panels, found.items(), strict=False):
         for name, values in lines.items():
-            number = names.index(name)
+            probe = name.removesuffix(_OF_SECTION)
+            number = names.index(probe)
+            label = probe if probe == name else f"{probe} (largest)"
             time_line(
                 axes, time, values, color=_COLOURS[number % len(_COLOURS)],
-                linestyle=_DASHES[number // len(_COLOURS) % len(_DASHES)], label=name,
+                linestyle=_DASHES[number // len(_COLOURS) % len(_DASHES)], label=label,
             )  # fmt: skip
-        axes.set_ylabel(f"{quantity.words.split(';')[0]} ({quantity.unit})")
-        if any(np.nanmax(values, initial=0.0) > 0.0 for values in lines.values()):
-            axes.set_ylim(bottom=0.0)
+        axes.set_ylabel(f"{quantity.words} ({quantity.unit})")
+        nothing = not any(np.nanmax(values, initial=0.0) > 0.0 for values in lines.values())
+        axes.set_ylim(0.0, 1.0 if nothing else None)
         axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
         axes.legend(loc="best")
         time_axis(axes, time)

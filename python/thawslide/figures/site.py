@@ -10,7 +10,16 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from thawslide.errors import NotInRunError
-from thawslide.figures.map_panel import HALO, MOST_CELLS, Scene, box_about, covered_box, make_scene, outline
+from thawslide.figures.map_panel import (
+    HALO,
+    MOST_CELLS,
+    Scene,
+    box_about,
+    covered_box,
+    make_scene,
+    name_place,
+    outline,
+)
 from thawslide.figures.style import BLACK, BLUE, PURPLE
 from thawslide.geopackage import read_layer
 from thawslide.maps import Grid, Map, Maps
@@ -92,9 +101,7 @@ class Site:
         """Mark the probes with their names."""
         for name, (x, y) in self.probes.items():
             axes.plot([x], [y], marker="D", color=PURPLE, markeredgecolor="white", markersize=5, zorder=7)
-            axes.annotate(
-                name, (x, y), xytext=(5, 4), textcoords="offset points", size=7.5, zorder=7, path_effects=HALO
-            )
+            name_place(axes, name, (x, y))
 
     def legend(self, *, path: bool = True, probes: bool = True) -> list[Line2D]:
         """Return what the lines mean, of those that are there."""
