@@ -45,7 +45,7 @@ RIBS_HEIGHT = 140.0  # [m]
 SHORTEST_WAVE, LONGEST_WAVE = 200.0, 2_400.0  # of the ribs [m]
 SEED = 20160628
 
-RELEASE_FROM, RELEASE_TO = 20.0, 1_080.0  # along [m]
+RELEASE_FROM, RELEASE_TO = 50.0, 1_045.0  # along [m]
 RELEASE_WIDTH = 600.0  # [m]
 RELEASE_ROUNDING = 150.0  # radius of its corners [m]
 RELEASE_THICKNESS = 90.0  # vertical [m]: 60 m across a slope of 48 degrees, as the source of the profile
