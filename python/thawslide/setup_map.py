@@ -17,6 +17,7 @@ from thawslide.figures.colours import THICKNESS, colour_range, number_text
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import (
     HALO,
+    Scene,
     box_about,
     colour_map,
     covered_box,
@@ -113,7 +114,7 @@ def draw_setup_on_map(setup: SetupOnMap) -> Figure:
     columns = 4 if len(setup.releases) < 2 else 3
     foot = 0.05 + 0.18 * -(-len(handles) // columns)
     page = MapPage(
-        f"{setup.title}: set-up", overview, len(scenes), note=overview.note(), foot=foot, bar=0.62, own_scenes=True
+        f"{setup.title}: set-up", overview, len(scenes), note=_note(scenes), foot=foot, bar=0.62, own_scenes=True
     )
     painter, extend = _painter(setup)
     for number, (scene, words) in enumerate(zip(scenes, ("whole domain", "release"), strict=False)):
@@ -129,6 +130,14 @@ def draw_setup_on_map(setup: SetupOnMap) -> Figure:
         _frame(page.figure.axes[0], scenes[1].box, RED, 1.0)
     page.legend(handles, columns)
     return page.figure
+
+
+def _note(scenes: list[Scene]) -> str:
+    """Say how the terrain of both maps is drawn, of the second where it differs."""
+    note = scenes[0].note()
+    if len(scenes) > 1 and scenes[1].drawn() != scenes[0].drawn():
+        note += f" In (b){scenes[1].drawn() or ' without contour lines'}."
+    return note
 
 
 def _draw_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -> None:

@@ -85,7 +85,11 @@ def test_both_views_hold_domain_release_path_and_probes(write: Any) -> None:
     words = [text.get_text() for text in legend.get_texts()]
     assert words == ["slab (ice): 28,800 m³, up to 6 m thick", "domain", "path", "probe"]
     assert {"gate", "weir"} <= {text.get_text() for text in overview.texts}
-    assert "Coordinates: EPSG:31287." in figure.texts[-1].get_text()
+    note = figure.texts[-1].get_text().replace("\n", " ")
+    assert note.startswith(
+        "Coordinates: EPSG:31287. Terrain: light from the north-west and above, contour lines every 20"
+    )
+    assert note.endswith("In (b), contour lines every 5 m.")
 
 
 @pytest.mark.parametrize(

@@ -50,10 +50,13 @@ class Scene:
     def note(self) -> str:
         """Say what the coordinates are, and how the terrain is drawn."""
         crs = f"Coordinates: {self.terrain.crs}." if self.terrain.crs else "No coordinate reference system is known."
+        return f"{crs} Terrain: light from the north-west and above{self.drawn()}."
+
+    def drawn(self) -> str:
+        """Say what exaggeration and contour lines the terrain is drawn with."""
+        heights = "" if self.exaggeration == 1.0 else f", on heights ×{self.exaggeration:g}"
         levels = contour_levels(self.terrain.values, _MOST_CONTOURS)
-        lines = f", contour lines every {levels[1] - levels[0]:g} m" if len(levels) > 1 else ""
-        heights = "" if self.exaggeration == 1.0 else f", heights ×{self.exaggeration:g}"
-        return f"{crs} Terrain: light from the north-west and above{heights}{lines}."
+        return heights + (f", contour lines every {levels[1] - levels[0]:g} m" if len(levels) > 1 else "")
 
 
 def make_scene(terrain: Map, box: Box, aspects: tuple[float, float] = ASPECTS) -> Scene:
