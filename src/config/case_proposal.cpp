@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "config/rule.hpp"
 
@@ -16,11 +17,12 @@ constexpr double particles_across = 6.0;
 constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
 constexpr double snapshots = 40.0;                          // about as many
-constexpr int margin_cells = 4;                             // between the release and the sides of the domain
+constexpr double block_cells = 4.0;  // the domain is a multiple of, so that the cell may be doubled twice
+constexpr int margin_cells = 4;      // between the release and the sides of the domain
 
 // The release in numbers.
 struct ReleaseExtent {
-  double volume = 0.0, weighted_thickness = 0.0;  // [m3], [m]
+  double volume = 0.0, thickness = 0.0;  // [m3], [m]: half of the volume is where the release is thinner
   double west = HUGE_VAL, east = -HUGE_VAL, south = HUGE_VAL, north = -HUGE_VAL;
   double top = -HUGE_VAL, top_x = 0.0, top_y = 0.0;  // highest point of its surface
 };
@@ -34,6 +36,7 @@ double nearest_height(const Raster& dem, double x, double y) {
 
 ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
   ReleaseExtent extent;
+  std::vector<double> thicknesses;
   const double area = thickness.cell_x * thickness.cell_y;
   for (int row = 0; row < thickness.rows; ++row) {
     for (int column = 0; column < thickness.columns; ++column) {
@@ -43,7 +46,7 @@ ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
       }
       const double x = thickness.x_of(column), y = thickness.y_of(row);
       extent.volume += t * area;
-      extent.weighted_thickness += t * t * area;
+      thicknesses.push_back(t);
       extent.west = std::min(extent.west, x);
       extent.east = std::max(extent.east, x);
       extent.south = std::min(extent.south, y);
@@ -56,12 +59,17 @@ ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
       }
     }
   }
-  extent.weighted_thickness /= extent.volume;
+  std::sort(thicknesses.begin(), thicknesses.end());
+  double below = 0.0;
+  for (const double t : thicknesses) {
+    extent.thickness = t;
+    below += t * area;
+    if (below >= 0.5 * extent.volume) {
+      break;
+    }
+  }
   return extent;
 }
-
-// Number of cells from an origin that covers a length.
-double cells_over(double length, double cell) { return std::ceil(length / cell - 1e-9); }
 
 }  // namespace
 
@@ -78,8 +86,8 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle)
   const ReleaseExtent release = extent_of(dem, thickness);
   Proposal proposal;
   proposal.volume = release.volume;
-  proposal.thickness = release.weighted_thickness;
-  proposal.cell = round_down(release.weighted_thickness * proposal.particles_per_axis / particles_across);
+  proposal.thickness = release.thickness;
+  proposal.cell = round_down(release.thickness * proposal.particles_per_axis / particles_across);
   const double spacing = proposal.cell / proposal.particles_per_axis;
   proposal.particles = release.volume / (spacing * spacing * spacing);
 
@@ -103,17 +111,13 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle)
     }
   }
   const double margin = margin_cells * proposal.cell;
-  const double inner_x = std::ceil(dem.x / proposal.cell) * proposal.cell;  // whole multiples of the cell in the DEM
-  const double inner_y = std::ceil(dem.y / proposal.cell) * proposal.cell;
-  const double outer_x = std::floor(dem.x_end() / proposal.cell) * proposal.cell;
-  const double outer_y = std::floor(dem.y_end() / proposal.cell) * proposal.cell;
-  const auto down = [&](double place) { return std::floor((place - margin) / proposal.cell) * proposal.cell; };
-  const auto up = [&](double place) { return std::ceil((place + margin) / proposal.cell) * proposal.cell; };
-  proposal.min = {std::max(inner_x, down(west)), std::max(inner_y, down(south)), down(lowest)};
-  proposal.max = {std::min(outer_x, up(east)), std::min(outer_y, up(north)), up(release.top)};
-  for (std::size_t a = 0; a < 3; ++a) {  // a whole number of cells, whatever round-off did
-    proposal.max[a] = proposal.min[a] + cells_over(proposal.max[a] - proposal.min[a], proposal.cell) * proposal.cell;
-  }
+  const double block = block_cells * proposal.cell;
+  const auto down = [&](double place) { return std::floor(place / block) * block; };
+  const auto up = [&](double place) { return std::ceil(place / block - 1e-9) * block; };
+  proposal.min = {std::max(up(dem.x), down(west - margin)), std::max(up(dem.y), down(south - margin)),
+                  down(lowest - margin)};
+  proposal.max = {std::min(down(dem.x_end()), up(east + margin)), std::min(down(dem.y_end()), up(north + margin)),
+                  up(release.top + margin)};
   proposal.end = std::clamp(10.0 * std::ceil(farthest / slow / 10.0), shortest_run, longest_run);
   proposal.output_interval = round_down(proposal.end / snapshots);
   return proposal;
@@ -150,7 +154,7 @@ history_interval = {history}
 # The domain: a box about the release and all ground above a line that falls {angle} degrees from its top. Its size costs
 # nothing, as only cells near the slide take memory and time.
 [grid]
-cell = {cell}  # m; two particles a cell and axis make {across:.1f} across the mean thickness of {thickness:.3g} m
+cell = {cell}  # m; two particles a cell and axis make {across:.1f} across a thickness of {thickness:.3g} m
 min = {min}
 max = {max}
 leaving = "stop"  # what reaches the edge of the domain or of the DEM ends the run; "remove" counts and removes it

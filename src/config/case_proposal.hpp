@@ -24,7 +24,7 @@ struct Proposal {
   Point min{}, max{};            // of the domain [m]
   double end = 0.0;              // [s]
   double output_interval = 0.0;  // [s]
-  double thickness = 0.0;        // of the release, its mean weighted by volume [m]
+  double thickness = 0.0;        // [m]: half of the volume is where the release is thinner
   double volume = 0.0;           // [m3]
   double particles = 0.0;        // about as many
 };
@@ -33,7 +33,7 @@ struct Proposal {
 [[nodiscard]] double round_down(double x);
 
 // The domain holds every point of the DEM that lies above a line that falls by the reach angle from the release's
-// highest point, and all of the release. The cell gives at least six particles across the mean thickness. dem: NaN
+// highest point, and all of the release. The cell gives at least six particles across the thickness. dem: NaN
 // where there is no data; thickness: vertical [m], on points of the same places.
 [[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle);
 

@@ -38,7 +38,10 @@ def test_case_runs_shortened(thawslide: Program, tmp_path: Path, case: Path) -> 
     for name, values in columns.items():
         empty = name.startswith(("band_", "basal_", "seismic_"))  # no band, no contact, no force before the first step
         assert empty or np.isfinite(values).all(), name
-    assert last["mass_residual_kg"] == 0.0
+    # Particles of a release differ in mass, and so do sums in another order, by round-off.
+    assert abs(last["mass_residual_kg"]) <= (
+        1e-13 * last["mass_kg"] if (run / "maps" / "release.tif").is_file() else 0.0
+    )
     up = "z" if "gravity_impulse_z_N_s" in last else "y"
     impulse = abs(last[f"gravity_impulse_{up}_N_s"])
     assert impulse > 0.0 or case.parent.name == "freezing-bar"
