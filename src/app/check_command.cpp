@@ -19,6 +19,8 @@
 #include "base/parallel.hpp"
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
+#include "io/snapshot.hpp"
+#include "sim/release_body.hpp"
 
 namespace thawslide::app {
 
@@ -64,6 +66,34 @@ double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
   return elapsed / steps;
 }
 
+// What each release comes to.
+void print_releases(const config::Site& site) {
+  for (const auto& [name, release] : site.releases) {
+    const double volume = sim::raster_volume(release.thickness);
+    double covered = 0.0, thickest = 0.0;
+    for (const double thickness : release.thickness.values) {
+      covered += thickness > 0.0 ? 1.0 : 0.0;
+      thickest = std::max(thickest, std::isnan(thickness) ? 0.0 : thickness);
+    }
+    covered *= release.thickness.cell_x * release.thickness.cell_y;
+    const double area = release.area > 0.0 ? release.area : covered;  // a raster of thickness has no outline
+    fmt::print(
+        "  release     {}: {:.4g} m3 over {:.4g} m2, {:.3g} m thick in the mean and {:.3g} m at most (vertical)\n",
+        name, volume, area, volume / area, thickest);
+  }
+}
+
+// Bytes of the snapshots; the other files are small beside them.
+template <int Dim>
+void print_disk(const sim::Simulation<Dim, double>& simulation) {
+  const config::Time& time = simulation.parameters().time;
+  const double count = std::ceil(time.end / time.output_interval * (1.0 - 1e-12)) + 1.0;
+  const auto bytes = static_cast<double>(
+      io::snapshot_bytes(io::take_snapshot<Dim, double>(simulation.particles(), simulation.model().origin, 0.0, 0))
+          .size());
+  fmt::print("  disk        about {:.0f} MB: {:.0f} snapshots of {:.1f} MB\n", count * bytes / 1e6, count, bytes / 1e6);
+}
+
 double peak_memory_megabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -86,6 +116,7 @@ int check_case(const CheckOptions& options) {
       cells *= (parameters.grid.max[a] - parameters.grid.min[a]) / parameters.grid.cell;
     }
     fmt::print("{}: the case is sound\n", parameters.file);
+    print_releases(simulation.site());
     fmt::print("  particles   {}\n", simulation.particles().size());
     fmt::print("  cells       {:.0f} in the domain; blocks of {} nodes held: {}\n", cells, mpm::Tile<Dim>::nodes,
                simulation.grid().blocks().size());
@@ -95,6 +126,7 @@ int check_case(const CheckOptions& options) {
     fmt::print("  steps       {:.0f}\n", steps);
     const double seconds = measured_step_seconds<Dim>(simulation);
     fmt::print("  memory      {:.0f} MB\n", peak_memory_megabytes());
+    print_disk(simulation);
     fmt::print("  time        about {} on {} thread{} (measured on the first steps)\n", duration_text(seconds * steps),
                thread_count(), thread_count() == 1 ? "" : "s");
     if (!options.picture.empty()) {

@@ -1,10 +1,10 @@
 // The ground as nodes see it: heights, distances, normals, and the shares of its surface and of the space above it.
-#include "terrain/profile_surface.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "terrain/profile_surface.hpp"
 
 namespace thawslide::terrain {
 namespace {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "base/raster.hpp"
+#include "terrain/height_field.hpp"
 #include "terrain/profile_surface.hpp"
 
 namespace thawslide::terrain {
@@ -53,6 +55,29 @@ TEST(LayerThickness, IsTheSameAllAlongASlopeThatRepeatsWithTheGrid) {
     EXPECT_NEAR(layer.at(Layer::Place(x)), vertical / std::sqrt(2.0), 1e-9);
   }
   EXPECT_NEAR(layer.largest(Layer::Place(0.0), Layer::Place(500.0)), vertical / std::sqrt(2.0), 1e-9);
+}
+
+// A terrain model of the same plane has the same layer, along either axis.
+TEST(LayerThickness, OfATerrainModelIsThatOfTheProfile) {
+  constexpr double gradient = 0.6, cell = 10.0, spacing = 5.0;
+  Layer along(plane(gradient, 3.0), cell, spacing, Layer::Filling::on_ground);
+  for (const int axis : {0, 1}) {
+    Raster points;
+    points.x = points.y = -200.0;
+    points.cell_x = points.cell_y = 10.0;
+    points.columns = points.rows = 101;
+    for (int row = 0; row < points.rows; ++row) {
+      for (int column = 0; column < points.columns; ++column) {
+        points.values.push_back(3.0 + gradient * (axis == 0 ? points.x_of(column) : points.y_of(row)));
+      }
+    }
+    LayerThickness<3> layer(std::make_shared<HeightField>(points), cell, spacing,
+                            LayerThickness<3>::Filling::on_ground);
+    for (const double place : {123.0, 301.7, 477.0}) {
+      const Vector<double, 2> there = axis == 0 ? Vector<double, 2>(place, 250.0) : Vector<double, 2>(250.0, place);
+      EXPECT_NEAR(layer.at(there), at(along, place), 1e-9) << axis;
+    }
+  }
 }
 
 }  // namespace
