@@ -32,10 +32,9 @@ void check_unit(const config::Case& parameters, const RasterFile& file) {
   std::string unit = file.unit();
   std::transform(unit.begin(), unit.end(), unit.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  for (const char* word : {"ft", "foot", "feet"}) {
-    if (unit.find(word) != std::string::npos) {
-      fail_at(parameters, "terrain.file", feet_message(file.file(), file.unit()));
-    }
+  const bool spelled = unit.find("foot") != std::string::npos || unit.find("feet") != std::string::npos;
+  if (spelled || unit == "ft" || unit == "us-ft" || unit == "ftus") {
+    fail_at(parameters, "terrain.file", feet_message(file.file(), file.unit()));
   }
 }
 

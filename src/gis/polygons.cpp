@@ -29,14 +29,22 @@ double area_of(const Polygons& polygons) {
   return area;
 }
 
+Rectangle extent_of(const Polyline2& line) {
+  THAWSLIDE_ASSERT(!line.empty(), "a line without corners");
+  Rectangle extent{line[0][0], line[0][1], line[0][0], line[0][1]};
+  for (const auto& corner : line) {
+    extent.take_in(corner[0], corner[1]);
+  }
+  return extent;
+}
+
 Rectangle extent_of(const Polygons& polygons) {
-  THAWSLIDE_ASSERT(!polygons.empty() && !polygons.front().outline.empty(), "{} polygons", polygons.size());
-  const auto& [x, y] = polygons.front().outline.front();
-  Rectangle extent{x, y, x, y};
+  THAWSLIDE_ASSERT(!polygons.empty(), "no polygons");
+  Rectangle extent = extent_of(polygons.front().outline);
   for (const Polygon& polygon : polygons) {
-    for (const auto& corner : polygon.outline) {
-      extent.take_in(corner[0], corner[1]);
-    }
+    const Rectangle one = extent_of(polygon.outline);
+    extent.take_in(one.min_x, one.min_y);
+    extent.take_in(one.max_x, one.max_y);
   }
   return extent;
 }

@@ -24,6 +24,7 @@ using Polygons = std::vector<Polygon>;
 // Outlines less holes [m2].
 [[nodiscard]] double area_of(const Polygons& polygons);
 [[nodiscard]] Rectangle extent_of(const Polygons& polygons);
+[[nodiscard]] Rectangle extent_of(const Polyline2& line);
 
 // Counts what several cover once (GEOS).
 [[nodiscard]] Polygons union_of(const Polygons& polygons);

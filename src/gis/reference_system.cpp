@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "gis/gdal_messages.hpp"
+#include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
 #include "gis/told_at.hpp"
 
@@ -41,17 +42,6 @@ std::string wkt_from_reference(const OGRSpatialReference* reference) {
 }
 
 namespace {
-
-void require_projection_database() {
-  const GdalMessages messages;
-  OGRSpatialReference known;
-  if (known.importFromEPSG(4326) != OGRERR_NONE) {
-    throw UserError(
-        fmt::format("PROJ's database of coordinate reference systems, proj.db, cannot be used{}. Install it (Debian: "
-                    "apt-get install proj-data), or let PROJ_LIB name the folder that holds it.",
-                    messages.remark()));
-  }
-}
 
 std::string quoted_path(const std::filesystem::path& path) {
   const std::string text = path.string();
@@ -151,6 +141,17 @@ bool is_sound_number(const std::string& text) {
 
 }  // namespace
 
+void require_projection_database() {
+  const GdalMessages messages;
+  OGRSpatialReference known;
+  if (known.importFromEPSG(4326) != OGRERR_NONE) {
+    throw UserError(
+        fmt::format("PROJ's database of coordinate reference systems, proj.db, cannot be used{}. Install it (Debian: "
+                    "apt-get install proj-data), or let PROJ_LIB name the folder that holds it.",
+                    messages.remark()));
+  }
+}
+
 std::string reference_system_named(const std::string& text) {
   const GdalMessages messages;
   OGRSpatialReference reference;
@@ -230,67 +231,6 @@ std::string feet_message(const std::string& file, const std::string& unit) {
       "{}: the elevations are in the unit '{}'; allowed: metres. Convert them, from feet: gdal_translate -ot "
       "Float64 -a_srs EPSG:... -scale 0 1 0 0.3048 {} metres.tif",
       file, unit, file);
-}
-
-std::string without_system_note(const std::string& file, const std::string& ground) {
-  return fmt::format("{} names no coordinate reference system: taken to be in the ground's, {}", file, name_of(ground));
-}
-
-std::string false_degrees_note(const std::string& file, const std::string& told, const std::string& ground, double x,
-                               double y) {
-  return fmt::format(
-      "{} says that its coordinates are degrees ({}), which {:.10g}, {:.10g} cannot be: taken to be in "
-      "the ground's system, {}",
-      file, name_of(told), x, y, name_of(ground));
-}
-
-std::string reprojection_note(const std::string& file, const std::string& told, const std::string& ground) {
-  return fmt::format("{} was taken from {} to {}", file, name_of(told), name_of(ground));
-}
-
-struct Reprojection::Way {
-  std::unique_ptr<OGRCoordinateTransformation> transformation;
-};
-
-Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wkt) {
-  if (from_wkt.empty() || to_wkt.empty() || from_wkt == to_wkt) {
-    return;
-  }
-  const GdalMessages messages;
-  const OGRSpatialReference from = reference_from_wkt(from_wkt);
-  const OGRSpatialReference to = reference_from_wkt(to_wkt);
-  const char* const options[] = {"CRITERION=EQUIVALENT", nullptr};
-  if (from.IsSame(&to, options) != 0) {
-    return;
-  }
-  way_ = std::make_unique<Way>();
-  way_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
-  if (way_->transformation == nullptr) {
-    require_projection_database();
-    throw UserError(
-        fmt::format("no way is known from the coordinate reference system {} to {}{}. Reproject the file "
-                    "to the latter.",
-                    name_of(from_wkt), name_of(to_wkt), messages.remark()));
-  }
-}
-
-Reprojection::~Reprojection() = default;
-Reprojection::Reprojection(Reprojection&&) noexcept = default;
-Reprojection& Reprojection::operator=(Reprojection&&) noexcept = default;
-
-bool Reprojection::apply(std::vector<double>& x, std::vector<double>& y) const {
-  if (way_ == nullptr) {
-    return true;
-  }
-  const GdalMessages messages;
-  std::vector<int> success(x.size(), 0);
-  way_->transformation->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, success.data());
-  for (const int one : success) {
-    if (one == 0) {
-      return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace thawslide::gis

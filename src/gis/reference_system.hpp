@@ -2,10 +2,7 @@
 // from one to another. All are texts in WKT here.
 #pragma once
 
-#include <array>
-#include <memory>
 #include <string>
-#include <vector>
 
 #include "gis/rectangle.hpp"
 
@@ -17,6 +14,9 @@ struct Located {
   Rectangle extent;                   // of its coordinates, in the file's numbers
   double cell_x = 0.0, cell_y = 0.0;  // of a raster, in the file's numbers
 };
+
+// Throws UserError where PROJ does not find its database.
+void require_projection_database();
 
 // The WKT of a system the user names, such as "EPSG:31254" or a WKT. Throws UserError where it is not known.
 [[nodiscard]] std::string reference_system_named(const std::string& text);
@@ -37,30 +37,5 @@ struct Located {
 
 // What the user is told of elevations in feet.
 [[nodiscard]] std::string feet_message(const std::string& file, const std::string& unit);
-
-// What the user is told of a file that names no system, one that its numbers cannot be in, or another than the
-// ground's.
-[[nodiscard]] std::string without_system_note(const std::string& file, const std::string& ground);
-[[nodiscard]] std::string false_degrees_note(const std::string& file, const std::string& told,
-                                             const std::string& ground, double x, double y);
-[[nodiscard]] std::string reprojection_note(const std::string& file, const std::string& told,
-                                            const std::string& ground);
-
-// Takes coordinates from one system to another; from and to an empty one, or the same, they stay what they are.
-class Reprojection {
- public:
-  Reprojection(const std::string& from_wkt, const std::string& to_wkt);
-  ~Reprojection();
-  Reprojection(Reprojection&&) noexcept;
-  Reprojection& operator=(Reprojection&&) noexcept;
-
-  [[nodiscard]] bool changes_nothing() const { return way_ == nullptr; }
-  // x, y in place. Returns false where a point has no coordinates in the other system.
-  [[nodiscard]] bool apply(std::vector<double>& x, std::vector<double>& y) const;
-
- private:
-  struct Way;
-  std::unique_ptr<Way> way_;
-};
 
 }  // namespace thawslide::gis

@@ -38,8 +38,7 @@ Raster cropped(const Raster& thickness, const Raster& ground) {
 }
 
 void check_volume(const config::Case& parameters, const std::string& name, const Raster& thickness) {
-  const double volume =
-      std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0) * thickness.cell_x * thickness.cell_y;
+  const double volume = volume_of(thickness);
   const double most = *std::max_element(thickness.values.begin(), thickness.values.end());
   if (!(volume > 0.0)) {
     fail_at(parameters, key_of(name, "thickness"),

@@ -5,6 +5,7 @@
 #include "gis/coverage.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/reference_system.hpp"
+#include "gis/reprojection.hpp"
 #include "gis/sampling.hpp"
 #include "gis/taper.hpp"
 #include "gis/told_at.hpp"

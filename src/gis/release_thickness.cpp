@@ -18,10 +18,6 @@ namespace {
 
 using config::MapValue;
 
-double volume_of(const Raster& thickness) {
-  return std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0) * thickness.cell_x * thickness.cell_y;
-}
-
 class ThicknessMaker {
  public:
   ThicknessMaker(const config::Case& parameters, const std::string& body, const ReleaseArea& area, const Raster& ground,
@@ -236,6 +232,10 @@ class ThicknessMaker {
 };
 
 }  // namespace
+
+double volume_of(const Raster& thickness) {
+  return std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0) * thickness.cell_x * thickness.cell_y;
+}
 
 Raster vertical_thickness_of(const config::Case& parameters, const std::string& body, const ReleaseArea& area,
                              const Raster& ground, std::vector<std::string>& notes) {

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "gis/reference_system.hpp"
+#include "gis/reprojection.hpp"
 
 namespace thawslide::gis {
 

@@ -5,6 +5,7 @@
 
 #include "gis/dem.hpp"
 #include "gis/point_window.hpp"
+#include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/release.hpp"
 #include "gis/told_at.hpp"
@@ -32,10 +33,7 @@ config::Polyline2 load_line(const config::Case& parameters, const std::string& k
     if (line.size() < 2) {
       throw UserError(fmt::format("{}: the line has {} corner; needed: at least 2.", file, line.size()));
     }
-    Rectangle extent{line[0][0], line[0][1], line[0][0], line[0][1]};
-    for (const auto& corner : line) {
-      extent.take_in(corner[0], corner[1]);
-    }
+    const Rectangle extent = extent_of(line);
     const Rectangle domain = domain_of(parameters);
     if (!extent.touches(domain)) {
       throw UserError(

@@ -13,7 +13,7 @@
 #include "gis/gdal_messages.hpp"
 #include "gis/geometry.hpp"
 #include "gis/polygon_checks.hpp"
-#include "gis/reference_system.hpp"
+#include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
 
 namespace thawslide::gis {
@@ -135,26 +135,15 @@ class LayerReader {
 
  private:
   void choose_reprojection(const std::string& crs) {
-    const std::string own = wkt_from_reference(layer_->GetSpatialRef());
-    const std::string name = std::filesystem::path(result_.file).filename().string();
-    if (crs.empty()) {
-      return;
-    }
-    if (own.empty()) {
-      result_.notes.push_back(without_system_note(name, crs));
-      return;
-    }
     OGREnvelope envelope;
     const bool has_extent = layer_->GetExtent(&envelope) == OGRERR_NONE;
-    if (has_extent && is_geographic(own) &&
-        !can_be_degrees({envelope.MinX, envelope.MinY, envelope.MaxX, envelope.MaxY})) {
-      result_.notes.push_back(false_degrees_note(name, own, crs, envelope.MinX, envelope.MinY));
-      return;
+    const Rectangle extent =
+        has_extent ? Rectangle{envelope.MinX, envelope.MinY, envelope.MaxX, envelope.MaxY} : Rectangle{};
+    const LikelySystem system = likely_system(result_.file, wkt_from_reference(layer_->GetSpatialRef()), extent, crs);
+    if (!system.note.empty()) {
+      result_.notes.push_back(system.note);
     }
-    reprojection_ = Reprojection(own, crs);
-    if (!reprojection_.changes_nothing()) {
-      result_.notes.push_back(reprojection_note(name, own, crs));
-    }
+    reprojection_ = Reprojection(system.wkt, crs);
   }
 
   void take(const OGRFeature& source) {

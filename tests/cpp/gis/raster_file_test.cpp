@@ -89,6 +89,21 @@ TEST(RasterFileTest, NodataOfFloatsAndWhatIsNotFiniteIsMissing) {
   EXPECT_EQ(read.at(3, 2), 7.5);
 }
 
+TEST(RasterFileTest, StoredNumbersAreScaled) {
+  ForeignRaster what;
+  what.type = GDT_Int16;
+  what.nodata = 2.0;
+  const std::string file = foreign("dem.tif", what);
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+  dataset->GetRasterBand(1)->SetScale(0.5);
+  dataset->GetRasterBand(1)->SetOffset(1000.0);
+  dataset.reset();
+  const Raster read = RasterFile(file).read();
+  EXPECT_EQ(read.at(0, 2), 1000.5);
+  EXPECT_TRUE(std::isnan(read.at(1, 2)));
+  EXPECT_EQ(read.at(2, 2), 1001.5);
+}
+
 TEST(RasterFileTest, WindowIsPartOfTheWhole) {
   const Raster raster = raster_of([](double x, double y) { return x + 1000.0 * y; }, 10.0, 20.0, 5.0, 40, 30);
   const RasterFile file(geotiff("dem.tif", raster));

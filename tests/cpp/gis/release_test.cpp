@@ -49,6 +49,33 @@ TEST(ReleaseTest, PolygonsAreChosenByName) {
   EXPECT_NEAR(release_of(parameters).area, 4000.0, 1e-6);
 }
 
+TEST(ReleaseTest, VolumeIsExactOnCellsOfAnyShapeInIntegersFromSouthToNorth) {
+  ForeignRaster dem;
+  dem.type = GDT_Int16;
+  dem.columns = 201;
+  dem.rows = 120;
+  dem.transform = {west, 4.9977, 0.0, south, 0.0, 7.25};
+  for (int k = 0; k < dem.columns * dem.rows; ++k) {
+    dem.values.push_back(2000.0 + k / dem.columns);
+  }
+  config::Case parameters = case_with_release(
+      {{"",
+        polygon_json({{west + 301.3, south + 302.7}, {west + 457.9, south + 318.2}, {west + 322.2, south + 420.8}})}},
+      3.25);
+  parameters.terrain.file = foreign("dem.tif", dem);
+  const config::Site site = load_site(parameters).site;
+  const config::Release& release = site.releases.at("rock");
+  EXPECT_EQ(release.thickness.cell_x, 4.9977);
+  EXPECT_EQ(release.thickness.cell_y, 7.25);
+  EXPECT_NEAR(volume_of(release.thickness), 3.25 * release.area, 1e-9 * 3.25 * release.area);
+  // The points of the thickness are points of the ground, which rises by 1 m a row to the north.
+  const double column = (release.thickness.x - site.ground->x) / 4.9977,
+               row = (release.thickness.y - site.ground->y) / 7.25;
+  EXPECT_NEAR(column, std::round(column), 1e-6);
+  EXPECT_NEAR(row, std::round(row), 1e-6);
+  EXPECT_EQ(site.ground->at(3, 4) - site.ground->at(3, 3), 1.0);
+}
+
 TEST(ReleaseTest, BodiesOfOneFileSayItOnce) {
   config::Case parameters = plain_case(ground());
   const std::string file =

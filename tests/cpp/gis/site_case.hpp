@@ -2,8 +2,7 @@
 // bodies on it. Built by hand, without a case file.
 #pragma once
 
-#include <numeric>
-
+#include "gis/release_thickness.hpp"
 #include "gis/site.hpp"
 #include "map_files.hpp"
 
@@ -49,10 +48,6 @@ inline config::Case case_with_release(const std::vector<JsonFeature>& features, 
   config::Case made = plain_case(ground());
   made.bodies["rock"] = release_body(geojson("release.geojson", features), thickness);
   return made;
-}
-
-inline double volume_of(const Raster& thickness) {
-  return std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0) * thickness.cell_x * thickness.cell_y;
 }
 
 // The thickness at a place in metres from the first point of the ground; 0 beyond the raster.

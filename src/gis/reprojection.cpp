@@ -1,0 +1,79 @@
+#include "gis/reprojection.hpp"
+
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "gis/gdal_messages.hpp"
+#include "gis/reference_system.hpp"
+#include "gis/spatial_reference.hpp"
+
+namespace thawslide::gis {
+
+struct Reprojection::Way {
+  std::unique_ptr<OGRCoordinateTransformation> transformation;
+};
+
+Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wkt) {
+  if (from_wkt.empty() || to_wkt.empty() || from_wkt == to_wkt) {
+    return;
+  }
+  const GdalMessages messages;
+  const OGRSpatialReference from = reference_from_wkt(from_wkt);
+  const OGRSpatialReference to = reference_from_wkt(to_wkt);
+  const char* const options[] = {"CRITERION=EQUIVALENT", nullptr};
+  if (from.IsSame(&to, options) != 0) {
+    return;
+  }
+  way_ = std::make_unique<Way>();
+  way_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
+  if (way_->transformation == nullptr) {
+    require_projection_database();
+    throw UserError(
+        fmt::format("no way is known from the coordinate reference system {} to {}{}. Reproject the file "
+                    "to the latter.",
+                    name_of(from_wkt), name_of(to_wkt), messages.remark()));
+  }
+}
+
+Reprojection::~Reprojection() = default;
+Reprojection::Reprojection(Reprojection&&) noexcept = default;
+Reprojection& Reprojection::operator=(Reprojection&&) noexcept = default;
+
+bool Reprojection::apply(std::vector<double>& x, std::vector<double>& y) const {
+  if (way_ == nullptr) {
+    return true;
+  }
+  const GdalMessages messages;
+  std::vector<int> success(x.size(), 0);
+  way_->transformation->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, success.data());
+  for (const int one : success) {
+    if (one == 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+LikelySystem likely_system(const std::string& file, const std::string& told, const Rectangle& extent,
+                           const std::string& ground) {
+  const std::string name = std::filesystem::path(file).filename().string();
+  if (ground.empty()) {
+    return {told, ""};
+  }
+  if (told.empty()) {
+    return {ground, fmt::format("{} names no coordinate reference system: taken to be in the ground's, {}", name,
+                                name_of(ground))};
+  }
+  if (is_geographic(told) && !can_be_degrees(extent)) {
+    return {ground,
+            fmt::format("{} says that its coordinates are degrees ({}), which {:.10g}, {:.10g} cannot be: taken "
+                        "to be in the ground's system, {}",
+                        name, name_of(told), extent.min_x, extent.min_y, name_of(ground))};
+  }
+  if (Reprojection(told, ground).changes_nothing()) {
+    return {ground, ""};
+  }
+  return {told, fmt::format("{} was taken from {} to {}", name, name_of(told), name_of(ground))};
+}
+
+}  // namespace thawslide::gis
