@@ -9,7 +9,8 @@ from grounds import Ground
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from results import AFFECTED, Numbered, Outcome, PointMass, numbers, point_mass
-from thawslide.figures.map_panel import MapPage, box_about, covered_box, make_scene, outline, paint, scale_bar
+from thawslide.figures.map_page import MapPage
+from thawslide.figures.map_panel import box_about, covered_box, make_scene, outline, paint, scale_bar
 from thawslide.maps import Map
 
 FOLDER = Path(__file__).resolve().parent
@@ -71,9 +72,10 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
 def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], folder: Path) -> None:
     """Draw two pictures, largest thickness and largest speed, the programs beside each other over the terrain."""
     places = [covered_box(outcome.thickness, AFFECTED) for outcome in outcomes]
-    scene = make_scene(terrain, box_about([place for place in places if place is not None]), aspects=(0.45, 1.6))
+    scene = make_scene(terrain, box_about([place for place in places if place is not None]))
+    note = f"Reached: at least {AFFECTED} m thick. Blue: the release. {scene.note()}"
     for field, words, colours in FIELDS:
-        page = MapPage(f"{ground.title}: {words}", scene, len(outcomes), foot=0.35, bar=0.55)
+        page = MapPage(f"{ground.title}: {words}", scene, len(outcomes), note=note, foot=0.0, bar=0.55)
         shown = [np.where(each.thickness.values >= AFFECTED, getattr(each, field).values, np.nan) for each in outcomes]
         most = max(float(np.nanquantile(values, 0.998)) for values in shown)
         painter = ScalarMappable(Normalize(0.0, most), colours)
@@ -82,10 +84,9 @@ def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: lis
             paint(axes, Map(terrain.grid, values), painter)
             outline(axes, outcome.thickness, AFFECTED, colors="#222222", linewidths=0.6)
             axes.plot(*zip(*corners, strict=True), color="#0072B2", linewidth=1.0, zorder=6)
-            axes.set_title(outcome.program, loc="left", size=9)
+            page.name(axes, number, outcome.program)
             page.figure.colorbar(painter, cax=page.panel_bar(axes), extend="max")
             scale_bar(axes, "lower left")
-        page.note(f"Reached: at least {AFFECTED} m thick. Blue: the release. {scene.note()}")
         page.figure.savefig(folder / f"{ground.name}-{field}.png", dpi=100)
 
 
