@@ -1,0 +1,197 @@
+// A small block on curved terrain models: a bowl, and a channel along a helix.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/point_on_surface.hpp"
+#include "../support/record.hpp"
+#include "../support/slide_on_dem.hpp"
+#include "base/portability.hpp"
+#include "physics/exact/rigid_slide.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+constexpr double degree = pi<double> / 180.0;
+constexpr double gravity = 9.81;
+
+const std::string block = R"(
+[case]
+dimension = 3
+[time]
+end = 100.0
+step = 0.0018
+[grid]
+cell = 2.5
+min = [-350.0, -350.0, -250.0]
+max = [350.0, 350.0, 450.0]
+[terrain]
+type = "dem"
+file = "dem.tif"
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+viscosity_time = 0.01
+)" + release_table + R"(
+material = "rock"
+[mechanics]
+slope_shear = true
+[basal]
+friction = "constant"
+friction_angle = 10.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+// 10 m square in the map about a place, and 5 m high.
+Raster small_block(const Place& centre) {
+  const Place half = Place::Constant(5.0);
+  return thickness_between(centre - half, centre + half, 1.25 / 16.0, [](double, double) { return 5.0; });
+}
+
+// The other reference against the closed form of the next test.
+TEST(PointOnSurface, SwingsInTheBowl) {
+  constexpr double radius = 100.0, friction = 0.2;
+  const auto bowl = [](double x, double y) { return radius - std::sqrt(radius * radius - x * x - y * y); };
+  const double start = 50.0 * degree;
+  PointOnSurface point(bowl, Place(radius * std::sin(start), 0.0), friction, gravity);
+  const physics::exact::ArcSlide exact{radius, radius, radius * radius, friction, gravity};
+  while (point.place()[0] > 0.0) {
+    point.step(0.01);
+    const double angle = std::asin(point.place()[0] / radius);
+    EXPECT_NEAR(point.velocity().norm(), radius * exact.angular_speed(angle, start), 1e-5);
+    EXPECT_EQ(point.place()[1], 0.0);
+  }
+}
+
+// A point on a circle of radius r, phi from the lowest point, v = -r dphi/dt > 0 on its way down, is pressed to it with
+// N = m (g cos phi + v^2/r), and m dv/dt = m g sin phi - mu N, so that
+//   d(v^2)/dphi = -2 r g sin phi + 2 mu (r g cos phi + v^2)
+// This is linear in v^2: with v = 0 at phi_0,
+//   v^2 = A sin phi + B cos phi - (A sin phi_0 + B cos phi_0) exp(2 mu (phi - phi_0)),
+//   A = 6 mu r g/(1 + 4 mu^2),  B = 2 r g (1 - 2 mu^2)/(1 + 4 mu^2)
+// The block has an extent: it is compared with a point as far from the centre of the sphere as its centre of mass is.
+double speed_on_circle(double radius, double friction, double phi, double start) {
+  const double denominator = 1.0 + 4.0 * friction * friction;
+  const double sine = 6.0 * friction * radius * gravity / denominator;
+  const double cosine = 2.0 * radius * gravity * (1.0 - 2.0 * friction * friction) / denominator;
+  const double rest = (sine * std::sin(start) + cosine * std::cos(start)) * std::exp(2.0 * friction * (phi - start));
+  return std::sqrt(std::max(0.0, sine * std::sin(phi) + cosine * std::cos(phi) - rest));
+}
+
+TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
+  constexpr double radius = 200.0, start = 40.0 * degree, azimuth = 205.0 * degree;
+  Record record("A small block in a bowl",
+                "A block, 10 m square and 5 m high, slides from rest at 40 degrees down a spherical bowl of 200 m "
+                "radius given as a terrain model with points each 2.5 m, friction angle 10 degrees.",
+                "d(v^2)/dphi = -2 r g sin phi + 2 mu (r g cos phi + v^2), r that of the block's centre of mass",
+                "point on a circle with Coulomb friction");
+  const Raster ground = raster_between(Place(-190.0, -190.0), Place(190.0, 190.0), 2.5, [](double x, double y) {
+    const double squared = radius * radius - x * x - y * y;
+    return radius - std::sqrt(std::max(squared, 0.01 * radius * radius));
+  });
+  const Place along(std::cos(azimuth), std::sin(azimuth));
+  sim::Simulation<3, double> simulation(case_on_dem(block),
+                                        site_of(ground, small_block(radius * std::sin(start) * along)));
+  const auto from_centre = [&](const CentreOfMass& body) {
+    return Position(body.position - Position(0.0, 0.0, radius));
+  };
+  const auto angle = [&](const CentreOfMass& body) {
+    const Position arm = from_centre(body);
+    return std::atan2(along.dot(arm.head<2>()), -arm[2]);
+  };
+  CentreOfMass now(simulation);
+  const double first = angle(now);
+  Curve curve{"angle [degrees]", "speed [m/s]", {}, {}, {}};
+  double largest_aside = 0.0;
+  while (angle(now) > 0.0 && simulation.time() < 30.0) {
+    for (int k = 0; k < 25; ++k) {
+      simulation.step(simulation.next_step(30.0));
+    }
+    now = CentreOfMass(simulation);
+    curve.x.push_back(angle(now) / degree);
+    curve.computed.push_back(now.velocity.norm());
+    curve.exact.push_back(speed_on_circle(from_centre(now).norm(), std::tan(10.0 * degree), angle(now), first));
+    largest_aside = std::max(largest_aside, std::abs(along[0] * now.position[1] - along[1] * now.position[0]));
+  }
+  record.expect_near("speed at the lowest point over exact", curve.computed.back() / curve.exact.back(), 1.0, 0.02);
+  record.expect_near("way aside [m]", largest_aside, 0.0, 0.25);
+  record.draw(curve);
+}
+
+// Circles of radius `section` about a helix that falls by `pitch` a turn from x > 0 on; where they are steep, planes.
+struct Helix {
+  double radius = 150.0, pitch = 160.0, section = 60.0;  // m
+
+  // Of the ground, or of the surface `above` it.
+  [[nodiscard]] double height(double x, double y, double above = 0.0) const {
+    const double r = section - above, steep = 0.9 * r;
+    const double across = std::abs(std::hypot(x, y) - radius);
+    const double wall = across < steep ? -std::sqrt(r * r - across * across)
+                                       : -std::sqrt(r * r - steep * steep) +
+                                             (across - steep) * steep / std::sqrt(r * r - steep * steep);
+    return section + wall - pitch * turns(x, y);
+  }
+  [[nodiscard]] static double turns(double x, double y) {
+    const double angle = std::atan2(y, x) / (2.0 * pi<double>);
+    return angle < 0.0 ? angle + 1.0 : angle;
+  }
+  // Of a position from the line of the circles' centres.
+  [[nodiscard]] double off_centres(const Position& position) const {
+    return std::hypot(std::hypot(position[0], position[1]) - radius,
+                      position[2] - section + pitch * turns(position[0], position[1]));
+  }
+};
+
+TEST(HelicalChannel, BlockRunsLikeAPointOnTheSurface) {
+  Record record("A small block in a channel along a helix",
+                "A block, 10 m square and 5 m high, slides down one turn of a channel of circular section (60 m "
+                "radius) along a helix (150 m radius, 160 m pitch), friction angle 6 degrees; points each 2.5 m.",
+                "a = g + N (n - mu v/|v|), N = II(v, v) + g n_z, by Runge-Kutta, on the parallel surface that the "
+                "block's centre of mass starts on",
+                "point on a surface with Coulomb friction");
+  const Helix helix;
+  const Raster ground = raster_between(Place(-230.0, -230.0), Place(230.0, 230.0), 2.5,
+                                       [&](double x, double y) { return helix.height(x, y); });
+  const double start = 15.0 * degree;
+  sim::Simulation<3, double> simulation(
+      case_on_dem(block, {"basal.friction_angle=6.0"}),
+      site_of(ground, small_block(helix.radius * Place(std::cos(start), std::sin(start)))));
+  CentreOfMass now(simulation);
+  const double above = helix.section - helix.off_centres(now.position);
+  PointOnSurface exact([&](double x, double y) { return helix.height(x, y, above); }, now.position.head<2>(),
+                       std::tan(6.0 * degree), gravity);
+  const double first = helix.turns(now.position[0], now.position[1]);
+  const auto way = [&](const Place& place) { return helix.turns(place[0], place[1]) - first; };
+  Curve curve{"time [s]", "turns", {}, {}, {}};
+  double next = 0.25;
+  constexpr double end = 345.0 / 360.0;
+  while (first + way(now.position.head<2>()) < end && simulation.time() < 100.0) {
+    for (int k = 0; k < 25; ++k) {
+      const double dt = simulation.next_step(100.0);
+      simulation.step(dt);
+      exact.step(dt);
+    }
+    now = CentreOfMass(simulation);
+    curve.x.push_back(simulation.time());
+    curve.computed.push_back(way(now.position.head<2>()));
+    curve.exact.push_back(way(exact.place()));
+    if (curve.exact.back() > next) {
+      record.expect_near(fmt::format("place along the channel over exact, after {:.2f} turns", next),
+                         curve.computed.back() / curve.exact.back(), 1.0, 0.02);
+      next += 0.25;
+    }
+  }
+  record.expect_near("place along the channel over exact, at the end", curve.computed.back() / curve.exact.back(), 1.0,
+                     0.02);
+  record.draw(curve);
+}
+
+}  // namespace
+}  // namespace thawslide::verification
