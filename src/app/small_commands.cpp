@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "app/commands.hpp"
+#include "app/map_files.hpp"
 #include "base/error.hpp"
 #include "config/describe.hpp"
 #include "config/read_case.hpp"
@@ -46,8 +47,9 @@ void print_table(const std::vector<sim::HistoryRow>& rows) {
 
 int run_block_model(const BlockOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
+  const config::Site site = read_map_files(parameters);
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<sim::HistoryRow> rows = sim::run_block(parameters);
+  const std::vector<sim::HistoryRow> rows = sim::run_block(parameters, site);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.output.empty()) {
     print_table(rows);

@@ -8,6 +8,8 @@
 #include "physics/contact.hpp"
 #include "sim/block_column.hpp"
 #include "sim/bodies.hpp"
+#include "sim/initial_state.hpp"
+#include "sim/path_section.hpp"
 #include "sim/time_step.hpp"
 
 namespace thawslide::sim {
@@ -168,9 +170,17 @@ class Block {
  private:
   BlockColumn::Initial initial_column() const {
     const config::Body& body = parameters_.bodies.begin()->second;
-    const auto& material = parameters_.materials.at(body.material);
-    return {train_.thickness, parameters_.grid.cell, body.particles_per_axis,        &body.temperature,
-            &body.porosity,   train_.middle_x,       material.hydraulic_conductivity};
+    const auto seed_at = [this](double depth) {
+      return Seed<2>{0, Vector<double, 2>(train_.middle_x, 0.0), depth, 0.0};
+    };
+    return {train_.thickness,
+            parameters_.grid.cell,
+            body.particles_per_axis,
+            [&, seed_at](double depth) { return initial_temperature(model_, body, nullptr, seed_at(depth)); },
+            [&, seed_at](double depth, double saturation) {
+              return initial_porosity(body, nullptr, seed_at(depth), saturation);
+            },
+            parameters_.materials.at(body.material).hydraulic_conductivity};
   }
 
   // xi in force.
@@ -207,20 +217,12 @@ class Block {
 
 }  // namespace
 
-std::vector<HistoryRow> run_block(const config::Case& parameters) {
-  if (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none) {
-    throw UserError(
-        fmt::format("{}: the block model slides a 2D section along a terrain. Give case.dimension = 2 and a "
-                    "terrain.type other than \"none\", or use `thawslide run`.",
-                    parameters.file));
-  }
-  const Model<2, double> model = make_model<2, double>(parameters);
+namespace {
+
+std::vector<HistoryRow> run_section(const config::Case& parameters, const config::Site& site) {
+  const Model<2, double> model = make_model<2, double>(parameters, site);
   mpm::Particles<2, double> particles;
-  fill_bodies(parameters, {}, model, particles);
-  if (parameters.bodies.size() > 1) {
-    throw UserError(fmt::format("{}: the block model slides one body, and the case has {}. Use `thawslide run`.",
-                                parameters.file, parameters.bodies.size()));
-  }
+  fill_bodies(parameters, site, model, particles);
   Block block(parameters, model, particles);
   const StepLimit limit = largest_stable_step(parameters, model, smallest_thickness(parameters), particles);
   double dt = parameters.time.step;
@@ -242,6 +244,27 @@ std::vector<HistoryRow> run_block(const config::Case& parameters) {
     }
   }
   return rows;
+}
+
+}  // namespace
+
+std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site) {
+  const bool on_dem = parameters.terrain.kind == config::TerrainKind::dem;
+  if (!on_dem && (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none)) {
+    throw UserError(
+        fmt::format("{}: the block model slides a 2D section along a terrain. Give case.dimension = 2 and a "
+                    "terrain.type other than \"none\", or a DEM and maps.path, or use `thawslide run`.",
+                    parameters.file));
+  }
+  if (parameters.bodies.size() > 1) {
+    throw UserError(fmt::format("{}: the block model slides one body, and the case has {}. Use `thawslide run`.",
+                                parameters.file, parameters.bodies.size()));
+  }
+  if (!on_dem) {
+    return run_section(parameters, site);
+  }
+  const PathSection section = section_along_path(parameters, site);
+  return run_section(section.parameters, section.site);
 }
 
 }  // namespace thawslide::sim
