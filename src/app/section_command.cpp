@@ -39,7 +39,8 @@ Cut cut_along_line(const config::Site& site, const std::string& line_file) {
   const auto along = [&](const sim::PathLine& line) {
     config::ProfileTable profile;
     profile.distance = sim::stations_along(line, 0.0, line.length(), spacing);
-    profile.terrain = sim::ground_along(line, profile.distance, ground, source);
+    profile.terrain = sim::ground_along(line, profile.distance, ground);
+    sim::require_known(line, profile.distance, profile.terrain, line.length(), ground, source);
     return profile;
   };
   sim::PathLine line(site.path);

@@ -9,7 +9,6 @@
 #include "sim/block_column.hpp"
 #include "sim/bodies.hpp"
 #include "sim/initial_state.hpp"
-#include "sim/path_section.hpp"
 #include "sim/time_step.hpp"
 
 namespace thawslide::sim {
@@ -217,9 +216,21 @@ class Block {
 
 }  // namespace
 
-namespace {
+void require_one_body(const config::Case& parameters) {
+  if (parameters.bodies.size() > 1) {
+    throw UserError(fmt::format("{}: the block model slides one body, and the case has {}. Use `thawslide run`.",
+                                parameters.file, parameters.bodies.size()));
+  }
+}
 
-std::vector<HistoryRow> run_section(const config::Case& parameters, const config::Site& site) {
+std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site) {
+  if (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none) {
+    throw UserError(
+        fmt::format("{}: the block model slides a 2D section along a terrain, or a 3D case on a DEM along maps.path. "
+                    "Give case.dimension = 2 and a terrain.type other than \"none\", or use `thawslide run`.",
+                    parameters.file));
+  }
+  require_one_body(parameters);
   const Model<2, double> model = make_model<2, double>(parameters, site);
   mpm::Particles<2, double> particles;
   fill_bodies(parameters, site, model, particles);
@@ -244,27 +255,6 @@ std::vector<HistoryRow> run_section(const config::Case& parameters, const config
     }
   }
   return rows;
-}
-
-}  // namespace
-
-std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site) {
-  const bool on_dem = parameters.terrain.kind == config::TerrainKind::dem;
-  if (!on_dem && (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none)) {
-    throw UserError(
-        fmt::format("{}: the block model slides a 2D section along a terrain. Give case.dimension = 2 and a "
-                    "terrain.type other than \"none\", or a DEM and maps.path, or use `thawslide run`.",
-                    parameters.file));
-  }
-  if (parameters.bodies.size() > 1) {
-    throw UserError(fmt::format("{}: the block model slides one body, and the case has {}. Use `thawslide run`.",
-                                parameters.file, parameters.bodies.size()));
-  }
-  if (!on_dem) {
-    return run_section(parameters, site);
-  }
-  const PathSection section = section_along_path(parameters, site);
-  return run_section(section.parameters, section.site);
 }
 
 }  // namespace thawslide::sim

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/table.hpp"
+#include "sim/block.hpp"
 #include "sim/path_line.hpp"
 #include "sim/release_body.hpp"
 #include "sim/section.hpp"
@@ -103,6 +104,7 @@ void require_section(const config::Case& parameters, const config::Site& site) {
                     "file with a line from the release down the way it will take.",
                     config::place_of(parameters, "maps")));
   }
+  require_one_body(parameters);
   const auto& [name, body] = *parameters.bodies.begin();
   if (body.shape != config::BodyShape::release) {
     throw UserError(
@@ -120,7 +122,7 @@ void require_section(const config::Case& parameters, const config::Site& site) {
 
 // Stations of the path, and the ends of the release with its full thickness.
 std::vector<double> stations_about(const PathLine& line, const ReleaseOnPath& release, double cell, double spacing) {
-  const double begin = std::min(0.0, std::floor(release.from / cell - margin_cells) * cell);
+  const double begin = std::floor(release.from / cell - margin_cells) * cell;
   const double end = std::max(line.length(), release.to + margin_cells * cell);
   std::vector<double> stations = stations_along(line, begin, end, spacing);
   const double step = step_width * cell;
@@ -160,7 +162,12 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
   PathSection section;
   config::ProfileTable& profile = section.site.profile;
   profile.distance = stations_about(line, on_path, cell, 0.5 * points_apart);
-  profile.terrain = ground_along(line, profile.distance, ground, source);
+  profile.terrain = ground_along(line, profile.distance, ground);
+  require_known(line, profile.distance, profile.terrain, on_path.to + cell, ground, source);
+  const auto known =
+      std::find_if(profile.terrain.begin(), profile.terrain.end(), [](double z) { return std::isnan(z); });
+  profile.terrain.erase(known, profile.terrain.end());
+  profile.distance.resize(profile.terrain.size());
   for (std::size_t k = 0; k < profile.distance.size(); ++k) {
     profile.surface.push_back(profile.terrain[k] + on_path.at(profile.distance[k]));
   }

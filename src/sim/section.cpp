@@ -52,19 +52,24 @@ std::vector<double> stations_along(const PathLine& line, double from, double to,
   return stations;
 }
 
-std::vector<double> ground_along(const PathLine& line, const std::vector<double>& stations, const Raster& ground,
-                                 const std::string& source) {
+std::vector<double> ground_along(const PathLine& line, const std::vector<double>& stations, const Raster& ground) {
   const terrain::HeightField field(ground);
-  std::vector<double> heights;
+  std::vector<double> elevations;
   for (const double along : stations) {
     const Place2 place = line.point_at(along);
     const Vector<double, 2> below(place[0], place[1]);
-    if (!field.is_known(below)) {
-      fail_off_ground(source, ground, along, place);
-    }
-    heights.push_back(field.height(below));
+    elevations.push_back(field.is_known(below) ? field.height(below) : std::nan(""));
   }
-  return heights;
+  return elevations;
+}
+
+void require_known(const PathLine& line, const std::vector<double>& stations, const std::vector<double>& elevations,
+                   double to, const Raster& ground, const std::string& source) {
+  for (std::size_t k = 0; k < stations.size() && stations[k] <= to; ++k) {
+    if (std::isnan(elevations[k])) {
+      fail_off_ground(source, ground, stations[k], line.point_at(stations[k]));
+    }
+  }
 }
 
 std::vector<double> thickness_along(const PathLine& line, const std::vector<double>& stations,

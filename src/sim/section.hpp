@@ -13,10 +13,13 @@ namespace thawslide::sim {
 // apart than `spacing`.
 [[nodiscard]] std::vector<double> stations_along(const PathLine& line, double from, double to, double spacing);
 
-// Elevations [m] of the triangulated ground at the stations. Throws UserError, which begins with `source`, with the
-// first place where the line has left the points or the ground has no data.
+// Elevations [m] of the triangulated ground at the stations; NaN beyond its points, and where it has no data.
 [[nodiscard]] std::vector<double> ground_along(const PathLine& line, const std::vector<double>& stations,
-                                               const Raster& ground, const std::string& source);
+                                               const Raster& ground);
+
+// Throws UserError, which begins with `source`, with the first station up to `to` [m] whose elevation is NaN.
+void require_known(const PathLine& line, const std::vector<double>& stations, const std::vector<double>& elevations,
+                   double to, const Raster& ground, const std::string& source);
 
 // A thickness [m] at the stations, triangulated as the ground is, so that ground and thickness sum to the triangulated
 // sum; 0 beyond its points.
