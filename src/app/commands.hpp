@@ -38,15 +38,27 @@ struct BlockOptions {
 };
 int run_block_model(const BlockOptions& options);
 
-struct NewOptions {
-  std::string folder;
+// Files that a case is made from.
+struct MapOptions {
   std::string dem, release, crs;  // crs: for a DEM whose file does not tell
   double thickness = 0.0;         // m, vertical; 0: the attribute "thickness"
   bool cut = false;               // out of the DEM, not on top of it
-  double reach_angle = 8.0;       // degrees
-  double largest_volume = 0.0;    // m3; 0: the parameter's default
+  double largest_volume = 0.0;    // m3, confirmed; 0: the parameter's default holds
+};
+
+struct NewOptions {
+  std::string folder;
+  MapOptions maps;
+  double reach_angle = 8.0;  // degrees
 };
 int make_new_case(const NewOptions& options);
+
+struct SectionOptions {
+  std::string folder;
+  MapOptions maps;  // release: empty for the profile alone
+  std::string line;
+};
+int make_section(const SectionOptions& options);
 
 struct DescribeOptions {
   bool json = false, markdown = false, schema = false;

@@ -26,6 +26,24 @@ void add_threads_option(CLI::App& command, int& threads) {
       ->check(CLI::Range(1, 1024));
 }
 
+// Returns the option of the release.
+CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
+  command.add_option("--dem", maps.dem, "Terrain model, GeoTIFF or ESRI ASCII, in projected metres")->required();
+  CLI::Option* release = command.add_option("--release", maps.release, "Polygons: Shapefile, GeoPackage or GeoJSON");
+  command
+      .add_option("--thickness", maps.thickness,
+                  "Vertical thickness of the release [m] (default: the polygons' attribute 'thickness')")
+      ->check(CLI::PositiveNumber)
+      ->needs(release);
+  auto* placement = command.add_option_group("placement");
+  placement->add_flag("--cut", maps.cut, "Cut the release out of the DEM: the DEM is the surface before the slide")
+      ->needs(release);
+  placement->add_flag("--on-top")->description("Put the release on top of the DEM (default)")->needs(release);
+  placement->require_option(0, 1);
+  command.add_option("--crs", maps.crs, "Coordinate reference system of a DEM that does not tell it: EPSG:31287");
+  return release;
+}
+
 // A misspelt command is named, with its nearest neighbour.
 void require_known_command(const CLI::App& program, int count, char** arguments) {
   if (count < 2 || arguments[1][0] == '-') {
@@ -81,31 +99,26 @@ int run_program(int count, char** arguments) {
   NewOptions new_options;
   CLI::App* make_new = program.add_subcommand("new", "Make a case folder from a terrain model and a release area");
   make_new->add_option("folder", new_options.folder, "Folder to make")->required();
-  make_new->add_option("--dem", new_options.dem, "Terrain model, GeoTIFF or ESRI ASCII, in projected metres")
-      ->required();
-  make_new->add_option("--release", new_options.release, "Polygons: Shapefile, GeoPackage or GeoJSON")->required();
-  make_new
-      ->add_option("--thickness", new_options.thickness,
-                   "Vertical thickness of the release [m] (default: the polygons' attribute 'thickness')")
-      ->check(CLI::PositiveNumber);
-  auto* placement = make_new->add_option_group("placement");
-  placement->add_flag("--cut", new_options.cut,
-                      "Cut the release out of the DEM: the DEM is the surface before the slide");
-  bool on_top = false;
-  placement->add_flag("--on-top", on_top, "Put the release on top of the DEM (default)");
-  placement->require_option(0, 1);
-  make_new->add_option("--crs", new_options.crs,
-                       "Coordinate reference system of a DEM that does not tell it: EPSG:31287");
+  add_map_options(*make_new, new_options.maps)->required();
   make_new
       ->add_option("--reach-angle", new_options.reach_angle,
                    "The domain holds all ground above a line that falls so much from the top of the release [degrees]")
       ->check(CLI::Range(1.0, 45.0))
       ->capture_default_str();
   make_new
-      ->add_option("--largest-volume", new_options.largest_volume,
+      ->add_option("--largest-volume", new_options.maps.largest_volume,
                    "Confirms a release above the usual limit of body.slide.largest_volume [m3]")
       ->check(CLI::PositiveNumber);
   make_new->callback([&] { exit_code = make_new_case(new_options); });
+
+  SectionOptions section_options;
+  CLI::App* section = program.add_subcommand("section", "Cut a 2D case out of a terrain model, along a line");
+  section->add_option("folder", section_options.folder, "Folder to make")->required();
+  section->add_option("--line", section_options.line, "File with the line, downhill: Shapefile, GeoPackage or GeoJSON")
+      ->required();
+  add_map_options(*section, section_options.maps)
+      ->description("Polygons: Shapefile, GeoPackage or GeoJSON (default: none, the profile alone)");
+  section->callback([&] { exit_code = make_section(section_options); });
 
   DescribeOptions describe_options;
   CLI::App* describe = program.add_subcommand("describe", "The reference of the case file");

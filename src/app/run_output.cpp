@@ -55,7 +55,7 @@ void write_terrain(const fs::path& folder, const sim::Simulation<Dim, double>& s
     height.push_back(line.height(place) + model.origin[Dim - 1]);
     place += model.origin[0];
   }
-  io::write_terrain_csv(folder / "terrain.csv", x, height);
+  io::write_profile_csv(folder / "terrain.csv", {std::move(x), std::move(height), {}});
 }
 
 template <int Dim>

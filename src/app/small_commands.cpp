@@ -1,16 +1,19 @@
 // thawslide block, describe, report, version.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 
 #include "app/commands.hpp"
+#include "app/map_files.hpp"
 #include "base/error.hpp"
 #include "config/describe.hpp"
 #include "config/read_case.hpp"
 #include "io/history_writer.hpp"
 #include "sim/block.hpp"
+#include "sim/path_section.hpp"
 #include "version.hpp"
 
 namespace thawslide::app {
@@ -18,6 +21,15 @@ namespace thawslide::app {
 namespace {
 
 constexpr std::size_t rows_in_table = 21;
+
+double value_of(const sim::HistoryRow& row, const std::string& name) {
+  for (const auto& [key, number] : row) {
+    if (key == name) {
+      return number;
+    }
+  }
+  throw InternalError("the block model has no column " + name);
+}
 
 void print_table(const std::vector<sim::HistoryRow>& rows) {
   fmt::print(
@@ -27,14 +39,7 @@ void print_table(const std::vector<sim::HistoryRow>& rows) {
   const std::size_t shown = std::min(rows_in_table, rows.size());
   for (std::size_t k = 0; k < shown; ++k) {
     const auto& row = rows[shown == 1 ? 0 : k * (rows.size() - 1) / (shown - 1)];
-    const auto value = [&](const std::string& name) {
-      for (const auto& [key, number] : row) {
-        if (key == name) {
-          return number;
-        }
-      }
-      throw InternalError("the block model has no column " + name);
-    };
+    const auto value = [&](const std::string& name) { return value_of(row, name); };
     fmt::print("{:8.2f} {:9.2f} {:10.1f} {:10.1f} {:10.1f} {:10.1f} {:9.2f} {:7.4f}\n", value("time_s"),
                value("velocity_m_s"), value("displacement_m"), value("normal_pressure_Pa") / 1e3,
                value("pore_pressure_Pa") / 1e3, value("sliding_strength_Pa") / 1e3, value("band_temperature_C"),
@@ -42,12 +47,31 @@ void print_table(const std::vector<sim::HistoryRow>& rows) {
   }
 }
 
+// A 3D case slides as a section of it.
+std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters) {
+  const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters));
+  std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site);
+  fmt::print(
+      "a section along maps.path, with the release's mean thickness across the path; fronts are distances along it\n");
+  const double end = section.site.profile.distance.back();
+  const auto beyond = std::find_if(rows.begin(), rows.end(),
+                                   [&](const sim::HistoryRow& row) { return value_of(row, "front_position_m") > end; });
+  if (beyond != rows.end()) {
+    fmt::print(
+        "note: the path's ground is known for {:.6g} m; from {:.4g} s on, when the front leaves it, the ground goes on "
+        "with its last gradient\n",
+        end, value_of(*beyond, "time_s"));
+  }
+  return rows;
+}
+
 }  // namespace
 
 int run_block_model(const BlockOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<sim::HistoryRow> rows = sim::run_block(parameters);
+  const std::vector<sim::HistoryRow> rows =
+      parameters.terrain.kind == config::TerrainKind::dem ? block_along_path(parameters) : sim::run_block(parameters);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.output.empty()) {
     print_table(rows);

@@ -16,9 +16,8 @@ constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double particles_across = 6.0;
 constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
-constexpr double snapshots = 40.0;                          // about as many
 constexpr double block_cells = 4.0;  // the domain is a multiple of, so that the cell may be doubled twice
-constexpr int margin_cells = 4;      // between the release and the sides of the domain
+constexpr double snapshots = 40.0;   // about as many
 
 // The release in numbers.
 struct ReleaseExtent {
@@ -87,9 +86,7 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle)
   Proposal proposal;
   proposal.volume = release.volume;
   proposal.thickness = release.thickness;
-  proposal.cell = round_down(release.thickness * proposal.particles_per_axis / particles_across);
-  const double spacing = proposal.cell / proposal.particles_per_axis;
-  proposal.particles = release.volume / (spacing * spacing * spacing);
+  propose_cell(proposal, 3);
 
   double west = release.west, east = release.east, south = release.south, north = release.north;
   double lowest = release.top, farthest = 0.0;
@@ -118,9 +115,18 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle)
                   down(lowest - margin)};
   proposal.max = {std::min(down(dem.x_end()), up(east + margin)), std::min(down(dem.y_end()), up(north + margin)),
                   up(release.top + margin)};
+  propose_times(proposal, farthest);
+  return proposal;
+}
+
+void propose_cell(Proposal& proposal, int dimension) {
+  proposal.cell = round_down(proposal.thickness * proposal.particles_per_axis / particles_across);
+  proposal.particles = proposal.volume / std::pow(proposal.cell / proposal.particles_per_axis, dimension);
+}
+
+void propose_times(Proposal& proposal, double farthest) {
   proposal.end = std::clamp(10.0 * std::ceil(farthest / slow / 10.0), shortest_run, longest_run);
   proposal.output_interval = round_down(proposal.end / snapshots);
-  return proposal;
 }
 
 namespace {
@@ -145,16 +151,11 @@ std::string case_text(const ProposalInput& input, const Proposal& proposal) {
 title = "{title}"
 dimension = 3  # x is east, y is north, z is up
 
-[time]
-end = {end}  # s; make it longer if the slide still moves
-stepping = "adaptive"
-output_interval = {interval}  # s between snapshots of all particles; maps are gathered every step
-history_interval = {history}
-
+{time}
 # The domain: a box about the release and all ground above a line that falls {angle} degrees from its top. Its size costs
 # nothing, as only cells near the slide take memory and time.
 [grid]
-cell = {cell}  # m; two particles a cell and axis make {across:.1f} across a thickness of {thickness:.3g} m
+cell = {cell}  # m; {across}
 min = {min}
 max = {max}
 leaving = "stop"  # what reaches the edge of the domain or of the DEM ends the run; "remove" counts and removes it
@@ -170,11 +171,52 @@ release = "{release}"
 thickness = {given}  # m
 thickness_along = "vertical"  # "normal": across the slope
 placement = "{placement}"  # {placement_text}
-particles_per_axis = 2
-{confirmed}temperature = -5.0  # C, of rock and ice at the start
-porosity = 0.375  # share of ice in the volume: all pores are full of it
+{confirmed}{state}
+{physics}
+# Maps are gathered every step.
+[maps]
+arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
+)",
+      fmt::arg("title", input.title), fmt::arg("time", time_text(proposal)), fmt::arg("angle", input.reach_angle),
+      fmt::arg("cell", number_text(proposal.cell)), fmt::arg("across", cell_comment(proposal)),
+      fmt::arg("confirmed", input.largest_volume > 0.0
+                                ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
+                                : std::string()),
+      fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()),
+      fmt::arg("min", point_text(proposal.min)), fmt::arg("max", point_text(proposal.max)),
+      fmt::arg("dem", input.dem_file), fmt::arg("release", input.release_file),
+      fmt::arg("given", thickness_text(input.thickness)), fmt::arg("placement", is_cut ? "cut" : "on_top"),
+      fmt::arg("placement_text", is_cut ? "out of the DEM, which is the surface before the slide; \"on_top\": onto it"
+                                        : "the DEM is what it slides on; \"cut\": out of the DEM"));
+  return text;
+}
 
-# Broken rock and ice.
+std::string time_text(const Proposal& proposal) {
+  return fmt::format(R"([time]
+end = {}  # s; make it longer if the slide still moves
+stepping = "adaptive"
+output_interval = {}  # s between snapshots of all particles
+history_interval = {}
+)",
+                     number_text(proposal.end), number_text(proposal.output_interval),
+                     number_text(proposal.output_interval / 5.0));
+}
+
+std::string cell_comment(const Proposal& proposal) {
+  return fmt::format("two particles a cell and axis make {:.1f} across a thickness of {:.3g} m",
+                     proposal.thickness * proposal.particles_per_axis / proposal.cell, proposal.thickness);
+}
+
+std::string body_state_text(const Proposal& proposal) {
+  return fmt::format(R"(particles_per_axis = {}
+temperature = -5.0  # C, of rock and ice at the start
+porosity = 0.375  # share of ice in the volume: all pores are full of it
+)",
+                     proposal.particles_per_axis);
+}
+
+std::string physics_text() {
+  return R"(# Broken rock and ice.
 [material.rock_ice]
 law = "mohr_coulomb"
 youngs_modulus = 1.0e8
@@ -192,25 +234,7 @@ heat_fraction = 0.35  # share of the friction work that heats the band
 
 [band]
 thickness = 0.2  # m; the thinner, the sooner it melts
-
-[maps]
-arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
-)",
-      fmt::arg("title", input.title), fmt::arg("end", number_text(proposal.end)),
-      fmt::arg("interval", number_text(proposal.output_interval)),
-      fmt::arg("history", number_text(proposal.output_interval / 5.0)), fmt::arg("angle", input.reach_angle),
-      fmt::arg("cell", number_text(proposal.cell)),
-      fmt::arg("across", proposal.thickness * proposal.particles_per_axis / proposal.cell),
-      fmt::arg("thickness", proposal.thickness), fmt::arg("min", point_text(proposal.min)),
-      fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", input.dem_file),
-      fmt::arg("release", input.release_file), fmt::arg("given", thickness_text(input.thickness)),
-      fmt::arg("confirmed", input.largest_volume > 0.0
-                                ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
-                                : std::string()),
-      fmt::arg("placement", is_cut ? "cut" : "on_top"),
-      fmt::arg("placement_text", is_cut ? "out of the DEM, which is the surface before the slide; \"on_top\": onto it"
-                                        : "the DEM is what it slides on; \"cut\": out of the DEM"));
-  return text;
+)";
 }
 
 }  // namespace thawslide::config

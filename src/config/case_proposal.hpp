@@ -1,4 +1,5 @@
-// A first case for a terrain model and a release: cell, domain and times that fit them.
+// A first case for a terrain model and a release: cell, domain and times that fit them. What a first 2D case
+// (section_proposal.hpp) has in common with it.
 #pragma once
 
 #include <string>
@@ -14,8 +15,7 @@ struct ProposalInput {
   std::string dem_file, release_file;  // as the case is to name them
   MapValue thickness;
   Placement placement = Placement::on_top;
-  double reach_angle = 8.0;     // degrees: how far the slide is given room to run
-  double largest_volume = 0.0;  // m3, confirmed; 0: the parameter's default holds
+  double reach_angle = 8.0;  // degrees: how far the slide is given room to run
 };
 
 struct Proposal {
@@ -25,7 +25,7 @@ struct Proposal {
   double end = 0.0;              // [s]
   double output_interval = 0.0;  // [s]
   double thickness = 0.0;        // [m]: half of the volume is where the release is thinner
-  double volume = 0.0;           // [m3]
+  double volume = 0.0;           // [m3], per metre of width in 2D
   double particles = 0.0;        // about as many
 };
 
@@ -33,11 +33,31 @@ struct Proposal {
 [[nodiscard]] double round_down(double x);
 
 // The domain holds every point of the DEM that lies above a line that falls by the reach angle from the release's
-// highest point, and all of the release. The cell gives at least six particles across the thickness. dem: NaN
+// highest point, and all of the release. The cell gives at least six particles across the mean thickness. dem: NaN
 // where there is no data; thickness: vertical [m], on points of the same places.
 [[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle);
 
 // The commented case file.
 [[nodiscard]] std::string case_text(const ProposalInput& input, const Proposal& proposal);
+
+inline constexpr int margin_cells = 4;  // between the release and the sides of the domain
+
+// Sets the cell and the number of particles; needs thickness and volume.
+void propose_cell(Proposal& proposal, int dimension);
+
+// Sets the end and the interval between snapshots, for a slide that may go so far [m].
+void propose_times(Proposal& proposal, double farthest);
+
+// The table [time], without an empty line after it.
+[[nodiscard]] std::string time_text(const Proposal& proposal);
+
+// How many particles the cell puts across the thickness, for the comment at grid.cell.
+[[nodiscard]] std::string cell_comment(const Proposal& proposal);
+
+// The last keys of the body: particles and initial state.
+[[nodiscard]] std::string body_state_text(const Proposal& proposal);
+
+// The tables of material, base and band.
+[[nodiscard]] std::string physics_text();
 
 }  // namespace thawslide::config

@@ -1,4 +1,5 @@
 // What map files tell of a case: the ground, and what each body is there. Read by the gis room, used by the simulation.
+// And the profile of a 2D case, from its file or from memory.
 #pragma once
 
 #include <array>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include "base/raster.hpp"
+#include "config/case.hpp"
+#include "config/profile_csv.hpp"
 
 namespace thawslide::config {
 
@@ -23,10 +26,14 @@ struct Release {
 struct Site {
   std::shared_ptr<const Raster> ground;     // what bodies slide on, less what is cut out of it; null: no raster
   std::map<std::string, Release> releases;  // by name of the body
-  Polyline2 path;                           // along which the front is measured; empty: none given
+  ProfileTable profile;  // of a 2D case cut out of maps, instead of terrain.file; empty: there is the file
+  Polyline2 path;        // along which the front is measured; empty: none given
   std::map<std::string, Polyline2> probes;  // by name: one point, or a line
   std::string crs;                          // of all of them, as WKT
   std::string crs_name;                     // "EPSG:31287", or its title; empty: none is known
 };
+
+// The profile of a case with terrain.type "profile": the site's, or else what terrain.file holds.
+[[nodiscard]] ProfileTable profile_of(const Case& parameters, const Site& site);
 
 }  // namespace thawslide::config

@@ -6,13 +6,21 @@
 
 namespace thawslide::io {
 
-void write_terrain_csv(const std::filesystem::path& file, const std::vector<double>& distance,
-                       const std::vector<double>& elevation) {
-  THAWSLIDE_ASSERT(distance.size() == elevation.size(), "{} distances, {} elevations", distance.size(),
-                   elevation.size());
-  std::string text = "distance_m,terrain_elevation_m\n";
-  for (std::size_t k = 0; k < distance.size(); ++k) {
-    text += shortest(distance[k]) + "," + shortest(elevation[k]) + "\n";
+void write_profile_csv(const std::filesystem::path& file, const config::ProfileTable& profile,
+                       const std::vector<std::string>& comments) {
+  THAWSLIDE_ASSERT(profile.distance.size() == profile.terrain.size() &&
+                       (profile.surface.empty() || profile.surface.size() == profile.terrain.size()),
+                   "{} distances, {} elevations, {} of a surface", profile.distance.size(), profile.terrain.size(),
+                   profile.surface.size());
+  std::string text;
+  for (const std::string& comment : comments) {
+    text += "# " + comment + "\n";
+  }
+  text += profile.surface.empty() ? "distance_m,terrain_elevation_m\n"
+                                  : "distance_m,terrain_elevation_m,surface_elevation_m\n";
+  for (std::size_t k = 0; k < profile.distance.size(); ++k) {
+    text += shortest(profile.distance[k]) + "," + shortest(profile.terrain[k]);
+    text += profile.surface.empty() ? "\n" : "," + shortest(profile.surface[k]) + "\n";
   }
   write_file_atomically(file, text);
 }

@@ -8,6 +8,7 @@
 #include "physics/contact.hpp"
 #include "sim/block_column.hpp"
 #include "sim/bodies.hpp"
+#include "sim/initial_state.hpp"
 #include "sim/time_step.hpp"
 
 namespace thawslide::sim {
@@ -168,9 +169,17 @@ class Block {
  private:
   BlockColumn::Initial initial_column() const {
     const config::Body& body = parameters_.bodies.begin()->second;
-    const auto& material = parameters_.materials.at(body.material);
-    return {train_.thickness, parameters_.grid.cell, body.particles_per_axis,        &body.temperature,
-            &body.porosity,   train_.middle_x,       material.hydraulic_conductivity};
+    const auto seed_at = [this](double depth) {
+      return Seed<2>{0, Vector<double, 2>(train_.middle_x, 0.0), depth, 0.0};
+    };
+    return {train_.thickness,
+            parameters_.grid.cell,
+            body.particles_per_axis,
+            [&, seed_at](double depth) { return initial_temperature(model_, body, nullptr, seed_at(depth)); },
+            [&, seed_at](double depth, double saturation) {
+              return initial_porosity(body, nullptr, seed_at(depth), saturation);
+            },
+            parameters_.materials.at(body.material).hydraulic_conductivity};
   }
 
   // xi in force.
@@ -207,20 +216,24 @@ class Block {
 
 }  // namespace
 
-std::vector<HistoryRow> run_block(const config::Case& parameters) {
-  if (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none) {
-    throw UserError(
-        fmt::format("{}: the block model slides a 2D section along a terrain. Give case.dimension = 2 and a "
-                    "terrain.type other than \"none\", or use `thawslide run`.",
-                    parameters.file));
-  }
-  const Model<2, double> model = make_model<2, double>(parameters);
-  mpm::Particles<2, double> particles;
-  fill_bodies(parameters, {}, model, particles);
+void require_one_body(const config::Case& parameters) {
   if (parameters.bodies.size() > 1) {
     throw UserError(fmt::format("{}: the block model slides one body, and the case has {}. Use `thawslide run`.",
                                 parameters.file, parameters.bodies.size()));
   }
+}
+
+std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site) {
+  if (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none) {
+    throw UserError(
+        fmt::format("{}: the block model slides a 2D section along a terrain, or a 3D case on a DEM along maps.path. "
+                    "Give case.dimension = 2 and a terrain.type other than \"none\", or use `thawslide run`.",
+                    parameters.file));
+  }
+  require_one_body(parameters);
+  const Model<2, double> model = make_model<2, double>(parameters, site);
+  mpm::Particles<2, double> particles;
+  fill_bodies(parameters, site, model, particles);
   Block block(parameters, model, particles);
   const StepLimit limit = largest_stable_step(parameters, model, smallest_thickness(parameters), particles);
   double dt = parameters.time.step;

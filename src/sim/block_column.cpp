@@ -22,9 +22,9 @@ BlockColumn::BlockColumn(const band::BandModel<2, double>& model, const Initial&
       row.in_band = row.height < cell_;
       row.depth = row.in_band ? initial.thickness : std::max(0.0, initial.thickness - row.height);
       const double depth = std::max(0.0, initial.thickness - row.height);
-      row.porosity = row.initial_porosity = initial.porosity->at(depth, initial.middle_x);
-      row.temperature = row.previous_temperature = initial.temperature->at(depth, initial.middle_x);
+      row.temperature = row.previous_temperature = initial.temperature(depth);
       row.saturation = row.initial_saturation = content.curve.saturation(row.temperature);
+      row.porosity = row.initial_porosity = initial.porosity(depth, row.saturation);
       row.heat_content = content.content(row.temperature, row.initial_porosity);
       rows_.push_back(row);
     }

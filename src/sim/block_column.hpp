@@ -1,10 +1,10 @@
 // The column of particle rows under the rigid block: heat and pore pressure across the band.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "band/model.hpp"
-#include "base/table.hpp"
 
 namespace thawslide::sim {
 
@@ -30,9 +30,8 @@ class BlockColumn {
   struct Initial {
     double thickness, cell;
     int rows_per_cell;
-    const InitialField* temperature;
-    const InitialField* porosity;
-    double middle_x;
+    std::function<double(double depth)> temperature;                  // [C]
+    std::function<double(double depth, double saturation)> porosity;  // saturation: of the pores with water
     double hydraulic_conductivity;
   };
   BlockColumn(const band::BandModel<2, double>& model, const Initial& initial);

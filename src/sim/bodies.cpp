@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/body_shape.hpp"
+#include "sim/initial_state.hpp"
 #include "sim/seed.hpp"
 
 namespace thawslide::sim {
@@ -166,42 +167,6 @@ void require_above_ground(const config::Case& parameters, const Model<Dim, Real>
   }
 }
 
-// Of a field where a seed stands: from the case, or from a map at the release.
-template <int Dim>
-double initial_value(const InitialField& field, const config::Release* release, const std::string& key,
-                     const Seed<Dim>& seed) {
-  if (!field.is_map()) {
-    return field.at(seed.depth, seed.place[0]);
-  }
-  const Raster& map = release->fields.at(key);
-  const double value = raster_at(map, seed.place[0], seed.place[1], std::nan(""));
-  if (std::isfinite(value)) {
-    return value;
-  }
-  // At the edge some of the points about the place have none: the nearest of them that has.
-  return nearest_value(map, seed.place[0], seed.place[1]);
-}
-
-template <int Dim, class Real>
-double initial_temperature(const Model<Dim, Real>& model, const config::Body& body, const config::Release* release,
-                           const Seed<Dim>& seed) {
-  if (!body.saturation.is_given()) {
-    return initial_value(body.temperature, release, "temperature", seed);
-  }
-  const auto saturation = static_cast<Real>(initial_value(body.saturation, release, "saturation", seed));
-  return static_cast<double>(
-      model.band.with_heat_content([&](const auto& content) { return content.curve.temperature(saturation); }));
-}
-
-// Ice fills the pores but for what is liquid.
-template <int Dim>
-double initial_porosity(const config::Body& body, const config::Release* release, const Seed<Dim>& seed,
-                        double saturation) {
-  return body.ice_content.is_given()
-             ? initial_value(body.ice_content, release, "ice_content", seed) / (1.0 - saturation)
-             : initial_value(body.porosity, release, "porosity", seed);
-}
-
 }  // namespace
 
 template <int Dim, class Real>
@@ -216,7 +181,7 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
   for (const auto& [name, body] : parameters.bodies) {
     const std::size_t before = seeds.size();
     names.push_back(name);
-    shapes.emplace_back(parameters, body, release_of(site, model, name, body));
+    shapes.emplace_back(parameters, site, body, release_of(site, model, name, body));
     seed_body(parameters, body, shapes.back(), static_cast<int>(bodies.size()), seeds);
     require_volume(parameters, name, body, shapes.back(), before, seeds);
     require_above_ground(parameters, model, name, before, seeds);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "config/case.hpp"
-#include "config/profile_csv.hpp"
+#include "config/site.hpp"
 #include "sim/release_body.hpp"
 
 namespace thawslide::sim {
@@ -20,7 +20,8 @@ template <int Dim>
 class BodyShape {
  public:
   // release: of a body of that shape.
-  BodyShape(const config::Case& parameters, const config::Body& body, std::optional<ReleaseBody> release)
+  BodyShape(const config::Case& parameters, const config::Site& site, const config::Body& body,
+            std::optional<ReleaseBody> release)
       : body_(&body), tie_(1e-9 * parameters.grid.cell), release_(std::move(release)) {
     for (std::size_t a = 0; a < Dim; ++a) {
       lower_[a] = body.min[a];
@@ -36,7 +37,7 @@ class BodyShape {
         }
       }
     } else if (body.shape == config::BodyShape::surface) {
-      profile_ = config::read_profile(parameters.terrain.file);
+      profile_ = config::profile_of(parameters, site);
       limit_to_profile();
     }
   }

@@ -4,7 +4,6 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
-#include "config/profile_csv.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/layer_thickness.hpp"
 #include "terrain/profile_surface.hpp"
@@ -205,7 +204,8 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
 
 // The ground as a line over x, relative to the domain's lower corner; nothing where it is none.
 template <int Dim>
-std::optional<terrain::Polyline> make_profile(const config::Case& parameters, const Vector<double, Dim>& origin) {
+std::optional<terrain::Polyline> make_profile(const config::Case& parameters, const config::Site& site,
+                                              const Vector<double, Dim>& origin) {
   const config::Terrain& terrain = parameters.terrain;
   const double base = origin[Dim - 1];
   switch (terrain.kind) {
@@ -222,7 +222,7 @@ std::optional<terrain::Polyline> make_profile(const config::Case& parameters, co
     case config::TerrainKind::profile:
       break;
   }
-  const config::ProfileTable profile = config::read_profile(terrain.file);
+  const config::ProfileTable profile = config::profile_of(parameters, site);
   std::vector<double> x = profile.distance;
   std::vector<double> height = profile.terrain;
   for (std::size_t k = 0; k < x.size(); ++k) {
@@ -318,7 +318,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
   model.contact.distance_check = parameters.basal.distance_check;
   model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
-  model.profile = make_profile<Dim>(parameters, model.origin);
+  model.profile = make_profile<Dim>(parameters, site, model.origin);
   model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile);
   set_layer_thickness(parameters, site, model);
   return model;

@@ -27,6 +27,8 @@ class PathLine {
   [[nodiscard]] bool empty() const { return corners_.size() < 2; }
   [[nodiscard]] double length() const { return along_.back(); }  // [m]; of a line that is not empty
   [[nodiscard]] const config::Polyline2& corners() const { return corners_; }
+  // Arc length at each corner [m].
+  [[nodiscard]] const std::vector<double>& distances() const { return along_; }
 
   // The nearest point of the line, which goes on straight before its first corner and beyond its last one. Of points
   // equally near the one closer to the first corner counts.

@@ -1,0 +1,115 @@
+#include "app/case_folder.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+
+#ifdef THAWSLIDE_WITH_GIS
+#include "gis/point_window.hpp"
+#include "gis/raster_file.hpp"
+#include "gis/site.hpp"
+#endif
+
+namespace thawslide::app {
+
+namespace fs = std::filesystem;
+
+void fail_without_gis(const std::string& file) {
+  throw UserError(
+      fmt::format("{}: this build of thawslide cannot read maps: it was made without GDAL. Install libgdal-dev and "
+                  "build again (`./run --setup`).",
+                  file));
+}
+
+#ifdef THAWSLIDE_WITH_GIS
+
+config::Case trial_case(const std::string& folder, const MapOptions& maps) {
+  const gis::Rectangle span = gis::span_of_points(gis::RasterFile(maps.dem).layout());
+  config::Case trial;
+  trial.name = trial.file = folder;
+  trial.general.dimension = 3;
+  trial.terrain.kind = config::TerrainKind::dem;
+  trial.terrain.file = maps.dem;
+  trial.terrain.crs = maps.crs;
+  trial.grid.cell = 1.0;
+  trial.grid.min = {span.min_x, span.min_y, 0.0};
+  trial.grid.max = {span.max_x, span.max_y, 1.0};
+  trial.places["terrain.file"] = "--dem";
+  trial.places["terrain.crs"] = "--crs";
+  if (maps.release.empty()) {
+    return trial;
+  }
+  config::Body body;
+  body.shape = config::BodyShape::release;
+  body.release = maps.release;
+  body.thickness.from = maps.thickness > 0.0 ? config::MapValue::From::number : config::MapValue::From::attribute;
+  body.thickness.number = maps.thickness;
+  body.thickness.source = "thickness";
+  if (maps.largest_volume > 0.0) {
+    body.largest_volume = maps.largest_volume;
+  }
+  trial.bodies[body_name] = body;
+  trial.places["body.slide.release"] = "--release";
+  trial.places["body.slide.thickness"] = maps.thickness > 0.0 ? "--thickness" : "--release";
+  return trial;
+}
+
+namespace {
+
+// A message that names keys of a case, for a user who has not got one yet.
+std::string in_words_of_options(std::string message) {
+  const std::vector<std::pair<std::string, std::string>> words{
+      {"--dem: terrain.file: ", "--dem: "},
+      {"--release: body.slide.release: ", "--release: "},
+      {"terrain.crs = \"EPSG:...\"", "--crs EPSG:..."},
+      {"body.slide.largest_volume", "--largest-volume"},
+      {"body.slide.thickness", "--thickness"},
+      {"body.slide.release", "--release"},
+      {"terrain.crs", "--crs"},
+      {"terrain.file", "--dem"},
+      {"maps.path", "--line"},
+  };
+  for (const auto& [key, option] : words) {
+    for (std::size_t at = message.find(key); at != std::string::npos; at = message.find(key, at + option.size())) {
+      message.replace(at, key.size(), option);
+    }
+  }
+  return message;
+}
+
+}  // namespace
+
+config::Site look_at_files(const config::Case& trial) {
+  try {
+    gis::SiteAndNotes read = gis::load_site(trial);
+    for (const std::string& note : read.notes) {
+      fmt::print("note: {}\n", note);
+    }
+    return std::move(read.site);
+  } catch (const UserError& error) {
+    throw UserError(in_words_of_options(error.what()));
+  }
+}
+
+#endif
+
+std::string title_of(const fs::path& folder) {
+  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+}
+
+void make_new_folder(const fs::path& folder) {
+  if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder))) {
+    throw UserError(
+        fmt::format("{}: there is something already; give the name of a folder that is not there yet, or an "
+                    "empty one.",
+                    folder.string()));
+  }
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) {
+    throw UserError(fmt::format("{}: the folder cannot be made ({}).", folder.string(), failed.message()));
+  }
+}
+
+}  // namespace thawslide::app

@@ -1,0 +1,32 @@
+// What commands that make a case folder from maps have in common.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/commands.hpp"
+#include "config/case.hpp"
+#include "config/site.hpp"
+
+namespace thawslide::app {
+
+inline constexpr const char* body_name = "slide";
+
+// Throws UserError: this build has no GDAL, which the file needs.
+[[noreturn]] void fail_without_gis(const std::string& file);
+
+// A case over the whole DEM, to look at what the files hold: without a body where no release is given. For builds with
+// GDAL.
+config::Case trial_case(const std::string& folder, const MapOptions& maps);
+
+// What the map files of such a case hold; prints what the user should know of them. A UserError names options, not
+// keys. For builds with GDAL.
+config::Site look_at_files(const config::Case& trial);
+
+// The last part of a folder's path.
+std::string title_of(const std::filesystem::path& folder);
+
+// Makes the folder. Throws UserError where there is something in it already.
+void make_new_folder(const std::filesystem::path& folder);
+
+}  // namespace thawslide::app

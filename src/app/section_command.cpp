@@ -1,0 +1,151 @@
+// thawslide section: a 2D case, or a profile alone, cut out of a terrain model along a line.
+#include <algorithm>
+#include <filesystem>
+
+#include "app/case_folder.hpp"
+#include "app/commands.hpp"
+
+#ifdef THAWSLIDE_WITH_GIS
+
+#include "base/error.hpp"
+#include "config/section_proposal.hpp"
+#include "io/atomic_file.hpp"
+#include "io/terrain_csv.hpp"
+#include "sim/section.hpp"
+
+namespace thawslide::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* profile_name = "profile.csv";
+constexpr const char* line_option = "--line";
+
+std::string name_of(const std::string& file) { return fs::path(file).filename().string(); }
+
+// The profile along a line that runs downhill, or was turned round for that.
+struct Cut {
+  config::ProfileTable profile;
+  sim::Place2 begin{}, end{};
+  bool turned = false;
+};
+
+Cut cut_along_line(const config::Site& site, const std::string& line_file) {
+  const std::string source = fmt::format("{}: {}", line_option, line_file);
+  const Raster& ground = *site.ground;
+  const double spacing = 0.5 * std::min(ground.cell_x, ground.cell_y);
+  const auto along = [&](const sim::PathLine& line) {
+    config::ProfileTable profile;
+    profile.distance = sim::stations_along(line, 0.0, line.length(), spacing);
+    profile.terrain = sim::ground_along(line, profile.distance, ground);
+    sim::require_known(line, profile.distance, profile.terrain, line.length(), ground, source);
+    return profile;
+  };
+  sim::PathLine line(site.path);
+  if (line.empty()) {
+    throw UserError(fmt::format("{}: the line has no length. Draw one with two corners apart or more.", source));
+  }
+  Cut cut;
+  cut.profile = along(line);
+  cut.turned = cut.profile.terrain.front() < cut.profile.terrain.back();
+  if (cut.turned) {
+    line = sim::PathLine(config::Polyline2(site.path.rbegin(), site.path.rend()));
+    cut.profile = along(line);
+  }
+  cut.begin = line.corners().front();
+  cut.end = line.corners().back();
+  if (!site.releases.empty()) {
+    cut.profile.surface = sim::thickness_along(line, cut.profile.distance, site.releases.at(body_name).thickness);
+    for (std::size_t k = 0; k < cut.profile.surface.size(); ++k) {
+      cut.profile.surface[k] += cut.profile.terrain[k];
+    }
+  }
+  return cut;
+}
+
+std::vector<std::string> comments_on(const SectionOptions& options, const config::Site& site, const Cut& cut) {
+  std::vector<std::string> comments{
+      fmt::format("Cut by `thawslide section` out of {} along {}{}: the triangulated terrain model below the line.",
+                  name_of(options.maps.dem), name_of(options.line), cut.turned ? ", turned round to run downhill" : ""),
+      fmt::format("From x = {:.10g}, y = {:.10g} to x = {:.10g}, y = {:.10g}{}{}.", cut.begin[0], cut.begin[1],
+                  cut.end[0], cut.end[1], site.crs_name.empty() ? "" : " in ", site.crs_name)};
+  if (!options.maps.release.empty()) {
+    comments.push_back(options.maps.cut
+                           ? fmt::format("The surface is that of the terrain model; the terrain is lower by the "
+                                         "vertical thickness of {}.",
+                                         name_of(options.maps.release))
+                           : fmt::format("The terrain is that of the terrain model; the surface is higher by the "
+                                         "vertical thickness of {}.",
+                                         name_of(options.maps.release)));
+  }
+  return comments;
+}
+
+// The release must lie on the line, with some cells of the domain at both ends.
+void check_body(const SectionOptions& options, const config::ProfileTable& profile, const config::SurfaceBody& body,
+                const config::Proposal& proposal) {
+  const double margin = config::margin_cells * proposal.cell;
+  const double before = body.begin - proposal.min[0], after = proposal.max[0] - body.end;
+  if (before < margin || after < margin) {
+    const bool first = before < margin;
+    throw UserError(fmt::format(
+        "{}: {}: the section {} {:.4g} m {} the release; needed: at least {:.4g} m, {} cells. Make the line longer "
+        "there.",
+        line_option, options.line, first ? "begins" : "ends", first ? body.begin : profile.distance.back() - body.end,
+        first ? "before" : "after", margin + proposal.cell, config::margin_cells + 1));
+  }
+}
+
+}  // namespace
+
+int make_section(const SectionOptions& options) {
+  config::Case trial = trial_case(options.folder, options.maps);
+  trial.maps.path = options.line;
+  trial.places["maps.path"] = line_option;
+  for (auto& [name, body] : trial.bodies) {
+    body.placement = options.maps.cut ? config::Placement::cut : config::Placement::on_top;
+  }
+  const config::Site site = look_at_files(trial);
+  const Cut cut = cut_along_line(site, options.line);
+  if (cut.turned) {
+    fmt::print("note: {} runs uphill; the section begins at its end\n", name_of(options.line));
+  }
+  const fs::path folder = options.folder;
+  const std::vector<std::string> comments = comments_on(options, site, cut);
+  if (options.maps.release.empty()) {
+    make_new_folder(folder);
+    io::write_profile_csv(folder / profile_name, cut.profile, comments);
+    fmt::print("{}: {} rows over {:.6g} m\nnote: without --release there is no body, and no case.toml was written\n",
+               (folder / profile_name).string(), cut.profile.distance.size(), cut.profile.distance.back());
+    return static_cast<int>(ExitCode::done);
+  }
+  const config::SurfaceBody body = config::body_on(cut.profile);
+  if (!(body.area > 0.0)) {
+    throw UserError(
+        fmt::format("{}: {}: the line does not cross the release of {}. Draw it through the release, or "
+                    "leave --release out for the profile alone.",
+                    line_option, options.line, options.maps.release));
+  }
+  const config::Proposal proposal = config::propose_section(cut.profile, body);
+  check_body(options, cut.profile, body, proposal);
+  make_new_folder(folder);
+  io::write_profile_csv(folder / profile_name, cut.profile, comments);
+  io::write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal));
+  fmt::print("{}: a release of {:.4g} m3 per metre of width, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
+             (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
+  fmt::print("look at it:  thawslide check {} --picture\nrun it:      ./run {}\n", folder.string(), folder.string());
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace thawslide::app
+
+#else
+
+namespace thawslide::app {
+
+int make_section(const SectionOptions& options) { fail_without_gis(options.maps.dem); }
+
+}  // namespace thawslide::app
+
+#endif

@@ -1,0 +1,82 @@
+#include "config/section_proposal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/rule.hpp"
+
+namespace thawslide::config {
+
+SurfaceBody body_on(const ProfileTable& profile) {
+  SurfaceBody body;
+  bool begun = false;
+  double squares = 0.0;
+  for (std::size_t k = 0; k + 1 < profile.distance.size(); ++k) {
+    const double a = profile.surface[k] - profile.terrain[k], b = profile.surface[k + 1] - profile.terrain[k + 1];
+    if (!(a > 0.0 || b > 0.0)) {
+      continue;
+    }
+    const double length = profile.distance[k + 1] - profile.distance[k];
+    body.begin = begun ? body.begin : profile.distance[k];
+    body.end = profile.distance[k + 1];
+    begun = true;
+    body.area += 0.5 * (a + b) * length;
+    squares += (a * a + a * b + b * b) / 3.0 * length;
+  }
+  body.thickness = begun ? squares / body.area : 0.0;
+  return body;
+}
+
+Proposal propose_section(const ProfileTable& profile, const SurfaceBody& body) {
+  Proposal proposal;
+  proposal.volume = body.area;
+  proposal.thickness = body.thickness;
+  propose_cell(proposal, 2);
+  propose_times(proposal, profile.distance.back() - body.begin);
+  const double cell = proposal.cell;
+  const double lowest = *std::min_element(profile.terrain.begin(), profile.terrain.end());
+  const double highest = *std::max_element(profile.surface.begin(), profile.surface.end());
+  const double cells = std::floor(profile.distance.back() / cell * (1.0 + 1e-12));
+  proposal.min = {0.0, (std::floor(lowest / cell) - margin_cells) * cell, 0.0};
+  proposal.max = {cells * cell, (std::ceil(highest / cell) + margin_cells) * cell, 0.0};
+  return proposal;
+}
+
+std::string section_text(const std::string& title, const std::string& profile_file, const Proposal& proposal) {
+  return fmt::format(
+      R"(# Made by `thawslide section`. Every number may be changed; `thawslide describe` tells what keys there are.
+#
+# A section has no side walls and does not spread: the slide moves in the plane of the section only, as if it were the
+# same at every place across it. A valley that narrows or widens it, or turns it, is not in this case.
+
+[case]
+title = "{title}"
+dimension = 2  # x is the distance along the line, y is up; masses, forces and energies are per metre of width
+
+{time}
+# The domain: the whole section. Its size costs nothing, as only cells near the slide take memory and time.
+[grid]
+cell = {cell}  # m; {across}
+min = [{min_x}, {min_y}]
+max = [{max_x}, {max_y}]
+leaving = "stop"  # what reaches the edge of the domain ends the run; "remove" counts and removes it
+
+[terrain]
+type = "profile"
+file = "{profile}"
+
+[body.slide]
+material = "rock_ice"
+shape = "surface"  # between terrain_elevation_m and surface_elevation_m of the profile
+{state}
+{physics})",
+      fmt::arg("title", title), fmt::arg("time", time_text(proposal)), fmt::arg("cell", number_text(proposal.cell)),
+      fmt::arg("across", cell_comment(proposal)), fmt::arg("min_x", number_text(proposal.min[0])),
+      fmt::arg("min_y", number_text(proposal.min[1])), fmt::arg("max_x", number_text(proposal.max[0])),
+      fmt::arg("max_y", number_text(proposal.max[1])), fmt::arg("profile", profile_file),
+      fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()));
+}
+
+}  // namespace thawslide::config

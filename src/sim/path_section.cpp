@@ -1,0 +1,196 @@
+#include "sim/path_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/table.hpp"
+#include "sim/block.hpp"
+#include "sim/path_line.hpp"
+#include "sim/release_body.hpp"
+#include "sim/section.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+constexpr double margin_cells = 4.0;  // of the domain about ground and release
+constexpr double step_width = 1e-6;   // of a cell: over which the thickness rises at the release's ends
+
+// Calls visit(x, y, thickness) where there is a thickness.
+template <class Visit>
+void for_points(const Raster& thickness, const Visit& visit) {
+  for (int row = 0; row < thickness.rows; ++row) {
+    for (int column = 0; column < thickness.columns; ++column) {
+      if (thickness.at(column, row) > 0.0) {
+        visit(thickness.x_of(column), thickness.y_of(row), thickness.at(column, row));
+      }
+    }
+  }
+}
+
+// The release seen from the path.
+struct ReleaseOnPath {
+  double from = HUGE_VAL, to = -HUGE_VAL;  // distances along the path [m]
+  double nearest = HUGE_VAL;               // of its points to the path [m]
+  double middle = 0.0;                     // of its volume, along the path [m]
+  Table thickness;                         // mean across the path [m], over the distance
+
+  [[nodiscard]] double at(double along) const { return along < from || along > to ? 0.0 : thickness.at(along); }
+};
+
+// length: over which thicknesses are averaged [m].
+ReleaseOnPath release_on_path(const PathLine& line, const config::Release& release, double length) {
+  struct Point {
+    double along, thickness;
+  };
+  std::vector<Point> points;
+  ReleaseOnPath found;
+  double sum = 0.0;
+  for_points(release.thickness, [&](double x, double y, double thickness) {
+    const PlaceOnLine place = line.project({x, y});
+    points.push_back({place.along, thickness});
+    found.from = std::min(found.from, place.along);
+    found.to = std::max(found.to, place.along);
+    found.nearest = std::min(found.nearest, std::abs(place.offset));
+    found.middle += thickness * place.along;
+    sum += thickness;
+  });
+  THAWSLIDE_ASSERT(!points.empty(), "a release of {} x {} points without a thickness", release.thickness.columns,
+                   release.thickness.rows);
+  found.middle /= sum;
+  const double half = 0.5 * std::min(release.thickness.cell_x, release.thickness.cell_y);
+  found.from -= half;
+  found.to += half;
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::round((found.to - found.from) / length)));
+  const double width = (found.to - found.from) / static_cast<double>(count);
+  std::vector<double> thickness(count, 0.0), number(count, 0.0);
+  for (const Point& point : points) {
+    const auto k = std::min(count - 1, static_cast<std::size_t>((point.along - found.from) / width));
+    thickness[k] += point.thickness;
+    number[k] += 1.0;
+  }
+  // Points on the outline stand for less than a cell each: with this share their areas sum to the release's.
+  const double share =
+      release.area / (static_cast<double>(points.size()) * release.thickness.cell_x * release.thickness.cell_y);
+  std::vector<double> middles;
+  for (std::size_t k = 0; k < count; ++k) {
+    middles.push_back(found.from + (static_cast<double>(k) + 0.5) * width);
+    thickness[k] = number[k] > 0.0 ? thickness[k] / (number[k] * share) : 0.0;
+  }
+  found.thickness = Table(std::move(middles), std::move(thickness));
+  return found;
+}
+
+// What the block takes of a field: a number, or a table over depth.
+void make_plain(InitialField& field, const std::string& key, const config::Release& release) {
+  double volume = 0.0, sum = 0.0, east = 0.0;
+  for_points(release.thickness, [&](double x, double y, double thickness) {
+    volume += thickness;
+    east += thickness * x;
+    sum += field.is_map() ? thickness * nearest_value(release.fields.at(key), x, y) : 0.0;
+  });
+  if (field.is_map()) {
+    field = InitialField(sum / volume);
+  } else if (field.over == InitialField::Over::x) {
+    field = InitialField(field.at(0.0, east / volume));
+  }
+}
+
+void require_section(const config::Case& parameters, const config::Site& site) {
+  if (site.path.empty()) {
+    throw UserError(
+        fmt::format("{}: the block model slides a 3D case along a line, and the case names none. Give maps.path, a "
+                    "file with a line from the release down the way it will take.",
+                    config::place_of(parameters, "maps")));
+  }
+  require_one_body(parameters);
+  const auto& [name, body] = *parameters.bodies.begin();
+  if (body.shape != config::BodyShape::release) {
+    throw UserError(
+        fmt::format("{}: on a DEM the block model slides a body of the shape \"release\". Give body.{} "
+                    "polygons or a raster, or use `thawslide run`.",
+                    config::place_of(parameters, fmt::format("body.{}.shape", name)), name));
+  }
+  if (parameters.general.gravity_tilt != 0.0) {
+    throw UserError(
+        fmt::format("{}: case.gravity_tilt is {} degrees towards +x, which a section along a path does not "
+                    "know. Set it to 0, or use `thawslide run`.",
+                    config::place_of(parameters, "case.gravity_tilt"), parameters.general.gravity_tilt));
+  }
+}
+
+// Stations of the path, and the ends of the release with its full thickness.
+std::vector<double> stations_about(const PathLine& line, const ReleaseOnPath& release, double cell, double spacing) {
+  const double begin = std::floor(release.from / cell - margin_cells) * cell;
+  const double end = std::max(line.length(), release.to + margin_cells * cell);
+  std::vector<double> stations = stations_along(line, begin, end, spacing);
+  const double step = step_width * cell;
+  stations.insert(stations.end(), {release.from - step, release.from, release.to, release.to + step});
+  std::sort(stations.begin(), stations.end());
+  stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
+  return stations;
+}
+
+void set_domain(config::Grid& grid, const config::ProfileTable& profile) {
+  const auto [lowest, unused] = std::minmax_element(profile.terrain.begin(), profile.terrain.end());
+  const double highest = *std::max_element(profile.surface.begin(), profile.surface.end());
+  const double cells = std::ceil((profile.distance.back() - profile.distance.front()) / grid.cell);
+  grid.min = {profile.distance.front(), (std::floor(*lowest / grid.cell) - margin_cells) * grid.cell, 0.0};
+  grid.max = {grid.min[0] + cells * grid.cell, (std::ceil(highest / grid.cell) + margin_cells) * grid.cell, 0.0};
+  grid.boundary = {};
+}
+
+}  // namespace
+
+PathSection section_along_path(const config::Case& parameters, const config::Site& site) {
+  require_section(parameters, site);
+  const PathLine line(site.path);
+  const std::string source = config::place_of(parameters, "maps.path");
+  const auto& [name, given] = *parameters.bodies.begin();
+  const config::Release& release = site.releases.at(name);
+  const Raster& ground = *site.ground;
+  const double points_apart = std::min(ground.cell_x, ground.cell_y), cell = parameters.grid.cell;
+  const ReleaseOnPath on_path = release_on_path(line, release, std::max(cell, 2.0 * points_apart));
+  if (on_path.nearest > std::max(ground.cell_x, ground.cell_y)) {
+    throw UserError(
+        fmt::format("{}: the path passes the release of body '{}' by, {:.4g} m away. Draw it through the "
+                    "release.",
+                    source, name, on_path.nearest));
+  }
+
+  PathSection section;
+  config::ProfileTable& profile = section.site.profile;
+  profile.distance = stations_about(line, on_path, cell, 0.5 * points_apart);
+  profile.terrain = ground_along(line, profile.distance, ground);
+  require_known(line, profile.distance, profile.terrain, on_path.to + cell, ground, source);
+  const auto known =
+      std::find_if(profile.terrain.begin(), profile.terrain.end(), [](double z) { return std::isnan(z); });
+  profile.terrain.erase(known, profile.terrain.end());
+  profile.distance.resize(profile.terrain.size());
+  for (std::size_t k = 0; k < profile.distance.size(); ++k) {
+    profile.surface.push_back(profile.terrain[k] + on_path.at(profile.distance[k]));
+  }
+
+  section.parameters = parameters;
+  config::Case& flat = section.parameters;
+  flat.general.dimension = 2;
+  flat.terrain = {};
+  flat.terrain.kind = config::TerrainKind::profile;
+  set_domain(flat.grid, profile);
+  flat.heat.boundary = {};
+  flat.frames.clear();
+  flat.probes.clear();
+  config::Body& body = flat.bodies.begin()->second;
+  body.shape = config::BodyShape::surface;
+  make_plain(body.temperature, "temperature", release);
+  make_plain(body.saturation, "saturation", release);
+  make_plain(body.porosity, "porosity", release);
+  make_plain(body.ice_content, "ice_content", release);
+  const Place2 here = line.point_at(on_path.middle), ahead = line.point_at(on_path.middle + points_apart);
+  const double east = (ahead[0] - here[0]) / points_apart, north = (ahead[1] - here[1]) / points_apart;
+  body.velocity = {given.velocity[0] * east + given.velocity[1] * north, given.velocity[2], 0.0};
+  return section;
+}
+
+}  // namespace thawslide::sim

@@ -1,0 +1,25 @@
+// The section of a 3D case on a DEM along its path: the 2D case that the rigid block slides.
+//
+// The terrain is the ground below the path from the release on, which goes on straight where the release reaches beyond
+// its ends; it ends with the path, or where this leaves the terrain model below the release. The release stands on it
+// as thick as it is in the mean across the path: its points are counted at the nearest place of the path, over lengths
+// of a cell of the grid, or two of the DEM where these are longer; volume over area is the thickness. Initial fields
+// from maps become their mean over the release's volume, those over x their value at its centre; the velocity becomes
+// its parts along the path and upwards. Sides and frames are left out: the block never meets them.
+#pragma once
+
+#include "config/case.hpp"
+#include "config/site.hpp"
+
+namespace thawslide::sim {
+
+struct PathSection {
+  config::Case parameters;  // 2D: x is the distance along the path [m], y the elevation [m]
+  config::Site site;        // its profile
+};
+
+// Of a case with one body. Throws UserError for a case without a path, with a path that passes the release by or has
+// no ground there, with a body that is no release, or with tilted gravity.
+[[nodiscard]] PathSection section_along_path(const config::Case& parameters, const config::Site& site);
+
+}  // namespace thawslide::sim

@@ -1,0 +1,86 @@
+#include "sim/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "terrain/height_field.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+bool reaches(const Raster& raster, const Place2& place) {
+  return place[0] >= raster.x && place[0] <= raster.x_end() && place[1] >= raster.y && place[1] <= raster.y_end();
+}
+
+[[noreturn]] void fail_off_ground(const std::string& source, const Raster& ground, double along, const Place2& place) {
+  const std::string where =
+      fmt::format("{:.6g} m from its beginning, at x = {:.10g}, y = {:.10g}", along, place[0], place[1]);
+  if (!reaches(ground, place)) {
+    throw UserError(
+        fmt::format("{}: the line is outside the terrain model {}; its points reach from x = {:.10g} to {:.10g} and "
+                    "from y = {:.10g} to {:.10g}. Draw the line within them, or take a larger terrain model.",
+                    source, where, ground.x, ground.x_end(), ground.y, ground.y_end()));
+  }
+  throw UserError(
+      fmt::format("{}: the line crosses a place without data {}; needed: an elevation all along it. Fill the terrain "
+                  "model there (gdal_fillnodata.py), or draw the line around it.",
+                  source, where));
+}
+
+}  // namespace
+
+std::vector<double> stations_along(const PathLine& line, double from, double to, double spacing) {
+  THAWSLIDE_ASSERT(from < to && spacing > 0.0, "from {} to {} m, {} m apart", from, to, spacing);
+  std::vector<double> fixed{from};
+  for (const double corner : line.distances()) {
+    if (corner > fixed.back() && corner < to) {
+      fixed.push_back(corner);
+    }
+  }
+  fixed.push_back(to);
+  std::vector<double> stations{from};
+  for (std::size_t k = 0; k + 1 < fixed.size(); ++k) {
+    const double length = fixed[k + 1] - fixed[k];
+    const double parts = std::ceil(length / spacing * (1.0 - 1e-12));
+    for (double part = 1.0; part < parts; part += 1.0) {
+      stations.push_back(fixed[k] + part / parts * length);
+    }
+    stations.push_back(fixed[k + 1]);
+  }
+  return stations;
+}
+
+std::vector<double> ground_along(const PathLine& line, const std::vector<double>& stations, const Raster& ground) {
+  const terrain::HeightField field(ground);
+  std::vector<double> elevations;
+  for (const double along : stations) {
+    const Place2 place = line.point_at(along);
+    const Vector<double, 2> below(place[0], place[1]);
+    elevations.push_back(field.is_known(below) ? field.height(below) : std::nan(""));
+  }
+  return elevations;
+}
+
+void require_known(const PathLine& line, const std::vector<double>& stations, const std::vector<double>& elevations,
+                   double to, const Raster& ground, const std::string& source) {
+  for (std::size_t k = 0; k < stations.size() && stations[k] <= to; ++k) {
+    if (std::isnan(elevations[k])) {
+      fail_off_ground(source, ground, stations[k], line.point_at(stations[k]));
+    }
+  }
+}
+
+std::vector<double> thickness_along(const PathLine& line, const std::vector<double>& stations,
+                                    const Raster& thickness) {
+  const terrain::HeightField field(thickness);
+  std::vector<double> values;
+  for (const double along : stations) {
+    const Place2 place = line.point_at(along);
+    values.push_back(reaches(thickness, place) ? field.height(Vector<double, 2>(place[0], place[1])) : 0.0);
+  }
+  return values;
+}
+
+}  // namespace thawslide::sim
