@@ -15,7 +15,8 @@ struct ProposalInput {
   std::string dem_file, release_file;  // as the case is to name them
   MapValue thickness;
   Placement placement = Placement::on_top;
-  double reach_angle = 8.0;  // degrees: how far the slide is given room to run
+  double reach_angle = 8.0;     // degrees: how far the slide is given room to run
+  double largest_volume = 0.0;  // m3, confirmed; 0: the default of the parameter holds
 };
 
 struct Proposal {
