@@ -223,6 +223,7 @@ youngs_modulus = 1.0e8
 poisson_ratio = 0.2
 friction_angle = 35.0
 cohesion = 1.0e3
+gaps_close_first = true  # what is torn apart bears nothing until it touches again
 viscosity_time = 0.02
 hydraulic_conductivity = 1.0e-6  # m/s; the smaller, the longer meltwater stays under pressure
 

@@ -37,7 +37,9 @@ def test_case_runs_shortened(thawslide: Program, tmp_path: Path, case: Path) -> 
     assert last["step"] == STEPS
     for name, values in columns.items():
         empty = name.startswith(("band_", "basal_", "seismic_"))  # no band, no contact, no force before the first step
-        assert empty or np.isfinite(values).all(), name
+        # Without a path the front is told along the way of the centre of mass, which is none before it moves.
+        known = values[-1:] if brought and name in ("front_position_m", "runout_m") else values
+        assert empty or np.isfinite(known).all(), name
     # Particles of a release differ in mass, and so do sums in another order, by round-off.
     assert abs(last["mass_residual_kg"]) <= (
         1e-13 * last["mass_kg"] if (run / "maps" / "release.tif").is_file() else 0.0
@@ -52,14 +54,18 @@ def test_case_runs_shortened(thawslide: Program, tmp_path: Path, case: Path) -> 
 
 
 def what_the_user_brings(case: Path) -> list[str]:
-    """Return the options that name terrain and release of a case without its own; passes the test over without them."""
+    """Return the options that name terrain and release of a case without its own, an eighth of its particles.
+
+    Passes the test over where they are not there.
+    """
     if case.parent.name not in BROUGHT:
         return []
     terrain, release = (DATA / name for name in BROUGHT[case.parent.name])
     absent = [str(path.relative_to(DATA)) for path in (terrain, release) if not path.is_file()]
     if absent:
         pytest.skip(f"the case needs data that are not in the repository: {', '.join(absent)} in ../shared/data")
-    return ["--set", f"terrain.file={terrain}", "--set", f"body.slide.release={release}"]
+    chosen = [f"terrain.file={terrain}", f"body.slide.release={release}", "body.slide.particles_per_axis=1"]
+    return [word for key in chosen for word in ("--set", key)]
 
 
 def step_of(case: Path) -> float:
