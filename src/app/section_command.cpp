@@ -66,7 +66,7 @@ Cut cut_along_line(const config::Site& site, const std::string& line_file) {
 
 std::vector<std::string> comments_on(const SectionOptions& options, const config::Site& site, const Cut& cut) {
   std::vector<std::string> comments{
-      fmt::format("Cut by `thawslide section` out of {} along {}{}: the triangulated terrain model below the line.",
+      fmt::format("Cut by `thawslide section` out of {} along {}{}: its triangles below the line.",
                   name_of(options.maps.dem), name_of(options.line), cut.turned ? ", turned round to run downhill" : ""),
       fmt::format("From x = {:.10g}, y = {:.10g} to x = {:.10g}, y = {:.10g}{}{}.", cut.begin[0], cut.begin[1],
                   cut.end[0], cut.end[1], site.crs_name.empty() ? "" : " in ", site.crs_name)};

@@ -38,7 +38,7 @@ def test_a_misspelt_command_names_its_neighbour(thawslide: Program) -> None:
 def test_help_lists_the_commands(thawslide: Program) -> None:
     outcome = thawslide("--help")
     assert outcome.returncode == 0
-    for command in ("run", "resume", "check", "block", "describe", "report", "version"):
+    for command in ("run", "resume", "check", "block", "new", "section", "describe", "report", "version"):
         assert re.search(rf"^\s+{command}\s+\S", outcome.stdout, re.MULTILINE), command
 
 

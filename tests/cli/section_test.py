@@ -1,0 +1,226 @@
+"""thawslide section cuts a 2D case out of a terrain model; thawslide block slides a 3D case along its path."""
+
+from __future__ import annotations
+
+import csv
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import Program, history, run_facts, sets
+from terrain_files import place, write_dem, write_line, write_release
+
+SLOPE = 0.5  # fall per metre of x
+RELEASE = [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)]
+STRAIGHT = [(15.0, 200.0), (775.0, 200.0)]
+
+
+@dataclass(frozen=True)
+class Maps:
+    """The files of a plane that falls towards +x, with a release on it and a line down it."""
+
+    dem: Path
+    release: Path
+    line: Path
+
+    def words(self, folder: Path, *more: object) -> list[object]:
+        """Return the words that ask for the section without a release."""
+        return ["section", folder, "--dem", self.dem, "--line", self.line, *more]
+
+    def words_with_release(self, folder: Path, *more: object) -> list[object]:
+        """Return those with it."""
+        return self.words(folder, "--release", self.release, *more)
+
+
+@pytest.fixture
+def maps(tmp_path: Path) -> Maps:
+    return Maps(
+        dem=write_dem(tmp_path / "dem.tif", lambda x, y: 1000.0 - SLOPE * x),
+        release=write_release(tmp_path / "release.geojson", RELEASE, thickness=20.0),
+        line=write_line(tmp_path / "line.geojson", STRAIGHT),
+    )
+
+
+def profile(folder: Path) -> tuple[list[str], dict[str, np.ndarray]]:
+    """Return comments and columns of a written profile."""
+    lines = (folder / "profile.csv").read_text().splitlines()
+    comments = [line for line in lines if line.startswith("#")]
+    header, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+    return comments, dict(zip(header, np.array(rows, dtype=float).T, strict=True))
+
+
+def test_section_of_a_plane_runs_as_it_is(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+    folder = tmp_path / "case"
+    made = thawslide(*maps.words_with_release(folder))
+    assert made.returncode == 0, made.stderr
+    assert sorted(file.name for file in folder.iterdir()) == ["case.toml", "profile.csv"]
+    assert "a release of 2000 m3 per metre of width, 18.7 m thick, on 6 m cells: about 222 particles" in made.stdout
+    comments, columns = profile(folder)
+    assert comments == [
+        "# Cut by `thawslide section` out of dem.tif along line.geojson: its triangles below the line.",
+        "# From x = 300015, y = 400200 to x = 300775, y = 400200 in EPSG:31287.",
+        "# The terrain is that of the terrain model; the surface is higher by the vertical thickness of "
+        "release.geojson.",
+    ]
+    distance, terrain = columns["distance_m"], columns["terrain_elevation_m"]
+    assert distance[0] == 0.0 and distance[-1] == pytest.approx(760.0) and np.diff(distance).max() <= 5.0 + 1e-9
+    assert terrain == pytest.approx(1000.0 - SLOPE * (15.0 + distance), abs=1e-9)
+    thickness = columns["surface_elevation_m"] - terrain
+    inside = (distance >= 100.0) & (distance <= 180.0)
+    assert thickness[inside] == pytest.approx(20.0, abs=1e-9)
+    assert (thickness[(distance < 80.0) | (distance > 200.0)] == 0.0).all()
+    assert np.trapezoid(thickness, distance) == pytest.approx(2000.0, rel=1e-6)
+
+    text = (folder / "case.toml").read_text()
+    assert "has no side walls and does not spread" in text
+    case = tomllib.loads(text)
+    assert 2 * 18.7 / case["grid"]["cell"] >= 6.0
+    assert case["body"]["slide"]["shape"] == "surface" and case["terrain"]["type"] == "profile"
+
+    checked = thawslide("check", folder)
+    assert checked.returncode == 0, checked.stderr
+    run = tmp_path / "run"
+    done = thawslide("run", folder, "--output", run, *sets(time__end=2))
+    assert done.returncode == 0, done.stderr
+    assert run_facts(run)["status"] == "done"
+    columns = history(run)
+    assert columns["mean_velocity_m_s"][-1] > 0.5
+    assert columns["front_position_m"][-1] > columns["front_position_m"][0] + 0.5
+
+
+def test_section_shares_its_physics_with_new(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+    assert thawslide(*maps.words_with_release(tmp_path / "flat")).returncode == 0
+    made = thawslide("new", tmp_path / "space", "--dem", maps.dem, "--release", maps.release)
+    assert made.returncode == 0, made.stderr
+    flat, space = (tomllib.loads((tmp_path / name / "case.toml").read_text()) for name in ("flat", "space"))
+    for table in ("material", "basal", "band"):
+        assert flat[table] == space[table]
+    for key in ("temperature", "porosity", "particles_per_axis", "material"):
+        assert flat["body"]["slide"][key] == space["body"]["slide"][key]
+
+
+def test_cut_takes_the_body_out_of_the_ground(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+    folders = [tmp_path / "on-top", tmp_path / "cut"]
+    for folder, placement in zip(folders, ("--on-top", "--cut"), strict=True):
+        made = thawslide(*maps.words_with_release(folder, "--thickness", 12, placement))
+        assert made.returncode == 0, made.stderr
+    (_, on_top), (comments, cut) = map(profile, folders)
+    assert cut["surface_elevation_m"] == pytest.approx(on_top["terrain_elevation_m"], abs=1e-9)
+    thickness = cut["surface_elevation_m"] - cut["terrain_elevation_m"]
+    assert thickness == pytest.approx(on_top["surface_elevation_m"] - on_top["terrain_elevation_m"], abs=1e-9)
+    assert thickness.max() == pytest.approx(12.0)
+    assert comments[2] == (
+        "# The surface is that of the terrain model; the terrain is lower by the vertical thickness of release.geojson."
+    )
+    assert thawslide("check", folders[1]).returncode == 0
+
+
+def test_without_a_release_the_profile_alone(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+    folder = tmp_path / "case"
+    made = thawslide(*maps.words(folder))
+    assert made.returncode == 0, made.stderr
+    assert [file.name for file in folder.iterdir()] == ["profile.csv"]
+    assert "note: without --release there is no body, and no case.toml was written" in made.stdout
+    assert set(profile(folder)[1]) == {"distance_m", "terrain_elevation_m"}
+
+
+def test_corners_are_kept_and_a_line_uphill_is_turned_round(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+    write_line(maps.line, [(703.0, 351.0), (403.0, 200.0), (53.0, 200.0)])
+    made = thawslide(*maps.words_with_release(tmp_path / "case"))
+    assert made.returncode == 0, made.stderr
+    assert "note: line.geojson runs uphill; the section begins at its end" in made.stdout
+    comments, columns = profile(tmp_path / "case")
+    assert "along line.geojson, turned round to run downhill:" in comments[0]
+    distance, terrain = columns["distance_m"], columns["terrain_elevation_m"]
+    corner = np.flatnonzero(np.isclose(distance, 350.0, rtol=0.0, atol=1e-9))
+    assert len(corner) == 1 and terrain[corner[0]] == pytest.approx(1000.0 - SLOPE * 403.0)
+    assert distance[-1] == pytest.approx(350.0 + np.hypot(300.0, 151.0))
+    assert terrain[-1] == pytest.approx(1000.0 - SLOPE * 703.0)
+
+
+def test_mistakes_are_told(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+    folder = tmp_path / "case"
+
+    def error(*words: object) -> str:
+        outcome = thawslide(*words)
+        assert outcome.returncode == 2, outcome.stdout
+        assert not folder.exists()
+        return outcome.stderr.strip()
+
+    write_line(maps.line, [(15.0, 200.0), (815.0, 200.0)])
+    x, y = place(800.0, 200.0)
+    assert error(*maps.words(folder)) == (
+        f"error: --line: {maps.line}: the line is outside the terrain model 785 m from its beginning, at x = {x:g}, "
+        f"y = {y:g}; its points reach from x = 300005 to 300795 and from y = 400005 to 400395. Draw the line within "
+        "them, or take a larger terrain model."
+    )
+    write_line(maps.line, [(2000.0, 200.0), (2500.0, 200.0)])
+    assert "the line (x from 302000 to 302500, y from 400200 to 400200) lies outside" in error(*maps.words(folder))
+
+    write_line(maps.line, [(15.0, 300.0), (775.0, 300.0)])
+    assert error(*maps.words_with_release(folder)) == (
+        f"error: --line: {maps.line}: the line does not cross the release of {maps.release}. Draw it through the "
+        "release, or leave --release out for the profile alone."
+    )
+    write_line(maps.line, [(150.0, 200.0), (775.0, 200.0)])
+    assert error(*maps.words_with_release(folder)) == (
+        f"error: --line: {maps.line}: the section begins 0 m before the release; needed: at least 30 m, 5 cells. Make "
+        "the line longer there."
+    )
+    write_line(maps.line, STRAIGHT)
+    assert "--thickness requires --release" in error(*maps.words(folder, "--thickness", 5))
+    assert "--line is required" in error("section", folder, "--dem", maps.dem)
+
+    write_dem(maps.dem, lambda x, y: np.where((x > 400.0) & (x < 420.0), np.nan, 1000.0 - SLOPE * x))
+    message = error(*maps.words(folder))
+    assert message.startswith(f"error: --line: {maps.line}: the line crosses a place without data ")
+    assert message.endswith(
+        "; needed: an elevation all along it. Fill the terrain model there (gdal_fillnodata.py), or draw the line "
+        "around it."
+    )
+
+
+def test_an_existing_folder_is_left_alone(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+    folder = tmp_path / "case"
+    folder.mkdir()
+    (folder / "mine.txt").write_text("mine")
+    outcome = thawslide(*maps.words_with_release(folder))
+    assert outcome.returncode == 2
+    assert outcome.stderr == (
+        f"error: {folder}: there is something already; give the name of a folder that is not there yet, or an empty "
+        "one.\n"
+    )
+    assert [file.name for file in folder.iterdir()] == ["mine.txt"]
+
+
+def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+    folder = tmp_path / "space"
+    assert thawslide("new", folder, "--dem", maps.dem, "--release", maps.release).returncode == 0
+    without = thawslide("block", folder)
+    assert without.returncode == 2
+    assert "Give maps.path, a file with a line from the release down the way it will take." in without.stderr
+
+    file = tmp_path / "block.csv"
+    coulomb = sets(
+        maps__path=maps.line,
+        basal__friction="constant",
+        basal__friction_angle=20,
+        time__end=6,
+        pressure__enabled="false",
+    )
+    slid = thawslide("block", folder, "--output", file, *coulomb)
+    assert slid.returncode == 0, slid.stderr
+    assert "a section along maps.path, with the release's mean thickness across the path" in slid.stdout
+    columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
+    angle = np.arctan(SLOPE)
+    acceleration = 9.81 * (np.sin(angle) - np.tan(np.radians(20.0)) * np.cos(angle))
+    assert acceleration > 0.5
+    assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
+    assert columns["front_position_m"][0] == pytest.approx(190.0, abs=10.0)
+
+
+def read_csv(file: Path) -> tuple[list[str], np.ndarray]:
+    header, *rows = csv.reader(file.read_text().splitlines())
+    return header, np.array(rows, dtype=float).T

@@ -1,0 +1,89 @@
+// What the rigid block takes of a case.
+#include "sim/block.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../support/case_from_text.hpp"
+#include "base/error.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using testing_support::case_from_text;
+
+std::string slab(const std::string& state, const std::string& more = "") {
+  return R"(
+[case]
+gravity_tilt = 30.0
+[time]
+end = 2.0
+step = 0.002
+history_interval = 0.5
+[grid]
+cell = 10.0
+min = [-50.0, -10.0]
+max = [500.0, 80.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[freezing]
+curve = "power_law"
+exponent = 5.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 1e9
+poisson_ratio = 0.2
+viscosity_time = 0.02
+hydraulic_conductivity = 2e-8
+[basal]
+friction = "lubricated"
+friction_angle = 20.0
+[band]
+thickness = 0.05
+[body.slab]
+material = "rock"
+min = [0.0, 0.0]
+max = [200.0, 50.0]
+)" + state +
+         more;
+}
+
+// At -1 C the power law leaves a saturation of 1/(1 + ...) of water; given as such, the state is the same.
+TEST(Block, TakesSaturationAndIceContentForTemperatureAndPorosity) {
+  const auto rows = run_block(case_from_text(slab("temperature = -1.0\nporosity = 0.4\n")));
+  double saturation = 0.0;
+  for (const auto& [name, value] : rows.front()) {
+    saturation = name == "band_saturation" ? value : saturation;
+  }
+  ASSERT_GT(saturation, 0.0);
+  ASSERT_LT(saturation, 1.0);
+  const auto same = run_block(case_from_text(
+      slab(fmt::format("saturation = {:.17g}\nice_content = {:.17g}\n", saturation, 0.4 * (1.0 - saturation)))));
+  ASSERT_EQ(rows.size(), same.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    for (std::size_t column = 0; column < rows[k].size(); ++column) {
+      const double value = rows[k][column].second;
+      EXPECT_NEAR(same[k][column].second, value, 1e-9 * std::abs(value) + 1e-9) << rows[k][column].first;
+    }
+  }
+}
+
+TEST(Block, SlidesOneBodyOfASection) {
+  const std::string second = R"([body.other]
+material = "rock"
+min = [210.0, 0.0]
+max = [250.0, 20.0]
+)";
+  try {
+    run_block(case_from_text(slab("temperature = -1.0\nporosity = 0.4\n", second)));
+    FAIL() << "no error";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("case.toml: the block model slides one body, and the case has 2. Use `thawslide run`."),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,256 @@
+// The rigid block of a 3D case: its section along a path.
+#include "sim/path_section.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "../support/small_terrain.hpp"
+#include "base/error.hpp"
+#include "sim/block.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using testing_support::case_from_text;
+using testing_support::raster;
+using testing_support::value_of;
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+constexpr double slope = 30.0, top = 1000.0, thickness = 30.0, bend_at = 450.0, turn = 60.0;
+
+// A body of 30 m (vertical) from x = 100 to 300 m; its base melts as it slides.
+const std::string on_plane = R"(
+[time]
+end = 16.0
+step = 0.002
+history_interval = 1.0
+[grid]
+cell = 10.0
+min = [0.0, 0.0]
+max = [2000.0, 1100.0]
+[terrain]
+TERRAIN
+[material.rock]
+law = "elastic"
+youngs_modulus = 1e9
+poisson_ratio = 0.2
+viscosity_time = 0.02
+hydraulic_conductivity = 2e-8
+[body.slide]
+material = "rock"
+shape = "surface"
+temperature = -1.0
+[basal]
+friction = "lubricated"
+friction_angle = 25.0
+[band]
+thickness = 0.05
+)";
+
+// The same as a 2D case, on a profile of the slope along x up to a bend, and of another beyond it.
+config::Case flat_case(double slope_beyond) {
+  const double fall = std::tan(slope * degree), beyond = std::tan(slope_beyond * degree);
+  const auto ground = [&](double x) { return top - fall * std::min(x, bend_at) - beyond * std::max(0.0, x - bend_at); };
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const auto folder =
+      std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "." + test->name());
+  std::filesystem::create_directories(folder);
+  std::ofstream file(folder / "profile.csv");
+  file << "distance_m,terrain_elevation_m,surface_elevation_m\n";
+  file.precision(17);
+  for (const auto& [x, t] : std::vector<std::array<double, 2>>{{0.0, 0.0},
+                                                               {100.0 - 1e-5, 0.0},
+                                                               {100.0, thickness},
+                                                               {300.0, thickness},
+                                                               {300.0 + 1e-5, 0.0},
+                                                               {bend_at, 0.0},
+                                                               {2000.0, 0.0}}) {
+    file << x << "," << ground(x) << "," << ground(x) + t << "\n";
+  }
+  file.close();
+  std::string text = on_plane;
+  text.replace(text.find("TERRAIN"), 7, "type = \"profile\"\nfile = \"profile.csv\"");
+  return case_from_text(text);
+}
+
+struct InSpace {
+  config::Case parameters;
+  config::Site site;
+};
+
+// The case in space: a plane that falls towards an azimuth [degrees from +x], the release 80 m wide about the way
+// straight down, and a path that begins at the origin and turns at the bend.
+InSpace case_on_dem(const config::Case& flat, double azimuth, double turned) {
+  const double down_x = std::cos(azimuth * degree), down_y = std::sin(azimuth * degree);
+  const double fall = std::tan(slope * degree), cell = 5.0;
+  InSpace made{flat, {}};
+  made.parameters.general.dimension = 3;
+  made.parameters.terrain.kind = config::TerrainKind::dem;
+  made.parameters.terrain.file.clear();
+  config::Body& body = made.parameters.bodies.at("slide");
+  body.shape = config::BodyShape::release;
+  Raster ground = raster(-1700.0 + 0.5 * cell, -1700.0 + 0.5 * cell, cell, 681, 681,
+                         [&](double x, double y) { return top - fall * (x * down_x + y * down_y); });
+  config::Release release;
+  release.thickness = ground.filled(0.0);
+  for (int row = 0; row < ground.rows; ++row) {
+    for (int column = 0; column < ground.columns; ++column) {
+      const double x = ground.x_of(column), y = ground.y_of(row);
+      const double along = x * down_x + y * down_y, across = y * down_x - x * down_y;
+      if (along > 100.0 && along < 300.0 && std::abs(across) < 40.0) {
+        release.thickness.values[ground.index(column, row)] = thickness;
+        release.area += cell * cell;
+      }
+    }
+  }
+  made.site.releases["slide"] = release;
+  made.site.ground = std::make_shared<const Raster>(std::move(ground));
+  const double on_x = std::cos((azimuth + turned) * degree), on_y = std::sin((azimuth + turned) * degree);
+  made.site.path = {{0.0, 0.0},
+                    {bend_at * down_x, bend_at * down_y},
+                    {bend_at * down_x + 1100.0 * on_x, bend_at * down_y + 1100.0 * on_y}};
+  return made;
+}
+
+void expect_same_motion(const std::vector<HistoryRow>& rows, const std::vector<HistoryRow>& expected,
+                        double tolerance) {
+  ASSERT_EQ(rows.size(), expected.size());
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    ASSERT_EQ(rows[k].size(), expected[k].size());
+    for (std::size_t column = 0; column < rows[k].size(); ++column) {
+      const double value = expected[k][column].second;
+      EXPECT_NEAR(rows[k][column].second, value, tolerance * std::abs(value) + 1e-9)
+          << rows[k][column].first << " at " << rows[k][0].second << " s";
+    }
+  }
+}
+
+std::vector<HistoryRow> run_along_path(const InSpace& made) {
+  const PathSection section = section_along_path(made.parameters, made.site);
+  return run_block(section.parameters, section.site);
+}
+
+TEST(PathSection, PlanarTerrainModelGivesTheMotionOfThePlane) {
+  const config::Case flat = flat_case(slope);
+  const auto expected = run_block(flat);
+  ASSERT_GT(value_of(expected.back(), "displacement_m"), 100.0);
+  ASSERT_GT(value_of(expected.back(), "band_saturation"), 0.3) << "the base must have begun to melt";
+  for (const double azimuth : {0.0, 90.0, 180.0}) {
+    SCOPED_TRACE(fmt::format("azimuth {}", azimuth));
+    expect_same_motion(run_along_path(case_on_dem(flat, azimuth, 0.0)), expected, 1e-6);
+  }
+}
+
+// The release's outline, which is no longer along the points, is known to half a cell of the terrain model.
+TEST(PathSection, SoItDoesWhereThePointsAreOblique) {
+  const config::Case flat = flat_case(slope);
+  const auto rows = run_along_path(case_on_dem(flat, 37.0, 0.0)), expected = run_block(flat);
+  for (const char* column : {"velocity_m_s", "displacement_m", "front_position_m", "normal_pressure_Pa"}) {
+    EXPECT_NEAR(value_of(rows.back(), column) / value_of(expected.back(), column), 1.0, 0.02) << column;
+  }
+}
+
+// Where the path turns away from the line of fall its slope is that of the plane along it.
+TEST(PathSection, BentPathGivesTheMotionOnTheBentProfile) {
+  const double slope_beyond = std::atan(std::tan(slope * degree) * std::cos(turn * degree)) / degree;
+  const config::Case flat = flat_case(slope_beyond);
+  const auto expected = run_block(flat);
+  ASSERT_GT(value_of(expected.back(), "front_position_m"), bend_at + 100.0);
+  expect_same_motion(run_along_path(case_on_dem(flat, 90.0, turn)), expected, 1e-6);
+  EXPECT_GT(value_of(run_block(flat_case(slope)).back(), "velocity_m_s"),
+            1.02 * value_of(expected.back(), "velocity_m_s"));
+}
+
+TEST(PathSection, ThicknessIsTheMeanAcrossThePath) {
+  InSpace made = case_on_dem(flat_case(slope), 0.0, 0.0);
+  Raster& release = made.site.releases.at("slide").thickness;
+  for (int row = 0; row < release.rows; ++row) {
+    for (int column = 0; column < release.columns; ++column) {
+      double& t = release.values[release.index(column, row)];
+      t = t > 0.0 ? (release.y_of(row) > 0.0 ? 40.0 : 10.0) : 0.0;
+    }
+  }
+  const config::ProfileTable profile = section_along_path(made.parameters, made.site).site.profile;
+  ASSERT_EQ(profile.surface.size(), profile.distance.size());
+  for (std::size_t k = 0; k < profile.distance.size(); ++k) {
+    const double x = profile.distance[k];
+    EXPECT_NEAR(profile.surface[k] - profile.terrain[k], x < 100.0 - 1e-9 || x > 300.0 + 1e-9 ? 0.0 : 25.0, 1e-9) << x;
+    EXPECT_NEAR(profile.terrain[k], top - std::tan(slope * degree) * x, 1e-9);
+  }
+}
+
+TEST(PathSection, FieldsFromMapsBecomeTheirMeanOverTheVolume) {
+  InSpace made = case_on_dem(flat_case(slope), 0.0, 0.0);
+  config::Body& body = made.parameters.bodies.at("slide");
+  body.velocity = {3.0, 7.0, -2.0};
+  body.temperature = {};
+  body.temperature.over = InitialField::Over::raster;
+  config::Release& release = made.site.releases.at("slide");
+  Raster temperature = release.thickness.filled(-9.0);
+  for (int row = 0; row < temperature.rows; ++row) {
+    for (int column = 0; column < temperature.columns; ++column) {
+      const std::size_t k = temperature.index(column, row);
+      release.thickness.values[k] *= temperature.y_of(row) > 0.0 ? 2.0 : 1.0;
+      temperature.values[k] = temperature.y_of(row) > 0.0 ? -3.0 : -9.0;
+    }
+  }
+  release.fields["temperature"] = temperature;
+  const PathSection section = section_along_path(made.parameters, made.site);
+  const config::Body& flat = section.parameters.bodies.at("slide");
+  EXPECT_NEAR(flat.temperature.at(0.0, 0.0), (2.0 * -3.0 + -9.0) / 3.0, 1e-9);
+  EXPECT_NEAR(flat.velocity[0], 3.0, 1e-12);
+  EXPECT_NEAR(flat.velocity[1], -2.0, 1e-12);
+}
+
+// A path drawn for maps may begin within the release and leave the terrain model.
+TEST(PathSection, PathNeedsGroundAtTheReleaseOnly) {
+  InSpace made = case_on_dem(flat_case(slope), 0.0, 0.0);
+  made.site.path = {{250.0, 0.0}, {5000.0, 0.0}};
+  const config::ProfileTable profile = section_along_path(made.parameters, made.site).site.profile;
+  EXPECT_EQ(profile.distance.front(), -190.0) << "the release begins at -150 m; four cells of 10 m";
+  EXPECT_NEAR(profile.distance.back(), 1702.5 - 250.0, 2.5);
+}
+
+std::string error_of(const InSpace& made) {
+  try {
+    static_cast<void>(section_along_path(made.parameters, made.site));
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(PathSection, SaysWhatItNeeds) {
+  const config::Case flat = flat_case(slope);
+  InSpace made = case_on_dem(flat, 0.0, 0.0);
+  made.parameters.file = "case.toml";
+  made.parameters.places = {{"maps.path", "case.toml:60:1"}};
+  const InSpace sound = made;
+  made.site.path.clear();
+  EXPECT_EQ(error_of(made),
+            "case.toml: the block model slides a 3D case along a line, and the case names none. Give maps.path, a file "
+            "with a line from the release down the way it will take.");
+  made = sound;
+  made.site.path = {{0.0, 400.0}, {1000.0, 400.0}};
+  EXPECT_EQ(error_of(made),
+            "case.toml:60:1: the path passes the release of body 'slide' by, 362.5 m away. Draw it through the "
+            "release.");
+  made = sound;
+  made.parameters.general.gravity_tilt = 5.0;
+  EXPECT_EQ(error_of(made),
+            "case.toml: case.gravity_tilt is 5 degrees towards +x, which a section along a path does not know. Set it "
+            "to 0, or use `thawslide run`.");
+  made = sound;
+  made.parameters.bodies.at("slide").shape = config::BodyShape::box;
+  EXPECT_EQ(error_of(made),
+            "case.toml: on a DEM the block model slides a body of the shape \"release\". Give body.slide polygons or a "
+            "raster, or use `thawslide run`.");
+  made = sound;
+  made.parameters.bodies["other"] = made.parameters.bodies.at("slide");
+  EXPECT_EQ(error_of(made), "case.toml: the block model slides one body, and the case has 2. Use `thawslide run`.");
+}
+
+}  // namespace
+}  // namespace thawslide::sim
