@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::uintmax_t largest_copy = 50'000'000;  // bytes
+constexpr std::uintmax_t linked_from = 50'000'000;  // bytes
 
 std::string host_name() {
   char name[256] = "";
@@ -117,12 +117,16 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
           fmt::format("two inputs are called {}; rename one: a run keeps copies of both in one folder", name));
     }
     const std::string content = read_file(file);
-    const bool copied = content.size() <= largest_copy;
-    if (copied) {
-      write_file_atomically(folder / "inputs" / name, content);
+    const fs::path copy = folder / "inputs" / name;
+    // A large file is linked, which takes no room, where the file system can: the run goes on from it all the same.
+    std::error_code not_linked;
+    if (content.size() > linked_from) {
+      fs::create_hard_link(file, copy, not_linked);
     }
-    inputs.push_back(
-        {file.string(), copied ? "inputs/" + name : "", sha256_hex(content.data(), content.size()), content.size()});
+    if (content.size() <= linked_from || not_linked) {
+      write_file_atomically(copy, content);
+    }
+    inputs.push_back({file.string(), "inputs/" + name, sha256_hex(content.data(), content.size()), content.size()});
   }
   return inputs;
 }

@@ -14,7 +14,7 @@ namespace thawslide::io {
 // An input of a run.
 struct InputFile {
   std::string path;  // as it was found
-  std::string copy;  // in the run's folder, e.g. inputs/profile.csv; empty for a file too large to copy
+  std::string copy;  // in the run's folder, e.g. inputs/profile.csv
   std::string sha256;
   std::uintmax_t bytes = 0;
 };
@@ -40,8 +40,8 @@ Provenance provenance_of_this_program();
 
 void write_provenance(const std::filesystem::path& file, const Provenance& provenance);
 
-// Copies inputs into folder/inputs, one of each name; files above 50 MB are only hashed. Throws UserError for two files
-// of one name, or what cannot be read.
+// Copies inputs into folder/inputs, one of each name; files above 50 MB become hard links where the file system can.
+// Throws UserError for two files of one name, or what cannot be read.
 std::vector<InputFile> copy_inputs(const std::filesystem::path& folder,
                                    const std::vector<std::filesystem::path>& files);
 

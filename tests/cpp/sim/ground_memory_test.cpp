@@ -1,0 +1,24 @@
+// What the grid knows of the ground follows the slide.
+#include "../support/slide_in_space.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+TEST(GroundMemory, WhatTheSlideHasLeftIsForgotten) {
+  Simulation<3, double> simulation(testing_support::slide_in_space("velocity = [40.0, 0.0, 0.0]"));
+  std::size_t most_held = 0, most_active = 0, seen = 0;
+  for (int k = 0; k < 600; ++k) {  // 48 m, eight times the body's length
+    const std::size_t before = simulation.ground()->held();
+    simulation.step(0.002);
+    const std::size_t after = simulation.ground()->held();
+    seen += after > before ? after - before : 0;
+    most_held = std::max(most_held, after);
+    most_active = std::max(most_active, simulation.grid().blocks().size());
+  }
+  EXPECT_GT(seen, 3 * most_active);  // the slide came over more ground than may be held
+  EXPECT_LE(most_held, 4 * most_active);
+}
+
+}  // namespace
+}  // namespace thawslide::sim
