@@ -1,0 +1,115 @@
+// A profile as a terrain model that does not vary across, between smooth walls: what runs over it runs as in 2D.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "../support/record.hpp"
+#include "../support/slide_on_dem.hpp"
+#include "sim/history.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+
+// A level shelf that bends into a slope of 35 degrees, and that into a plain. Points each 2.5 m.
+double elevation(double x) {
+  const auto bend = [](double from, double to, double x) {  // integral of a slope that rises from 0 to 1
+    const double length = to - from, t = std::clamp((x - from) / length, 0.0, 1.0);
+    return 0.5 * t * t * length + std::max(0.0, x - to);
+  };
+  return -0.7 * (bend(20.0, 100.0, x) - bend(120.0, 200.0, x));
+}
+
+constexpr double first_point = -30.0, last_point = 300.0, spacing = 2.5;
+
+// The body stands on the shelf, where both cases fill the same lattice: it starts with a push.
+std::string text_of(int dimension) {
+  const bool flat = dimension == 2;
+  const auto corner = [&](double x, double y, double z) {
+    return flat ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
+  };
+  return fmt::format(R"(
+[case]
+dimension = {}
+[time]
+end = 7.0
+step = 0.0015
+[grid]
+cell = 1.25
+min = {}
+max = {}
+[grid.boundary]
+{}
+[terrain]
+{}
+[material.debris]
+law = "mohr_coulomb"
+youngs_modulus = 2e7
+poisson_ratio = 0.3
+friction_angle = 30.0
+cohesion = 0.0
+gaps_close_first = true
+[body.slide]
+material = "debris"
+shape = "box"
+min = {}
+max = {}
+velocity = {}
+[basal]
+friction = "constant"
+friction_angle = 12.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)",
+                     dimension, corner(-25.0, 0.0, -90.0), corner(295.0, 2.5, 40.0),
+                     flat ? "" : "y_min = \"roller\"\ny_max = \"roller\"",
+                     flat ? "type = \"profile\"\nfile = \"profile.csv\"" : "type = \"dem\"\nfile = \"dem.tif\"",
+                     corner(-20.0, 0.0, 0.0), corner(20.0, 2.5, 7.5), corner(14.0, 0.0, 0.0));
+}
+
+sim::Simulation<2, double> in_profile() {
+  std::ofstream csv(folder_of_this_test() / "profile.csv");
+  csv << "distance_m,terrain_elevation_m\n";
+  for (double x = first_point; x <= last_point; x += spacing) {
+    csv << fmt::format("{:.17g},{:.17g}\n", x, elevation(x));
+  }
+  csv.close();
+  return sim::Simulation<2, double>(case_from_text(text_of(2)));
+}
+
+sim::Simulation<3, double> in_space() {
+  config::Site site;
+  site.ground = std::make_shared<const Raster>(raster_between(Place(first_point, -10.0), Place(last_point, 15.0),
+                                                              spacing, [](double x, double) { return elevation(x); }));
+  return sim::Simulation<3, double>(case_on_dem(text_of(3)), site);
+}
+
+TEST(ExtrudedProfile, RunsAsInTwoDimensions) {
+  Record record("A profile extruded to a terrain model",
+                "Debris, 40 m long and 7.5 m thick, is pushed over the edge of a shelf, down 35 degrees and out on a "
+                "plain: along a profile in 2D, and in 3D on a terrain model of it, 2.5 m wide between smooth walls.",
+                "mean velocity of the 2D run", "symmetry");
+  auto profile = in_profile();
+  auto space = in_space();
+  Curve curve{"time [s]", "mean velocity [m/s]", {}, {}, {}};
+  double largest = 0.0;
+  for (double time = 0.5; time < 7.1; time += 0.5) {
+    run_until(profile, time);
+    run_until(space, time);
+    curve.x.push_back(time);
+    curve.exact.push_back(value_of(history_row(profile), "mean_velocity_m_s"));
+    curve.computed.push_back(value_of(history_row(space), "mean_velocity_m_s"));
+    largest = std::max(largest, std::abs(curve.computed.back() / curve.exact.back() - 1.0));
+  }
+  record.expect_near("largest difference of the mean velocities, over that in 2D", largest, 0.0, 0.02);
+  record.draw(curve);
+}
+
+}  // namespace
+}  // namespace thawslide::verification

@@ -1,0 +1,168 @@
+// A slide with every mechanism on a terrain model, part of which leaves it: accounts, threads, messages; and that none
+// gets below the ground.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+#include "../support/fields.hpp"
+#include "../support/slide_on_dem.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "sim/history.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+const std::string slide = R"(
+[case]
+dimension = 3
+[time]
+end = 5.0
+step = 0.002
+[grid]
+cell = 2.5
+min = [-60.0, -40.0, -80.0]
+max = [120.0, 40.0, 60.0]
+[terrain]
+type = "dem"
+file = "dem.tif"
+[material.debris]
+law = "mohr_coulomb"
+youngs_modulus = 5e7
+poisson_ratio = 0.3
+friction_angle = 30.0
+cohesion = 0.0
+gaps_close_first = true
+hydraulic_conductivity = 1e-9
+)" + release_table + R"(
+material = "debris"
+temperature = -2.0
+porosity = 0.375
+velocity = [8.0, 0.0, -4.8]
+[basal]
+friction = "lubricated"
+friction_angle = 15.0
+[band]
+thickness = 0.1
+)";
+
+// Falls by 31 degrees along x, with a gully and bumps; it ends at x = 40.
+double slope(double x, double y) {
+  return -0.6 * x + 0.01 * y * y + 0.8 * std::sin(0.2 * x + 0.1) * std::cos(0.15 * y);
+}
+
+Raster heap() {
+  return thickness_between(Place(-14.0, -12.0), Place(14.0, 12.0), 0.25,
+                           [](double x, double y) { return std::hypot(x, y) < 11.0 ? 6.0 : 0.0; });
+}
+
+// hole: whether points have no data.
+Simulation<3, double> run_onto(double end_of_dem, const std::vector<std::string>& sets,
+                               const std::function<bool(double, double)>& hole = nullptr) {
+  const Raster ground = raster_between(Place(-70.0, -50.0), Place(end_of_dem, 50.0), 4.0,
+                                       [&](double x, double y) { return hole && hole(x, y) ? no_data : slope(x, y); });
+  return Simulation<3, double>(case_on_dem(slide, sets), site_of(ground, heap()));
+}
+
+struct Seen {
+  std::map<std::string, std::vector<double>> fields;
+  sim::HistoryRow row;
+};
+
+// Until about half of the slide has left; checks all accounts at each half second.
+Seen leave(int threads) {
+  const int threads_before = thread_count();
+  set_thread_count(threads);
+  auto simulation = run_onto(42.0, {"grid.leaving=remove"});
+  const double mass = value_of(history_row(simulation), "mass_kg");
+  for (double time = 0.5; time < 4.1; time += 0.5) {
+    run_until(simulation, time);
+    const auto row = history_row(simulation);
+    const auto value = [&](const std::string& column) { return value_of(row, column); };
+    EXPECT_NEAR(value("mass_residual_kg"), 0.0, 1e-12 * mass);
+    EXPECT_NEAR(value("mass_kg") + value("left_mass_kg"), mass, 1e-12 * mass);
+    EXPECT_NEAR(value("rock_kg") + value("ice_kg") + value("water_kg"), value("mass_kg"), 1e-12 * mass);
+    for (const std::string axis : {"x", "y", "z"}) {
+      EXPECT_NEAR(value("momentum_residual_" + axis + "_N_s"), 0.0, 1e-11 * mass * 9.81 * time) << axis;
+    }
+    EXPECT_NEAR(value("thermal_residual_J"), 0.0, 1e-10 * value("friction_heat_J"));
+    EXPECT_NEAR(value("mechanical_residual_J"), 0.0, 0.01 * value("kinetic_J"));
+  }
+  set_thread_count(threads_before);
+  return {fields_by_id(simulation.particles()), history_row(simulation)};
+}
+
+TEST(LeavingDem, AccountsCloseAndThreadsDoNotMatter) {
+  const Seen one = leave(1), two = leave(2);
+  const double left = value_of(one.row, "left_mass_kg"), stays = value_of(one.row, "mass_kg");
+  EXPECT_GT(left, 0.1 * stays);
+  EXPECT_GT(stays, 0.1 * left);
+  EXPECT_GT(value_of(one.row, "left_heat_J"), 0.0);
+  EXPECT_EQ(one.fields, two.fields);
+  for (std::size_t k = 0; k < one.row.size(); ++k) {
+    EXPECT_EQ(one.row[k].second, two.row[k].second) << one.row[k].first;
+  }
+}
+
+// Runs until the run ends with an error, whose text must name the place; returns that place's x and y [m].
+Place expect_error(Simulation<3, double> simulation) {
+  std::string text = "it ran to its end";
+  try {
+    run_until(simulation, 5.0);
+  } catch (const RunError& error) {
+    text = error.what();
+  }
+  const std::regex expected(
+      "the run went bad at t = ([0-9.]+) s \\(step [0-9]+\\): particle [0-9]+ of body 'slide' at \\((-?[0-9.]+), "
+      "(-?[0-9.]+), (-?[0-9.]+)\\) m: the terrain below it is not known: the DEM ends or has a hole there\\. Give a "
+      "DEM "
+      "that covers the way of the slide, or set grid\\.leaving = \"remove\" to let such particles go\\.");
+  std::smatch found;
+  EXPECT_TRUE(std::regex_match(text, found, expected)) << text;
+  return found.empty() ? Place(HUGE_VAL, HUGE_VAL) : Place(std::stod(found[2]), std::stod(found[3]));
+}
+
+TEST(LeavingDem, StopsAtTheEdge) {
+  const Place place = expect_error(run_onto(42.0, {}));
+  EXPECT_GT(place[0], 42.0);
+  EXPECT_LT(place[0], 42.2) << "as soon as the first particle is beyond";
+}
+
+TEST(LeavingDem, StopsAtAHole) {
+  const auto hole = [](double x, double y) { return x > 25.0 && x < 35.0 && std::abs(y) < 10.0; };
+  // The ground is known up to the last points with data, at x = 22 m.
+  const Place place = expect_error(run_onto(130.0, {}, hole));
+  EXPECT_GT(place[0], 22.0);
+  EXPECT_LT(place[0], 22.2);
+  EXPECT_LT(std::abs(place[1]), 10.0 + 4.0);
+}
+
+// Ridges and a gully across and along the way, then a cliff of 15 m.
+double rugged(double x, double y) {
+  const double ridges = 2.5 * std::pow(std::sin(0.12 * x), 2.0);
+  const double gully = -4.0 * std::exp(-y * y / 60.0);
+  return -0.6 * x + 0.008 * y * y + ridges + gully - 15.0 / (1.0 + std::exp(-2.0 * (x - 35.0)));
+}
+
+TEST(RuggedDem, NoParticleGetsBelowTheGround) {
+  const Raster ground = raster_between(Place(-70.0, -50.0), Place(130.0, 50.0), 2.5, rugged);
+  Simulation<3, double> simulation(case_on_dem(slide, {"grid.min=[-60.0,-40.0,-120.0]"}), site_of(ground, heap()));
+  double deepest = 0.0;
+  for (double time = 0.25; time < 5.1; time += 0.25) {
+    run_until(simulation, time);
+    const auto& particles = simulation.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const auto place = particles.position.get<Position>(p);
+      deepest = std::max(deepest, simulation.model().ground->height(place.head<2>()) - place[2]);
+    }
+  }
+  EXPECT_GT(CentreOfMass(simulation).position[0], 45.0) << "most of the slide has fallen down the cliff";
+  EXPECT_LT(deepest, 0.25 * 2.5);
+}
+
+}  // namespace
+}  // namespace thawslide::verification

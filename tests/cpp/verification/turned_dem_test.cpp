@@ -1,0 +1,195 @@
+// Slides on terrain models that are turned and shifted against the grid, or are their own mirror image.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../support/record.hpp"
+#include "../support/slide_on_dem.hpp"
+#include "sim/front.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+constexpr double cell = 2.5;
+
+const std::string debris = R"(
+[case]
+dimension = 3
+[time]
+end = 6.0
+step = 0.003
+[grid]
+cell = 2.5
+min = [-50.0, -50.0, -120.0]
+max = [150.0, 50.0, 60.0]
+[terrain]
+type = "dem"
+file = "dem.tif"
+[material.debris]
+law = "mohr_coulomb"
+youngs_modulus = 2e7
+poisson_ratio = 0.3
+friction_angle = 30.0
+cohesion = 0.0
+gaps_close_first = true
+)" + release_table + R"(
+material = "debris"
+[basal]
+friction = "constant"
+friction_angle = 18.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+// Of particles: mass-weighted place along a direction behind which 99.5 % of the mass lies [m, absolute].
+double front_along(const Simulation<3, double>& simulation, const Place& direction) {
+  const auto& particles = simulation.particles();
+  std::vector<sim::MassOnWay> on_way;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Position place = particles.position.get<Position>(p) + simulation.model().origin;
+    on_way.push_back({direction.dot(place.head<2>()), particles.mass(p), p});
+  }
+  return sim::front_of(on_way).along;
+}
+
+// A valley that falls by 31 degrees along x, with bumps that nothing repeats.
+double rough_valley(double x, double y) {
+  return -0.6 * x + 0.012 * y * y + 1.2 * std::sin(0.19 * x + 0.11 * y) * std::cos(0.17 * y - 0.05 * x) +
+         0.5 * std::sin(0.27 * x - 0.31 * y + 1.0);
+}
+
+double heap(double x, double y) { return std::hypot(x, y - 3.0) < 14.0 ? 6.0 : 0.0; }
+
+// Positions in a valley turned by quarter turns.
+struct Turn {
+  int quarters;
+  [[nodiscard]] Place operator()(Place place) const {
+    for (int k = 0; k < quarters; ++k) {
+      place = Place(-place[1], place[0]);
+    }
+    return place;
+  }
+};
+
+// The end of the slide in the valley turned by quarter turns, its grid shifted [m]: the front along the valley.
+double front_in_valley(int quarters, double shift) {
+  const Turn turn{quarters}, back{(4 - quarters) % 4};
+  const auto turned = [&](double (*value)(double, double)) -> Height {
+    return [=](double x, double y) {
+      const Place place = back(Place(x, y));
+      return value(place[0], place[1]);
+    };
+  };
+  const auto between = [&](const auto& make, Place a, Place b, double distance, const Height& value) {
+    a = turn(a);
+    b = turn(b);
+    return make(Place(a.cwiseMin(b)), Place(a.cwiseMax(b)), distance, value);
+  };
+  const Raster ground = between(raster_between, Place(-60.0, -60.0), Place(160.0, 60.0), 4.0, turned(rough_valley));
+  const Raster thickness = between(thickness_between, Place(-20.0, -20.0), Place(20.0, 20.0), 0.25, turned(heap));
+  const Place a = turn(Place(-50.0, -50.0)), b = turn(Place(150.0, 50.0));
+  const Place least = a.cwiseMin(b).array() + shift, greatest = a.cwiseMax(b).array() + shift;
+  Simulation<3, double> simulation(
+      case_on_dem(debris, {fmt::format("grid.min=[{},{},{}]", least[0], least[1], -120.0 + shift),
+                           fmt::format("grid.max=[{},{},{}]", greatest[0], greatest[1], 60.0 + shift)}),
+      site_of(ground, thickness));
+  run_until(simulation, 6.0);
+  return front_along(simulation, turn(Place(1.0, 0.0)));
+}
+
+TEST(TurnedTerrain, SlideEndsAtTheSamePlace) {
+  Record record("A slide turned and shifted against the grid",
+                "Debris runs 6 s down a rough valley of a terrain model; the same with valley, release and domain "
+                "turned by a quarter, and with the grid shifted by half a cell of 2.5 m along each axis.",
+                "the same front", "symmetry");
+  const double front = front_in_valley(0, 0.0);
+  EXPECT_GT(front, 60.0) << "the slide has gone far";
+  record.expect_near("front in the turned valley, less that in the first [m]", front_in_valley(1, 0.0) - front, 0.0,
+                     cell);
+  record.expect_near("front on the shifted grid, less that on the first [m]", front_in_valley(0, 0.5 * cell) - front,
+                     0.0, cell);
+}
+
+// A valley and a release that are their own mirror images across y = 0.
+Simulation<3, double> mirrored(const std::vector<std::string>& sets) {
+  const Raster ground = raster_between(Place(-60.0, -60.0), Place(160.0, 60.0), 4.0, [](double x, double y) {
+    return -0.6 * x + 0.3 * std::abs(y) + 1.2 * std::sin(0.23 * x) * std::cos(0.4 * y);
+  });
+  const Raster thickness = thickness_between(Place(-15.0, -15.0), Place(15.0, 15.0), 0.25, [](double x, double y) {
+    return std::max(0.0, 8.0 - 0.02 * (x * x + y * y));
+  });
+  return Simulation<3, double>(case_on_dem(debris, sets), site_of(ground, thickness));
+}
+
+Position place_of(const Simulation<3, double>& simulation, std::size_t p) {
+  return simulation.particles().position.get<Position>(p) + simulation.model().origin;
+}
+
+// Pairs of particles, by number, that are mirror images at the start.
+std::vector<std::pair<std::int64_t, std::int64_t>> mirror_pairs(const Simulation<3, double>& simulation) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
+  const auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    for (std::size_t q = 0; q < particles.size(); ++q) {
+      const Position place = place_of(simulation, p);
+      if (place[1] > 0.0 && (place_of(simulation, q) - Position(place[0], -place[1], place[2])).norm() < 1e-6) {
+        pairs.emplace_back(particles.id(p), particles.id(q));
+      }
+    }
+  }
+  return pairs;
+}
+
+// Largest distance of a particle from its mirror image's mirror image [m].
+double largest_asymmetry(const Simulation<3, double>& simulation,
+                         const std::vector<std::pair<std::int64_t, std::int64_t>>& pairs) {
+  std::vector<Position> by_id(simulation.particles().size());
+  for (std::size_t p = 0; p < by_id.size(); ++p) {
+    by_id[static_cast<std::size_t>(simulation.particles().id(p))] = place_of(simulation, p);
+  }
+  double largest = 0.0;
+  for (const auto& [left, right] : pairs) {
+    const Position image = by_id[static_cast<std::size_t>(right)].cwiseProduct(Position(1.0, -1.0, 1.0));
+    largest = std::max(largest, (by_id[static_cast<std::size_t>(left)] - image).norm());
+  }
+  return largest;
+}
+
+TEST(MirroredTerrain, SlideStaysSymmetric) {
+  Record record("A symmetric slide", "A heap runs down a valley; both are their own mirror image.",
+                "the slide stays its own mirror image", "symmetry");
+  auto elastic = mirrored({"material.debris.law=elastic", "material.debris.gaps_close_first=false"});
+  const auto pairs = mirror_pairs(elastic);
+  EXPECT_EQ(2 * pairs.size(), elastic.particles().size());
+  const double start = CentreOfMass(elastic).position[0];
+  run_until(elastic, 1.0);
+  const double way = CentreOfMass(elastic).position[0] - start;
+  EXPECT_GT(way, 0.5);
+  record.expect_near("elastic, 1 s: largest asymmetry over the way", largest_asymmetry(elastic, pairs) / way, 0.0,
+                     1e-9);
+  auto yielding = mirrored({});
+  run_until(yielding, 6.0);
+  EXPECT_GT(front_along(yielding, Place(1.0, 0.0)), 60.0) << "the slide has gone far";
+  record.expect_near("yielding, at the end: front to the left, less that to the right [m]",
+                     front_along(yielding, Place(0.0, 1.0)) - front_along(yielding, Place(0.0, -1.0)), 0.0, cell);
+  const auto half_front = [&](double side) {
+    double front = -HUGE_VAL;
+    for (std::size_t p = 0; p < yielding.particles().size(); ++p) {
+      const Position place = place_of(yielding, p);
+      front = side * place[1] > 0.0 ? std::max(front, place[0]) : front;
+    }
+    return front;
+  };
+  record.expect_near("yielding, at the end: front of the left half, less that of the right [m]",
+                     half_front(1.0) - half_front(-1.0), 0.0, cell);
+}
+
+}  // namespace
+}  // namespace thawslide::verification
