@@ -60,6 +60,23 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
 
 }  // namespace
 
+// Where a particle is heading over the horizontal plane, and how far it may come.
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::way_ahead(std::size_t p) const {
+  const double x = static_cast<double>(particles_.velocity(p, 0));
+  const double y = Dim == 3 ? static_cast<double>(particles_.velocity(p, 1)) : 0.0;
+  const double speed = std::hypot(x, y);
+  // A direction counts where it is more than 22.5 degrees off the other axis.
+  constexpr double share = 0.3826834323650898;
+  std::string towards = y > share * speed ? "north" : y < -share * speed ? "south" : "";
+  const char* across = x > share * speed ? "east" : x < -share * speed ? "west" : "";
+  towards += !towards.empty() && *across != '\0' ? "-" : "";
+  return fmt::format(
+      "It moves towards the {}{} at {:.4g} m/s, and at that speed would go {:.4g} m further until "
+      "time.end. ",
+      towards, across, speed, speed * (parameters_.time.end - time_));
+}
+
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   const std::string too_long =
@@ -71,7 +88,9 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
     return closed.empty() ? too_long : closed;
   }
   if (bad_.fault == mpm::Fault::left_map) {
-    return "Give a DEM that covers the way of the slide, or set grid.leaving = \"remove\" to let such particles go.";
+    return way_ahead(p) +
+           "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
+           "particles go.";
   }
   if (bad_.fault != mpm::Fault::left_domain) {
     return too_long;
@@ -109,6 +128,7 @@ void Simulation<Dim, Real>::stop_if_bad() {
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                       \
+  template std::string Simulation<Dim, Real>::way_ahead(std::size_t) const;    \
   template std::string Simulation<Dim, Real>::likely_cause(std::size_t) const; \
   template void Simulation<Dim, Real>::stop_if_bad();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

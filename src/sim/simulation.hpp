@@ -80,6 +80,7 @@ class Simulation {
   // Everything that follows from positions and stress at t = 0.
   void begin();
   [[nodiscard]] std::string likely_cause(std::size_t particle) const;
+  [[nodiscard]] std::string way_ahead(std::size_t particle) const;
   void mark_band();
   void update_columns();
   void start_ledger();
