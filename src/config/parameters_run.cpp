@@ -147,11 +147,11 @@ std::vector<Parameter<Maps>> map_parameters() {
                                            .range = above(0),
                                            .text = "thickness from which on the slide has arrived at a place",
                                            .dimension = 3}),
-      parameter(&Maps::path,
-                {.key = "path",
-                 .text = "file of the line along which the front is measured; \"\": the way of the centre of mass",
-                 .dimension = 3,
-                 .is_path = true}),
+      parameter(&Maps::path, {.key = "path",
+                              .text = "file of the line along which the front is measured, and `thawslide block` "
+                                      "slides; \"\": the way of the centre of mass",
+                              .dimension = 3,
+                              .is_path = true}),
   };
 }
 

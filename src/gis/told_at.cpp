@@ -5,7 +5,10 @@
 namespace thawslide::gis {
 
 void fail_at(const config::Case& parameters, const std::string& key, const std::string& message) {
-  throw UserError(fmt::format("{}: {}: {}", config::place_of(parameters, key), key, message));
+  const std::string& place = config::place_of(parameters, key);
+  // An option of a command, as --dem, says enough; a place in a file and --set want the key.
+  const bool is_option = place.rfind("--", 0) == 0 && place.rfind("--set", 0) != 0;
+  throw UserError(is_option ? fmt::format("{}: {}", place, message) : fmt::format("{}: {}: {}", place, key, message));
 }
 
 std::string words_beyond(const Rectangle& inner, const Rectangle& outer) {

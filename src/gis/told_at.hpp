@@ -1,4 +1,4 @@
-// Messages at the place of a key of the case: "case.toml:12:7: terrain.file: ..."
+// Messages at the place of a key of the case: "case.toml:12:7: terrain.file: ...", "--dem: ..."
 #pragma once
 
 #include <string>

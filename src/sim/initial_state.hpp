@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/error.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
 #include "sim/model.hpp"
@@ -19,6 +20,7 @@ double initial_value(const InitialField& field, const config::Release* release, 
   if (!field.is_map()) {
     return field.at(seed.depth, seed.place[0]);
   }
+  THAWSLIDE_ASSERT(release != nullptr, "the field {} of the map '{}' without a release", key, field.source);
   const Raster& map = release->fields.at(key);
   const double value = raster_at(map, seed.place[0], seed.place[1], std::nan(""));
   if (std::isfinite(value)) {

@@ -43,9 +43,9 @@ std::vector<double> stations_along(const PathLine& line, double from, double to,
   std::vector<double> stations{from};
   for (std::size_t k = 0; k + 1 < fixed.size(); ++k) {
     const double length = fixed[k + 1] - fixed[k];
-    const double parts = std::ceil(length / spacing * (1.0 - 1e-12));
-    for (double part = 1.0; part < parts; part += 1.0) {
-      stations.push_back(fixed[k] + part / parts * length);
+    const auto parts = static_cast<long>(std::ceil(length / spacing * (1.0 - 1e-12)));
+    for (long part = 1; part < parts; ++part) {
+      stations.push_back(fixed[k] + static_cast<double>(part) / static_cast<double>(parts) * length);
     }
     stations.push_back(fixed[k + 1]);
   }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import Program, history, run_facts, sets
-from terrain_files import place, write_dem, write_line, write_release
+from terrain_files import place, write_dem, write_geojson, write_line, write_release
 
 SLOPE = 0.5  # fall per metre of x
 RELEASE = [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)]
@@ -159,6 +160,10 @@ def test_mistakes_are_told(thawslide: Program, maps: Maps, tmp_path: Path) -> No
     write_line(maps.line, [(2000.0, 200.0), (2500.0, 200.0)])
     assert "the line (x from 302000 to 302500, y from 400200 to 400200) lies outside" in error(*maps.words(folder))
 
+    both = [[place(15.0, 200.0), place(400.0, 200.0)], [place(400.0, 210.0), place(775.0, 200.0)]]
+    write_geojson(maps.line, "MultiLineString", both)
+    assert f"error: --line: {maps.line}: the file has 2 lines; allowed: one." in error(*maps.words(folder))
+
     write_line(maps.line, [(15.0, 300.0), (775.0, 300.0)])
     assert error(*maps.words_with_release(folder)) == (
         f"error: --line: {maps.line}: the line does not cross the release of {maps.release}. Draw it through the "
@@ -219,6 +224,16 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     assert acceleration > 0.5
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
     assert columns["front_position_m"][0] == pytest.approx(190.0, abs=10.0)
+    assert "goes on with its last gradient" not in slid.stdout
+
+    far = thawslide("block", folder, *coulomb, *sets(time__end=40))
+    assert far.returncode == 0, far.stderr
+    told = re.search(
+        r"note: the path's ground is known for 760 m; from (\S+) s on, when the front leaves it", far.stdout
+    )
+    assert told and float(told[1]) == pytest.approx(
+        np.sqrt(2.0 * (760.0 - 190.0) * np.hypot(1.0, SLOPE) / acceleration), rel=0.05
+    )
 
 
 def read_csv(file: Path) -> tuple[list[str], np.ndarray]:
