@@ -60,8 +60,6 @@ namespace {
 // A message that names keys of a case, for a user who has not got one yet.
 std::string in_words_of_options(std::string message) {
   const std::vector<std::pair<std::string, std::string>> words{
-      {"--dem: terrain.file: ", "--dem: "},
-      {"--release: body.slide.release: ", "--release: "},
       {"terrain.crs = \"EPSG:...\"", "--crs EPSG:..."},
       {"body.slide.largest_volume", "--largest-volume"},
       {"body.slide.thickness", "--thickness"},
