@@ -44,7 +44,7 @@ const std::vector<MapKind>& map_kinds() {
        [](const MapCell& c) { return c.thickness - c.thickness_at_start; }},
       {"max_basal_temperature", "C", "largest temperature of the column's particles in the band, averaged by volume",
        [](const MapCell& c) { return c.max_basal_temperature; }},
-      {"max_melt", "m", "largest volume of liquid water in the column over the cell's area",
+      {"max_melt", "m", "largest volume of liquid water in the column over the cell's area, that of the band over xi",
        [](const MapCell& c) { return c.max_melt; }},
       {"max_pore_pressure", "Pa", "largest pore pressure of the column's particles in the band, averaged by volume",
        [](const MapCell& c) { return c.max_pore_pressure; }},
@@ -176,12 +176,10 @@ void FlowMaps::find_stacks(const Grid& grid) {
 THAWSLIDE_ALWAYS_INLINE void FlowMaps::add_box(const Particles& particles, std::size_t p, const CellRange& x,
                                                const CellRange& y, const Stack& stack) {
   const double volume = particles.volume(p), mass = particles.mass(p);
-  const ColumnSums sums{volume,
-                        mass,
-                        mass * particles.velocity(p, 0),
-                        mass * particles.velocity(p, 1),
+  const ColumnSums sums{volume, mass, mass * particles.velocity(p, 0), mass * particles.velocity(p, 1),
                         mass * particles.velocity(p, 2),
-                        volume * particles.porosity(p) * particles.liquid_saturation(p)};
+                        // Cells of metres stand for a band of centimetres: its matter counts as for heat.
+                        volume * particles.porosity(p) * particles.liquid_saturation(p) / particles.thermal_scaling(p)};
   const bool in_band = particles.in_band(p) != 0;
   const BandSums band{volume, volume * particles.temperature(p), volume * particles.pore_pressure(p)};
   for (int row = y.first; row <= y.last; ++row) {

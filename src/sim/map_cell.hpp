@@ -20,7 +20,7 @@ struct ColumnSums {
   double volume = 0.0;                                          // [m3]
   double mass = 0.0;                                            // [kg]
   double momentum_x = 0.0, momentum_y = 0.0, momentum_z = 0.0;  // [kg m/s]
-  double water = 0.0;                                           // volume of liquid water [m3]
+  double water = 0.0;  // volume of liquid water [m3], of the band as thick as it is
 
   THAWSLIDE_ALWAYS_INLINE void add(double share, const ColumnSums& box) {
     volume += share * box.volume;

@@ -238,7 +238,8 @@ TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
     for (std::size_t p = 0; p < particles.size(); ++p) {
       mass += particles.mass(p);
       momentum += particles.mass(p) * particles.velocity.get<Vector<double, 3>>(p);
-      water += particles.porosity(p) * particles.liquid_saturation(p) * particles.volume(p);
+      water +=
+          particles.porosity(p) * particles.liquid_saturation(p) * particles.volume(p) / particles.thermal_scaling(p);
       if (particles.in_band(p) != 0) {
         band += particles.volume(p);
         warm += particles.volume(p) * particles.temperature(p);
