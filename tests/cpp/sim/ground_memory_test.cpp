@@ -6,9 +6,11 @@ namespace thawslide::sim {
 namespace {
 
 TEST(GroundMemory, WhatTheSlideHasLeftIsForgotten) {
-  Simulation<3, double> simulation(testing_support::slide_in_space("velocity = [40.0, 0.0, 0.0]"));
+  Simulation<3, double> simulation(testing_support::slide_in_space(
+      "velocity = [80.0, 0.0, 0.0]",
+      {"grid.max=[200.0, 15.0, 20.0]", "material.rock.law=\"elastic\"", "material.rock.viscosity_time=0.01"}));
   std::size_t most_held = 0, most_active = 0, seen = 0;
-  for (int k = 0; k < 600; ++k) {  // 48 m, eight times the body's length
+  for (int k = 0; k < 1000; ++k) {  // some 170 m, nearly thirty times the body's length
     const std::size_t before = simulation.ground()->held();
     simulation.step(0.002);
     const std::size_t after = simulation.ground()->held();
