@@ -91,7 +91,7 @@ class ScalarContact {
         distance += weight * ground_.at(node).distance;
       });
       transfer.for_nodes(p, transfer.ugimp, [&](const Index& node, double weight, const Place& /*slope*/) {
-        if (weight > 0.0 && ground_.at(node).candidate) {
+        if (weight > round_off<double> && ground_.at(node).candidate) {
           double& known = clearance_.emplace(node, HUGE_VAL).first->second;
           known = std::min(known, std::max(0.0, distance - p.reach));
         }
