@@ -8,7 +8,7 @@ using namespace cylinder_column;
 
 TEST(CylindricalColumn, RunsOutAsExperimentsDo) {
   Record record = make_record("Collapse of a cylindrical granular column");
-  expect_runout(record, 0.5);
+  expect_runout(record, 1.0);
 }
 
 }  // namespace
