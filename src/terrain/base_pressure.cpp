@@ -4,6 +4,7 @@
 
 #include "base/instances.hpp"
 #include "mpm/batch_transfer.hpp"
+#include "terrain/main_axis.hpp"
 
 namespace thawslide::terrain {
 
@@ -30,8 +31,7 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
     if (!(nodes.base(b, static_cast<std::size_t>(k))[BaseLayout::load] > Real(0))) {
       continue;
     }
-    int across = 0;  // the axis that is most nearly normal to the ground
-    ground.block(b)[static_cast<std::size_t>(k)].normal.cwiseAbs().maxCoeff(&across);
+    const int across = main_axis<Dim, Real>(ground.block(b)[static_cast<std::size_t>(k)].normal);
     constexpr mpm::AxisWeights<Real> all{{1, 1, 1}, {}}, bell{{Real(0.25), Real(0.5), Real(0.25)}, {}};
     const auto axis = mpm::for_axes<Dim>([&](int a) { return a == across ? all : bell; });
     typename T::Index lowest = T::node({}, k);

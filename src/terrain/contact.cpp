@@ -7,6 +7,7 @@
 #include "mpm/batch_transfer.hpp"
 #include "physics/contact.hpp"
 #include "terrain/base_pressure.hpp"
+#include "terrain/main_axis.hpp"
 
 namespace thawslide::terrain {
 
@@ -129,8 +130,7 @@ Real covered_share(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Di
                    const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k) {
   using T = mpm::Tile<Dim>;
   const Vector<Real, Dim>& into_ground = ground.block(b)[k].normal;
-  int axis = 0;
-  into_ground.cwiseAbs().maxCoeff(&axis);
+  const int axis = main_axis<Dim, Real>(into_ground);
   const int outward = into_ground[axis] > Real(0) ? -1 : 1;
   Real share = filled_share(grid, ground, nodes, b, k);
   for (int step = 1; step <= 2 && share < Real(1); ++step) {

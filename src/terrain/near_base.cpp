@@ -56,7 +56,8 @@ THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>&
   const auto in_first = lanes_before<Real>(nodes.runs == 1 ? lane_count<Real> : nodes.second_run);
   mpm::for_each_node<Dim>(stencil.axis, 0,
                           [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
-                            const Lanes<Real> seen = select(weight > Real(0), clearance, Lanes<Real>(far));
+                            // A box that ends at the edge of a node's support overlaps it by round-off, or not.
+                            const Lanes<Real> seen = select(weight > round_off<Real>, clearance, Lanes<Real>(far));
                             if (nodes.runs == mpm::BatchNodes<Real>::many_runs) {
                               for (std::size_t lane = 0; lane < count; ++lane) {
                                 lower(lane, offset, seen[lane]);

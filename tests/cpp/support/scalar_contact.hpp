@@ -7,6 +7,7 @@
 #include "physics/basal_friction.hpp"
 #include "physics/contact.hpp"
 #include "scalar_points.hpp"
+#include "terrain/main_axis.hpp"
 
 namespace thawslide::testing_support {
 
@@ -91,7 +92,7 @@ class ScalarContact {
         distance += weight * ground_.at(node).distance;
       });
       transfer.for_nodes(p, transfer.ugimp, [&](const Index& node, double weight, const Place& /*slope*/) {
-        if (weight > 0.0 && ground_.at(node).candidate) {
+        if (weight > round_off<double> && ground_.at(node).candidate) {
           double& known = clearance_.emplace(node, HUGE_VAL).first->second;
           known = std::min(known, std::max(0.0, distance - p.reach));
         }
@@ -115,8 +116,7 @@ class ScalarContact {
   }
   // What the node or the two further from the ground are filled with.
   [[nodiscard]] double covered_share(const Index& node, const Place& normal) const {
-    int axis = 0;
-    normal.cwiseAbs().maxCoeff(&axis);
+    const int axis = terrain::main_axis<Dim, double>(normal);
     double share = 0.0;
     Index at = node;
     for (int step = 0; step <= 2; ++step) {
@@ -128,8 +128,7 @@ class ScalarContact {
 
   // N [Pa]: load over covered ground, both smoothed along it.
   [[nodiscard]] double pressure(const Index& node) const {
-    int across = 0;
-    ground_.at(node).normal.cwiseAbs().maxCoeff(&across);
+    const int across = terrain::main_axis<Dim, double>(ground_.at(node).normal);
     double load = 0.0, covered = 0.0;
     for (int n = 0; n < mpm::power(3, Dim); ++n) {
       Index beside = node;

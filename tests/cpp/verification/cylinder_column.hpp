@@ -1,0 +1,108 @@
+// Collapse of cylindrical granular columns on a flat terrain model.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../support/record.hpp"
+#include "../support/slide_on_dem.hpp"
+#include "sim/front.hpp"
+
+namespace thawslide::verification {
+
+namespace cylinder_column {
+
+using namespace testing_support;
+
+inline constexpr double radius = 10.0;  // of the column [m]
+
+// Dry sand as that of the columns in two dimensions (granular_column_test.cpp).
+inline const std::string column = R"(
+[case]
+dimension = 3
+[time]
+end = 6.0
+step = 0.0035
+[grid]
+cell = 0.625
+min = [0.0, 0.0, -2.5]
+max = [50.0, 50.0, 30.0]
+[grid.boundary]
+x_min = "roller"
+y_min = "roller"
+[terrain]
+type = "dem"
+file = "dem.tif"
+[material.sand]
+law = "mohr_coulomb"
+youngs_modulus = 1e7
+poisson_ratio = 0.3
+friction_angle = 36.93
+cohesion = 0.0
+gaps_close_first = true
+)" + release_table + R"(
+material = "sand"
+[basal]
+friction = "constant"
+friction_angle = 31.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+// (r_inf - r_0)/r_0 of experiments with dry sand and other grains: Lube, Huppert, Sparks and Hallworth 2004,
+// Axisymmetric collapses of granular columns, J. Fluid Mech. 508, 175-199.
+inline double runout_of_lube(double aspect) { return aspect < 1.7 ? 1.24 * aspect : 1.6 * std::sqrt(aspect); }
+
+// r_inf - r_0 over r_0, r_inf being the radius within which 99.5 % of the mass lies.
+inline double runout(const sim::Simulation<3, double>& simulation) {
+  const auto& particles = simulation.particles();
+  std::vector<sim::MassOnWay> by_radius;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Position place = particles.position.get<Position>(p) + simulation.model().origin;
+    by_radius.push_back({place.head<2>().norm(), particles.mass(p), p});
+  }
+  return sim::front_of(by_radius).along / radius - 1.0;
+}
+
+// The final runout of a quarter of the column, between smooth walls. aspect: height over radius.
+inline double collapse(double aspect) {
+  const double end = aspect < 1.0 ? 4.0 : 5.0 * std::sqrt(aspect);
+  // Points so close that no column of particles stands beyond the walls.
+  const Raster thickness =
+      thickness_between(Place::Zero(), Place::Constant(radius + 1.0), 0.01,
+                        [&](double x, double y) { return std::hypot(x, y) < radius ? aspect * radius : 0.0; });
+  const Raster ground =
+      raster_between(Place::Constant(-20.0), Place::Constant(60.0), 10.0, [](double, double) { return 0.0; });
+  sim::Simulation<3, double> simulation(case_on_dem(column, {fmt::format("time.end={}", end)}),
+                                        site_of(ground, thickness));
+  run_until(simulation, 0.8 * end);
+  const double before = runout(simulation);
+  run_until(simulation, end);
+  const double last = runout(simulation);
+  EXPECT_NEAR(last, before, 0.02 * last) << "the front has come to rest";
+  return last;
+}
+
+inline void expect_runout(Record& record, double aspect) {
+  const double expected = runout_of_lube(aspect);
+  record.expect_near(fmt::format("runout over radius, aspect ratio {}", aspect), collapse(aspect), expected,
+                     0.2 * expected);
+}
+
+inline Record make_record(const std::string& title) {
+  return Record(
+      title,
+      "Columns of sand, 10 m in radius and of aspect ratio 0.5 to 2, fall apart on a flat terrain model; along "
+      "the ground the friction angle is 31 degrees, within 36.9, as of the columns in two dimensions.",
+      "runout over radius 1.24 a, above a = 1.7 1.6 a^(1/2)", "fits to experiments, Lube et al. 2004");
+}
+
+}  // namespace cylinder_column
+
+}  // namespace thawslide::verification
