@@ -64,11 +64,22 @@ def read_avaframe(folder: Path, terrain: Map) -> Outcome:
     )
 
 
-def read_thawslide(folder: Path) -> Outcome:
-    """Read the results of our own run."""
+def on_grid(field: Map, terrain: Map) -> Map:
+    """Return a map whose grid is a part of the terrain's over all of that; nothing where it has no cell."""
+    grid = terrain.grid
+    column = round((field.grid.x0 - grid.x0) / grid.cell_x)
+    row = round((field.grid.y0 - grid.y0) / grid.cell_y)
+    values = np.full(terrain.values.shape, np.nan)
+    values[row : row + field.grid.rows, column : column + field.grid.columns] = field.values
+    return Map(grid, values, field.unit)
+
+
+def read_thawslide(folder: Path, terrain: Map) -> Outcome:
+    """Read the results of our own run, whose maps cover the domain."""
     run = Run(folder / "thawslide")
     thickness, speed, final = (
-        read_map(run.folder / "maps" / f"{name}.tif") for name in ("max_thickness", "max_speed", "final_thickness")
+        on_grid(read_map(run.folder / "maps" / f"{name}.tif"), terrain)
+        for name in ("max_thickness", "max_speed", "final_thickness")
     )
     volumes = run.snapshot(0, fields=["volume"])["volume"]
     return Outcome(
