@@ -24,8 +24,20 @@ void fail_without_gis(const std::string& file) {
 
 #ifdef THAWSLIDE_WITH_GIS
 
+namespace {
+
+gis::Rectangle span_of_dem(const std::string& dem) {
+  try {
+    return gis::span_of_points(gis::RasterFile(dem).layout());
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("--dem: {}", error.what()));
+  }
+}
+
+}  // namespace
+
 config::Case trial_case(const std::string& folder, const MapOptions& maps) {
-  const gis::Rectangle span = gis::span_of_points(gis::RasterFile(maps.dem).layout());
+  const gis::Rectangle span = span_of_dem(maps.dem);
   config::Case trial;
   trial.name = trial.file = folder;
   trial.general.dimension = 3;
@@ -60,7 +72,7 @@ namespace {
 // A message that names keys of a case, for a user who has not got one yet.
 std::string in_words_of_options(std::string message) {
   const std::vector<std::pair<std::string, std::string>> words{
-      {"terrain.crs = \"EPSG:...\"", "--crs EPSG:..."},
+      {"terrain.crs = ", "--crs "},
       {"body.slide.largest_volume", "--largest-volume"},
       {"body.slide.thickness", "--thickness"},
       {"body.slide.release", "--release"},

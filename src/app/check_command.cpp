@@ -21,6 +21,7 @@
 #include "io/atomic_file.hpp"
 #include "io/snapshot.hpp"
 #include "sim/release_body.hpp"
+#include "sim/run_records.hpp"
 
 namespace thawslide::app {
 
@@ -107,6 +108,7 @@ int check_case(const CheckOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
+    const sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
     const Json picture = options.picture.empty() ? Json() : setup_json<Dim>(simulation);
     const auto limit = simulation.step_limit();
     const double dt = simulation.next_step(parameters.time.end);

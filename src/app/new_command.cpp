@@ -1,4 +1,6 @@
 // thawslide new: a case folder from a terrain model and a release area.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "app/case_folder.hpp"
@@ -32,6 +34,20 @@ void write_cropped_dem(const fs::path& folder, const Raster& ground, const confi
   gis::write_geotiff((folder / dem_name).string(), cropped, {"m", "elevation"});
 }
 
+// As many cells along each axis as a case may have.
+void require_resolvable(const config::Proposal& proposal) {
+  constexpr double fewest = 2.0, most = 5e5;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double cells = (proposal.max[a] - proposal.min[a]) / proposal.cell;
+    if (!(cells >= fewest && cells <= most)) {
+      throw UserError(
+          fmt::format("--thickness: a release {:.4g} m thick asks for cells of {:g} m, and the terrain about it would "
+                      "have {:.4g} of them along {}; allowed: {:g} to {:g}. Is the thickness in metres?",
+                      proposal.thickness, proposal.cell, std::max(0.0, std::round(cells)), "xyz"[a], fewest, most));
+    }
+  }
+}
+
 void copy_release(const fs::path& folder, const config::Case& trial) {
   for (const fs::path& file : config::input_files(trial)) {
     if (file.stem() == fs::path(trial.bodies.at(body_name).release).stem()) {
@@ -47,6 +63,7 @@ int make_new_case(const NewOptions& options) {
   const config::Site site = look_at_files(trial);
   const config::Proposal proposal =
       config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle);
+  require_resolvable(proposal);
   config::ProposalInput input;
   input.title = title_of(options.folder);
   input.dem_file = dem_name;

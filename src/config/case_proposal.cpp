@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "config/rule.hpp"
@@ -70,13 +71,16 @@ ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
   return extent;
 }
 
+// Without the round-off of a product, which nobody wants to read in a file.
+double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
+
 }  // namespace
 
 double round_down(double x) {
   const double power = std::pow(10.0, std::floor(std::log10(x)));
-  double best = power;
+  double best = tidy(power);
   for (const double digit : {1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-    best = digit * power <= x * (1.0 + 1e-12) ? digit * power : best;
+    best = digit * power <= x * (1.0 + 1e-12) ? tidy(digit * power) : best;
   }
   return best;
 }
@@ -108,13 +112,19 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle)
     }
   }
   const double margin = margin_cells * proposal.cell;
-  const double block = block_cells * proposal.cell;
-  const auto down = [&](double place) { return std::floor(place / block) * block; };
-  const auto up = [&](double place) { return std::ceil(place / block - 1e-9) * block; };
-  proposal.min = {std::max(up(dem.x), down(west - margin)), std::max(up(dem.y), down(south - margin)),
-                  down(lowest - margin)};
-  proposal.max = {std::min(down(dem.x_end()), up(east + margin)), std::min(down(dem.y_end()), up(north + margin)),
-                  up(release.top + margin)};
+  // In whole blocks of cells, or where these would cut the release at the edge of the DEM in single cells.
+  for (const double block : {block_cells * proposal.cell, proposal.cell}) {
+    const auto down = [&](double place) { return tidy(std::floor(place / block + 1e-9) * block); };
+    const auto up = [&](double place) { return tidy(std::ceil(place / block - 1e-9) * block); };
+    proposal.min = {std::max(up(dem.x), down(west - margin)), std::max(up(dem.y), down(south - margin)),
+                    down(lowest - margin)};
+    proposal.max = {std::min(down(dem.x_end()), up(east + margin)), std::min(down(dem.y_end()), up(north + margin)),
+                    up(release.top + margin)};
+    if (proposal.min[0] <= release.west && proposal.max[0] >= release.east && proposal.min[1] <= release.south &&
+        proposal.max[1] >= release.north) {
+      break;
+    }
+  }
   propose_times(proposal, farthest);
   return proposal;
 }

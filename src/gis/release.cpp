@@ -47,7 +47,7 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   const double largest = parameters.bodies.at(name).largest_volume;
   if (volume > largest) {
     fail_at(
-        parameters, key_of(name, "release"),
+        parameters, key_of_place(parameters, name),
         fmt::format("the release has {:.4g} m3, up to {:.4g} m thick, and body.{}.largest_volume allows {:g} m3. Is "
                     "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
                     "larger body.{}.largest_volume.",
@@ -98,7 +98,7 @@ void check_overlaps(const config::Case& parameters, const std::map<std::string, 
       }
       if (count > 0) {
         fail_at(
-            parameters, key_of(second->first, "release"),
+            parameters, key_of_place(parameters, second->first),
             fmt::format("the bodies '{}' and '{}' both have a thickness at {} points of the ground, such as {}. Draw "
                         "their outlines apart, with a cell of the terrain model and their tapers between them.",
                         first->first, second->first, count, place));

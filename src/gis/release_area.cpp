@@ -37,9 +37,9 @@ void check_place(const config::Case& parameters, const std::string& body, const 
   const auto check = [&](const char* what, const Rectangle& outer, const std::string& remedy) {
     const std::string beyond = words_beyond(extent, outer);
     if (!beyond.empty()) {
-      fail_at(parameters, key_of(body, "release"),
+      fail_at(parameters, key_of_place(parameters, body),
               fmt::format("{}: the release lies {}outside {}, by {}; found: {}; allowed: {}. {}",
-                          parameters.bodies.at(body).release, extent.touches(outer) ? "partly " : "", what, beyond,
+                          file_of_place(parameters, body), extent.touches(outer) ? "partly " : "", what, beyond,
                           range_words(extent), range_words(outer), remedy));
     }
   };
@@ -76,22 +76,32 @@ Rectangle extent_of_positive(const std::string& file, const Raster& source, cons
   return extent;
 }
 
+// The thickness that a raster tells, or what a surface has above the ground at the ground's points.
+Raster thickness_without_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
+                                  std::vector<std::string>& notes) {
+  const config::MapValue& thickness = parameters.bodies.at(name).thickness;
+  Raster map =
+      read_map(parameters, {key_of_place(parameters, name), thickness.source, ground.raster.crs, std::nullopt}, notes);
+  if (thickness.from == config::MapValue::From::raster) {
+    return map;
+  }
+  constexpr double rounding = 0.01;  // m, of elevations in files
+  Raster above = sampled(map, ground.raster, Missing::nothing);
+  for (std::size_t k = 0; k < above.values.size(); ++k) {
+    const double difference = above.values[k] - ground.raster.values[k];
+    above.values[k] = difference > rounding ? difference : 0.0;
+  }
+  return above;
+}
+
 ReleaseArea area_of_raster(const config::Case& parameters, const std::string& name, const Dem& ground,
                            std::vector<std::string>& notes) {
   const config::Body& body = parameters.bodies.at(name);
-  if (!body.polygons.empty()) {
-    fail_at(parameters, key_of(name, "polygons"),
-            fmt::format("{} is a raster, it has no polygons to choose from. Leave the key out.", body.release));
-  }
-  if (parameters.places.count(key_of(name, "thickness")) > 0) {
-    fail_at(parameters, key_of(name, "thickness"),
-            fmt::format("{} is a raster: it gives the thickness itself. Leave the key out.", body.release));
-  }
-  const std::string key = key_of(name, "release");
+  const std::string key = key_of_place(parameters, name);
   ReleaseArea area;
-  area.source = read_map(parameters, {key, body.release, ground.raster.crs, std::nullopt}, notes);
-  const Rectangle extent =
-      told_at(parameters, key, [&] { return extent_of_positive(body.release, area.source, ground.raster.crs); });
+  area.source = thickness_without_polygons(parameters, name, ground, notes);
+  const Rectangle extent = told_at(
+      parameters, key, [&] { return extent_of_positive(body.thickness.source, area.source, ground.raster.crs); });
   check_place(parameters, name, extent.widened(0.5 * body.taper, 0.5 * body.taper), ground);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
   area.share = told_at(parameters, key, [&] {
@@ -127,10 +137,19 @@ ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& 
 
 std::string key_of(const std::string& body, const std::string& name) { return fmt::format("body.{}.{}", body, name); }
 
+std::string key_of_place(const config::Case& parameters, const std::string& body) {
+  return key_of(body, parameters.bodies.at(body).release.empty() ? "thickness" : "release");
+}
+
+const std::string& file_of_place(const config::Case& parameters, const std::string& body) {
+  const config::Body& what = parameters.bodies.at(body);
+  return what.release.empty() ? what.thickness.source : what.release;
+}
+
 ReleaseArea load_release_area(const config::Case& parameters, const std::string& body, const Dem& ground,
                               std::vector<std::string>& notes) {
-  return is_vector_file(parameters.bodies.at(body).release) ? area_of_polygons(parameters, body, ground, notes)
-                                                            : area_of_raster(parameters, body, ground, notes);
+  return parameters.bodies.at(body).release.empty() ? area_of_raster(parameters, body, ground, notes)
+                                                    : area_of_polygons(parameters, body, ground, notes);
 }
 
 }  // namespace thawslide::gis

@@ -25,6 +25,8 @@ struct MappedField {
 constexpr MappedField mapped_fields[] = {
     {"temperature", &config::Body::temperature, -273.15, 100.0, " C"},
     {"porosity", &config::Body::porosity, 0.0, 0.95, ""},
+    {"saturation", &config::Body::saturation, 0.0, 1.0, ""},
+    {"ice_content", &config::Body::ice_content, 0.0, 0.95, ""},
 };
 
 // Means of the polygons' values over each point's cell; NaN where none of them lies.

@@ -82,10 +82,10 @@ class ThicknessMaker {
       }
     });
     if (without > 0) {
-      fail("release",
+      fail(body_.release.empty() ? "thickness" : "release",
            fmt::format("{}: the release lies over nodata of the terrain model at {} of its points, such as {}. "
                        "Fill the holes (gdal_fillnodata.py {} filled.tif), or move the release.",
-                       body_.release, without, first, case_.terrain.file));
+                       file_of_place(case_, name_), without, first, case_.terrain.file));
     }
   }
 
@@ -100,7 +100,7 @@ class ThicknessMaker {
 
   Raster of_release_raster() {
     const Raster thickness = sampled(area_.source, area_.share, Missing::zero);
-    require_not_negative(area_.source, nullptr, "release", body_.release);
+    require_not_negative(area_.source, nullptr, "thickness", body_.thickness.source);
     const double told = volume_of(area_.source), made = volume_of(thickness);
     if (area_.source.crs == ground_.crs && std::abs(made - told) > 1e-3 * told) {
       notes_.push_back(

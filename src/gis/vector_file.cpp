@@ -255,12 +255,6 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-bool is_vector_file(const std::string& file) {
-  const GdalMessages messages;
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-  return dataset != nullptr;
-}
-
 VectorLayer read_polygons(const std::string& file, const std::string& crs) {
   return LayerReader(file, crs, Kind::polygons).read();
 }

@@ -28,9 +28,6 @@ struct VectorLayer {
   std::vector<std::string> notes;       // what the user should know of the reading
 };
 
-// True if GDAL opens the file as one with features.
-[[nodiscard]] bool is_vector_file(const std::string& file);
-
 // Each reads the one layer of the file that holds what it says, and checks all of it: polygons have an area and do not
 // cross themselves. `crs`: WKT of the ground; where the file tells another system its coordinates are taken to this
 // one.

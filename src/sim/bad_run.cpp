@@ -103,7 +103,7 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
     return speeds +
            "Likely cause: it came loose from the slide; try half of time.step, or viscosity_time in the material.";
   }
-  return speeds + "Likely cause: the slide ran further than [grid] min and max allow; widen them in its direction.";
+  return speeds + "Likely cause: the slide ran further than [grid] min and max allow; widen them. " + way_ahead(p);
 }
 
 template <int Dim, class Real>
@@ -115,7 +115,7 @@ void Simulation<Dim, Real>::stop_if_bad() {
     if (particles_.id(p) == bad_.id) {
       std::string place;
       for (int a = 0; a < Dim; ++a) {
-        place += fmt::format("{}{:.6g}", a == 0 ? "" : ", ",
+        place += fmt::format("{}{:.10g}", a == 0 ? "" : ", ",
                              static_cast<double>(particles_.position(p, a)) + model_.origin[a]);
       }
       throw RunError(

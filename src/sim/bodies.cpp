@@ -50,6 +50,7 @@ void seed_body(const config::Case& parameters, const config::Body& body, const B
 
 // How far the volume of the particles may be from the body's: more, and the spacing is too coarse for its shape.
 constexpr double volume_tolerance = 0.15;
+constexpr double release_tolerance = 0.01;  // of a release, whose columns have their own heights
 
 // seeds: from number `first` on those of the body.
 template <int Dim>
@@ -61,6 +62,14 @@ void require_volume(const config::Case& parameters, const std::string& name, con
     seeded += seeds[p].volume;
   }
   const double share = shape.volume() / seeded;
+  if (shape.release() && !(seeded >= (1.0 - release_tolerance) * shape.volume())) {
+    throw UserError(fmt::format(
+        "{}: body '{}' has a volume of {:.6g} m3, and {:.3g} % of it is thinner than a tenth of the distance of its "
+        "particles, which is {} m: they cannot hold it. Allowed: {:g} %. Make grid.cell smaller or "
+        "particles_per_axis larger, or the body thicker.",
+        config::place_of(parameters, "body." + name), name, shape.volume(), 100.0 * (1.0 - seeded / shape.volume()),
+        spacing, 100.0 * release_tolerance));
+  }
   if (!(std::abs(1.0 / share - 1.0) <= volume_tolerance)) {
     throw UserError(fmt::format(
         "{}: body '{}' has a volume of {:.6g} {}, and its {} particles, which stand {} m apart, {:.6g}; allowed: "
@@ -83,10 +92,11 @@ void require_apart(const config::Case& parameters, const std::vector<std::string
     for (std::size_t other = static_cast<std::size_t>(seed.body) + 1; other < shapes.size(); ++other) {
       if (shapes[other].contains(seed.place)) {
         throw UserError(
-            fmt::format("{}: body '{}' and body '{}' both fill the place x = {:.6g} m, elevation {:.6g} m; "
+            fmt::format("{}: body '{}' and body '{}' both fill the place x = {:.10g} m, {}elevation {:.6g} m; "
                         "allowed: bodies that touch but do not overlap. Move one of them.",
                         config::place_of(parameters, "body." + names[other]),
-                        names[static_cast<std::size_t>(seed.body)], names[other], seed.place[0], seed.place[Dim - 1]));
+                        names[static_cast<std::size_t>(seed.body)], names[other], seed.place[0],
+                        Dim == 3 ? fmt::format("y = {:.10g} m, ", seed.place[1]) : "", seed.place[Dim - 1]));
       }
     }
   }
@@ -158,7 +168,7 @@ void require_above_ground(const config::Case& parameters, const Model<Dim, Real>
     const double ground = model.ground->height(place.template head<Dim - 1>());
     if (place[Dim - 1] < ground) {
       throw UserError(fmt::format(
-          "{}: body '{}' is below the terrain: at x = {:.6g} m, y = {:.6g} m it has a particle at an elevation of "
+          "{}: body '{}' is below the terrain: at x = {:.10g} m, y = {:.10g} m it has a particle at an elevation of "
           "{:.6g} m and the ground is at {:.6g} m; allowed: above the ground. Lift the body, or use the shape "
           "\"release\".",
           config::place_of(parameters, "body." + name), name, seeds[p].place[0], seeds[p].place[1],

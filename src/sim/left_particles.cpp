@@ -40,20 +40,21 @@ void Simulation<Dim, Real>::handle_left_particles() {
       }
     }
   }
+  stop_if_bad();
   if (count == 0) {
     return;
+  }
+  if (count == particles_.size()) {
+    throw RunError(
+        fmt::format("the run ended at t = {:.6g} s (step {}): the rest of the slide is leaving the domain, and "
+                    "grid.leaving is \"remove\". Widen [grid] min and max to follow it further.",
+                    time_, step_number_));
   }
   const BodySums<Dim, Real> sums = sum_over_body(*this, &left_);
   ledger_.left_mass += sums.mass;
   ledger_.left_mechanical += sums.kinetic + sums.potential;
   ledger_.left_thermal += sums.sensible + sums.latent;
   ledger_.left_momentum += sums.momentum;
-  if (count == particles_.size()) {
-    throw RunError(
-        fmt::format("the run ended at t = {:.6g} s (step {}): all of the slide has left the domain, and "
-                    "grid.leaving is \"remove\". Widen [grid] min and max to follow it further.",
-                    time_, step_number_));
-  }
   particles_.remove(left_);
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
   find_particles_cells();

@@ -7,6 +7,12 @@
 
 namespace thawslide::sim {
 
+namespace {
+
+constexpr double thinnest = 0.1;  // of a particle's height over the distance of particles
+
+}  // namespace
+
 double raster_at(const Raster& raster, double x, double y, double outside) {
   const double across = (x - raster.x) / raster.cell_x, up = (y - raster.y) / raster.cell_y;
   const double column = std::floor(across), row = std::floor(up);
@@ -37,10 +43,10 @@ double nearest_value(const Raster& raster, double x, double y) {
     }
   }
   if (std::isnan(value)) {
-    throw UserError(
-        fmt::format("a map of an initial field has no value at x = {:.6g} m, y = {:.6g} m, where the release is; give "
-                    "one that covers the whole release.",
-                    x, y));
+    throw UserError(fmt::format(
+        "a map of an initial field has no value at x = {:.10g} m, y = {:.10g} m, where the release is; give "
+        "one that covers the whole release.",
+        x, y));
   }
   return value;
 }
@@ -88,7 +94,8 @@ void ReleaseBody::seed(const Vector<double, 3>& corner, double spacing, int body
       const double x = corner[0] + (static_cast<double>(i) + 0.5) * spacing;
       const double y = corner[1] + (static_cast<double>(j) + 0.5) * spacing;
       const double thickness = mean_thickness(x, y, spacing);
-      const long count = std::lround(thickness / spacing);
+      const long fitting = std::lround(thickness / spacing);
+      const long count = fitting == 0 && thickness >= thinnest * spacing ? 1 : fitting;
       const double low = count > 0 ? bottom(x, y) : 0.0;
       for (long k = 0; k < count; ++k) {
         const double height = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * thickness;

@@ -29,7 +29,7 @@ class ReleaseBody {
 
   // Columns of particles, `spacing` [m] apart on the lattice of `corner`: as many in each as fit its thickness best,
   // of equal height from the ground to the top, and of the volume of their share of it. So the lowest stand on the
-  // ground everywhere. Columns thinner than half the spacing get none.
+  // ground everywhere. Columns thinner than a tenth of the spacing get none.
   void seed(const Vector<double, 3>& corner, double spacing, int body, std::vector<Seed<3>>& seeds) const;
 
  private:

@@ -39,8 +39,8 @@ void Simulation<Dim, Real>::step(double dt) {
   time_ =
       fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
   last_step_ = dt;
-  handle_left_particles();
   stop_if_bad();
+  handle_left_particles();
 }
 
 template <int Dim, class Real>

@@ -16,7 +16,7 @@ from thawslide import NotInRunError, ReportError, Run
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
 from thawslide.figures.animation import MOST_FRAMES, Film
-from thawslide.figures.cross_sections import across, along
+from thawslide.figures.cross_sections import across, along, reaching
 from thawslide.figures.map_page import HIGHEST, WIDTH, layout
 from thawslide.figures.map_panel import MOST_CELLS, covered_box, make_scene, page_box, quiet_corner
 from thawslide.figures.site import distances, make_site
@@ -133,6 +133,12 @@ def test_a_thin_slide_is_drawn_thicker_and_the_panel_says_so(map_run: Path) -> N
     distance, height = (np.asarray(values, dtype=float) for values in line.get_data())
     above = height - ground(WEST + 20.0 + distance, np.full(len(distance), MIDDLE))
     assert np.nanmax(above) == pytest.approx(0.5 * times)
+
+
+def test_the_way_of_a_centre_reaches_the_ends_of_the_slide() -> None:
+    line = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 100.0]])
+    touched = np.array([[-30.0, 5.0], [50.0, 0.0], [104.0, 160.0]])
+    np.testing.assert_allclose(reaching(line, touched), [[-30.0, 0.0], [100.0, 0.0], [100.0, 160.0]])
 
 
 def test_sections_run_from_left_to_right_across_the_path() -> None:

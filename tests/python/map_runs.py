@@ -142,7 +142,8 @@ def write_map_run(folder: Path, snapshots: int) -> None:
     (folder / "maps").mkdir()
     (folder / "case.toml").write_text(
         '[case]\ntitle = "Slab on a plane"\ndimension = 3\n[grid]\ncell = 10.0\n[terrain]\ntype = "dem"\n'
-        f"[maps]\narrival_thickness = 0.1\n[heat]\nenabled = true\n[probe.gate]\npoint = [{WEST + 300.0}, {MIDDLE}]\n"
+        '[maps]\narrival_thickness = 0.1\npath = "path.gpkg"\n'
+        f"[heat]\nenabled = true\n[probe.gate]\npoint = [{WEST + 300.0}, {MIDDLE}]\n"
     )
     write_history(folder / "history.csv", history_columns(21, 3))
     (folder / "probes.csv").write_text(

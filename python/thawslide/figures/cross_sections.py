@@ -68,6 +68,20 @@ def across(line: Numbers, place: float, half_width: float, chord: float) -> Numb
     return np.stack([at + half_width * left, at - half_width * left])
 
 
+def reaching(line: Numbers, touched: Numbers) -> Numbers:
+    """Return a line that goes on straight at its ends as far as places of shape (n, 2) [m] lie ahead of them.
+
+    The way of a centre of mass begins and ends in the middle of the slide.
+    """
+    nearest = np.array([np.hypot(*(line - place).T).argmin() for place in touched])
+    ends = []
+    for end, inner in ((0, 1), (len(line) - 1, len(line) - 2)):
+        outward = (line[end] - line[inner]) / np.hypot(*(line[end] - line[inner]))
+        ahead = (touched[nearest == end] - line[end]) @ outward
+        ends.append(line[end] + max(0.0, float(ahead.max(initial=0.0))) * outward)
+    return np.concatenate([ends[:1], line[1:-1], ends[1:]])
+
+
 def section(fields: _Fields, line: Numbers, start: float = 0.0) -> Section:
     """Return what lies under evenly spaced points of a line; its distances [m] count from `start`."""
     points, distance = along(line)
@@ -92,7 +106,10 @@ def cross_sections(run: Run) -> Figure:
     if site.path is None:
         raise NotInRunError(f"{site.maps.folder / 'results.gpkg'}: no path line, so there is nothing to cut along")
     fields = _whole(site)
-    profile = section(fields, site.path)
+    rows, columns = np.nonzero(fields.largest.values > site.threshold)
+    touched = np.stack([fields.largest.grid.x[columns], fields.largest.grid.y[rows]], axis=1)
+    path = site.path if site.path_is_given else reaching(site.path, touched)
+    profile = section(fields, path)
     if not np.isfinite(profile.ground).any():
         raise NotInRunError("the path line lies outside the terrain")
     places = _places(profile, site.threshold)
@@ -119,7 +136,7 @@ def cross_sections(run: Run) -> Figure:
     for number, at in enumerate(places):
         row, column = divmod(number, 2)
         axes = place(_LEFT + column * (wide + _GAP), head + 2.05 + row * _ROW, wide, _HIGH)
-        _draw_across(axes, fields, site.path, at, wide / _HIGH, chr(ord("c") + number))
+        _draw_across(axes, fields, path, at, wide / _HIGH, chr(ord("c") + number))
     figure.legend(handles=_legend(site), loc="lower center", ncols=4, bbox_to_anchor=(0.5, 0.0), borderaxespad=0.5)
     return figure
 

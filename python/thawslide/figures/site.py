@@ -81,6 +81,11 @@ class Site:
         parts = [part for feature in features for part in feature.parts]
         return parts[0] if parts and len(parts[0]) > 1 else None
 
+    @property
+    def path_is_given(self) -> bool:
+        """Whether the case names the path; else it is the way of the centre of mass."""
+        return bool(self.run.section("maps").get("path"))
+
     @cached_property
     def probes(self) -> dict[str, tuple[float, float]]:
         """Where the probes of the case stand that are points, by name."""

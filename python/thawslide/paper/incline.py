@@ -147,9 +147,7 @@ def _draw(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...
             run = runs[f"incline-{name}"]
             values = (smooth(run, column, span) if span else run.history[column]) / divisor
             dashes = "--" if name == "PL" else "-"  # it often lies on D-L-P
-            time_line(
-                panel, run.history["time_s"], values, color=COLOURS[name], linestyle=dashes, label=NAMES[name]
-            )
+            time_line(panel, run.history["time_s"], values, color=COLOURS[name], linestyle=dashes, label=NAMES[name])
         panel.set_ylabel(words)
         panel.set_xlabel("time (s)")
         panel.set_xlim(0.0, runs["incline-DLP"].history["time_s"][-1])

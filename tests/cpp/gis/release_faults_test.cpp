@@ -138,31 +138,22 @@ TEST(ReleaseFaultsTest, ThicknessRasters) {
 TEST(ReleaseFaultsTest, RasterAsTheRelease) {
   config::Case parameters = plain_case(ground());
   const auto with = [&](const Raster& thickness) {
-    parameters.bodies["rock"] = release_body(geotiff("release.tif", thickness), 0.0);
+    parameters.bodies["rock"] = raster_body(geotiff("release.tif", thickness));
     return error_of_site(parameters);
   };
-  EXPECT_EQ(with(raster_of([](double, double) { return 0.0; }, west, south, 5.0, 201, 161)),
-            std::string(at_release) + "FOLDER/release.tif: the thickness is nowhere above 0: there is no release.");
   EXPECT_EQ(
-      with(raster_of([](double x, double) { return x > west + 300.0 ? 2.0 : -0.5; }, west + 200.0, south + 200.0, 5.0,
-                     60, 40)),
-      std::string(at_release) + "FOLDER/release.tif: the thickness at 400200, 300200 is -0.5 m; allowed: 0 and more.");
+      with(raster_of([](double, double) { return 0.0; }, west, south, 5.0, 201, 161)),
+      "case.toml: body.rock.thickness: FOLDER/release.tif: the thickness is nowhere above 0: there is no release.");
+  EXPECT_EQ(with(raster_of([](double x, double) { return x > west + 300.0 ? 2.0 : -0.5; }, west + 200.0, south + 200.0,
+                           5.0, 60, 40)),
+            "case.toml: body.rock.thickness: FOLDER/release.tif: the thickness at 400200, 300200 is -0.5 m; allowed: 0 "
+            "and more.");
   EXPECT_NE(with(raster_of([](double, double) { return 2.0; }, west, south, 5.0, 100, 100))
                 .find("the release lies partly outside the domain, by 100 m in the west and 100 m in the south;"),
             std::string::npos);
-  parameters.bodies["rock"].polygons = {"north"};
+  parameters.bodies["rock"] = raster_body(in_folder("none.tif"));
   EXPECT_EQ(error_of_site(parameters),
-            "case.toml: body.rock.polygons: FOLDER/release.tif is a raster, it has no polygons "
-            "to choose from. Leave the key out.");
-  parameters.bodies["rock"].polygons = {};
-  parameters.places["body.rock.thickness"] = "case.toml:10:1";
-  EXPECT_EQ(error_of_site(parameters),
-            "case.toml:10:1: body.rock.thickness: FOLDER/release.tif is a raster: it gives the "
-            "thickness itself. Leave the key out.");
-  parameters.bodies["rock"].release = in_folder("none.tif");
-  parameters.places.erase("body.rock.thickness");
-  EXPECT_EQ(error_of_site(parameters),
-            std::string(at_release) + "FOLDER/none.tif: there is no such file. Correct the path.");
+            "case.toml: body.rock.thickness: FOLDER/none.tif: there is no such file. Correct the path.");
 }
 
 TEST(ReleaseFaultsTest, SurfacesBeforeTheSlide) {

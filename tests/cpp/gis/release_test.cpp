@@ -173,7 +173,7 @@ TEST(ReleaseTest, RasterAloneIsTheRelease) {
         return std::abs(x - west - 400.0) < 51.0 && std::abs(y - south - 300.0) < 31.0 ? 6.0 : missing;
       },
       west, south, 5.0, 201, 161);
-  parameters.bodies["rock"] = release_body(geotiff("release.tif", thickness), 0.0);
+  parameters.bodies["rock"] = raster_body(geotiff("release.tif", thickness));
   const SiteAndNotes loaded = load_site(parameters);
   const config::Release& release = loaded.site.releases.at("rock");
   EXPECT_NEAR(volume_of(release.thickness), 6.0 * 21 * 13 * 25.0, 1e-6);
@@ -181,7 +181,7 @@ TEST(ReleaseTest, RasterAloneIsTheRelease) {
   EXPECT_TRUE(release.outlines.empty());
   EXPECT_EQ(loaded.notes, std::vector<std::string>{});
   thickness.crs = "";
-  parameters.bodies["rock"] = release_body(geotiff("release.tif", thickness), 0.0);
+  parameters.bodies["rock"] = raster_body(geotiff("release.tif", thickness));
   EXPECT_EQ(load_site(parameters).notes,
             std::vector<std::string>{"release.tif names no coordinate reference system: taken "
                                      "to be in the ground's, EPSG:31287"});

@@ -39,6 +39,14 @@ inline config::Body release_body(const std::string& file, double thickness) {
   return body;
 }
 
+// Without polygons: where the raster has a thickness.
+inline config::Body raster_body(const std::string& file) {
+  config::Body body = release_body("", 0.0);
+  body.thickness.from = config::MapValue::From::raster;
+  body.thickness.source = file;
+  return body;
+}
+
 // In metres from the first point of the ground.
 inline std::string box_at(double min_x, double min_y, double max_x, double max_y) {
   return box_json(west + min_x, south + min_y, west + max_x, south + max_y);
