@@ -109,6 +109,35 @@ def test_two_commands_to_maps(thawslide: Program, tmp_path: Path, slope: Slope, 
     assert (run / "maps" / "results.gpkg").is_file()
 
 
+def test_release_by_a_raster_of_its_thickness_alone(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    """Without polygons the raster tells where the body is; its thin rim keeps its place and its volume."""
+    folder, run = tmp_path / "slide", tmp_path / "run"
+    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    with rasterio.open(folder / "dem.tif") as file:
+        thickness = np.zeros(file.shape)
+        row, column = file.index(WEST + 260.0, SOUTH + 300.0)
+        profile = file.profile | {"nodata": None}
+    thickness[row - 8 : row + 9, column - 8 : column + 9] = 1.5  # of particles 4 m apart
+    thickness[row - 4 : row + 5, column - 4 : column + 5] = THICKNESS
+    with rasterio.open(folder / "thick.tif", "w", **profile) as file:
+        file.write(thickness, 1)
+    case = folder / "case.toml"
+    lines = [line for line in case.read_text().splitlines() if not line.startswith("release = ")]
+    text = "\n".join(lines).replace("thickness = 24.0  # m\n", 'thickness = { raster = "thick.tif" }\n', 1)
+    case.write_text(text)
+    done = thawslide("run", folder, "--output", run, "--set", "time.end=0.01")
+    assert done.returncode == 0, done.stderr
+    with rasterio.open(run / "maps" / "final_thickness.tif") as file:
+        found = file.read(1, masked=True).filled(0.0)
+        x, y = file.xy(*np.indices(found.shape).reshape(2, -1))
+    near = np.maximum(np.abs(np.array(x) - WEST - 260.0), np.abs(np.array(y) - SOUTH - 300.0)).reshape(found.shape)
+    assert found.sum() == pytest.approx(thickness.sum(), rel=1e-4)  # elasticity in the first steps
+    assert found[near < 21.0].mean() == pytest.approx(THICKNESS, rel=0.01)
+    assert found[(near > 69.0) & (near < 71.0)].mean() == pytest.approx(1.5, rel=0.1)
+
+
 def test_release_cut_out_of_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     """With --cut and the attribute for the thickness the ground below the release is lower by it."""
     release = write_release(tmp_path / "cut.geojson", WEST + 200.0, SOUTH + 250.0, thickness=THICKNESS)
@@ -168,6 +197,16 @@ def test_thickness_neither_given_nor_in_the_file(
 def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     text = refused(made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 1000.0 * THICKNESS))
     assert "--largest-volume" in text
+
+
+@pytest.mark.parametrize("content", ["", '{"type": "FeatureColl'])
+def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slope, content: str) -> None:
+    broken = tmp_path / "broken.geojson"
+    broken.write_text(content)
+    text = refused(made(thawslide, tmp_path / "slide", slope(), broken, "--thickness", THICKNESS))
+    assert "--release: " in text and "broken.geojson: the file cannot be opened" in text
+    absent = refused(made(thawslide, tmp_path / "slide", slope(), tmp_path / "absent.shp", "--thickness", THICKNESS))
+    assert "absent.shp: there is no such file" in absent and not (tmp_path / "slide").exists()
 
 
 def test_release_beside_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

@@ -187,6 +187,45 @@ TEST(ReleaseTest, RasterAloneIsTheRelease) {
                                      "to be in the ground's, EPSG:31287"});
 }
 
+TEST(ReleaseTest, SurfaceAloneIsTheRelease) {
+  config::Case parameters = plain_case(ground());
+  Raster surface = ground();
+  for (int row = 0; row < surface.rows; ++row) {
+    for (int column = 0; column < surface.columns; ++column) {
+      const bool inside =
+          std::abs(surface.x_of(column) - west - 400.0) < 51.0 && std::abs(surface.y_of(row) - south - 300.0) < 31.0;
+      surface.values[surface.index(column, row)] += inside ? 6.0 : 0.004;  // of which rounding is nothing
+    }
+  }
+  parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
+  parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
+  const config::Release release = load_site(parameters).site.releases.at("rock");
+  EXPECT_NEAR(volume_of(release.thickness), release.area * 6.0, 1e-6 * release.area);
+  EXPECT_NEAR(thickness_at(release, 400.0, 300.0), 6.0, 1e-6);
+  EXPECT_GT(release.area, 100.0 * 60.0);
+}
+
+// Every quantity of a body that may come from a map, from both kinds of maps.
+TEST(ReleaseTest, SaturationAndIceContentFromMaps) {
+  config::Case parameters = case_with_release({{R"("S":0.2,"ice":0.3)", box_at(300, 300, 500, 400)}});
+  config::Body& body = parameters.bodies["rock"];
+  body.saturation.over = body.ice_content.over = InitialField::Over::attribute;
+  body.saturation.source = "S";
+  body.ice_content.source = "ice";
+  for (const bool raster : {false, true}) {
+    if (raster) {
+      body.saturation.over = InitialField::Over::raster;
+      body.saturation.source =
+          geotiff("saturation.tif", raster_of([](double, double) { return 0.2; }, west, south, 10.0, 100, 80));
+    }
+    const config::Release release = load_site(parameters).site.releases.at("rock");
+    for (const auto& [key, value] : {std::pair("saturation", 0.2), std::pair("ice_content", 0.3)}) {
+      const Raster& field = release.fields.at(key);
+      EXPECT_NEAR(field.at(field.columns / 2, field.rows / 2), value, 1e-9) << key;
+    }
+  }
+}
+
 TEST(ReleaseTest, FieldsFromAttributesAndRasters) {
   config::Case parameters =
       case_with_release({{R"("T":-8.0)", box_at(300, 300, 400, 400)}, {R"("T":-2.0)", box_at(400, 300, 500, 400)}});
