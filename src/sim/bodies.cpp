@@ -50,7 +50,7 @@ void seed_body(const config::Case& parameters, const config::Body& body, const B
 
 // How far the volume of the particles may be from the body's: more, and the spacing is too coarse for its shape.
 constexpr double volume_tolerance = 0.15;
-constexpr double release_tolerance = 0.01;  // of a release, whose columns have their own heights
+constexpr double release_tolerance = 0.05;  // of a release, whose columns have their own heights
 
 // seeds: from number `first` on those of the body.
 template <int Dim>
@@ -64,9 +64,10 @@ void require_volume(const config::Case& parameters, const std::string& name, con
   const double share = shape.volume() / seeded;
   if (shape.release() && !(seeded >= (1.0 - release_tolerance) * shape.volume())) {
     throw UserError(fmt::format(
-        "{}: body '{}' has a volume of {:.6g} m3, and {:.3g} % of it is thinner than a tenth of the distance of its "
-        "particles, which is {} m: they cannot hold it. Allowed: {:g} %. Make grid.cell smaller or "
-        "particles_per_axis larger, or the body thicker.",
+        "{}: body '{}' has a volume of {:.6g} m3, and {:.3g} % of it lies at its rim or where it is thinner than a "
+        "tenth "
+        "of the distance of its particles, which is {} m: they cannot hold it there. Allowed: {:g} %. Make grid.cell "
+        "smaller or particles_per_axis larger, or the body thicker.",
         config::place_of(parameters, "body." + name), name, shape.volume(), 100.0 * (1.0 - seeded / shape.volume()),
         spacing, 100.0 * release_tolerance));
   }

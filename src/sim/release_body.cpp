@@ -95,7 +95,9 @@ void ReleaseBody::seed(const Vector<double, 3>& corner, double spacing, int body
       const double y = corner[1] + (static_cast<double>(j) + 0.5) * spacing;
       const double thickness = mean_thickness(x, y, spacing);
       const long fitting = std::lround(thickness / spacing);
-      const long count = fitting == 0 && thickness >= thinnest * spacing ? 1 : fitting;
+      // Thin where the release is thin, not where it only reaches into the column.
+      const bool is_thin = fitting == 0 && thickness >= thinnest * spacing && raster_at(t, x, y, 0.0) > 0.0;
+      const long count = is_thin ? 1 : fitting;
       const double low = count > 0 ? bottom(x, y) : 0.0;
       for (long k = 0; k < count; ++k) {
         const double height = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * thickness;
