@@ -103,7 +103,9 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
     return speeds +
            "Likely cause: it came loose from the slide; try half of time.step, or viscosity_time in the material.";
   }
-  return speeds + "Likely cause: the slide ran further than [grid] min and max allow; widen them. " + way_ahead(p);
+  const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow; widen them";
+  const bool rises_or_falls = 2.0 * std::abs(static_cast<double>(particles_.velocity(p, Dim - 1))) > own;
+  return Dim == 2 || rises_or_falls ? too_far + " in its direction." : too_far + ". " + way_ahead(p);
 }
 
 template <int Dim, class Real>
