@@ -127,8 +127,8 @@ def test_valley_turned_and_shifted_is_within_the_spread_of_starting_noise(thawsl
     """At rest they are no farther from the plain run than the farthest of five seeds of starting noise.
 
     From the plain run, not from the middle of the five: all three share its regular lattice of particles. The shift is
-    along the map. Along the vertical it changes by some per cent the area that cohesion acts on while the slide is one
-    or two cells thick (docs/theory/contact.md, "Pressure and area"), and how far the slide comes by 54 m: no chance.
+    along the map. Along the vertical it changes by some per cent the area that cohesion and pore pressure act on, while
+    the slide is one or two cells thick (docs/theory/contact.md, "Pressure and area"); it then comes 54 m further.
     """
     plain = valley_as_it_is()
     by_plain = at_rest(thawslide, plain, tmp_path / "plain")
