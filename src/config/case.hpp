@@ -147,6 +147,12 @@ struct Frame {
   double velocity = 0;  // m/s
 };
 
+struct Initial {
+  double noise =
+      0.0;       // largest displacement of a particle from its regular place, as a share of the particles' distance
+  int seed = 0;  // of the displacements
+};
+
 struct Mechanics {
   bool enabled = true;
   ShapeFunction shape_function = ShapeFunction::ugimp;
@@ -248,6 +254,7 @@ struct Case {
   std::map<std::string, Material> materials;
   std::map<std::string, Body> bodies;
   std::map<std::string, Frame> frames;
+  Initial initial;
   Mechanics mechanics;
   Basal basal;
   Mechanisms mechanisms;

@@ -101,8 +101,11 @@ void ReleaseBody::seed(const Vector<double, 3>& corner, double spacing, int body
       const double low = count > 0 ? bottom(x, y) : 0.0;
       for (long k = 0; k < count; ++k) {
         const double height = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * thickness;
+        const std::array<std::uint32_t, 3> lattice{static_cast<std::uint32_t>(i - first_column),
+                                                   static_cast<std::uint32_t>(j - first_row),
+                                                   static_cast<std::uint32_t>(k)};
         seeds.push_back({body, Vector<double, 3>(x, y, low + height), thickness - height,
-                         thickness / static_cast<double>(count) * spacing * spacing});
+                         thickness / static_cast<double>(count) * spacing * spacing, lattice});
       }
     }
   }

@@ -99,6 +99,9 @@ min = [50.0, 0.0]
 max = [60.0, 9.0]
 axis = "y"
 velocity = 2.25
+[initial]
+noise = 0.125
+seed = 7
 [mechanics]
 enabled = false
 shape_function = "linear"
