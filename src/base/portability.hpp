@@ -20,6 +20,13 @@
 #define THAWSLIDE_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 
+// A function of a rare way, kept apart from the usual one. A call on a device costs more than it saves.
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define THAWSLIDE_OUT_OF_LINE inline
+#else
+#define THAWSLIDE_OUT_OF_LINE [[gnu::noinline, gnu::cold]]
+#endif
+
 namespace thawslide {
 
 // Asks the memory for what lies so many bytes on, which need not be there at all: a number, not a pointer, goes there.
@@ -30,7 +37,7 @@ inline void prefetch(const void* place, std::size_t bytes_on) {
 
 // A tolerance in either precision.
 template <class Real>
-constexpr Real by_precision(double in_double, double in_single) {
+THAWSLIDE_HD constexpr Real by_precision(double in_double, double in_single) {
   return static_cast<Real>(sizeof(Real) == sizeof(double) ? in_double : in_single);
 }
 
