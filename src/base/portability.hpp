@@ -20,13 +20,6 @@
 #define THAWSLIDE_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 
-// A function of a rare way, kept apart from the usual one. A call on a device costs more than it saves.
-#if defined(__CUDACC__) || defined(__HIPCC__)
-#define THAWSLIDE_OUT_OF_LINE inline
-#else
-#define THAWSLIDE_OUT_OF_LINE [[gnu::noinline, gnu::cold]]
-#endif
-
 namespace thawslide {
 
 // Asks the memory for what lies so many bytes on, which need not be there at all: a number, not a pointer, goes there.

@@ -58,7 +58,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void set_lane(Real& number, std::size_t /*l
 
 // function(number), number by number and out of line: where that is the rare way.
 template <class Value, class Function>
-THAWSLIDE_HD THAWSLIDE_OUT_OF_LINE Value rarely(Value x, const Function& function) {
+THAWSLIDE_HD [[gnu::noinline, gnu::cold]] Value rarely(Value x, const Function& function) {
   return each_lane(x, function);
 }
 
