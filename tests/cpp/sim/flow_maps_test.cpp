@@ -128,9 +128,24 @@ TEST(MapGrid, OfTooManyCellsIsRefused) {
     FAIL();
   } catch (const UserError& error) {
     EXPECT_STREQ(error.what(),
-                 "case.toml: maps of 1000000 x 1000000 cells of 0.1 x 0.1 m are too many; allowed: 2147483647 cells. "
-                 "Use a larger maps.cell.");
+                 "case.toml: maps of 1000000 x 1000000 cells of 0.1 x 0.1 m are too many: each would take 8e+03 GB of "
+                 "memory while it is written. Allowed: 2.5e+08 cells, 2 GB. Give maps.cell, 6.4 m or more.");
   }
+  parameters.maps.cell = 6.4;
+  const MapGrid grid = map_grid_of(parameters, {});
+  EXPECT_EQ(grid.columns, 15625);
+  EXPECT_EQ(grid.rows, 15625);
+}
+
+TEST(FlowMaps, MemoryFollowsTheSlideAndTheCells) {
+  const Simulation<3, double> simulation(slide_in_space());
+  FlowMaps wide = maps_of(simulation, {-4.5, -4.5, 1.5, 1.0, 60, 20, ""});
+  FlowMaps narrow = maps_of(simulation, {-4.5, -4.5, 0.15, 0.1, 600, 200, ""});
+  EXPECT_EQ(wide.bytes(), 0U);
+  wide.start(simulation.grid(), simulation.particles());
+  narrow.start(simulation.grid(), simulation.particles());
+  EXPECT_LE(wide.bytes(), 5U * 16 * 16 * FlowMaps::bytes_of_cell());  // 60 x 20 cells are 4 x 2 tiles, not all near it
+  EXPECT_GT(narrow.bytes(), 10U * wide.bytes());
 }
 
 TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
