@@ -71,7 +71,7 @@ double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
 // What each release comes to.
 void print_releases(const config::Site& site) {
   for (const auto& [name, release] : site.releases) {
-    const double volume = sim::raster_volume(release.thickness);
+    const double volume = volume_of(release.thickness);
     double covered = 0.0, thickest = 0.0;
     for (const double thickness : release.thickness.values) {
       covered += thickness > 0.0 ? 1.0 : 0.0;
