@@ -66,7 +66,6 @@ void Simulation<Dim, Real>::handle_left_particles() {
   ledger_.left_thermal += sums.sensible + sums.latent;
   ledger_.left_momentum += sums.momentum;
   particles_.remove(left_);
-  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
   find_particles_cells();
 }
 
