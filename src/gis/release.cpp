@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/raster_sampling.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
 #include "gis/release_fields.hpp"

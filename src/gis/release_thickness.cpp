@@ -1,7 +1,6 @@
 #include "gis/release_thickness.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "gis/coverage.hpp"
 #include "gis/map_raster.hpp"
@@ -232,10 +231,6 @@ class ThicknessMaker {
 };
 
 }  // namespace
-
-double volume_of(const Raster& thickness) {
-  return std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0) * thickness.cell_x * thickness.cell_y;
-}
 
 Raster vertical_thickness_of(const config::Case& parameters, const std::string& body, const ReleaseArea& area,
                              const Raster& ground, std::vector<std::string>& notes) {

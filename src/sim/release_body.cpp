@@ -13,21 +13,6 @@ constexpr double thinnest = 0.1;  // of a particle's height over the distance of
 
 }  // namespace
 
-double raster_at(const Raster& raster, double x, double y, double outside) {
-  const double across = (x - raster.x) / raster.cell_x, up = (y - raster.y) / raster.cell_y;
-  const double column = std::floor(across), row = std::floor(up);
-  const double share_x = across - column, share_y = up - row;
-  double value = 0.0;
-  for (int k = 0; k < 4; ++k) {
-    const double weight = (k % 2 == 0 ? 1.0 - share_x : share_x) * (k / 2 == 0 ? 1.0 - share_y : share_y);
-    const double i = column + k % 2, j = row + k / 2;
-    const bool inside = i >= 0.0 && j >= 0.0 && i < raster.columns && j < raster.rows;
-    const double there = inside ? raster.at(static_cast<int>(i), static_cast<int>(j)) : outside;
-    value += weight > 0.0 ? weight * (std::isnan(there) ? outside : there) : 0.0;
-  }
-  return value;
-}
-
 double nearest_value(const Raster& raster, double x, double y) {
   constexpr int reach = 2;  // points on each side
   const int column = static_cast<int>(std::lround((x - raster.x) / raster.cell_x));
@@ -51,20 +36,12 @@ double nearest_value(const Raster& raster, double x, double y) {
   return value;
 }
 
-double raster_volume(const Raster& thickness) {
-  double sum = 0.0;
-  for (const double value : thickness.values) {
-    sum += std::isnan(value) ? 0.0 : value;
-  }
-  return sum * thickness.cell_x * thickness.cell_y;
-}
-
 double ReleaseBody::bottom(double x, double y) const {
   return ground_->height(Vector<double, 2>(x - origin_[0], y - origin_[1])) + origin_[2];
 }
 
 bool ReleaseBody::contains(const Vector<double, 3>& place) const {
-  const double thickness = raster_at(*thickness_, place[0], place[1], 0.0);
+  const double thickness = bilinear(*thickness_, place[0], place[1], Missing::zero);
   const double above = place[2] - bottom(place[0], place[1]);
   return above > 0.0 && above < thickness;
 }
@@ -76,7 +53,8 @@ double ReleaseBody::mean_thickness(double x, double y, double width) const {
   double sum = 0.0;
   for (int j = 0; j < parts; ++j) {
     for (int i = 0; i < parts; ++i) {
-      sum += raster_at(*thickness_, x + width * ((i + 0.5) / parts - 0.5), y + width * ((j + 0.5) / parts - 0.5), 0.0);
+      sum += bilinear(*thickness_, x + width * ((i + 0.5) / parts - 0.5), y + width * ((j + 0.5) / parts - 0.5),
+                      Missing::zero);
     }
   }
   return sum / (parts * parts);
@@ -96,7 +74,7 @@ void ReleaseBody::seed(const Vector<double, 3>& corner, double spacing, int body
       const double thickness = mean_thickness(x, y, spacing);
       const long fitting = std::lround(thickness / spacing);
       // Thin where the release is thin, not where it only reaches into the column.
-      const bool is_thin = fitting == 0 && thickness >= thinnest * spacing && raster_at(t, x, y, 0.0) > 0.0;
+      const bool is_thin = fitting == 0 && thickness >= thinnest * spacing && bilinear(t, x, y, Missing::zero) > 0.0;
       const long count = is_thin ? 1 : fitting;
       const double low = count > 0 ? bottom(x, y) : 0.0;
       for (long k = 0; k < count; ++k) {

@@ -1,20 +1,14 @@
 // A body that map files give: it stands on the ground, as thick as they say.
 #pragma once
 
-#include "base/raster.hpp"
+#include "base/raster_sampling.hpp"
 #include "sim/seed.hpp"
 #include "terrain/surface.hpp"
 
 namespace thawslide::sim {
 
-// Value of a raster at a place, bilinear between its points; `outside` beyond them and where there is no data.
-double raster_at(const Raster& raster, double x, double y, double outside);
-
 // Value of the point nearest to a place, of those that have one; throws UserError if none of the next few has.
 double nearest_value(const Raster& raster, double x, double y);
-
-// Sum of the values times the area of a cell: the volume of a thickness [m3].
-double raster_volume(const Raster& thickness);
 
 class ReleaseBody {
  public:
@@ -22,7 +16,7 @@ class ReleaseBody {
   ReleaseBody(const Raster& thickness, const terrain::Surface<3>& ground, const Vector<double, 3>& origin)
       : thickness_(&thickness), ground_(&ground), origin_(origin) {}
 
-  [[nodiscard]] double volume() const { return raster_volume(*thickness_); }
+  [[nodiscard]] double volume() const { return volume_of(*thickness_); }
   // Elevation of the ground below a place, and whether the body is there [m].
   [[nodiscard]] double bottom(double x, double y) const;
   [[nodiscard]] bool contains(const Vector<double, 3>& place) const;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -240,3 +241,21 @@ def test_a_slide_that_leaves_the_dem_stops_there(
     assert run_facts(run)["status"] == "failed"
     with rasterio.open(run / "maps" / "max_speed.tif") as file:
         assert file.read(1, masked=True).max() > 40.0
+
+
+def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    folder = tmp_path / "slide"
+    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    outcome = thawslide("check", folder, "--set", "maps.cell=5")
+    assert outcome.returncode == 0, outcome.stderr
+    said = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
+    words = re.fullmatch(
+        r"(\d+) x (\d+) cells of 5 x 5 m; memory (\d+\.\d) MB for the release, at most (\d+\.\d) MB", said["maps"]
+    )
+    assert words, said["maps"]
+    columns, rows = int(words[1]), int(words[2])
+    at_start, at_most = float(words[3]), float(words[4])
+    assert 0.0 < at_start < at_most
+    assert f"10 maps of {columns * rows * 8 / 1e6:.1f} MB before they are compressed" in said["disk"]
+    refusal = refused(thawslide("check", folder, "--set", "maps.cell=0.01"))
+    assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal
