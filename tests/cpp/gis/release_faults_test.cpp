@@ -102,18 +102,6 @@ TEST(ReleaseFaultsTest, VolumeThatMustBeConfirmed) {
   EXPECT_EQ(error_of_site(parameters), "no error");
 }
 
-TEST(ReleaseFaultsTest, BodiesMayNotOverlap) {
-  config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
-  parameters.bodies["snow"] = release_body(geojson("snow.geojson", {{"", box_at(390, 390, 450, 450)}}), 3.0);
-  EXPECT_EQ(
-      error_of_site(parameters),
-      "case.toml: body.snow.release: the bodies 'rock' and 'snow' both have a thickness at 9 points of the ground, "
-      "such as 400390, 300390. Draw their outlines apart, with a cell of the terrain model and their tapers between "
-      "them.");
-  parameters.bodies["snow"] = release_body(geojson("snow.geojson", {{"", box_at(405, 405, 450, 450)}}), 3.0);
-  EXPECT_EQ(load_site(parameters).site.releases.size(), 2U);
-}
-
 TEST(ReleaseFaultsTest, ThicknessRasters) {
   config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
   const auto with = [&](const Raster& thickness) {
@@ -151,6 +139,17 @@ TEST(ReleaseFaultsTest, RasterAsTheRelease) {
   EXPECT_NE(with(raster_of([](double, double) { return 2.0; }, west, south, 5.0, 100, 100))
                 .find("the release lies partly outside the domain, by 100 m in the west and 100 m in the south;"),
             std::string::npos);
+  parameters.bodies["rock"] = release_body(geotiff("release.tif", ground()), 5.0);
+  EXPECT_EQ(error_of_site(parameters),
+            std::string(at_release) +
+                "FOLDER/release.tif: the file is a raster; needed: polygons, in a Shapefile, GeoPackage or GeoJSON. A "
+                "raster of a body's thickness goes to thickness = { raster = \"FILE\" }, which needs no polygons.");
+  parameters.bodies["rock"] = raster_body(geotiff("before.tif", ground()));
+  parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
+  EXPECT_EQ(
+      error_of_site(parameters),
+      "case.toml: body.rock.thickness: FOLDER/before.tif: the surface before the slide lies nowhere more than 0.01 "
+      "m above the terrain model: there is no release. Are the two files swapped?");
   parameters.bodies["rock"] = raster_body(in_folder("none.tif"));
   EXPECT_EQ(error_of_site(parameters),
             "case.toml: body.rock.thickness: FOLDER/none.tif: there is no such file. Correct the path.");
@@ -169,8 +168,13 @@ TEST(ReleaseFaultsTest, SurfacesBeforeTheSlide) {
   EXPECT_EQ(with(-3.0),
             std::string(at_thickness) +
                 "FOLDER/before.tif: at 400300, 300300, within the release, the surface before the slide lies 3 "
-                "m below the terrain model; allowed: above it. Are the two files swapped? Else draw the release "
-                "smaller.");
+                "m below the terrain model; allowed: above it, or below by up to 0.01 m. Are the two files swapped? "
+                "Else draw "
+                "the release smaller, or set body.rock.surface_tolerance to the noise of the two.");
+  body.surface_tolerance = 3.5;
+  EXPECT_EQ(with(-3.0), std::string(at_thickness) +
+                            "the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.");
+  body.surface_tolerance = 0.01;
   body.placement = config::Placement::cut;
   EXPECT_EQ(with(12.0),
             "case.toml: body.rock.placement: a thickness between a surface before the slide and the terrain "
