@@ -43,16 +43,17 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   const double most = *std::max_element(thickness.values.begin(), thickness.values.end());
   if (!(volume > 0.0)) {
     fail_at(parameters, key_of(name, "thickness"),
-            "the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.");
+            fmt::format("{}: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.",
+                        file_of_place(parameters, name)));
   }
   const double largest = parameters.bodies.at(name).largest_volume;
   if (volume > largest) {
-    fail_at(
-        parameters, key_of_place(parameters, name),
-        fmt::format("the release has {:.4g} m3, up to {:.4g} m thick, and body.{}.largest_volume allows {:g} m3. Is "
-                    "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
-                    "larger body.{}.largest_volume.",
-                    volume, most, name, largest, name));
+    fail_at(parameters, key_of_place(parameters, name),
+            fmt::format(
+                "{}: the release has {:.4g} m3, up to {:.4g} m thick, and body.{}.largest_volume allows {:g} m3. Is "
+                "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+                "larger body.{}.largest_volume.",
+                file_of_place(parameters, name), volume, most, name, largest, name));
   }
 }
 

@@ -128,15 +128,19 @@ class LayerReader {
     for (int k = 0; k < definition.GetFieldCount(); ++k) {
       result_.attributes.emplace_back(definition.GetFieldDefn(k)->GetNameRef());
     }
+    const auto require_whole = [&] {
+      if (messages.any_error()) {
+        throw UserError(
+            fmt::format("{}: the features cannot be read{}. The file seems to be damaged or cut off: copy it "
+                        "anew.",
+                        result_.file, messages.remark()));
+      }
+    };
     for (const auto& feature : *layer_) {
+      require_whole();
       take(*feature);
     }
-    if (messages.any_error()) {
-      throw UserError(
-          fmt::format("{}: the features cannot be read{}. The file seems to be damaged or cut off: copy it "
-                      "anew.",
-                      result_.file, messages.remark()));
-    }
+    require_whole();
     if (kind_ == Kind::polygons) {
       check_polygons(result_);
     }

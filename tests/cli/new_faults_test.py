@@ -39,9 +39,9 @@ def test_raster_releases_that_cannot_be_used(thawslide: Program, tmp_path: Path,
     assert_refused(
         made(thawslide, folder, dem, write_thickness(raster, dem, 1000.0 * THICKNESS)),
         tmp_path,
-        "--release: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows 2e+08 m3. Is the "
-        "thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a larger "
-        "--largest-volume.",
+        "--release: thick.tif: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows 2e+08 "
+        "m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "larger --largest-volume.",
     )
     assert_refused(
         made(thawslide, folder, dem, write_thickness(raster, dem, 0.0)),
@@ -139,9 +139,9 @@ def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: 
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), release, *words),
         tmp_path,
-        "--release: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows 2e+08 m3. Is the "
-        "thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a larger "
-        "--largest-volume.",
+        "--release: release.geojson: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows "
+        "2e+08 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "larger --largest-volume.",
     )
 
 

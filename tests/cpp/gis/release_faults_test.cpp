@@ -77,7 +77,7 @@ TEST(ReleaseFaultsTest, Attributes) {
   geojson("release.geojson", {{R"("thick":0)", box}});
   EXPECT_EQ(error_of_site(parameters),
             std::string(at_thickness) +
-                "the release has no volume: its thickness is 0 everywhere. Needed: a thickness "
+                "FOLDER/release.geojson: the release has no volume: its thickness is 0 everywhere. Needed: a thickness "
                 "in metres.");
 }
 
@@ -95,7 +95,8 @@ TEST(ReleaseFaultsTest, VolumeThatMustBeConfirmed) {
   config::Case parameters = case_with_release({{"", box_at(200, 200, 800, 600)}}, 8500.0);
   EXPECT_EQ(error_of_site(parameters),
             std::string(at_release) +
-                "the release has 2.04e+09 m3, up to 8500 m thick, and body.rock.largest_volume allows 2e+08 m3. Is the "
+                "FOLDER/release.geojson: the release has 2.04e+09 m3, up to 8500 m thick, and body.rock.largest_volume "
+                "allows 2e+08 m3. Is the "
                 "thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a larger "
                 "body.rock.largest_volume.");
   parameters.bodies["rock"].largest_volume = 3e9;
@@ -117,10 +118,11 @@ TEST(ReleaseFaultsTest, ThicknessRasters) {
           "FOLDER/thickness.tif: the raster (x from 400600 to 400695, y from 300000 to 300095) does not reach the "
           "release (x from 400290 to 400410, y from 300290 to 300410). Check that both are in the same place and "
           "reference system.");
-  EXPECT_EQ(with(raster_of([](double x, double) { return x > west + 500.0 ? 1.0 : 0.0; }, west, south, 5.0, 201, 161)),
-            std::string(at_thickness) +
-                "the release has no volume: its thickness is 0 everywhere. Needed: a thickness in "
-                "metres.");
+  EXPECT_EQ(
+      with(raster_of([](double x, double) { return x > west + 500.0 ? 1.0 : 0.0; }, west, south, 5.0, 201, 161)),
+      std::string(at_thickness) +
+          "FOLDER/release.geojson: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in "
+          "metres.");
 }
 
 TEST(ReleaseFaultsTest, RasterAsTheRelease) {
@@ -173,7 +175,8 @@ TEST(ReleaseFaultsTest, SurfacesBeforeTheSlide) {
                 "the release smaller, or set body.rock.surface_tolerance to the noise of the two.");
   body.surface_tolerance = 3.5;
   EXPECT_EQ(with(-3.0), std::string(at_thickness) +
-                            "the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.");
+                            "FOLDER/release.geojson: the release has no volume: its thickness is 0 everywhere. Needed: "
+                            "a thickness in metres.");
   body.surface_tolerance = 0.01;
   body.placement = config::Placement::cut;
   EXPECT_EQ(with(12.0),
