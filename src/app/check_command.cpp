@@ -54,6 +54,12 @@ void draw(const Json& setup, const std::string& picture) {
   }
 }
 
+// setup.png, of a variant its name before it: several case files may share a folder.
+std::string picture_beside(const fs::path& case_file) {
+  const std::string variant = case_file.stem() == "case" ? "" : case_file.stem().string() + "-";
+  return (case_file.parent_path() / (variant + "setup.png")).string();
+}
+
 // Seconds one step takes now, measured on the first steps.
 template <int Dim>
 double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
@@ -129,7 +135,7 @@ int check_case(const CheckOptions& options) {
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
     sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
     records.start(simulation);
-    const Json picture = options.picture.empty() ? Json() : setup_json<Dim>(simulation);
+    const Json setup = options.draws ? setup_json<Dim>(simulation) : Json();
     const auto limit = simulation.step_limit();
     const double dt = simulation.next_step(parameters.time.end);
     const double steps = std::ceil(parameters.time.end / dt * (1.0 - 1e-12));
@@ -154,9 +160,10 @@ int check_case(const CheckOptions& options) {
     print_disk(simulation, records.maps());
     fmt::print("  time        about {} on {} thread{} (measured on the first steps)\n", duration_text(seconds * steps),
                thread_count(), thread_count() == 1 ? "" : "s");
-    if (!options.picture.empty()) {
-      draw(picture, options.picture);
-      fmt::print("  picture     {}\n", options.picture);
+    if (options.draws) {
+      const std::string picture = options.picture.empty() ? picture_beside(parameters.file) : options.picture;
+      draw(setup, picture);
+      fmt::print("  picture     {}\n", picture);
     }
     return static_cast<int>(ExitCode::done);
   });

@@ -137,8 +137,9 @@ struct Body {
   MapValue thickness;
   ThicknessAlong thickness_along = ThicknessAlong::vertical;
   Placement placement = Placement::on_top;
-  double taper = 0.0;           // m, width over which the thickness falls to 0 at the edge
-  double largest_volume = 2e8;  // m3; more must be confirmed by a larger value
+  double taper = 0.0;               // m, width over which the thickness falls to 0 at the edge
+  double surface_tolerance = 0.01;  // m, of a thickness between two surfaces: what counts as none
+  double largest_volume = 2e8;      // m3; more must be confirmed by a larger value
 };
 
 struct Frame {

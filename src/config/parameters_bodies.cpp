@@ -70,6 +70,16 @@ std::vector<Parameter<Body>> release_parameters() {
                                .range = at_least(0),
                                .text = "width along the edge over which the thickness falls to 0"})
           .only_if(when_release, "shape", is_release),
+      parameter(&Body::surface_tolerance,
+                {.key = "surface_tolerance",
+                 .unit = "m",
+                 .range = at_least(0),
+                 .text = "noise of the surface before the slide and the DEM: a difference up to it counts as none, and "
+                         "within polygons the surface may lie so far below the DEM"})
+          .only_if("when the shape is \"release\" and thickness is a surface", "thickness",
+                   [](const Case&, const Body& body) {
+                     return body.shape == BodyShape::release && body.thickness.from == MapValue::From::surface;
+                   }),
       parameter(&Body::largest_volume,
                 {.key = "largest_volume",
                  .unit = "m3",

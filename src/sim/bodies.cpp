@@ -156,7 +156,7 @@ std::optional<ReleaseBody> release_of(const config::Site& site, const Model<Dim,
                                       const config::Body& body) {
   if constexpr (Dim == 3) {
     if (body.shape == config::BodyShape::release) {
-      return ReleaseBody(site.releases.at(name).thickness, *model.ground, model.origin);
+      return ReleaseBody(site.releases, name, *model.ground, model.origin);
     }
   }
   return std::nullopt;

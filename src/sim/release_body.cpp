@@ -11,6 +11,27 @@ namespace {
 
 constexpr double thinnest = 0.1;  // of a particle's height over the distance of particles
 
+// By the parity of the sides that a ray to the east crosses.
+bool is_within(const std::vector<config::Polyline2>& rings, double x, double y) {
+  bool within = false;
+  for (const config::Polyline2& ring : rings) {
+    for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
+      const auto& low = ring[k][1] <= ring[k + 1][1] ? ring[k] : ring[k + 1];
+      const auto& high = ring[k][1] <= ring[k + 1][1] ? ring[k + 1] : ring[k];
+      if (low[1] <= y && y < high[1] && x < low[0] + (y - low[1]) / (high[1] - low[1]) * (high[0] - low[0])) {
+        within = !within;
+      }
+    }
+  }
+  return within;
+}
+
+// Of a place near the body: its outline goes before every share.
+double claim_of(const config::Release& release, double x, double y) {
+  constexpr double within_outline = 2.0;
+  return is_within(release.outlines, x, y) ? within_outline : bilinear(release.claim, x, y, Missing::zero);
+}
+
 }  // namespace
 
 double nearest_value(const Raster& raster, double x, double y) {
@@ -41,20 +62,39 @@ double ReleaseBody::bottom(double x, double y) const {
 }
 
 bool ReleaseBody::contains(const Vector<double, 3>& place) const {
-  const double thickness = bilinear(*thickness_, place[0], place[1], Missing::zero);
+  const double here = bilinear(thickness(), place[0], place[1], Missing::zero);
   const double above = place[2] - bottom(place[0], place[1]);
-  return above > 0.0 && above < thickness;
+  return above > 0.0 && above < here && owns(place[0], place[1]);
+}
+
+bool ReleaseBody::owns(double x, double y) const {
+  if (release_->claim.empty()) {
+    return true;
+  }
+  const double claim = claim_of(*release_, x, y);
+  bool is_later = false;  // of bodies that claim the same the first one has it
+  for (const auto& [name, other] : *releases_) {
+    is_later = is_later || &other == release_;
+    if (&other == release_ || other.claim.empty() || bilinear(other.claim, x, y, Missing::zero) == 0.0) {
+      continue;
+    }
+    const double rival = claim_of(other, x, y);
+    if (rival > claim || (rival == claim && !is_later)) {
+      return false;
+    }
+  }
+  return claim > 0.0;
 }
 
 // By the midpoint rule, finer than the raster's points.
 double ReleaseBody::mean_thickness(double x, double y, double width) const {
-  const double finest = std::min(thickness_->cell_x, thickness_->cell_y);
+  const Raster& t = thickness();
+  const double finest = std::min(t.cell_x, t.cell_y);
   const int parts = 1 + 2 * static_cast<int>(std::ceil(width / finest));
   double sum = 0.0;
   for (int j = 0; j < parts; ++j) {
     for (int i = 0; i < parts; ++i) {
-      sum += bilinear(*thickness_, x + width * ((i + 0.5) / parts - 0.5), y + width * ((j + 0.5) / parts - 0.5),
-                      Missing::zero);
+      sum += bilinear(t, x + width * ((i + 0.5) / parts - 0.5), y + width * ((j + 0.5) / parts - 0.5), Missing::zero);
     }
   }
   return sum / (parts * parts);
@@ -64,13 +104,16 @@ void ReleaseBody::seed(const Vector<double, 3>& corner, double spacing, int body
   const auto number = [&](double place, int axis) {
     return static_cast<long>(std::floor((place - corner[axis]) / spacing));
   };
-  const Raster& t = *thickness_;
+  const Raster& t = thickness();
   const long first_column = number(t.x - t.cell_x, 0), last_column = number(t.x_end() + t.cell_x, 0);
   const long first_row = number(t.y - t.cell_y, 1), last_row = number(t.y_end() + t.cell_y, 1);
   for (long j = first_row; j <= last_row; ++j) {
     for (long i = first_column; i <= last_column; ++i) {
       const double x = corner[0] + (static_cast<double>(i) + 0.5) * spacing;
       const double y = corner[1] + (static_cast<double>(j) + 0.5) * spacing;
+      if (!owns(x, y)) {
+        continue;
+      }
       const double thickness = mean_thickness(x, y, spacing);
       const long fitting = std::lround(thickness / spacing);
       // Thin where the release is thin, not where it only reaches into the column.

@@ -15,6 +15,7 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+from slope_files import SOUTH, WEST, Slope, write_release, write_slope
 
 ROOT = Path(__file__).resolve().parents[2]
 LAMPLUGH = ROOT / "cases" / "lamplugh"
@@ -121,6 +122,21 @@ def small_case(tmp_path: Path) -> Path:
     return folder
 
 
+@pytest.fixture
+def slope(tmp_path: Path) -> Slope:
+    """Return a function that writes a slope as a terrain model."""
+
+    def write(name: str = "dem.tif", **words: Any) -> Path:
+        return write_slope(tmp_path / name, **words)
+
+    return write
+
+
+@pytest.fixture
+def release(tmp_path: Path) -> Path:
+    return write_release(tmp_path / "release.geojson", WEST + 200.0, SOUTH + 250.0)
+
+
 def sets(**values: object) -> list[str]:
     """Return the words of --set; two underscores stand for the dot: time__end=1."""
     return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
@@ -162,7 +178,7 @@ def assert_same_bits(one: Path, other: Path) -> None:
     names = [file.name for file in snapshot_files(one)]
     assert names == [file.name for file in snapshot_files(other)]
     for name in names:
-        first, second = datasets(one / "snapshots" / name), datasets(other / "snapshots" / name)
+        first, second = (datasets(one / "snapshots" / name), datasets(other / "snapshots" / name))
         assert first.keys() == second.keys()
         for key, values in first.items():
             assert values.dtype == second[key].dtype and values.shape == second[key].shape, f"{name}: {key}"

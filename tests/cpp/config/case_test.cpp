@@ -64,7 +64,10 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   const std::string wall = "[frame.wall]\nmin = [90.0, 0.0]\nmax = [95.0, 5.0]\naxis = \"x\"\nvelocity = 0.0\n";
   const std::set<std::string> given{"case.dimension", "terrain.type", "material.law", "body.shape"};
   std::map<std::string, bool> in_force;  // whether a key's default could be told in one of the cases
-  for (const std::string& text : {sound + wall, sound_on_dem}) {
+  std::string of_surface = sound_on_dem;
+  const std::string number = "thickness = 10.0";
+  of_surface.replace(of_surface.find(number), number.size(), "thickness = { surface = \"map.tif\" }");
+  for (const std::string& text : {sound + wall, sound_on_dem, of_surface}) {
     const Case found = case_from_text(text);
     const std::string before = resolved_toml(found, "inputs");
     for (const auto& table : tables()) {
