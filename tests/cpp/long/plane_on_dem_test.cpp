@@ -30,7 +30,7 @@ TEST(PlanesOnDem, SlidesOrSticksOnAllAlike) {
 }
 
 // At the block's sides the area of contact is out by a part of a cell, which cohesion feels.
-const std::vector<std::string> half_cells{"grid.cell=2.5", "time.step=0.0005", "material.rock.viscosity_time=0.01"};
+const std::vector<std::string> half_cells{"grid.cell=2.5", "time.step=0.0005", "material.matter.viscosity_time=0.01"};
 
 TEST(PlanesOnDem, CohesionBrakesInAllDirections) {
   Record record = make_record("Block with cohesion on planes of a terrain model");
