@@ -82,6 +82,10 @@ inline std::vector<std::string> rubbing(double friction_angle, double cohesion =
           fmt::format("basal.cohesion={}", cohesion), "heat.enabled=true"};
 }
 
+// The nodes share the base by the load that they carry. On slopes they together count some hundredths too much, which
+// cohesion feels and friction does not.
+inline double allowed_of_area(const Plane& plane) { return 0.005 + 0.0015 * plane.slope; }
+
 // a = g (sin - mu cos) - c A/m; work = mu m g cos times the way, and that of the cohesion.
 inline Slide expect_slide(Record& record, const Plane& plane, double friction_angle, double cohesion = 0.0,
                           const std::vector<std::string>& sets = {}) {
@@ -93,13 +97,13 @@ inline Slide expect_slide(Record& record, const Plane& plane, double friction_an
       friction * seen.mass * gravity * std::cos(plane.slope * degree) + cohesion * plane.base_area();
   const double acceleration = gravity * std::sin(plane.slope * degree) - resistance / seen.mass;
   record.expect_near("acceleration over exact, " + plane.text(), seen.acceleration / acceleration, 1.0,
-                     cohesion > 0.0 ? 0.02 : 2e-3);
+                     cohesion > 0.0 ? 0.02 : 1e-3);
   record.expect_near("heat over exact, " + plane.text(), seen.heat / (resistance * seen.way), 1.0,
-                     cohesion > 0.0 ? 0.02 : 2e-3);
+                     cohesion > 0.0 ? 0.02 : 1e-3);
   record.expect_near("heat over work of friction, " + plane.text(), seen.heat / seen.work, 1.0, 1e-12);
   record.expect_near("speed across the fall line [m/s], " + plane.text(), seen.aside, 0.0, 5e-3);
   record.expect_near("area of contact over exact, " + plane.text(), seen.area / plane.base_area(), 1.0,
-                     plane.slope > 40.0 ? 0.08 : 0.05);
+                     allowed_of_area(plane));
   return seen;
 }
 
@@ -107,7 +111,8 @@ inline void expect_rest(Record& record, const Plane& plane, double friction_angl
   const Slide seen = slide(plane, rubbing(friction_angle));
   record.expect_near("speed below the friction angle [m/s], " + plane.text(), seen.velocity, 0.0, 2e-3);
   record.expect_near("creep below the friction angle [m], " + plane.text(), seen.way, 0.0, 2e-3);
-  record.expect_near("area of contact over exact, " + plane.text(), seen.area / plane.base_area(), 1.0, 0.08);
+  record.expect_near("area of contact over exact, " + plane.text(), seen.area / plane.base_area(), 1.0,
+                     allowed_of_area(plane));
 }
 
 inline Record make_record(const std::string& title) {
