@@ -62,6 +62,7 @@ cohesion = 0.0
 
 Outcome = subprocess.CompletedProcess[str]
 Program = Callable[..., Outcome]
+Interrupted = Callable[[Path, Path, list[str], int, int], int]
 
 
 @pytest.fixture(scope="session")
@@ -110,6 +111,26 @@ def thawslide(binary: Path, plain_environment: dict[str, str]) -> Program:
             timeout=limit,
             check=False,
         )
+
+    return start
+
+
+@pytest.fixture(scope="session")
+def interrupted(binary: Path, plain_environment: dict[str, str]) -> Interrupted:
+    """Return a function that runs a case into a folder, sends a signal after so many percent, and returns the code."""
+
+    def start(case: Path, run: Path, words: list[str], number: int, percent: int) -> int:
+        command = [str(binary), "run", str(case), "--output", str(run), *words]
+        pipe = subprocess.PIPE
+        with subprocess.Popen(command, env=plain_environment, stdout=pipe, stderr=pipe, text=True) as process:
+            assert process.stdout and process.stderr
+            for line in process.stdout:
+                share = line.split("%")[0].strip()
+                if "%" in line and share.isdigit() and int(share) >= percent:
+                    process.send_signal(number)
+                    break
+            process.communicate(timeout=LIMIT)
+            return process.returncode
 
     return start
 

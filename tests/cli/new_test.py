@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import re
+import signal
 import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
 import rasterio
-from conftest import Program, assert_same_bits, history, run_facts
+from conftest import Interrupted, Outcome, Program, assert_same_bits, history, run_facts, sets
 from slope_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, Slope, made, write_release, write_thickness
+
+
+def refused(outcome: Outcome) -> str:
+    assert outcome.returncode == 2, outcome.stderr
+    assert outcome.stderr.startswith("error: ")
+    return outcome.stderr
 
 
 def test_two_commands_to_maps(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
@@ -96,20 +103,39 @@ def test_release_cut_out_of_the_dem(thawslide: Program, tmp_path: Path, slope: S
     assert lowered == pytest.approx(THICKNESS, abs=1e-9)
 
 
-def test_stopped_and_resumed_maps_have_the_same_bits(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+@pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 20), (signal.SIGINT, 50)])
+def test_a_run_stopped_by_a_signal_goes_on_to_the_same_bits(
+    thawslide: Program,
+    interrupted: Interrupted,
+    tmp_path: Path,
+    slope: Slope,
+    release: Path,
+    number: int,
+    percent: int,
 ) -> None:
-    folder = tmp_path / "slide"
+    """Maps, probes, history, snapshots and checkpoint are those of the run that nothing stopped."""
+    folder, whole, parts = tmp_path / "slide", tmp_path / "whole", tmp_path / "parts"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
-    shared = ["--set", "time.stepping=fixed", "--set", "time.step=0.01"]
-    whole, parts = tmp_path / "whole", tmp_path / "parts"
-    assert thawslide("run", folder, *shared, "--set", "time.end=0.6", "--output", whole).returncode == 0
-    assert thawslide("run", folder, *shared, "--set", "time.end=0.3", "--output", parts).returncode == 0
-    case = parts / "case.toml"
-    case.write_text(case.read_text().replace("end = 0.3", "end = 0.6", 1))
-    assert thawslide("resume", parts).returncode == 0
-    assert history(whole)["kinetic_J"][-1] == history(parts)["kinetic_J"][-1]
-    for file in sorted((whole / "maps").glob("*.tif")):
+    case = folder / "case.toml"
+    text = case.read_text().replace("temperature = ", "velocity = [10.0, 0.0, -5.0]\ntemperature = ", 1)
+    case.write_text(f"{text}\n[probe.gauge]\npoint = [{WEST + 330.0}, {SOUTH + 300.0}]\n")
+    # Neither rows nor snapshots nor checkpoints fall together.
+    words = sets(time__end=2, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.3)
+    assert thawslide("run", folder, *words, "--output", whole).returncode == 0
+    assert interrupted(folder, parts, words, number, percent) == 4
+    facts = run_facts(parts)
+    assert facts["status"] == "stopped" and percent / 50 <= facts["simulated_time_s"] < 2.0
+    outcome = thawslide("resume", parts)
+    assert outcome.returncode == 0, outcome.stderr
+    assert_same_bits(whole, parts)
+    after, complete = run_facts(parts), run_facts(whole)
+    for key in ("steps", "deposit_volume_m3", "deposit_area_m2", "travel_distance_m", "angle_of_reach_degrees"):
+        assert complete[key] is not None and after[key] == complete[key], key
+    for name in ("checkpoint.bin", "probes.csv"):
+        assert (whole / name).read_bytes() == (parts / name).read_bytes(), name
+    maps = sorted((whole / "maps").glob("*.tif"))
+    assert len(maps) == 12
+    for file in maps:
         with rasterio.open(file) as one, rasterio.open(parts / "maps" / file.name) as other:
             assert one.read(1).tobytes() == other.read(1).tobytes(), file.name
 

@@ -74,33 +74,46 @@ Simulation<3, double> run_onto(double end_of_dem, const std::vector<std::string>
 struct Seen {
   std::map<std::string, std::vector<double>> fields;
   sim::HistoryRow row;
+  double mass = 0.0, momentum = 0.0, heat = 0.0, energy = 0.0;  // largest that the accounts leave over, as shares
 };
 
-// Until about half of the slide has left; checks all accounts at each half second.
+// Until about half of the slide has left; looks at all accounts at each half second.
 Seen leave(int threads) {
   const int threads_before = thread_count();
   set_thread_count(threads);
   auto simulation = run_onto(42.0, {"grid.leaving=remove"});
   const double mass = value_of(history_row(simulation), "mass_kg");
+  Seen seen;
+  const auto note = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
   for (double time = 0.5; time < 4.1; time += 0.5) {
     run_until(simulation, time);
-    const auto row = history_row(simulation);
-    const auto value = [&](const std::string& column) { return value_of(row, column); };
-    EXPECT_NEAR(value("mass_residual_kg"), 0.0, 1e-12 * mass);
-    EXPECT_NEAR(value("mass_kg") + value("left_mass_kg"), mass, 1e-12 * mass);
-    EXPECT_NEAR(value("rock_kg") + value("ice_kg") + value("water_kg"), value("mass_kg"), 1e-12 * mass);
+    seen.row = history_row(simulation);
+    const auto value = [&](const std::string& column) { return value_of(seen.row, column); };
+    note(seen.mass, value("mass_residual_kg") / mass);
+    note(seen.mass, (value("mass_kg") + value("left_mass_kg")) / mass - 1.0);
+    note(seen.mass, (value("rock_kg") + value("ice_kg") + value("water_kg")) / value("mass_kg") - 1.0);
     for (const std::string axis : {"x", "y", "z"}) {
-      EXPECT_NEAR(value("momentum_residual_" + axis + "_N_s"), 0.0, 1e-11 * mass * 9.81 * time) << axis;
+      note(seen.momentum, value("momentum_residual_" + axis + "_N_s") / (mass * 9.81 * time));
     }
-    EXPECT_NEAR(value("thermal_residual_J"), 0.0, 1e-10 * value("friction_heat_J"));
-    EXPECT_NEAR(value("mechanical_residual_J"), 0.0, 0.01 * value("kinetic_J"));
+    note(seen.heat, value("thermal_residual_J") / value("friction_heat_J"));
+    note(seen.energy, value("mechanical_residual_J") / value("kinetic_J"));
   }
   set_thread_count(threads_before);
-  return {fields_by_id(simulation.particles()), history_row(simulation)};
+  seen.fields = fields_by_id(simulation.particles());
+  return seen;
 }
 
 TEST(LeavingDem, AccountsCloseAndThreadsDoNotMatter) {
+  Record record(
+      "A slide that leaves the terrain model",
+      "Debris with heat and pore pressure runs 4 s down a gully; what comes over the edge of the terrain model "
+      "is removed and counted. Largest residual of the accounts, each half second.",
+      "accounts close; one thread and two give the same bits", "conservation");
   const Seen one = leave(1), two = leave(2);
+  record.expect_near("mass, over the slide's", one.mass, 0.0, 1e-12);
+  record.expect_near("momentum, over weight times time", one.momentum, 0.0, 1e-11);
+  record.expect_near("heat, over the heat of friction", one.heat, 0.0, 1e-10);
+  record.expect_near("mechanical energy, over the kinetic energy", one.energy, 0.0, 0.01);
   const double left = value_of(one.row, "left_mass_kg"), stays = value_of(one.row, "mass_kg");
   EXPECT_GT(left, 0.1 * stays);
   EXPECT_GT(stays, 0.1 * left);
