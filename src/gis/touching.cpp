@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "base/nearest_known.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
 #include "gis/release_thickness.hpp"
@@ -99,7 +100,7 @@ Raster thickness_within(const LoadedRelease& loaded, const Raster& layout) {
           share > 0.0 ? thickness.at(column, row) / share : std::numeric_limits<double>::quiet_NaN();
     }
   }
-  fill_from_nearest(within);
+  fill_from_nearest_known(within);
   return within;
 }
 

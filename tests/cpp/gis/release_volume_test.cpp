@@ -6,6 +6,7 @@
 
 #include "../support/record.hpp"
 #include "base/error.hpp"
+#include "base/raster_sampling.hpp"
 #include "gis/site.hpp"
 #include "map_files.hpp"
 #include "sim/release_body.hpp"
@@ -128,7 +129,7 @@ void take_differences(const config::Case& parameters, double volume, Differences
     difference = std::max(difference, std::abs(found / expected - 1.0));
   };
   const config::Site site = load_site(parameters).site;
-  note(largest.raster, sim::raster_volume(site.releases.at("slide").thickness), volume);
+  note(largest.raster, volume_of(site.releases.at("slide").thickness), volume);
   sim::Simulation<3, double> simulation(parameters, site);
   sim::RunRecords<3> records(simulation, site);
   records.start(simulation);

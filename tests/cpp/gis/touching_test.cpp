@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/raster_sampling.hpp"
 #include "config/read_case.hpp"
 #include "sim/simulation.hpp"
 #include "site_case.hpp"

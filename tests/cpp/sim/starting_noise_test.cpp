@@ -183,7 +183,7 @@ TEST(StartingNoise, KeepsAReleaseBetweenTheGroundAndItsTop) {
   const Fields regular = fields_of(on_slope({})), displaced = fields_of(simulation);
   const std::vector<double> found = displacements(displaced, regular);
   const Position& origin = simulation.model().origin;
-  const ReleaseBody body(simulation.site().releases.at("slide").thickness, *simulation.model().ground, origin);
+  const ReleaseBody body(simulation.site().releases, "slide", *simulation.model().ground, origin);
   const std::size_t count = displaced.at("mass").size();
   std::size_t kept = 0;
   for (std::size_t p = 0; p < count; ++p) {
