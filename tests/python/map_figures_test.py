@@ -157,9 +157,15 @@ def test_probes(map_run: Path) -> None:
     thickness = maps_of(figure)[0]
     assert [line.get_label() for line in thickness.lines] == ["gate", "weir (largest)"]
     assert thickness.get_title(loc="left") == "(a) thickness"
-    discharge = maps_of(figure)[3].lines[0]
+    speed = maps_of(figure)[1]
+    assert [line.get_label() for line in speed.lines] == ["gate", "weir (mean)"]
+    np.testing.assert_array_equal(np.asarray(speed.lines[1].get_ydata()), [0.0, 18.0, 0.0])
+    assert speed.lines[1].get_color() == thickness.lines[1].get_color()
+    panel = maps_of(figure)[3]
+    (discharge,) = panel.lines
     assert discharge.get_label() == "weir"
-    np.testing.assert_array_equal(np.asarray(discharge.get_ydata()), [0.0, 7200.0, 0.0])
+    np.testing.assert_array_equal(np.asarray(discharge.get_ydata()), [0.0, -6480.0, 0.0])
+    assert panel.get_ylim()[0] < -6480.0 and panel.get_ylim()[1] == 0.0
 
 
 def test_the_film_has_a_frame_for_each_snapshot(map_run: Path, tmp_path: Path) -> None:
