@@ -33,7 +33,7 @@ class FrontWatch {
   template <int Dim>
   ProgressState state(const sim::Simulation<Dim, double>& simulation, double front, std::int64_t steps) {
     const double elapsed = simulation.time() - time_;
-    const double speed = elapsed > 0.0 && std::isfinite(front_) ? (front - front_) / elapsed : 0.0;
+    const double speed = elapsed > 0.0 ? (front - front_) / elapsed : std::nan("");
     front_ = front;
     time_ = simulation.time();
     return {simulation.time(), simulation.parameters().time.end, steps, front, speed};
@@ -42,6 +42,13 @@ class FrontWatch {
  private:
   double front_ = std::nan(""), time_ = 0.0;
 };
+
+// Where the slide's front is at the end, in words.
+std::string front_text(double front, double runout) {
+  return std::isfinite(front) ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
+                              : "no front: maps.path is not given, and the slide has hardly moved, so there is no path "
+                                "to measure along";
+}
 
 template <int Dim>
 void print_summary(const sim::Simulation<Dim, double>& simulation, const sim::HistoryRow& row,
@@ -62,9 +69,9 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const sim::Hi
   const auto value = [&](const std::string& name) {
     return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
   };
-  fmt::print("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, front at {:.0f} m, runout {:.0f} m\n",
-             simulation.time(), value("mean_velocity_m_s"), value("mean_displacement_m"), value("front_position_m"),
-             value("runout_m"));
+  fmt::print("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", simulation.time(),
+             value("mean_velocity_m_s"), value("mean_displacement_m"),
+             front_text(value("front_position_m"), value("runout_m")));
   for (const auto& [name, number] : figures) {
     if (std::isfinite(number)) {
       fmt::print("  {:<28}{:12.6g}\n", name, number);

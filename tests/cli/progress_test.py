@@ -10,8 +10,10 @@ from pathlib import Path
 
 import pytest
 from conftest import LAMPLUGH, LIMIT, Program, run_facts, sets
+from slope_files import Slope, made
 
-STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| (\d+ min )?\d+ s left \| front \d+ m at -?\d+\.\d m/s"
+STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| (\d+ min )?\d+ s left \| front \d+ m"
+SPEED = r" at -?\d+\.\d m/s"
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +36,8 @@ def test_plain_lines_tell_share_speed_time_left_and_front(said: tuple[list[str],
     shares = []
     for line in said[0][1:]:
         if "%" in line and "left" in line:
-            told = re.fullmatch(rf" *(\d+) % \| {STATE}", line)
+            # Two places of the front make a speed.
+            told = re.fullmatch(rf" *(\d+) % \| {STATE}{SPEED if shares else ''}", line)
             assert told, line
             shares.append(int(told[1]))
     assert shares[0] == 10 and 8 <= len(shares) <= 10
@@ -83,14 +86,28 @@ def test_bar_on_a_terminal(binary: Path, plain_environment: dict[str, str], tmp_
         shown = read_terminal(ours).decode()
         os.close(ours)
         assert process.wait(timeout=LIMIT) == 0
-    bars = re.findall(rf"\r\033\[K\[(=* *)\] +(\d+) % \| {STATE}", shown)
-    assert bars
-    for bar, share, _ in bars:
+    bars = re.findall(rf"\r\033\[K\[(=* *)\] +(\d+) % \| {STATE}({SPEED})?", shown)
+    assert bars and not bars[0][3] and all(bar[3] for bar in bars[1:])
+    for bar, share, *_ in bars:
         assert len(bar) == 24
         assert bar.count("=") == pytest.approx(int(share) * 24 / 100, abs=1.2)
-    shares = [int(share) for _, share, _ in bars]
+    shares = [int(share) for _, share, *_ in bars]
     assert shares == sorted(shares)
     # The bar is drawn over itself: no new line between the first and the last, and one before the summary.
     first, last = shown.index("\r\033[K["), shown.rindex("\r\033[K[")
     assert "\n" not in shown[first:last]
-    assert re.search(r"m/s\r\n\d+ particles, 2000 steps in ", shown[last:])
+    assert re.search(r"m( at -?\d+\.\d m/s)?\r\n\d+ particles, 2000 steps in ", shown[last:])
+
+
+def test_a_slide_that_hardly_moved_has_no_front(
+    thawslide: Program, slope: Slope, release: Path, tmp_path: Path
+) -> None:
+    made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24)
+    outcome = thawslide("run", tmp_path / "slide", "--output", tmp_path / "run", *sets(time__end=0.05))
+    assert outcome.returncode == 0, outcome.stderr
+    assert "nan" not in outcome.stdout
+    assert re.search(
+        r"\nat 0\.05 s: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: maps\.path is not given, and the slide "
+        r"has hardly moved, so there is no path to measure along\n",
+        outcome.stdout,
+    )
