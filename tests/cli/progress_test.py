@@ -107,7 +107,7 @@ def test_a_slide_that_hardly_moved_has_no_front(
     assert outcome.returncode == 0, outcome.stderr
     assert "nan" not in outcome.stdout
     assert re.search(
-        r"\nat 0\.05 s: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: maps\.path is not given, and the slide "
-        r"has hardly moved, so there is no path to measure along\n",
+        r"\nat 0\.05 s: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: maps\.path is not given, and the "
+        r"slide has hardly moved, so there is no path to measure along\n",
         outcome.stdout,
     )
