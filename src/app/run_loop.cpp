@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/thread_choice.hpp"
 #include "sim/history.hpp"
+#include "sim/slide_left.hpp"
 
 namespace thawslide::app {
 
@@ -116,6 +117,12 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
     print_summary(simulation, output.history_row(simulation), output.figures(), output.seconds_per_stage(simulation),
                   simulation.step_number() - first_step, wall(), folder);
   };
+  // Of a run that ends before its time; nothing can go on from there.
+  const auto write_state_at_end = [&] {
+    output.write_history(simulation);
+    output.write_snapshot(simulation);
+    output.write_maps(simulation);
+  };
   catch_signals();
   try {
     while (simulation.time() < times.end - 0.5 * simulation.last_step() && caught_signal() == 0) {
@@ -145,10 +152,14 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
             front.state(simulation, output.front_position(simulation), simulation.step_number() - first_step));
       }
     }
+  } catch (const sim::SlideLeft& end) {
+    output.slide_left();
+    write_state_at_end();
+    close("done", end.what());
+    fmt::print("{}\n", end.what());
+    return static_cast<int>(ExitCode::done);
   } catch (const RunError& error) {
-    output.write_history(simulation);
-    output.write_snapshot(simulation);
-    output.write_maps(simulation);
+    write_state_at_end();
     close("failed", error.what());
     throw;
   }

@@ -8,9 +8,11 @@ import re
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
-from conftest import LAMPLUGH, LIMIT, Program, run_facts, sets
-from slope_files import Slope, made
+import rasterio
+from conftest import LAMPLUGH, LIMIT, Program, history, run_facts, sets
+from slope_files import SOUTH, WEST, Slope, made
 
 STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| (\d+ min )?\d+ s left \| front \d+ m"
 SPEED = r" at -?\d+\.\d m/s"
@@ -111,3 +113,38 @@ def test_a_slide_that_hardly_moved_has_no_front(
         r"slide has hardly moved, so there is no path to measure along\n",
         outcome.stdout,
     )
+
+
+def test_a_run_whose_whole_slide_has_left_is_done(
+    thawslide: Program, slope: Slope, release: Path, tmp_path: Path
+) -> None:
+    made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24)
+    run = tmp_path / "run"
+    outcome = thawslide(
+        "run", tmp_path / "slide", "--output", run, "--threads", 1,
+        *sets(time__end=60, grid__cell=16, grid__leaving='"remove"', basal__friction_angle=3),
+        *sets(grid__min=[WEST + 128, SOUTH + 176, 960], grid__max=[WEST + 512, SOUTH + 432, 1216]),
+        *sets(heat__enabled="false", pressure__enabled="false", body__slide__velocity=[20, 0, 0]),
+    )  # fmt: skip
+    assert outcome.returncode == 0, outcome.stderr
+    facts, columns = run_facts(run), history(run)
+    told = re.fullmatch(
+        r"the whole slide has left the domain or the known ground at t = (\S+) s \(step \d+\); the last (\S+) kg of "
+        r"it, which left in this step, still stand in mass_kg\. Widen \[grid\] min and max, or give a DEM that reaches "
+        r"further, to follow it on\.",
+        facts["message"],
+    )
+    assert told and facts["status"] == "done"
+    assert outcome.stdout.splitlines()[-1] == facts["message"]
+    assert columns["time_s"][-1] == pytest.approx(float(told[1]), rel=1e-5)
+    assert columns["time_s"][-1] < 60.0
+    assert columns["mass_kg"][-1] == pytest.approx(float(told[2]), rel=1e-3)
+    np.testing.assert_allclose(columns["mass_kg"] + columns["left_mass_kg"], columns["mass_kg"][0], rtol=1e-12)
+    # Nothing lies there at the end, and what was largest is kept.
+    assert facts["deposit_volume_m3"] == facts["deposit_area_m2"] == 0.0
+    with (
+        rasterio.open(run / "maps" / "final_thickness.tif") as final,
+        rasterio.open(run / "maps" / "max_thickness.tif") as largest,
+    ):
+        assert final.read(1, masked=True).max() == 0.0
+        assert largest.read(1, masked=True).max() > 20.0

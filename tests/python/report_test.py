@@ -127,6 +127,14 @@ def test_a_failed_run_is_called_so(make_run: MakeRun) -> None:
     assert note in report.page.read_text(encoding="utf-8")
 
 
+def test_a_run_that_was_done_before_its_time_says_why(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "run.json").write_text(json.dumps({"status": "done", "message": "the whole slide has left."}))
+    page = make_report(Run(folder), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    assert "The whole slide has left." in page
+    assert "did not come to its end" not in page
+
+
 def test_command_leaves_out_what_the_run_lacks(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
     folder = make_run(snapshots=0)
     assert main([str(folder), "--dpi", "50"]) == 0
