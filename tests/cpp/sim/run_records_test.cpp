@@ -183,6 +183,22 @@ TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
   EXPECT_NEAR(records.figures(simulation, level_ground)->travel_distance, 6.5 - front->place[1], 0.05);
 }
 
+TEST(RunRecords, KeepWhatWasLargestWhenTheSlideHasLeft) {
+  Simulation<3, double> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  config::Site site;
+  site.probes = {{"gauge", {{3.5, 4.5}}}};
+  RunRecords<3> records(simulation, site);
+  records.start(simulation);
+  records.slide_left();
+  EXPECT_EQ(records.maps()->deposit().volume, 0.0);
+  EXPECT_EQ(value_of(records.probe_row(simulation), "gauge_thickness_m"), 0.0);
+  EXPECT_EQ(value_of(records.probe_row(simulation), "gauge_speed_m_s"), 0.0);
+  const MapGrid& grid = records.maps()->map_grid();
+  const MapCell& cell = records.maps()->cell(grid.cell_column(grid.column_of(3.5)), grid.cell_row(grid.row_of(4.5)));
+  EXPECT_NEAR(cell.max_thickness, 3.0, 1e-12);
+  EXPECT_NEAR(cell.thickness_at_start, 3.0, 1e-12);
+}
+
 TEST(RunRecords, AreTheSameBitsAfterAStopAndAResume) {
   const config::Case parameters = slide_in_space("velocity = [8.0, 1.0, 0.0]");
   config::Site site;
