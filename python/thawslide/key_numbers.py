@@ -78,12 +78,7 @@ def key_numbers(run: Run) -> list[KeyNumber]:
                 rows.append(
                     KeyNumber("Stop time", "not reached", f"mean velocity at the end: {shown(float(speed[-1]), 'm/s')}")
                 )
-    if "runout_m" in history:
-        own = f"front at the end less rear at the start, {_metres(history['runout_m'][0])} of it before anything moves"
-        rows.append(KeyNumber("Runout", _metres(history["runout_m"][-1]), own))
-    if "front_position_m" in history:
-        way = history["front_position_m"][-1] - history["front_position_m"][0]
-        rows.append(KeyNumber("Way of the front", _metres(way), "front at the end less front at the start"))
+    rows += _front_numbers(run)
     if "mean_displacement_m" in history:
         rows.append(
             KeyNumber("Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mean of mass")
@@ -125,6 +120,30 @@ def boiling_note(run: Run) -> str:
 
 def _metres(value: float) -> str:
     return f"{value:,.0f} m".replace("-", "−") if abs(value) >= 1000.0 else shown(float(value), "m")
+
+
+def _front_numbers(run: Run) -> list[KeyNumber]:
+    """Return runout and way of the front; without maps.path a 3D run knows neither before its slide has moved."""
+    rows = []
+    if "runout_m" in run.history:
+        runout = run.history["runout_m"]
+        own = f", {_metres(runout[0])} of it before anything moves" if np.isfinite(runout[0]) else ""
+        rows.append(_along_path("Runout", runout[-1], f"front at the end less rear at the start{own}"))
+    if "front_position_m" in run.history:
+        front = run.history["front_position_m"]
+        first = int(np.argmax(np.isfinite(front)))  # 0 where none is
+        since = "the start" if first == 0 else f"{shown(float(run.history['time_s'][first]), 's')}, the first known"
+        remark = f"front at the end less front at {since}"
+        rows.append(_along_path("Way of the front", front[-1] - front[first], remark))
+    return rows
+
+
+def _along_path(words: str, value: float, remark: str) -> KeyNumber:
+    if np.isfinite(value):
+        return KeyNumber(words, _metres(value), remark)
+    return KeyNumber(
+        words, "not known", "maps.path is not given, and the slide has hardly moved: no path to measure along"
+    )
 
 
 def _map_numbers(run: Run) -> list[KeyNumber]:

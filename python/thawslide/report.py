@@ -120,11 +120,11 @@ def page_frame(title: str, body: str) -> str:
 
 
 def _status_note(facts: dict[str, Any]) -> str:
-    """Return a sentence where the run did not come to its end, "" otherwise."""
-    status = facts.get("status", "done")
+    """Return a sentence where the run did not come to its end, or ended before its time, "" otherwise."""
+    status, told = facts.get("status", "done"), str(facts.get("message") or "")
     if status == "done":
-        return ""
-    message = f": {facts['message']}" if facts.get("message") else ""
+        return told[:1].upper() + told[1:]
+    message = f": {told}" if told else ""
     words = "was still running when this was written" if status == "running" else str(status)
     return f"This run did not come to its end ({words}){message}. The figures show what it has written."
 

@@ -117,15 +117,17 @@ def draw_setup_on_map(setup: SetupOnMap) -> Figure:
         f"{setup.title}: set-up", overview, len(scenes), note=_note(scenes), foot=foot, bar=0.62, own_scenes=True
     )
     painter, extend = _painter(setup)
+    panels = []
     for number, (scene, words) in enumerate(zip(scenes, ("whole domain", "release"), strict=False)):
         axes = page.panel(number, labels=True, scene=scene)
         box = "; box: (b)" if number == 0 and len(scenes) > 1 else ""
-        page.name(axes, number, words + box, f"grid cells of {setup.cell:g} m" if number == 1 else "")
+        panels.append((axes, words + box, f"grid cells of {setup.cell:g} m" if number == 1 else ""))
         _draw_parts(axes, setup, painter)
         scale_bar(axes, quiet_corner(_all_thickness(setup), scene.box))
         if number == len(scenes) - 1 and painter is not None:
             bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
             bar.set_label("thickness (m)", labelpad=2)
+    page.name(panels)
     if len(scenes) > 1:
         _frame(page.figure.axes[0], scenes[1].box, RED, 1.0)
     page.legend(handles, columns)

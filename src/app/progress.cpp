@@ -47,7 +47,10 @@ void Progress::show(const ProgressState& state) {
   std::string text = fmt::format("{:.1f} of {:g} s | {:.0f} steps/s | {} left", state.time, state.end,
                                  static_cast<double>(state.steps) / elapsed, duration_text(left));
   if (std::isfinite(state.front_position)) {  // in 3D there is none before the slide has moved
-    text += fmt::format(" | front {:.0f} m at {:.1f} m/s", state.front_position, state.front_speed);
+    text += fmt::format(" | front {:.0f} m", state.front_position);
+  }
+  if (std::isfinite(state.front_speed)) {  // there is none before a second place of the front is known
+    text += fmt::format(" at {:.1f} m/s", state.front_speed);
   }
   if (terminal_) {
     const auto filled = static_cast<std::size_t>(share * bar_width);

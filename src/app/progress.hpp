@@ -11,7 +11,7 @@ namespace thawslide::app {
 struct ProgressState {
   double time, end;  // simulated [s]
   std::int64_t steps;
-  double front_position, front_speed;  // [m], [m/s]
+  double front_position, front_speed;  // [m], [m/s]; NaN while not known
 };
 
 class Progress {

@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/thread_choice.hpp"
 #include "sim/history.hpp"
+#include "sim/slide_left.hpp"
 
 namespace thawslide::app {
 
@@ -33,7 +34,7 @@ class FrontWatch {
   template <int Dim>
   ProgressState state(const sim::Simulation<Dim, double>& simulation, double front, std::int64_t steps) {
     const double elapsed = simulation.time() - time_;
-    const double speed = elapsed > 0.0 && std::isfinite(front_) ? (front - front_) / elapsed : 0.0;
+    const double speed = elapsed > 0.0 ? (front - front_) / elapsed : std::nan("");
     front_ = front;
     time_ = simulation.time();
     return {simulation.time(), simulation.parameters().time.end, steps, front, speed};
@@ -42,6 +43,13 @@ class FrontWatch {
  private:
   double front_ = std::nan(""), time_ = 0.0;
 };
+
+// Where the slide's front is at the end, in words.
+std::string front_text(double front, double runout) {
+  return std::isfinite(front) ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
+                              : "no front: maps.path is not given, and the slide has hardly moved, so there is no path "
+                                "to measure along";
+}
 
 template <int Dim>
 void print_summary(const sim::Simulation<Dim, double>& simulation, const sim::HistoryRow& row,
@@ -62,9 +70,9 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const sim::Hi
   const auto value = [&](const std::string& name) {
     return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
   };
-  fmt::print("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, front at {:.0f} m, runout {:.0f} m\n",
-             simulation.time(), value("mean_velocity_m_s"), value("mean_displacement_m"), value("front_position_m"),
-             value("runout_m"));
+  fmt::print("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", simulation.time(),
+             value("mean_velocity_m_s"), value("mean_displacement_m"),
+             front_text(value("front_position_m"), value("runout_m")));
   for (const auto& [name, number] : figures) {
     if (std::isfinite(number)) {
       fmt::print("  {:<28}{:12.6g}\n", name, number);
@@ -109,6 +117,12 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
     print_summary(simulation, output.history_row(simulation), output.figures(), output.seconds_per_stage(simulation),
                   simulation.step_number() - first_step, wall(), folder);
   };
+  // Of a run that ends before its time; nothing can go on from there.
+  const auto write_state_at_end = [&] {
+    output.write_history(simulation);
+    output.write_snapshot(simulation);
+    output.write_maps(simulation);
+  };
   catch_signals();
   try {
     while (simulation.time() < times.end - 0.5 * simulation.last_step() && caught_signal() == 0) {
@@ -138,10 +152,14 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
             front.state(simulation, output.front_position(simulation), simulation.step_number() - first_step));
       }
     }
+  } catch (const sim::SlideLeft& end) {
+    output.slide_left();
+    write_state_at_end();
+    close("done", end.what());
+    fmt::print("{}\n", end.what());
+    return static_cast<int>(ExitCode::done);
   } catch (const RunError& error) {
-    output.write_history(simulation);
-    output.write_snapshot(simulation);
-    output.write_maps(simulation);
+    write_state_at_end();
     close("failed", error.what());
     throw;
   }

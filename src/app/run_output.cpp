@@ -157,6 +157,11 @@ void RunOutput<Dim>::after_step(const Simulation& simulation) {
 }
 
 template <int Dim>
+void RunOutput<Dim>::slide_left() {
+  records_.slide_left();
+}
+
+template <int Dim>
 double RunOutput<Dim>::front_position(const Simulation& simulation) const {
   if constexpr (Dim == 3) {
     const auto front = records_.front(simulation);

@@ -46,6 +46,8 @@ class RunOutput {
 
   // Gathers what maps and probes tell; after every step.
   void after_step(const Simulation& simulation);
+  // In place of it, after a step that none of the slide stayed on (SlideLeft).
+  void slide_left();
   // One row of history.csv, and of probes.csv where there are probes.
   void write_history(const Simulation& simulation);
   [[nodiscard]] sim::HistoryRow history_row(const Simulation& simulation) const {

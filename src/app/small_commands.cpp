@@ -73,9 +73,11 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters) {
   const auto beyond = first_beyond(end);
   if (beyond != rows.end()) {
     fmt::print(
-        "note: the path's ground is known for {:.6g} m; from {:.4g} s on, when the front leaves it, the ground goes on "
-        "with its last gradient\n",
-        end, value_of(*beyond, "time_s"));
+        "note: the path's ground is known for {:.6g} m; the front leaves it at {:.4g} s, and the rows end before. Give "
+        "{} to follow it further\n",
+        end, value_of(*beyond, "time_s"), section.path_given ? "a longer maps.path, or a larger DEM," : "a larger DEM");
+    // The first row stays: the ground is known below the whole release.
+    rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
   return rows;
 }

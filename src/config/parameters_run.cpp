@@ -196,9 +196,11 @@ void declare_run(Tables& tables) {
                                                              checkpoint_parameters()));
   tables.push_back(
       std::make_unique<SingleTable<Maps>>("maps", "Maps of the slide, in 3D", &Case::maps, map_parameters()));
-  tables.push_back(std::make_unique<NamedTable<Probe>>(
-      "probe", "A place or a cross section, by a name of your choice, at which thickness and speed are written, in 3D",
-      &Case::probes, probe_parameters()));
+  tables.push_back(std::make_unique<NamedTable<Probe>>("probe",
+                                                       "A place or a cross section, by a name of your choice, at which "
+                                                       "thickness and speed are written, in 3D; of a cross "
+                                                       "section its flow area and discharge too",
+                                                       &Case::probes, probe_parameters()));
   tables.push_back(
       std::make_unique<SingleTable<Report>>("report", "Figures and comparisons", &Case::report, report_parameters()));
 }

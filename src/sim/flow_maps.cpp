@@ -241,6 +241,14 @@ void FlowMaps::gather(const Grid& grid, const Particles& particles, double time)
   });
 }
 
+void FlowMaps::slide_left() {
+  for (const std::unique_ptr<MapTile>& tile : tiles_) {
+    for (MapCell& cell : tile->cells) {
+      cell.take({}, {}, map_grid_.cell_area(), arrival_thickness_, 0.0);
+    }
+  }
+}
+
 void FlowMaps::start(const Grid& grid, const Particles& particles) {
   gather(grid, particles, 0.0);
   for (MapTile* tile : active_) {

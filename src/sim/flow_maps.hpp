@@ -53,6 +53,9 @@ class FlowMaps {
   // The same at t = 0: what changes of elevation count from.
   void start(const Grid& grid, const Particles& particles);
 
+  // Nothing of the slide is there any more; what was largest stays.
+  void slide_left();
+
   // What cells take in memory that the slide ever was near; and one of them.
   [[nodiscard]] std::size_t bytes() const { return tiles_.size() * sizeof(MapTile); }
   [[nodiscard]] static constexpr std::size_t bytes_of_cell() { return sizeof(MapTile) / tile_cells; }

@@ -6,6 +6,7 @@
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "sim/simulation.hpp"
+#include "sim/slide_left.hpp"
 
 namespace thawslide::sim {
 
@@ -54,13 +55,14 @@ void Simulation<Dim, Real>::handle_left_particles() {
   if (count == 0) {
     return;
   }
-  if (count == particles_.size()) {
-    throw RunError(
-        fmt::format("the run ended at t = {:.6g} s (step {}): the rest of the slide is leaving the domain, and "
-                    "grid.leaving is \"remove\". Widen [grid] min and max to follow it further.",
-                    time_, step_number_));
-  }
   const BodySums<Dim, Real> sums = sum_over_body(*this, &left_);
+  if (count == particles_.size()) {
+    throw SlideLeft(fmt::format(
+        "the whole slide has left the domain or the known ground at t = {:.6g} s (step {}); the last {:.4g} kg{} "
+        "of it, which left in this step, still stand in mass_kg. Widen [grid] min and max, or give a DEM "
+        "that reaches further, to follow it on.",
+        time_, step_number_, static_cast<double>(sums.mass), Dim == 2 ? " per m of width" : ""));
+  }
   ledger_.left_mass += sums.mass;
   ledger_.left_mechanical += sums.kinetic + sums.potential;
   ledger_.left_thermal += sums.sensible + sums.latent;

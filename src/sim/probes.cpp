@@ -99,6 +99,7 @@ std::vector<std::pair<std::string, double>> Probes::row(const FlowMaps& maps, do
     const SectionFlow flow = flow_through(section.parts, maps);
     row.emplace_back(section.name + "_flow_area_m2", flow.area);
     row.emplace_back(section.name + "_discharge_m3_s", flow.discharge);
+    row.emplace_back(section.name + "_mean_speed_m_s", flow.mean_speed());
     row.emplace_back(section.name + "_max_thickness_m", flow.max_thickness);
   }
   return row;

@@ -1,6 +1,7 @@
 // Probes: what passes given points and cross sections through time, from the maps.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ struct SectionFlow {
   double area = 0.0;           // sum of thickness times length [m2]
   double discharge = 0.0;      // sum of thickness times length times velocity across, positive to the right [m3/s]
   double max_thickness = 0.0;  // [m]
+
+  // Size of the mean velocity across the section, |Q|/A of a discharge Q through a flow area A (continuity) [m/s];
+  // 0 where nothing flows.
+  [[nodiscard]] double mean_speed() const { return area > 0.0 ? std::abs(discharge) / area : 0.0; }
 };
 
 // The parts of a line in the cells of a map grid, in order. The line lies over the grid.
@@ -39,8 +44,8 @@ class Probes {
 
   [[nodiscard]] bool empty() const { return points_.empty() && sections_.empty(); }
   // One row of probes.csv, as the maps stand at a time [s]: time_s, then for each point, by name, NAME_thickness_m and
-  // NAME_speed_m_s of the map cell there, then for each cross section NAME_flow_area_m2, NAME_discharge_m3_s and
-  // NAME_max_thickness_m.
+  // NAME_speed_m_s of the map cell there, then for each cross section NAME_flow_area_m2, NAME_discharge_m3_s,
+  // NAME_mean_speed_m_s and NAME_max_thickness_m.
   [[nodiscard]] std::vector<std::pair<std::string, double>> row(const FlowMaps& maps, double time) const;
 
  private:

@@ -105,6 +105,13 @@ void RunRecords<Dim>::after_step(const Simulation& simulation) {
 }
 
 template <int Dim>
+void RunRecords<Dim>::slide_left() {
+  if (maps_) {
+    maps_->slide_left();
+  }
+}
+
+template <int Dim>
 void RunRecords<Dim>::note_way(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     if (!path_given_) {

@@ -34,6 +34,8 @@ class RunRecords {
   void start(const Simulation& simulation);
   // After every step.
   void after_step(const Simulation& simulation);
+  // After a step that none of the slide stayed on: nothing of it lies on the maps any more.
+  void slide_left();
 
   // All that gathering goes on from, for a checkpoint; and its way back, in place of start().
   [[nodiscard]] NamedNumbers state() const;

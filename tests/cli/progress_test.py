@@ -8,10 +8,14 @@ import re
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
-from conftest import LAMPLUGH, LIMIT, Program, run_facts, sets
+import rasterio
+from conftest import LAMPLUGH, LIMIT, Program, history, run_facts, sets
+from slope_files import SOUTH, WEST, Slope, made
 
-STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| (\d+ min )?\d+ s left \| front \d+ m at -?\d+\.\d m/s"
+STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| (\d+ min )?\d+ s left \| front \d+ m"
+SPEED = r" at -?\d+\.\d m/s"
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +38,8 @@ def test_plain_lines_tell_share_speed_time_left_and_front(said: tuple[list[str],
     shares = []
     for line in said[0][1:]:
         if "%" in line and "left" in line:
-            told = re.fullmatch(rf" *(\d+) % \| {STATE}", line)
+            # Two places of the front make a speed.
+            told = re.fullmatch(rf" *(\d+) % \| {STATE}{SPEED if shares else ''}", line)
             assert told, line
             shares.append(int(told[1]))
     assert shares[0] == 10 and 8 <= len(shares) <= 10
@@ -83,14 +88,63 @@ def test_bar_on_a_terminal(binary: Path, plain_environment: dict[str, str], tmp_
         shown = read_terminal(ours).decode()
         os.close(ours)
         assert process.wait(timeout=LIMIT) == 0
-    bars = re.findall(rf"\r\033\[K\[(=* *)\] +(\d+) % \| {STATE}", shown)
-    assert bars
-    for bar, share, _ in bars:
+    bars = re.findall(rf"\r\033\[K\[(=* *)\] +(\d+) % \| {STATE}({SPEED})?", shown)
+    assert bars and not bars[0][3] and all(bar[3] for bar in bars[1:])
+    for bar, share, *_ in bars:
         assert len(bar) == 24
         assert bar.count("=") == pytest.approx(int(share) * 24 / 100, abs=1.2)
-    shares = [int(share) for _, share, _ in bars]
+    shares = [int(share) for _, share, *_ in bars]
     assert shares == sorted(shares)
     # The bar is drawn over itself: no new line between the first and the last, and one before the summary.
     first, last = shown.index("\r\033[K["), shown.rindex("\r\033[K[")
     assert "\n" not in shown[first:last]
-    assert re.search(r"m/s\r\n\d+ particles, 2000 steps in ", shown[last:])
+    assert re.search(r"m( at -?\d+\.\d m/s)?\r\n\d+ particles, 2000 steps in ", shown[last:])
+
+
+def test_a_slide_that_hardly_moved_has_no_front(
+    thawslide: Program, slope: Slope, release: Path, tmp_path: Path
+) -> None:
+    made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24)
+    outcome = thawslide("run", tmp_path / "slide", "--output", tmp_path / "run", *sets(time__end=0.05))
+    assert outcome.returncode == 0, outcome.stderr
+    assert "nan" not in outcome.stdout
+    assert re.search(
+        r"\nat 0\.05 s: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: maps\.path is not given, and the "
+        r"slide has hardly moved, so there is no path to measure along\n",
+        outcome.stdout,
+    )
+
+
+def test_a_run_whose_whole_slide_has_left_is_done(
+    thawslide: Program, slope: Slope, release: Path, tmp_path: Path
+) -> None:
+    made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24)
+    run = tmp_path / "run"
+    outcome = thawslide(
+        "run", tmp_path / "slide", "--output", run, "--threads", 1,
+        *sets(time__end=60, grid__cell=16, grid__leaving='"remove"', basal__friction_angle=3),
+        *sets(grid__min=[WEST + 128, SOUTH + 176, 960], grid__max=[WEST + 512, SOUTH + 432, 1216]),
+        *sets(heat__enabled="false", pressure__enabled="false", body__slide__velocity=[20, 0, 0]),
+    )  # fmt: skip
+    assert outcome.returncode == 0, outcome.stderr
+    facts, columns = run_facts(run), history(run)
+    told = re.fullmatch(
+        r"the whole slide has left the domain or the known ground at t = (\S+) s \(step \d+\); the last (\S+) kg of "
+        r"it, which left in this step, still stand in mass_kg\. Widen \[grid\] min and max, or give a DEM that reaches "
+        r"further, to follow it on\.",
+        facts["message"],
+    )
+    assert told and facts["status"] == "done"
+    assert outcome.stdout.splitlines()[-1] == facts["message"]
+    assert columns["time_s"][-1] == pytest.approx(float(told[1]), rel=1e-5)
+    assert columns["time_s"][-1] < 60.0
+    assert columns["mass_kg"][-1] == pytest.approx(float(told[2]), rel=1e-3)
+    np.testing.assert_allclose(columns["mass_kg"] + columns["left_mass_kg"], columns["mass_kg"][0], rtol=1e-12)
+    # Nothing lies there at the end, and what was largest is kept.
+    assert facts["deposit_volume_m3"] == facts["deposit_area_m2"] == 0.0
+    with (
+        rasterio.open(run / "maps" / "final_thickness.tif") as final,
+        rasterio.open(run / "maps" / "max_thickness.tif") as largest,
+    ):
+        assert final.read(1, masked=True).max() == 0.0
+        assert largest.read(1, masked=True).max() > 20.0

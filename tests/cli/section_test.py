@@ -220,7 +220,7 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     assert acceleration > 0.5
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
     assert columns["front_position_m"][0] == pytest.approx(190.0, abs=10.0)
-    assert "goes on with its last gradient" not in slid.stdout
+    assert "the path's ground is known for" not in slid.stdout
 
     down = thawslide("block", folder, "--output", file, *coulomb, *sets(maps__path='""'))
     assert down.returncode == 0, down.stderr
@@ -228,14 +228,19 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
 
-    far = thawslide("block", folder, *coulomb, *sets(time__end=40))
+    far = thawslide("block", folder, "--output", file, *coulomb, *sets(time__end=40))
     assert far.returncode == 0, far.stderr
     told = re.search(
-        r"note: the path's ground is known for 760 m; from (\S+) s on, when the front leaves it", far.stdout
+        r"note: the path's ground is known for 760 m; the front leaves it at (\S+) s, and the rows end before\. Give a "
+        r"longer maps\.path, or a larger DEM, to follow it further\n",
+        far.stdout,
     )
     assert told and float(told[1]) == pytest.approx(
         np.sqrt(2.0 * (760.0 - 190.0) * np.hypot(1.0, SLOPE) / acceleration), rel=0.05
     )
+    columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
+    assert 700.0 < columns["front_position_m"][-1] <= 760.0
+    assert columns["time_s"][-1] < float(told[1])
 
 
 def read_csv(file: Path) -> tuple[list[str], np.ndarray]:

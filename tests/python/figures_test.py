@@ -184,6 +184,15 @@ def test_motion_against_reported_values(make_run: MakeRun) -> None:
     assert (speed.get_xlabel(), distance.get_xlabel()) == ("time (s)", "time (s)")
 
 
+def test_the_way_of_a_front_that_is_not_known_at_first(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = history_columns(11, 2)
+    columns["front_position_m"][:2] = columns["runout_m"][:2] = np.nan
+    write_history(folder / "history.csv", columns)
+    drawn = line(titled(FIGURES["motion"].draw(Run(folder)), "(b) displacement"), "way of the front itself")[1]
+    np.testing.assert_allclose(drawn, [np.nan, np.nan, *(12.0 * np.arange(9.0))], atol=1e-12)
+
+
 def test_reported_values_after_the_end_are_counted_not_drawn(make_run: MakeRun) -> None:
     folder = make_run()
     columns = history_columns(101, 2)

@@ -18,7 +18,15 @@ from thawslide.figures import FIGURES
 from thawslide.figures.animation import MOST_FRAMES, Film
 from thawslide.figures.cross_sections import across, along, reaching
 from thawslide.figures.map_page import HIGHEST, WIDTH, layout
-from thawslide.figures.map_panel import MOST_CELLS, covered_box, make_scene, page_box, quiet_corner
+from thawslide.figures.map_panel import (
+    MOST_CELLS,
+    coordinate_text,
+    coordinates,
+    covered_box,
+    make_scene,
+    page_box,
+    quiet_corner,
+)
 from thawslide.figures.site import distances, make_site
 from thawslide.key_numbers import key_numbers
 from thawslide.maps import Grid, Map
@@ -108,6 +116,30 @@ def test_impact_maps_leave_out_what_never_happened(map_run: Path) -> None:
     ]  # fmt: skip
 
 
+def test_a_metre_gained_has_as_deep_a_colour_as_one_lost(map_run: Path) -> None:
+    x, _ = centres()
+    write_map(map_run / "maps" / "elevation_change.tif", np.where(x < WEST + 200.0, -19.3, 45.8), "m")
+    figure = drawn("impact_maps", map_run)
+    norm = field(maps_of(figure)[-1]).norm
+    assert (norm.vmin, norm.vmax) == pytest.approx((-45.8, 45.8))
+    assert norm(-10.0) + norm(10.0) == pytest.approx(1.0)
+    bar = figure.axes[-1]
+    ticks = [label.get_text() for label in bar.get_yticklabels()]
+    assert {"−40", "−20", "0", "20", "40"} <= set(ticks)
+
+
+@pytest.mark.parametrize("largest", [THICKNESS, 1.2e27])
+def test_remarks_stand_beside_all_titles_or_in_all_maps(map_run: Path, largest: float) -> None:
+    x, _ = centres()
+    write_map(map_run / "maps" / "max_momentum_flux.tif", np.full(x.shape, largest), "m3/s2")
+    panels = maps_of(drawn("impact_maps", map_run))
+    beside = [axes.get_title(loc="right") for axes in panels]
+    inside = [[text.get_text() for text in axes.texts if "max" in text.get_text()] for axes in panels]
+    assert all(beside) == (largest == THICKNESS)
+    assert any(beside) != any(inside)
+    assert f"{largest:,.0f}" in (beside[1] or inside[1][0])
+
+
 def test_sections_along_and_across_the_path(map_run: Path) -> None:
     figure = drawn("cross_sections", map_run)
     panels = maps_of(figure)
@@ -118,6 +150,16 @@ def test_sections_along_and_across_the_path(map_run: Path) -> None:
     np.testing.assert_allclose(z, ground(WEST + 20.0 + x, np.full(len(x), MIDDLE)), rtol=1e-9)
     largest = panels[1].lines[0]
     assert float(np.max(np.asarray(largest.get_ydata(), dtype=float))) == pytest.approx(THICKNESS)
+
+
+def test_a_section_along_a_steep_path_shows_no_more_than_the_path(map_run: Path) -> None:
+    x, _ = centres()
+    write_map(map_run / "maps" / "terrain.tif", 2000.0 - 2.0 * (x - WEST))
+    along_path, thickness, *_ = maps_of(drawn("cross_sections", map_run))
+    assert along_path.get_title(loc="left").startswith("(a) along the path, true scale")
+    for axes in (along_path, thickness):
+        assert axes.get_xlim() == pytest.approx((0.0, 560.0), abs=1e-6)
+    assert along_path.get_position().width == thickness.get_position().width
 
 
 def test_a_thin_slide_is_drawn_thicker_and_the_panel_says_so(map_run: Path) -> None:
@@ -157,9 +199,15 @@ def test_probes(map_run: Path) -> None:
     thickness = maps_of(figure)[0]
     assert [line.get_label() for line in thickness.lines] == ["gate", "weir (largest)"]
     assert thickness.get_title(loc="left") == "(a) thickness"
-    discharge = maps_of(figure)[3].lines[0]
+    speed = maps_of(figure)[1]
+    assert [line.get_label() for line in speed.lines] == ["gate", "weir (mean)"]
+    np.testing.assert_array_equal(np.asarray(speed.lines[1].get_ydata()), [0.0, 18.0, 0.0])
+    assert speed.lines[1].get_color() == thickness.lines[1].get_color()
+    panel = maps_of(figure)[3]
+    (discharge,) = panel.lines
     assert discharge.get_label() == "weir"
-    np.testing.assert_array_equal(np.asarray(discharge.get_ydata()), [0.0, 7200.0, 0.0])
+    np.testing.assert_array_equal(np.asarray(discharge.get_ydata()), [0.0, -6480.0, 0.0])
+    assert panel.get_ylim()[0] < -6480.0 and panel.get_ylim()[1] == 0.0
 
 
 def test_the_film_has_a_frame_for_each_snapshot(map_run: Path, tmp_path: Path) -> None:
@@ -268,6 +316,20 @@ def test_maps_fill_a_page_without_reaching_over_it(count: int, aspect: float, ba
     assert rows * (found.height + 0.3) + 1.5 <= HIGHEST + 1e-9
     assert rows * found.columns - count <= 1
     assert found.width >= 1.8
+
+
+@pytest.mark.parametrize("inches", [0.6, 0.9, 1.2, 2.0, 3.5, 6.8])
+@pytest.mark.parametrize(("low", "high"), [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (-210.0, 130.0)])
+def test_labels_of_coordinates_stand_apart(low: float, high: float, inches: float) -> None:
+    found = coordinates(low, high, inches)
+    assert 1 <= len(found) <= 5
+    assert low <= found[0] and found[-1] <= high
+    texts = [coordinate_text(place) for place in found]
+    for before, after, text, following in zip(found, found[1:], texts, texts[1:], strict=False):
+        room = (after - before) * inches / (high - low)
+        assert room > 0.07 * 0.5 * (len(text) + len(following))
+    if inches >= 2.0:
+        assert len(found) >= 2
 
 
 def test_boxes_fit_a_page_and_stay_on_the_terrain() -> None:

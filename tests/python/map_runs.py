@@ -147,8 +147,9 @@ def write_map_run(folder: Path, snapshots: int) -> None:
     )
     write_history(folder / "history.csv", history_columns(21, 3))
     (folder / "probes.csv").write_text(
-        "time_s,gate_thickness_m,gate_speed_m_s,weir_flow_area_m2,weir_discharge_m3_s,weir_max_thickness_m\n"
-        "0.0,0.0,0.0,0.0,0.0,0.0\n5.0,6.0,20.0,360.0,7200.0,5.0\n10.0,6.0,20.0,0.0,0.0,0.0\n"
+        "time_s,gate_thickness_m,gate_speed_m_s,"
+        "weir_flow_area_m2,weir_discharge_m3_s,weir_mean_speed_m_s,weir_max_thickness_m\n"
+        "0.0,0.0,0.0,0.0,0.0,0.0,0.0\n5.0,6.0,20.0,360.0,-6480.0,18.0,5.0\n10.0,6.0,20.0,0.0,0.0,0.0,0.0\n"
     )
     facts = {
         "status": "done", "deposit_volume_m3": 28800.0, "deposit_area_m2": 4800.0, "travel_distance_m": 280.0,

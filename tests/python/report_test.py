@@ -39,6 +39,26 @@ def test_key_numbers(make_run: MakeRun) -> None:
     assert found["Stop time"][0] == "9.7 s"
 
 
+def test_a_front_that_is_not_known_at_first(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = history_columns(11, 2)
+    columns["front_position_m"][:2] = columns["runout_m"][:2] = np.nan
+    write_history(folder / "history.csv", columns)
+    found = numbers(Run(folder))
+    assert found["Runout"] == ("160 m", "front at the end less rear at the start")
+    assert found["Way of the front"] == ("96 m", "front at the end less front at 2 s, the first known")
+
+
+def test_a_front_that_is_never_known(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = history_columns(11, 2)
+    columns["front_position_m"][:] = columns["runout_m"][:] = np.nan
+    write_history(folder / "history.csv", columns)
+    why = "maps.path is not given, and the slide has hardly moved: no path to measure along"
+    found = numbers(Run(folder))
+    assert found["Runout"] == found["Way of the front"] == ("not known", why)
+
+
 def test_a_run_that_has_not_stopped_says_how_fast_it_still_is(make_run: MakeRun) -> None:
     folder = make_run()
     columns = history_columns(11, 2)
@@ -105,6 +125,14 @@ def test_a_failed_run_is_called_so(make_run: MakeRun) -> None:
     report = make_report(Run(folder), names=["motion"], dpi=50)
     note = "This run did not come to its end (failed): particle 7 left the domain."
     assert note in report.page.read_text(encoding="utf-8")
+
+
+def test_a_run_that_was_done_before_its_time_says_why(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "run.json").write_text(json.dumps({"status": "done", "message": "the whole slide has left."}))
+    page = make_report(Run(folder), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    assert "The whole slide has left." in page
+    assert "did not come to its end" not in page
 
 
 def test_command_leaves_out_what_the_run_lacks(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:

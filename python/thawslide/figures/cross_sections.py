@@ -24,6 +24,7 @@ _SEEN = 0.06  # of the height of a panel: thinner bodies are drawn thicker than 
 _RELEASE, _DEPOSIT, _LARGEST = SKY, ORANGE, RED
 _CHORD = 0.02  # of the path, to either side of a place: its direction there
 _MARGINS = (1.0, 1.3)
+_FIRST = (1.6, 5.5)  # inches, least and most height of the section along the path
 _WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH = 10.0, 0.75, 0.2, 0.7, 2.45, 1.75  # inches
 
 
@@ -106,16 +107,15 @@ def cross_sections(run: Run) -> Figure:
     if site.path is None:
         raise NotInRunError(f"{site.maps.folder / 'results.gpkg'}: no path line, so there is nothing to cut along")
     fields = _whole(site)
-    rows, columns = np.nonzero(fields.largest.values > site.threshold)
-    touched = np.stack([fields.largest.grid.x[columns], fields.largest.grid.y[rows]], axis=1)
+    touched_rows, touched_columns = np.nonzero(fields.largest.values > site.threshold)
+    touched = np.stack([fields.largest.grid.x[touched_columns], fields.largest.grid.y[touched_rows]], axis=1)
     path = site.path if site.path_is_given else reaching(site.path, touched)
     profile = section(fields, path)
     if not np.isfinite(profile.ground).any():
         raise NotInRunError("the path line lies outside the terrain")
     places = _places(profile, site.threshold)
     full = _WIDTH - _LEFT - _RIGHT
-    relief = float(np.ptp(profile.ground[np.isfinite(profile.ground)]))
-    first = float(np.clip(full * relief * _MARGINS[1] / profile.distance[-1], 1.6, 4.8))
+    broad, first = _size(profile, full)
     head = 0.7 + first + 0.35
     rows = -(-len(places) // 2)
     height = head + 1.2 + 0.85 + rows * _ROW + 0.3
@@ -125,8 +125,8 @@ def cross_sections(run: Run) -> Figure:
     def place(left: float, top: float, wide: float, high: float) -> Axes:
         return figure.add_axes((left / _WIDTH, 1 - (top + high) / height, wide / _WIDTH, high / height))
 
-    upper, lower = place(_LEFT, 0.7, full, first), place(_LEFT, head, full, 1.2)
-    window = _window(profile, full / first, _MARGINS)
+    upper, lower = place(_LEFT, 0.7, broad, first), place(_LEFT, head, broad, 1.2)
+    window = _window(profile, broad / first, _MARGINS)
     _draw_profile(upper, profile, window, "(a) along the path")
     upper.set_xlabel("")
     upper.tick_params(labelbottom=False)
@@ -162,11 +162,26 @@ def _places(profile: Section, threshold: float) -> list[float]:
     return [start + (number + 0.5) / _PLACES * (end - start) for number in range(_PLACES)]
 
 
+def _size(profile: Section, full: float) -> tuple[float, float]:
+    """Return width and height [inches] of the section along the path: as wide as the page, narrower for a steep one.
+
+    So that a panel of bounded height shows no more than the path.
+    """
+    (start, end), (low, high) = _reach(profile)
+    high_over_wide = _MARGINS[1] * (high - low) / (end - start)
+    height = float(np.clip(full * high_over_wide, *_FIRST))
+    return min(full, height / high_over_wide) if high_over_wide > 0.0 else full, height
+
+
 def _window(cut: Section, box: float, margins: tuple[float, float]) -> Window:
+    return fit(*_reach(cut), box, None, margins)
+
+
+def _reach(cut: Section) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the ends of what is known of the ground, and the lowest and highest of ground and slide [m]."""
     shown = np.isfinite(cut.ground)
     x, ground = cut.distance[shown], cut.ground[shown]
-    heights = float(ground.min()), float((ground + cut.largest[shown]).max())
-    return fit((float(x[0]), float(x[-1])), heights, box, None, margins)
+    return (float(x[0]), float(x[-1])), (float(ground.min()), float((ground + cut.largest[shown]).max()))
 
 
 def _draw_profile(axes: Axes, cut: Section, window: Window, title: str) -> None:

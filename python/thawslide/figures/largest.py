@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize, TwoSlopeNorm
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
@@ -71,9 +71,10 @@ def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
     note = f"Thin line: where the slide was thicker than {site.threshold:g} m. {site.scene.note()}"
     page = MapPage(f"{run.title}: {words}", site.scene, len(fields), note=note, foot=_FOOT, bar=0.72)
     corner = quiet_corner(site.reached, site.scene.box)
+    panels = []
     for number, (kind, field) in enumerate(fields):
         axes = page.panel(number, labels=number == 0)
-        page.name(axes, number, kind.words, _paint(page, axes, kind, field))
+        panels.append((axes, kind.words, _paint(page, axes, kind, field)))
         site.draw_release(axes)
         outline(axes, site.reached, site.threshold, colors=BLACK, linewidths=0.6)
         if kind.name == "arrival_time":
@@ -82,6 +83,7 @@ def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
             site.draw_path(axes)
             site.draw_probes(axes)
             scale_bar(axes, corner)
+    page.name(panels)
     page.legend(site.legend(), 5)
     return page.figure
 
@@ -107,9 +109,7 @@ def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map) -> str:
     painter = ScalarMappable(norm, colour_map(kind.colours))
     paint(axes, field, painter)
     bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
-    if isinstance(norm, TwoSlopeNorm):
-        bar.set_ticks([norm.vmin or 0.0, 0.5 * (norm.vmin or 0.0), 0.0, 0.5 * (norm.vmax or 0.0), norm.vmax or 0.0])
-        bar.ax.yaxis.set_major_formatter(lambda value, _: number_text(value))
+    bar.ax.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
     bar.set_label(unit, labelpad=2)
     low, high = float(np.nanmin(field.values)), float(np.nanmax(field.values))
     return f"max {number_text(high)} {unit}" if kind.from_zero else f"{number_text(low)} to {number_text(high)} {unit}"
@@ -117,8 +117,10 @@ def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map) -> str:
 
 def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:
     low, high, extend = colour_range(values[np.isfinite(values)], kind.from_zero)
-    if kind.name == "elevation_change" and low < 0.0 < high:
-        return TwoSlopeNorm(0.0, low, high), extend
+    if kind.name == "elevation_change":
+        # As deep a colour for a metre gained as for a metre lost.
+        end = max(-low, high)
+        return Normalize(-end, end), extend
     return Normalize(low, high), extend
 
 

@@ -119,24 +119,23 @@ class MapPage:
             axes.tick_params(labelbottom=False)
         return axes
 
-    def name(self, axes: Axes, number: int, words: str, remark: str = "") -> None:
-        """Title a map with its letter, and write a remark beside the title or, where there is no room, in the map."""
-        title = f"({chr(ord('a') + number)}) {words}"
-        axes.set_title(title, loc="left")
-        if len(title) + len(remark) + 2 <= _TITLE_CHARACTERS * self.map_width:
-            axes.set_title(remark, loc="right", color=NOTE, size=8)
-        else:
-            axes.text(
-                0.97,
-                0.985,
-                remark,
-                transform=axes.transAxes,
-                ha="right",
-                va="top",
-                size=7.5,
-                path_effects=HALO,
-                zorder=9,
-            )
+    def name(self, panels: Sequence[tuple[Axes, str, str]]) -> None:
+        """Title maps (axes, words, remark) with their letters; remarks stand beside titles, or all in the maps.
+
+        In the maps where the title line of one of them has no room.
+        """
+        titles = [f"({chr(ord('a') + number)}) {words}" for number, (_, words, _) in enumerate(panels)]
+        room = _TITLE_CHARACTERS * self.map_width
+        beside = all(len(title) + len(panel[2]) + 2 <= room for title, panel in zip(titles, panels, strict=True))
+        for title, (axes, _, remark) in zip(titles, panels, strict=True):
+            axes.set_title(title, loc="left")
+            if beside:
+                axes.set_title(remark, loc="right", color=NOTE, size=8)
+            else:
+                axes.text(
+                    0.97, 0.985, remark, transform=axes.transAxes, ha="right", va="top", size=7.5, path_effects=HALO,
+                    zorder=9,
+                )  # fmt: skip
 
     def panel_bar(self, axes: Axes) -> Axes:
         """Return axes for the colourbar right of a map."""

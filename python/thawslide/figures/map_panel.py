@@ -11,10 +11,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, LinearSegmentedColormap, Normalize
+from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.offsetbox import AnchoredOffsetbox, AuxTransformBox, HPacker, TextArea, VPacker
 from matplotlib.patches import Rectangle
-from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 from thawslide.figures.style import BLACK
 from thawslide.maps import Box, Map
@@ -25,6 +26,8 @@ MOST_CELLS = 800  # a side of what is drawn: as fine as the page shows
 COVER = 0.82  # opacity of a field over the terrain: the relief below still shows
 ASPECTS = (0.45, 2.4)  # width over height of a map, narrowest and widest
 _MOST_CONTOURS = 24
+_MOST_INTERVALS = 4  # between coordinates on a side of a map
+_DIGIT, _BETWEEN_LABELS, _OVERHANG = 0.071, 0.12, 0.14  # inches, of a coordinate's label
 _MARGIN = 0.12  # of the longer side of what a map is about, left free around it
 _ABOVE = 0.35  # share of the light that comes from above, so that steep slopes in the shadow are not one even grey
 _SHADES = LinearSegmentedColormap.from_list("shades", ["#8B867D", "#B5B0A7", "#DFDBD3", "#FAF9F6"])
@@ -137,14 +140,36 @@ def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True
     axes.set_xlim(west, east)
     axes.set_ylim(south, north)
     axes.set_aspect("equal")
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 1000.0:.10g}".replace("-", "−")))
+    assert isinstance(axes.figure, Figure)
+    inches = axes.figure.get_size_inches() * axes.get_position().size
+    for axis, low, high, length in ((axes.xaxis, west, east, inches[0]), (axes.yaxis, south, north, inches[1])):
+        axis.set_major_locator(FixedLocator(coordinates(low, high, float(length))))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: coordinate_text(value)))
     axes.tick_params(axis="y", labelrotation=90)
     for text in axes.get_yticklabels():
         text.set_verticalalignment("center")
     for side in axes.spines.values():
         side.set_visible(True)
+
+
+def coordinate_text(value: float) -> str:
+    """Return a coordinate [m] in km."""
+    return f"{value / 1000.0:.10g}".replace("-", "−")
+
+
+def coordinates(low: float, high: float, inches: float) -> list[float]:
+    """Return round coordinates [m] from low to high whose labels have room along so many inches: five at most.
+
+    The labels run along the axis. They reach over its ends by no more than half of what two maps stand apart.
+    """
+    for intervals in range(_MOST_INTERVALS, 0, -1):
+        places = np.array(MaxNLocator(intervals, steps=[1, 2, 5, 10], min_n_ticks=1).tick_values(low, high))
+        half = 0.5 * _DIGIT * max(len(coordinate_text(place)) for place in places)
+        inch = (high - low) / inches
+        over = max(0.0, half - _OVERHANG) * inch
+        if places[1] - places[0] >= (2.0 * half + _BETWEEN_LABELS) * inch or intervals == 1:
+            break
+    return [float(place) for place in places if low + over <= place <= high - over]
 
 
 def paint(axes: Axes, field: Map, painter: ScalarMappable) -> AxesImage:

@@ -75,7 +75,9 @@ def motion(run: Run) -> Figure:
             label="runout (front − rear at t = 0)",
         )
         if "front_position_m" in history:
-            way = (history["front_position_m"] - history["front_position_m"][0]) / divisor
+            front = history["front_position_m"]
+            first = int(np.argmax(np.isfinite(front)))  # without maps.path there is none before the slide moves
+            way = (front - front[first]) / divisor
             time_line(distance, time, way, color=RED, linestyle=":", label="way of the front itself")
         draw_targets(distance, run, ("front_distance",), divisor, RED, " runout")
     distance.set_ylabel(f"distance ({unit})")

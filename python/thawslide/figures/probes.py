@@ -12,7 +12,7 @@ from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY
 from thawslide.run import Run
 
 _COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY, BLACK)
-_OF_SECTION = "_max"  # before the ending of what is the largest of a section
+_OF_SECTION = {"_max": "largest", "_mean": "mean"}  # before the ending, and what of a section it says
 _DASHES = ("-", "--", ":")
 
 
@@ -52,7 +52,7 @@ def probes(run: Run) -> Figure:
     if not found:
         endings = ", ".join(quantity.ending for quantity in QUANTITIES)
         raise NotInRunError(f"probes.csv: no column ends with {endings}")
-    names = list(dict.fromkeys(name.removesuffix(_OF_SECTION) for lines in found.values() for name in lines))
+    names = list(dict.fromkeys(_probe(name)[0] for lines in found.values() for name in lines))
     rows = -(-len(found) // 2)
     across = min(len(found), 2)
     figure = Figure(figsize=(10.0 if across == 2 else 6.0, 0.9 + 2.6 * rows), layout="constrained")
@@ -60,16 +60,17 @@ def probes(run: Run) -> Figure:
     panels = list(figure.subplots(rows, across, squeeze=False, sharex=True).flat)
     for axes, (quantity, lines) in zip(panels, found.items(), strict=False):
         for name, values in lines.items():
-            probe = name.removesuffix(_OF_SECTION)
+            probe, label = _probe(name)
             number = names.index(probe)
-            label = probe if probe == name else f"{probe} (largest)"
             time_line(
                 axes, time, values, color=_COLOURS[number % len(_COLOURS)],
                 linestyle=_DASHES[number // len(_COLOURS) % len(_DASHES)], label=label,
             )  # fmt: skip
         axes.set_ylabel(f"{quantity.words} ({quantity.unit})")
-        nothing = not any(np.nanmax(values, initial=0.0) > 0.0 for values in lines.values())
-        axes.set_ylim(0.0, 1.0 if nothing else None)
+        low = min(float(np.nanmin(values, initial=0.0)) for values in lines.values())
+        high = max(float(np.nanmax(values, initial=0.0)) for values in lines.values())
+        # A discharge to the left of its section is negative.
+        axes.set_ylim(None if low < 0.0 else 0.0, None if high > 0.0 else 1.0 if low == 0.0 else 0.0)
         axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
         axes.legend(loc="best")
         time_axis(axes, time)
@@ -77,3 +78,12 @@ def probes(run: Run) -> Figure:
         axes.remove()
     letters(panels[: len(found)], [quantity.words for quantity in found])
     return figure
+
+
+def _probe(name: str) -> tuple[str, str]:
+    """Return the name of a probe, of a column without its ending, and its label in the legend."""
+    for ending, words in _OF_SECTION.items():
+        if name.endswith(ending):
+            probe = name.removesuffix(ending)
+            return probe, f"{probe} ({words})"
+    return name, name

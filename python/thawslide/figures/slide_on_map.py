@@ -73,15 +73,17 @@ def _draw(run: Run, painting: Painting, field_of: Callable[[Columns], Map]) -> F
     title = f"{run.title}: {painting.words.split(',')[0]}"
     page = MapPage(title, site.scene, len(fields), note=note, foot=_FOOT)
     corner = quiet_corner(site.reached, site.scene.box)
+    panels = []
     for number, (columns, field) in enumerate(zip(gathered, fields, strict=True)):
         axes = page.panel(number, labels=False)
         paint(axes, field, painter)
         site.draw_release(axes, 1.0)
         finite = field.values[np.isfinite(field.values)]
         remark = f"max {number_text(float(finite.max()))} {painting.unit}" if finite.size else ""
-        page.name(axes, number, f"t = {number_text(columns.time)} s", remark)
+        panels.append((axes, f"t = {number_text(columns.time)} s", remark))
         if number == 0:
             scale_bar(axes, corner)
+    page.name(panels)
     bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
     bar.set_label(f"{painting.words} ({painting.unit})", labelpad=1)

@@ -68,12 +68,13 @@ TEST(Probes, TellOfTheMovingBox) {
   site.probes = {{"gauge", {{3.5, 4.5}}},
                  {"empty", {{30.5, 4.5}}},
                  {"section", {{3.5, 15.0 - 1e-9}, {3.5, -4.5}}},
-                 {"back", {{3.5, -4.5}, {3.5, 14.5}}}};
+                 {"back", {{3.5, -4.5}, {3.5, 14.5}}},
+                 {"beyond", {{30.5, -4.5}, {30.5, 14.5}}}};
   RunRecords<3> records(simulation, site);
   records.start(simulation);
   const HistoryRow row = records.probe_row(simulation);
   EXPECT_EQ(row.front().first, "time_s");
-  EXPECT_EQ(row.size(), 1u + 2 * 2 + 2 * 3);
+  EXPECT_EQ(row.size(), 1u + 2 * 2 + 3 * 4);
   EXPECT_NEAR(value_of(row, "gauge_thickness_m"), 3.0, 1e-12);
   EXPECT_NEAR(value_of(row, "gauge_speed_m_s"), 8.0, 1e-12);
   EXPECT_EQ(value_of(row, "empty_thickness_m"), 0.0);
@@ -81,7 +82,11 @@ TEST(Probes, TellOfTheMovingBox) {
   EXPECT_NEAR(value_of(row, "section_flow_area_m2"), 12.0, 1e-10);
   EXPECT_NEAR(value_of(row, "section_discharge_m3_s"), -96.0, 1e-9);  // the line leads south, to whose right is west
   EXPECT_NEAR(value_of(row, "section_max_thickness_m"), 3.0, 1e-12);
+  EXPECT_NEAR(value_of(row, "section_mean_speed_m_s"), 8.0, 1e-9);
   EXPECT_NEAR(value_of(row, "back_discharge_m3_s"), 96.0, 1e-9);
+  EXPECT_NEAR(value_of(row, "back_mean_speed_m_s"), 8.0, 1e-9);
+  EXPECT_EQ(value_of(row, "beyond_flow_area_m2"), 0.0);
+  EXPECT_EQ(value_of(row, "beyond_mean_speed_m_s"), 0.0);
 }
 
 TEST(Probes, BesideTheMapsAreRefused) {
@@ -176,6 +181,22 @@ TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
   EXPECT_NEAR(front->along, 5.0 - front->place[1], 0.05);
   // From the middle of the row of cells at 6.5 m.
   EXPECT_NEAR(records.figures(simulation, level_ground)->travel_distance, 6.5 - front->place[1], 0.05);
+}
+
+TEST(RunRecords, KeepWhatWasLargestWhenTheSlideHasLeft) {
+  Simulation<3, double> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  config::Site site;
+  site.probes = {{"gauge", {{3.5, 4.5}}}};
+  RunRecords<3> records(simulation, site);
+  records.start(simulation);
+  records.slide_left();
+  EXPECT_EQ(records.maps()->deposit().volume, 0.0);
+  EXPECT_EQ(value_of(records.probe_row(simulation), "gauge_thickness_m"), 0.0);
+  EXPECT_EQ(value_of(records.probe_row(simulation), "gauge_speed_m_s"), 0.0);
+  const MapGrid& grid = records.maps()->map_grid();
+  const MapCell& cell = records.maps()->cell(grid.cell_column(grid.column_of(3.5)), grid.cell_row(grid.row_of(4.5)));
+  EXPECT_NEAR(cell.max_thickness, 3.0, 1e-12);
+  EXPECT_NEAR(cell.thickness_at_start, 3.0, 1e-12);
 }
 
 TEST(RunRecords, AreTheSameBitsAfterAStopAndAResume) {
