@@ -119,7 +119,7 @@ int run_program(int count, char** arguments) {
   add_map_options(*make_new, new_options.maps)->required();
   make_new
       ->add_option("--reach-angle", new_options.reach_angle,
-                   "The domain holds all ground above a line that falls so much from the top of the release [degrees]")
+                   "The domain holds all ground below a line that falls so much from the top of the release [degrees]")
       ->check(CLI::Range(1.0, 45.0))
       ->capture_default_str();
   make_new

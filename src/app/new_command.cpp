@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
@@ -11,9 +12,12 @@
 
 #include "config/case_proposal.hpp"
 #include "config/input_files.hpp"
+#include "config/read_case.hpp"
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
+#include "gis/site.hpp"
 #include "io/atomic_file.hpp"
+#include "sim/run_records.hpp"
 
 namespace thawslide::app {
 
@@ -56,6 +60,41 @@ void copy_release(const fs::path& folder, const config::Case& trial) {
   }
 }
 
+// A folder that is made, of which nothing stays if the case in it turns out not to run.
+class NewFolder {
+ public:
+  explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) { make_new_folder(path_); }
+  ~NewFolder() {
+    std::error_code ignored;
+    if (!keeps_) {
+      fs::remove_all(path_, ignored);
+    }
+    if (!keeps_ && was_there_) {
+      fs::create_directory(path_, ignored);
+    }
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  void keep() { keeps_ = true; }
+
+ private:
+  fs::path path_;
+  bool was_there_, keeps_ = false;
+};
+
+// Whatever would refuse the case before its first step.
+void require_runnable(const fs::path& folder) {
+  try {
+    const config::Case made = config::read_case(folder);
+    const sim::Simulation<3, double> simulation(made, gis::load_site(made).site);
+    const sim::RunRecords<3> records(simulation, simulation.site());
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("no case was made, as it would not run: {}", error.what()));
+  }
+}
+
 }  // namespace
 
 int make_new_case(const NewOptions& options) {
@@ -78,11 +117,13 @@ int make_new_case(const NewOptions& options) {
   input.reach_angle = options.reach_angle;
   input.largest_volume = options.maps.largest_volume;
 
-  const fs::path folder = options.folder;
-  make_new_folder(folder);
+  NewFolder new_folder(options.folder);
+  const fs::path& folder = new_folder.path();
   write_cropped_dem(folder / input.dem_file, *site.ground, proposal);
   copy_release(folder, trial);
   io::write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
+  require_runnable(folder);
+  new_folder.keep();
 
   fmt::print("{}: a release of {:.4g} m3, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
              (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);

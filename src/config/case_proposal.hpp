@@ -33,8 +33,8 @@ struct Proposal {
 // Largest number of one or two digits (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten) that is at most x.
 [[nodiscard]] double round_down(double x);
 
-// The domain holds every point of the DEM that lies above a line that falls by the reach angle from the release's
-// highest point, and all of the release. The cell gives at least six particles across the mean thickness. dem: NaN
+// The domain holds every point of the DEM that lies below a line that falls by the reach angle from the release's
+// highest point, and all of the release, which may reach a cell of the DEM beyond the points that have a thickness. The cell gives at least six particles across the mean thickness. dem: NaN
 // where there is no data; thickness: vertical [m], on points of the same places.
 [[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle);
 

@@ -185,6 +185,26 @@ void require_above_ground(const config::Case& parameters, const Model<Dim, Real>
   }
 }
 
+// A release: what other bodies reach to was checked when the case was read.
+template <int Dim>
+void require_within_domain(const config::Case& parameters, const std::string& name, std::size_t first,
+                           const std::vector<Seed<Dim>>& seeds) {
+  constexpr const char* axes[] = {"x", "y", "elevation"};
+  const config::Grid& grid = parameters.grid;
+  for (std::size_t p = first; p < seeds.size(); ++p) {
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const double place = seeds[p].place[static_cast<int>(a)];
+      if (place < grid.min[a] || place > grid.max[a]) {
+        throw UserError(fmt::format(
+            "{}: body '{}' has a particle at x = {:.10g} m, y = {:.10g} m, elevation {:.6g} m, outside the domain, "
+            "whose {} is from {:.10g} to {:.10g} m. Widen grid.min and grid.max.",
+            config::place_of(parameters, "body." + name), name, seeds[p].place[0], seeds[p].place[1],
+            seeds[p].place[Dim - 1], axes[a], grid.min[a], grid.max[a]));
+      }
+    }
+  }
+}
+
 // The place a seed is displaced to, with initial.noise; its regular place where it would leave its body or the space
 // above the ground. All else of a particle is that of its regular place.
 template <int Dim, class Real>
@@ -219,6 +239,9 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     seed_body(parameters, body, shapes.back(), static_cast<int>(bodies.size()), seeds);
     require_volume(parameters, name, body, shapes.back(), before, seeds);
     require_above_ground(parameters, model, name, before, seeds);
+    if (shapes.back().release()) {
+      require_within_domain(parameters, name, before, seeds);
+    }
     releases.push_back(site.releases.count(name) != 0 ? &site.releases.at(name) : nullptr);
     bodies.push_back(&body);
     const auto material = std::find(model.material_names.begin(), model.material_names.end(), body.material);
