@@ -1,5 +1,6 @@
 // thawslide new: a case folder from a terrain model and a release area.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -35,6 +36,32 @@ void write_cropped_dem(const fs::path& file, const Raster& ground, const config:
           margin + 2.0 * ground.cell_x, margin + 2.0 * ground.cell_y);
   const Raster cropped = gis::part_of(ground, gis::points_in(ground, about));
   gis::write_geotiff(file.string(), cropped, {"m", "elevation"});
+}
+
+// A release ends a cell of the DEM beyond its last points: where these are the DEM's last, there is no ground below it.
+void require_ground_about(const std::string& file, const Raster& ground, const Raster& thickness) {
+  std::array<bool, 4> reached{};  // west, east, south, north
+  constexpr std::array<const char*, 4> sides{"west", "east", "south", "north"};
+  const gis::PointWindow window = gis::points_of(thickness, ground);
+  for (int row = 0; row < thickness.rows; ++row) {
+    for (int column = 0; column < thickness.columns; ++column) {
+      if (thickness.at(column, row) > 0.0) {
+        const int i = window.first_column + column, j = window.first_row + row;
+        reached[0] = reached[0] || i == 0;
+        reached[1] = reached[1] || i == ground.columns - 1;
+        reached[2] = reached[2] || j == 0;
+        reached[3] = reached[3] || j == ground.rows - 1;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (reached[k]) {
+      throw UserError(fmt::format(
+          "--release: {}: the release reaches the outermost points of the terrain model in the {}; needed: {:g} m of "
+          "it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger terrain model.",
+          file, sides[k], k < 2 ? ground.cell_x : ground.cell_y));
+    }
+  }
 }
 
 // As many cells along each axis as a case may have.
@@ -100,6 +127,7 @@ void require_runnable(const fs::path& folder) {
 int make_new_case(const NewOptions& options) {
   const config::Case trial = trial_case(options.folder, options.maps);
   const config::Site site = look_at_files(trial);
+  require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
   const config::Proposal proposal =
       config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle);
   require_resolvable(proposal);
