@@ -51,6 +51,7 @@ struct NewOptions {
   std::string folder;
   MapOptions maps;
   double reach_angle = 8.0;  // degrees
+  double cell = 0.0;         // m; 0: from the thickness
 };
 int make_new_case(const NewOptions& options);
 

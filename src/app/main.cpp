@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
+#include <new>
 
 #include "app/commands.hpp"
 #include "base/error.hpp"
@@ -123,6 +124,10 @@ int run_program(int count, char** arguments) {
       ->check(CLI::Range(1.0, 45.0))
       ->capture_default_str();
   make_new
+      ->add_option("--cell", new_options.cell,
+                   "Size of the grid's cells [m] (default: six particles across the release's thickness)")
+      ->check(above_zero());
+  make_new
       ->add_option("--largest-volume", new_options.maps.largest_volume,
                    "Confirms a release above the usual limit of body.slide.largest_volume [m3]")
       ->check(above_zero());
@@ -175,6 +180,11 @@ int main(int count, char** arguments) {
   } catch (const thawslide::RunError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return static_cast<int>(ExitCode::run_went_bad);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr,
+               "error: the memory of this machine, or what a limit allows of it (ulimit -v), is not enough. Make "
+               "grid.cell larger: twice the cell takes an eighth of the memory in 3D and a quarter in 2D.\n");
+    return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::exception& error) {
     fmt::print(stderr, "internal error, please report it: {}\n", error.what());
     return 1;

@@ -18,6 +18,7 @@
 #include "gis/raster_file.hpp"
 #include "gis/site.hpp"
 #include "io/atomic_file.hpp"
+#include "sim/memory_need.hpp"
 #include "sim/run_records.hpp"
 
 namespace thawslide::app {
@@ -78,6 +79,18 @@ void require_resolvable(const config::Proposal& proposal) {
   }
 }
 
+// Before any file is written, in words for a user who has no case yet.
+void require_memory(const config::Proposal& proposal) {
+  const double needed = proposal.particles * sim::bytes_of_particle<3>, allowed = sim::memory_allowed();
+  if (needed > allowed) {
+    throw UserError(fmt::format(
+        "--thickness: a release {:.4g} m thick asks for cells of {:g} m and {:.3g} particles; they need about {:.3g} "
+        "GB of memory, and there are {:.3g} GB. Set --cell {:g} or more, which is coarser. Is the thickness in metres?",
+        proposal.thickness, proposal.cell, proposal.particles, needed / 1e9, allowed / 1e9,
+        sim::smallest_cell<3>(proposal.volume * std::pow(proposal.particles_per_axis, 3), allowed)));
+  }
+}
+
 // With the files that belong to it.
 void copy_release(const fs::path& folder, const config::Case& trial) {
   config::Case release_alone;
@@ -129,8 +142,9 @@ int make_new_case(const NewOptions& options) {
   const config::Site site = look_at_files(trial);
   require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
   const config::Proposal proposal =
-      config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle);
+      config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle, options.cell);
   require_resolvable(proposal);
+  require_memory(proposal);
   config::ProposalInput input;
   input.title = title_of(options.folder);
   const std::string release_name = fs::path(options.maps.release).filename().string();

@@ -135,12 +135,12 @@ double round_down(double x) {
   return best;
 }
 
-Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle) {
+Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell) {
   const ReleaseExtent release = extent_of(dem, thickness);
   Proposal proposal;
   proposal.volume = release.volume;
   proposal.thickness = release.thickness;
-  propose_cell(proposal, 3);
+  propose_cell(proposal, 3, cell);
 
   Stretch x{release.west, release.east}, y{release.south, release.north};
   double lowest = release.bottom, farthest = 0.0;
@@ -169,8 +169,8 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle)
   return proposal;
 }
 
-void propose_cell(Proposal& proposal, int dimension) {
-  proposal.cell = round_down(proposal.thickness * proposal.particles_per_axis / particles_across);
+void propose_cell(Proposal& proposal, int dimension, double cell) {
+  proposal.cell = cell > 0.0 ? cell : round_down(proposal.thickness * proposal.particles_per_axis / particles_across);
   proposal.particles = proposal.volume / std::pow(proposal.cell / proposal.particles_per_axis, dimension);
 }
 

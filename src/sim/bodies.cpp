@@ -8,6 +8,7 @@
 #include "base/instances.hpp"
 #include "sim/body_shape.hpp"
 #include "sim/initial_state.hpp"
+#include "sim/memory_need.hpp"
 #include "sim/seed.hpp"
 #include "sim/starting_noise.hpp"
 
@@ -232,14 +233,20 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
   std::vector<std::string> names;
   std::vector<BodyShape<Dim>> shapes;
   std::vector<const config::Release*> releases;
+  double filled = 0.0;  // volume times particles in a cell
+  for (const auto& [name, body] : parameters.bodies) {
+    shapes.emplace_back(parameters, site, body, release_of(site, model, name, body));
+    filled += shapes.back().volume() * std::pow(body.particles_per_axis, Dim);
+  }
+  require_memory<Dim>(parameters, filled);
   for (const auto& [name, body] : parameters.bodies) {
     const std::size_t before = seeds.size();
+    const BodyShape<Dim>& shape = shapes[bodies.size()];
     names.push_back(name);
-    shapes.emplace_back(parameters, site, body, release_of(site, model, name, body));
-    seed_body(parameters, body, shapes.back(), static_cast<int>(bodies.size()), seeds);
-    require_volume(parameters, name, body, shapes.back(), before, seeds);
+    seed_body(parameters, body, shape, static_cast<int>(bodies.size()), seeds);
+    require_volume(parameters, name, body, shape, before, seeds);
     require_above_ground(parameters, model, name, before, seeds);
-    if (shapes.back().release()) {
+    if (shape.release()) {
       require_within_domain(parameters, name, before, seeds);
     }
     releases.push_back(site.releases.count(name) != 0 ? &site.releases.at(name) : nullptr);
