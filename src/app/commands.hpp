@@ -48,6 +48,7 @@ struct MapOptions {
 };
 
 struct NewOptions {
+  std::string program;  // as it was called
   std::string folder;
   MapOptions maps;
   double reach_angle = 8.0;  // degrees
@@ -56,6 +57,7 @@ struct NewOptions {
 int make_new_case(const NewOptions& options);
 
 struct SectionOptions {
+  std::string program;
   std::string folder;
   MapOptions maps;  // release: empty for the profile alone
   std::string line;

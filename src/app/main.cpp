@@ -52,8 +52,10 @@ CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
   auto* placement = command.add_option_group("placement");
   placement->add_flag("--cut", maps.cut, "Cut the release out of the DEM: the DEM is the surface before the slide")
       ->needs(release);
-  placement->add_flag("--on-top")->description("Put the release on top of the DEM (default)")->needs(release);
-  placement->require_option(0, 1);
+  placement->add_flag("--on-top")
+      ->description("Put the release on top of the DEM (default)")
+      ->needs(release)
+      ->excludes(placement->get_option("--cut"));
   command.add_option("--crs", maps.crs, "Coordinate reference system of a DEM that does not tell it: EPSG:31287");
   return release;
 }
@@ -122,7 +124,7 @@ int run_program(int count, char** arguments) {
       ->add_option("--reach-angle", new_options.reach_angle,
                    "The domain holds all ground below a line that falls so much from the top of the release [degrees]")
       ->check(CLI::Range(1.0, 45.0))
-      ->capture_default_str();
+      ->option_text("1 to 45, default 8");
   make_new
       ->add_option("--cell", new_options.cell,
                    "Size of the grid's cells [m] (default: six particles across the release's thickness)")
@@ -131,6 +133,7 @@ int run_program(int count, char** arguments) {
       ->add_option("--largest-volume", new_options.maps.largest_volume,
                    "Confirms a release above the usual limit of body.slide.largest_volume [m3]")
       ->check(above_zero());
+  new_options.program = arguments[0];
   make_new->callback([&] { exit_code = make_new_case(new_options); });
 
   SectionOptions section_options;
@@ -141,6 +144,7 @@ int run_program(int count, char** arguments) {
   add_map_options(*section, section_options.maps)
       ->description(
           "Polygons (Shapefile, GeoPackage, GeoJSON), or a raster of the thickness (default: the profile alone)");
+  section_options.program = arguments[0];
   section->callback([&] { exit_code = make_section(section_options); });
 
   DescribeOptions describe_options;
@@ -163,7 +167,10 @@ int run_program(int count, char** arguments) {
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::user_mistake);
+    if (error.get_exit_code() == 0) {
+      return program.exit(error);  // --help
+    }
+    throw thawslide::UserError(fmt::format("{}. Run with --help for more information.", error.what()));
   }
   return exit_code;
 }

@@ -172,7 +172,7 @@ int make_new_case(const NewOptions& options) {
   if (proposal.particles > many_particles) {
     fmt::print("note: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
   }
-  fmt::print("look at it:  thawslide check {} --picture\nrun it:      ./run {}\n", folder.string(), folder.string());
+  print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 from pathlib import Path
 
 import pytest
@@ -86,3 +88,65 @@ def test_release_beyond_the_edge_of_the_dem(thawslide: Program, tmp_path: Path, 
         "10 m of it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger terrain "
         "model.",
     )
+
+
+def test_more_particles_than_memory(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """Refused before any is made, with a cell that fits; `new` leaves nothing behind."""
+    outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 0.02)
+    assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
+    assert re.fullmatch(
+        r"error: --thickness: a release 0\.02 m thick asks for cells of 0\.006 m and 8\.89e\+09 particles; they need "
+        r"about 6\.49e\+03 GB of memory, and there are \S+ GB\. Set --cell \S+ or more, which is coarser\. Is the "
+        r"thickness in metres\?\n",
+        outcome.stderr,
+    ), outcome.stderr
+    assert made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24, "--cell", 8).returncode == 0
+    refused = thawslide("check", tmp_path / "slide", "--set", "grid.cell=0.04")
+    assert refused.returncode == 2
+    assert re.fullmatch(
+        r"error: --set grid\.cell=0\.04: grid\.cell is 0\.04 m, which makes 3\.6e\+10 particles; they need about "
+        r"2\.63e\+04 GB of memory, and there are \S+ GB\. Make grid\.cell \S+ m or more, or particles_per_axis "
+        r"smaller\.\n",
+        refused.stderr,
+    ), refused.stderr
+
+
+def test_web_mercator(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(crs="EPSG:3857"), release, "--thickness", 24),
+        tmp_path,
+        "--dem: dem.tif: the coordinates are in Web Mercator (EPSG:3857), where lengths at latitude 42 are 1.35 times "
+        "too long; allowed: a map projection that keeps lengths. Reproject: gdalwarp -t_srs EPSG:32631 -tr 7.4 7.4 "
+        "-r bilinear dem.tif dem-EPSG32631.tif",
+    )
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24, "--crs", "EPSG:3857"),
+        tmp_path,
+        "--crs: EPSG:3857 is Web Mercator, whose lengths are those of the equator; allowed: a map projection in metres "
+        'that keeps lengths, such as "EPSG:31287".',
+    )
+
+
+def test_feature_without_a_geometry(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    content = json.loads(release.read_text())
+    content["features"][0]["geometry"] = None
+    release.write_text(json.dumps(content))
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24),
+        tmp_path,
+        "--release: release.geojson: polygon 1 has no geometry; needed: polygons. Delete it or draw it.",
+    )
+
+
+def test_options_that_exclude_each_other(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24, "--cut", "--on-top"),
+        tmp_path,
+        "--on-top excludes --cut. Run with --help for more information.",
+    )
+
+
+def test_next_commands(thawslide: Program, binary: Path, tmp_path: Path, slope: Slope, release: Path) -> None:
+    folder = tmp_path / "a slide"
+    outcome = made(thawslide, folder, slope(), release, "--thickness", 24)
+    assert f'look at it:  {binary} check "{folder}" --picture\nrun it:      {binary} run "{folder}"\n' in outcome.stdout

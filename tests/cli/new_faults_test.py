@@ -244,8 +244,8 @@ def test_folder_that_is_there(thawslide: Program, tmp_path: Path, slope: Slope, 
 
 
 ANEW = (
-    r"`thawslide new` crops the DEM to the domain: make the case anew with a smaller --reach-angle, which takes more of "
-    r"the DEM, or from a larger DEM\."
+    r"`thawslide new` crops the DEM to the domain: make the case anew with a smaller --reach-angle, which takes more "
+    r"of the DEM, or from a larger DEM\."
 )
 # What is said of a particle over ground that is not known.
 NO_GROUND = (
