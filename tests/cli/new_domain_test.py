@@ -134,7 +134,7 @@ def test_feature_without_a_geometry(thawslide: Program, tmp_path: Path, slope: S
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24),
         tmp_path,
-        "--release: release.geojson: polygon 1 has no geometry; needed: polygons. Delete it or draw it.",
+        "--release: release.geojson: polygon 1 (slide) has no geometry; needed: polygons. Delete it or draw it.",
     )
 
 
@@ -142,7 +142,7 @@ def test_options_that_exclude_each_other(thawslide: Program, tmp_path: Path, slo
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24, "--cut", "--on-top"),
         tmp_path,
-        "--on-top excludes --cut. Run with --help for more information.",
+        "--cut excludes --on-top. Run with --help for more information.",
     )
 
 
