@@ -5,7 +5,7 @@
 
 namespace thawslide::sim {
 
-// Of particles with the cells about them, as measured on runs of some hundred thousand.
+// Of particles with the cells about them, roughly; the number for 2D is an estimate.
 template <int Dim>
 inline constexpr double bytes_of_particle = Dim == 3 ? 730.0 : 500.0;
 
