@@ -133,4 +133,12 @@ void make_new_folder(const fs::path& folder) {
   }
 }
 
+void print_next_commands(const std::string& program, const fs::path& folder) {
+  const auto quoted = [](const std::string& word) {
+    return word.find_first_of(" '()&;$") == std::string::npos ? word : "\"" + word + "\"";
+  };
+  const std::string called = quoted(program), made = quoted(folder.string());
+  fmt::print("look at it:  {} check {} --picture\nrun it:      {} run {}\n", called, made, called, made);
+}
+
 }  // namespace thawslide::app

@@ -29,4 +29,7 @@ std::string title_of(const std::filesystem::path& folder);
 // Makes the folder. Throws UserError where there is something in it already.
 void make_new_folder(const std::filesystem::path& folder);
 
+// What to do with a case folder that was made. `program`: as it was called.
+void print_next_commands(const std::string& program, const std::filesystem::path& folder);
+
 }  // namespace thawslide::app

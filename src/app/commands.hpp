@@ -48,13 +48,16 @@ struct MapOptions {
 };
 
 struct NewOptions {
+  std::string program;  // as it was called
   std::string folder;
   MapOptions maps;
   double reach_angle = 8.0;  // degrees
+  double cell = 0.0;         // m; 0: from the thickness
 };
 int make_new_case(const NewOptions& options);
 
 struct SectionOptions {
+  std::string program;
   std::string folder;
   MapOptions maps;  // release: empty for the profile alone
   std::string line;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
+#include <new>
 
 #include "app/commands.hpp"
 #include "base/error.hpp"
@@ -51,8 +52,10 @@ CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
   auto* placement = command.add_option_group("placement");
   placement->add_flag("--cut", maps.cut, "Cut the release out of the DEM: the DEM is the surface before the slide")
       ->needs(release);
-  placement->add_flag("--on-top")->description("Put the release on top of the DEM (default)")->needs(release);
-  placement->require_option(0, 1);
+  placement->add_flag("--on-top")
+      ->description("Put the release on top of the DEM (default)")
+      ->needs(release)
+      ->excludes(placement->get_option("--cut"));
   command.add_option("--crs", maps.crs, "Coordinate reference system of a DEM that does not tell it: EPSG:31287");
   return release;
 }
@@ -119,13 +122,18 @@ int run_program(int count, char** arguments) {
   add_map_options(*make_new, new_options.maps)->required();
   make_new
       ->add_option("--reach-angle", new_options.reach_angle,
-                   "The domain holds all ground above a line that falls so much from the top of the release [degrees]")
+                   "The domain holds all ground below a line that falls so much from the top of the release [degrees]")
       ->check(CLI::Range(1.0, 45.0))
-      ->capture_default_str();
+      ->option_text("1 to 45, default 8");
+  make_new
+      ->add_option("--cell", new_options.cell,
+                   "Size of the grid's cells [m] (default: six particles across the release's thickness)")
+      ->check(above_zero());
   make_new
       ->add_option("--largest-volume", new_options.maps.largest_volume,
                    "Confirms a release above the usual limit of body.slide.largest_volume [m3]")
       ->check(above_zero());
+  new_options.program = arguments[0];
   make_new->callback([&] { exit_code = make_new_case(new_options); });
 
   SectionOptions section_options;
@@ -136,6 +144,7 @@ int run_program(int count, char** arguments) {
   add_map_options(*section, section_options.maps)
       ->description(
           "Polygons (Shapefile, GeoPackage, GeoJSON), or a raster of the thickness (default: the profile alone)");
+  section_options.program = arguments[0];
   section->callback([&] { exit_code = make_section(section_options); });
 
   DescribeOptions describe_options;
@@ -158,7 +167,10 @@ int run_program(int count, char** arguments) {
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::user_mistake);
+    if (error.get_exit_code() == 0) {
+      return program.exit(error);  // --help
+    }
+    throw thawslide::UserError(fmt::format("{}. Run with --help for more information.", error.what()));
   }
   return exit_code;
 }
@@ -175,6 +187,11 @@ int main(int count, char** arguments) {
   } catch (const thawslide::RunError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return static_cast<int>(ExitCode::run_went_bad);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr,
+               "error: the memory of this machine, or what a limit allows of it (ulimit -v), is not enough. Make "
+               "grid.cell larger: twice the cell takes an eighth of the memory in 3D and a quarter in 2D.\n");
+    return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::exception& error) {
     fmt::print(stderr, "internal error, please report it: {}\n", error.what());
     return 1;

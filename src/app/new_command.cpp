@@ -1,7 +1,9 @@
 // thawslide new: a case folder from a terrain model and a release area.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
@@ -11,9 +13,13 @@
 
 #include "config/case_proposal.hpp"
 #include "config/input_files.hpp"
+#include "config/read_case.hpp"
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
+#include "gis/site.hpp"
 #include "io/atomic_file.hpp"
+#include "sim/memory_need.hpp"
+#include "sim/run_records.hpp"
 
 namespace thawslide::app {
 
@@ -33,6 +39,32 @@ void write_cropped_dem(const fs::path& file, const Raster& ground, const config:
   gis::write_geotiff(file.string(), cropped, {"m", "elevation"});
 }
 
+// A release ends a cell of the DEM beyond its last points: where these are the DEM's last, there is no ground below it.
+void require_ground_about(const std::string& file, const Raster& ground, const Raster& thickness) {
+  std::array<bool, 4> reached{};  // west, east, south, north
+  constexpr std::array<const char*, 4> sides{"west", "east", "south", "north"};
+  const gis::PointWindow window = gis::points_of(thickness, ground);
+  for (int row = 0; row < thickness.rows; ++row) {
+    for (int column = 0; column < thickness.columns; ++column) {
+      if (thickness.at(column, row) > 0.0) {
+        const int i = window.first_column + column, j = window.first_row + row;
+        reached[0] = reached[0] || i == 0;
+        reached[1] = reached[1] || i == ground.columns - 1;
+        reached[2] = reached[2] || j == 0;
+        reached[3] = reached[3] || j == ground.rows - 1;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (reached[k]) {
+      throw UserError(fmt::format(
+          "--release: {}: the release reaches the outermost points of the terrain model in the {}; needed: {:g} m of "
+          "it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger terrain model.",
+          file, sides[k], k < 2 ? ground.cell_x : ground.cell_y));
+    }
+  }
+}
+
 // As many cells along each axis as a case may have.
 void require_resolvable(const config::Proposal& proposal) {
   constexpr double fewest = 2.0, most = 5e5;
@@ -47,6 +79,18 @@ void require_resolvable(const config::Proposal& proposal) {
   }
 }
 
+// Before any file is written, in words for a user who has no case yet.
+void require_memory(const config::Proposal& proposal) {
+  const double needed = proposal.particles * sim::bytes_of_particle<3>, allowed = sim::memory_allowed();
+  if (needed > allowed) {
+    throw UserError(fmt::format(
+        "--thickness: a release {:.4g} m thick asks for cells of {:g} m and {:.3g} particles; they need about {:.3g} "
+        "GB of memory, and there are {:.3g} GB. Set --cell {:g} or more, which is coarser. Is the thickness in metres?",
+        proposal.thickness, proposal.cell, proposal.particles, needed / 1e9, allowed / 1e9,
+        sim::smallest_cell<3>(proposal.volume * std::pow(proposal.particles_per_axis, 3), allowed)));
+  }
+}
+
 // With the files that belong to it.
 void copy_release(const fs::path& folder, const config::Case& trial) {
   config::Case release_alone;
@@ -56,14 +100,51 @@ void copy_release(const fs::path& folder, const config::Case& trial) {
   }
 }
 
+// A folder that is made, of which nothing stays if the case in it turns out not to run.
+class NewFolder {
+ public:
+  explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) { make_new_folder(path_); }
+  ~NewFolder() {
+    std::error_code ignored;
+    if (!keeps_) {
+      fs::remove_all(path_, ignored);
+    }
+    if (!keeps_ && was_there_) {
+      fs::create_directory(path_, ignored);
+    }
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  void keep() { keeps_ = true; }
+
+ private:
+  fs::path path_;
+  bool was_there_, keeps_ = false;
+};
+
+// Whatever would refuse the case before its first step.
+void require_runnable(const fs::path& folder) {
+  try {
+    const config::Case made = config::read_case(folder);
+    const sim::Simulation<3, double> simulation(made, gis::load_site(made).site);
+    const sim::RunRecords<3> records(simulation, simulation.site());
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("no case was made, as it would not run: {}", error.what()));
+  }
+}
+
 }  // namespace
 
 int make_new_case(const NewOptions& options) {
   const config::Case trial = trial_case(options.folder, options.maps);
   const config::Site site = look_at_files(trial);
+  require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
   const config::Proposal proposal =
-      config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle);
+      config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle, options.cell);
   require_resolvable(proposal);
+  require_memory(proposal);
   config::ProposalInput input;
   input.title = title_of(options.folder);
   const std::string release_name = fs::path(options.maps.release).filename().string();
@@ -78,18 +159,20 @@ int make_new_case(const NewOptions& options) {
   input.reach_angle = options.reach_angle;
   input.largest_volume = options.maps.largest_volume;
 
-  const fs::path folder = options.folder;
-  make_new_folder(folder);
+  NewFolder new_folder(options.folder);
+  const fs::path& folder = new_folder.path();
   write_cropped_dem(folder / input.dem_file, *site.ground, proposal);
   copy_release(folder, trial);
   io::write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
+  require_runnable(folder);
+  new_folder.keep();
 
   fmt::print("{}: a release of {:.4g} m3, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
              (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
   if (proposal.particles > many_particles) {
     fmt::print("note: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
   }
-  fmt::print("look at it:  thawslide check {} --picture\nrun it:      ./run {}\n", folder.string(), folder.string());
+  print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -134,7 +134,7 @@ int make_section(const SectionOptions& options) {
   io::write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal));
   fmt::print("{}: a release of {:.4g} m3 per metre of width, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
              (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
-  fmt::print("look at it:  thawslide check {} --picture\nrun it:      ./run {}\n", folder.string(), folder.string());
+  print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);
 }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/rule.hpp"
@@ -20,24 +22,51 @@ constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
 constexpr double block_cells = 4.0;  // the domain is a multiple of, so that the cell may be doubled twice
 constexpr double snapshots = 40.0;   // about as many
 
-// The release in numbers.
+// The release in numbers. Its edge and its top are those of the DEM's points about it, as both lie between points.
 struct ReleaseExtent {
   double volume = 0.0, thickness = 0.0;  // [m3], [m]: half of the volume is where the release is thinner
   double west = HUGE_VAL, east = -HUGE_VAL, south = HUGE_VAL, north = -HUGE_VAL;
-  double top = -HUGE_VAL, top_x = 0.0, top_y = 0.0;  // highest point of its surface
+  double bottom = HUGE_VAL;  // also of one that is cut out of the DEM
+  double top = -HUGE_VAL, top_x = 0.0, top_y = 0.0;
 };
 
-double nearest_height(const Raster& dem, double x, double y) {
-  const auto clamp = [](double place, int count) {
-    return static_cast<int>(std::clamp(std::lround(place), 0L, static_cast<long>(count) - 1));
-  };
-  return dem.at(clamp((x - dem.x) / dem.cell_x, dem.columns), clamp((y - dem.y) / dem.cell_y, dem.rows));
+struct Heights {
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+};
+
+// Of the 3 x 3 points about a place.
+Heights heights_about(const Raster& dem, double x, double y) {
+  const long column = std::lround((x - dem.x) / dem.cell_x), row = std::lround((y - dem.y) / dem.cell_y);
+  Heights heights;
+  for (long j = std::max(row - 1, 0L); j <= std::min(row + 1, static_cast<long>(dem.rows) - 1); ++j) {
+    for (long i = std::max(column - 1, 0L); i <= std::min(column + 1, static_cast<long>(dem.columns) - 1); ++i) {
+      const double height = dem.at(static_cast<int>(i), static_cast<int>(j));
+      if (!std::isnan(height)) {
+        heights.lowest = std::min(heights.lowest, height);
+        heights.highest = std::max(heights.highest, height);
+      }
+    }
+  }
+  return heights;
+}
+
+// Half of the volume is where the release is thinner.
+double median_thickness(std::vector<double> thicknesses) {
+  std::sort(thicknesses.begin(), thicknesses.end());
+  const double half = 0.5 * std::accumulate(thicknesses.begin(), thicknesses.end(), 0.0);
+  double below = 0.0;
+  for (const double thickness : thicknesses) {
+    below += thickness;
+    if (below >= half) {
+      return thickness;
+    }
+  }
+  return 0.0;
 }
 
 ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
   ReleaseExtent extent;
   std::vector<double> thicknesses;
-  const double area = thickness.cell_x * thickness.cell_y;
   for (int row = 0; row < thickness.rows; ++row) {
     for (int column = 0; column < thickness.columns; ++column) {
       const double t = thickness.at(column, row);
@@ -45,34 +74,55 @@ ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
         continue;
       }
       const double x = thickness.x_of(column), y = thickness.y_of(row);
-      extent.volume += t * area;
+      extent.volume += t * thickness.cell_x * thickness.cell_y;
       thicknesses.push_back(t);
-      extent.west = std::min(extent.west, x);
-      extent.east = std::max(extent.east, x);
-      extent.south = std::min(extent.south, y);
-      extent.north = std::max(extent.north, y);
-      const double top = nearest_height(dem, x, y) + t;
-      if (top > extent.top) {
-        extent.top = top;
+      extent.west = std::min(extent.west, std::max(x - thickness.cell_x, dem.x));
+      extent.east = std::max(extent.east, std::min(x + thickness.cell_x, dem.x_end()));
+      extent.south = std::min(extent.south, std::max(y - thickness.cell_y, dem.y));
+      extent.north = std::max(extent.north, std::min(y + thickness.cell_y, dem.y_end()));
+      const Heights ground = heights_about(dem, x, y);
+      extent.bottom = std::min(extent.bottom, ground.lowest - t);
+      if (ground.highest + t > extent.top) {
+        extent.top = ground.highest + t;
         extent.top_x = x;
         extent.top_y = y;
       }
     }
   }
-  std::sort(thicknesses.begin(), thicknesses.end());
-  double below = 0.0;
-  for (const double t : thicknesses) {
-    extent.thickness = t;
-    below += t * area;
-    if (below >= 0.5 * extent.volume) {
-      break;
-    }
-  }
+  extent.thickness = median_thickness(std::move(thicknesses));
   return extent;
 }
 
 // Without the round-off of a product, which nobody wants to read in a file.
 double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
+
+struct Stretch {
+  double low = 0.0, high = 0.0;
+};
+
+// The domain along x or y: what is to be `held` within the DEM. It begins and ends at multiples of four cells; where
+// that would cut the release at the edge of the DEM at multiples of a cell, or else at the edge of the DEM itself.
+Stretch domain_along(const Stretch& held, const Stretch& release, const Stretch& dem, double cell) {
+  Stretch domain;
+  for (const double block : {block_cells * cell, cell}) {
+    const auto down = [&](double place) { return tidy(std::floor(place / block + 1e-9) * block); };
+    const auto up = [&](double place) { return tidy(std::ceil(place / block - 1e-9) * block); };
+    domain = {std::max(up(dem.low), down(held.low)), std::min(down(dem.high), up(held.high))};
+    if (domain.low <= release.low && domain.high >= release.high) {
+      return domain;
+    }
+  }
+  const auto whole_cells = [&](double length) { return std::floor(length / cell + 1e-9) * cell; };
+  if (domain.low > release.low) {
+    domain.low = dem.low;
+    domain.high = domain.low + whole_cells(domain.high - domain.low);
+  }
+  if (domain.high < release.high) {
+    const double low = std::max(dem.low, domain.low - cell);
+    domain = {dem.high - whole_cells(dem.high - low), dem.high};
+  }
+  return domain;
+}
 
 }  // namespace
 
@@ -85,52 +135,42 @@ double round_down(double x) {
   return best;
 }
 
-Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle) {
+Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell) {
   const ReleaseExtent release = extent_of(dem, thickness);
   Proposal proposal;
   proposal.volume = release.volume;
   proposal.thickness = release.thickness;
-  propose_cell(proposal, 3);
+  propose_cell(proposal, 3, cell);
 
-  double west = release.west, east = release.east, south = release.south, north = release.north;
-  double lowest = release.top, farthest = 0.0;
+  Stretch x{release.west, release.east}, y{release.south, release.north};
+  double lowest = release.bottom, farthest = 0.0;
   const double fall = std::tan(reach_angle * degree);
   for (int row = 0; row < dem.rows; ++row) {
     for (int column = 0; column < dem.columns; ++column) {
       const double height = dem.at(column, row);
-      const double x = dem.x_of(column), y = dem.y_of(row);
-      const double distance = std::hypot(x - release.top_x, y - release.top_y);
+      const double distance = std::hypot(dem.x_of(column) - release.top_x, dem.y_of(row) - release.top_y);
       if (std::isnan(height) || height > release.top - fall * distance) {
         continue;
       }
-      west = std::min(west, x);
-      east = std::max(east, x);
-      south = std::min(south, y);
-      north = std::max(north, y);
+      x = {std::min(x.low, dem.x_of(column)), std::max(x.high, dem.x_of(column))};
+      y = {std::min(y.low, dem.y_of(row)), std::max(y.high, dem.y_of(row))};
       lowest = std::min(lowest, height);
       farthest = std::max(farthest, distance);
     }
   }
-  const double margin = margin_cells * proposal.cell;
-  // In whole blocks of cells, or where these would cut the release at the edge of the DEM in single cells.
-  for (const double block : {block_cells * proposal.cell, proposal.cell}) {
-    const auto down = [&](double place) { return tidy(std::floor(place / block + 1e-9) * block); };
-    const auto up = [&](double place) { return tidy(std::ceil(place / block - 1e-9) * block); };
-    proposal.min = {std::max(up(dem.x), down(west - margin)), std::max(up(dem.y), down(south - margin)),
-                    down(lowest - margin)};
-    proposal.max = {std::min(down(dem.x_end()), up(east + margin)), std::min(down(dem.y_end()), up(north + margin)),
-                    up(release.top + margin)};
-    if (proposal.min[0] <= release.west && proposal.max[0] >= release.east && proposal.min[1] <= release.south &&
-        proposal.max[1] >= release.north) {
-      break;
-    }
-  }
+  const double margin = margin_cells * proposal.cell, block = block_cells * proposal.cell;
+  x = domain_along({x.low - margin, x.high + margin}, {release.west, release.east}, {dem.x, dem.x_end()},
+                   proposal.cell);
+  y = domain_along({y.low - margin, y.high + margin}, {release.south, release.north}, {dem.y, dem.y_end()},
+                   proposal.cell);
+  proposal.min = Point{x.low, y.low, tidy(std::floor((lowest - margin) / block) * block)};
+  proposal.max = Point{x.high, y.high, tidy(std::ceil((release.top + margin) / block) * block)};
   propose_times(proposal, farthest);
   return proposal;
 }
 
-void propose_cell(Proposal& proposal, int dimension) {
-  proposal.cell = round_down(proposal.thickness * proposal.particles_per_axis / particles_across);
+void propose_cell(Proposal& proposal, int dimension, double cell) {
+  proposal.cell = cell > 0.0 ? cell : round_down(proposal.thickness * proposal.particles_per_axis / particles_across);
   proposal.particles = proposal.volume / std::pow(proposal.cell / proposal.particles_per_axis, dimension);
 }
 
@@ -165,7 +205,7 @@ title = "{title}"
 dimension = 3  # x is east, y is north, z is up
 
 {time}
-# The domain: a box about the release and all ground above a line that falls {angle} degrees from its top. Its size costs
+# The domain: a box about the release and all ground below a line that falls {angle} degrees from its top. Its size costs
 # nothing, as only cells near the slide take memory and time.
 [grid]
 cell = {cell}  # m; {across}

@@ -33,18 +33,19 @@ struct Proposal {
 // Largest number of one or two digits (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten) that is at most x.
 [[nodiscard]] double round_down(double x);
 
-// The domain holds every point of the DEM that lies above a line that falls by the reach angle from the release's
-// highest point, and all of the release. The cell gives at least six particles across the mean thickness. dem: NaN
-// where there is no data; thickness: vertical [m], on points of the same places.
-[[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle);
+// The domain holds every point of the DEM that lies below a line that falls by the reach angle from the release's
+// highest point, and all of the release, which may reach a cell of the DEM beyond the points that have a thickness. The
+// cell gives at least six particles across the mean thickness. dem: NaN where there is no data; thickness: vertical
+// [m], on points of the same places. `cell`: of the grid [m], where the user gives it; 0: none.
+[[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell = 0.0);
 
 // The commented case file.
 [[nodiscard]] std::string case_text(const ProposalInput& input, const Proposal& proposal);
 
 inline constexpr int margin_cells = 4;  // between the release and the sides of the domain
 
-// Sets the cell and the number of particles; needs thickness and volume.
-void propose_cell(Proposal& proposal, int dimension);
+// Sets the cell, to the given one unless that is 0, and the number of particles; needs thickness and volume.
+void propose_cell(Proposal& proposal, int dimension, double cell = 0.0);
 
 // Sets the end and the interval between snapshots, for a slide that may go so far [m].
 void propose_times(Proposal& proposal, double farthest);

@@ -2,6 +2,7 @@
 
 #include <cpl_conv.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -103,25 +104,63 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
                   raster.file, name_of(wkt), range_words(raster.extent), warp_of_degrees(raster, "")));
 }
 
+// Longitude and latitude of the raster's middle; NaN where it has none.
+std::array<double, 2> middle_in_degrees(const Located& raster, const std::string& wkt) {
+  OGRSpatialReference degrees;
+  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  degrees.importFromEPSG(4326);
+  std::vector<double> x{0.5 * (raster.extent.min_x + raster.extent.max_x)};
+  std::vector<double> y{0.5 * (raster.extent.min_y + raster.extent.max_y)};
+  const bool is_known = Reprojection(wkt, wkt_from_reference(&degrees)).apply(x, y);
+  return is_known ? std::array<double, 2>{x[0], y[0]} : std::array<double, 2>{std::nan(""), std::nan("")};
+}
+
 [[noreturn]] void fail_with_unit(const Located& raster, const std::string& wkt, const std::string& unit,
                                  double metres_per_unit, bool from_key) {
   if (from_key) {
     throw UserError(fmt::format("{} is in the unit '{}'; allowed: a map projection in metres, such as \"EPSG:31287\".",
                                 name_of(wkt), unit));
   }
-  OGRSpatialReference degrees;
-  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  degrees.importFromEPSG(4326);
-  std::vector<double> x{0.5 * (raster.extent.min_x + raster.extent.max_x)};
-  std::vector<double> y{0.5 * (raster.extent.min_y + raster.extent.max_y)};
   std::string remedy = "Reproject it to one with gdalwarp";
-  if (Reprojection(wkt, wkt_from_reference(&degrees)).apply(x, y)) {
-    remedy = "Reproject: " + warp_command(raster, "", x[0], y[0], metres_per_unit);
+  const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
+  if (std::isfinite(longitude) && std::isfinite(latitude)) {
+    remedy = "Reproject: " + warp_command(raster, "", longitude, latitude, metres_per_unit);
   }
   throw UserError(
       fmt::format("{}: the coordinates are in the unit '{}' ({}); allowed: a map projection in metres, and elevations "
                   "in metres. {}",
                   raster.file, unit, name_of(wkt), remedy));
+}
+
+// Its metres are those of the equator: at a latitude they are longer than on the ground by one over its cosine (Snyder
+// 1987, p. 44).
+bool is_web_mercator(const OGRSpatialReference& reference) {
+  const char* projection = reference.GetAttrValue("PROJECTION");
+  const char* authority = reference.GetAuthorityName(nullptr);
+  const char* code = reference.GetAuthorityCode(nullptr);
+  const bool by_code = authority != nullptr && code != nullptr && std::string(authority) == "EPSG" &&
+                       (std::string(code) == "3857" || std::string(code) == "3785");
+  const bool by_method = projection != nullptr && (std::string(projection) == "Popular Visualisation Pseudo Mercator" ||
+                                                   std::string(projection) == "Mercator_Auxiliary_Sphere");
+  const char* extension = reference.GetExtension(nullptr, "PROJ4", "");  // how WKT 1 tells it
+  const std::string proj4 = extension == nullptr ? "" : extension;
+  return by_code || by_method || proj4.find("+a=6378137 +b=6378137") != std::string::npos;
+}
+
+// With the factor by which lengths are too long at the middle of the raster.
+[[noreturn]] void fail_with_web_mercator(const Located& raster, const std::string& wkt, bool from_key) {
+  if (from_key) {
+    throw UserError(
+        fmt::format("{} is Web Mercator, whose lengths are those of the equator; allowed: a map projection in metres "
+                    "that keeps lengths, such as \"EPSG:31287\".",
+                    name_of(wkt)));
+  }
+  const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
+  const double stretch = 1.0 / std::cos(latitude * 3.14159265358979323846 / 180.0);
+  throw UserError(fmt::format(
+      "{}: the coordinates are in Web Mercator ({}), where lengths at latitude {:.4g} are {:.3g} times too "
+      "long; allowed: a map projection that keeps lengths. Reproject: {}",
+      raster.file, name_of(wkt), latitude, stretch, warp_command(raster, "", longitude, latitude, 1.0 / stretch)));
 }
 
 // A system may tell of heights too.
@@ -220,6 +259,9 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   const double metres_per_unit = reference.GetLinearUnits(&unit);
   if (std::abs(metres_per_unit - 1.0) > 1e-9) {
     fail_with_unit(raster, wkt, unit == nullptr ? "unknown" : unit, metres_per_unit, from_key);
+  }
+  if (is_web_mercator(reference)) {
+    fail_with_web_mercator(raster, wkt, from_key);
   }
   check_vertical_unit(raster, reference);
   reference.StripVertical();

@@ -76,11 +76,19 @@ bool layer_holds(OGRLayer& layer, Kind kind) {
   if (wkbFlatten(layer.GetGeomType()) != wkbUnknown) {
     return holds(layer.GetGeomType(), kind);
   }
+  // By its first feature that has a geometry; where none has one, that is told of the first.
   layer.ResetReading();
-  const std::unique_ptr<OGRFeature> first(layer.GetNextFeature());
+  bool any = false;
+  for (const auto& feature : layer) {
+    any = true;
+    if (feature->GetGeometryRef() != nullptr) {
+      const bool fits = holds(feature->GetGeometryRef()->getGeometryType(), kind);
+      layer.ResetReading();
+      return fits;
+    }
+  }
   layer.ResetReading();
-  return first != nullptr && first->GetGeometryRef() != nullptr &&
-         holds(first->GetGeometryRef()->getGeometryType(), kind);
+  return any;
 }
 
 OGRLayer& layer_with(const std::string& file, GDALDataset& dataset, Kind kind) {

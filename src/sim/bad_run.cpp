@@ -35,6 +35,11 @@ constexpr double runaway = 5.0;
 // Below this [C] it is squeezing that has closed pores, not the rock's expansion.
 constexpr double hot = 1000.0;
 
+// Of a terrain model that ends too soon.
+constexpr const char* anew =
+    "`thawslide new` crops the DEM to the domain: make the case anew with a smaller --reach-angle, which takes more of "
+    "the DEM, or from a larger DEM.";
+
 // The cause that lies in pores closed by heat, if some are: their water then has no room, and its pressure no bound.
 template <int Dim, class Real>
 std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
@@ -60,7 +65,7 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
 
 }  // namespace
 
-// Where a particle is heading over the horizontal plane, and how far it may come.
+// Where a particle is heading over the horizontal plane.
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::way_ahead(std::size_t p) const {
   const double x = static_cast<double>(particles_.velocity(p, 0));
@@ -71,10 +76,7 @@ std::string Simulation<Dim, Real>::way_ahead(std::size_t p) const {
   std::string towards = y > share * speed ? "north" : y < -share * speed ? "south" : "";
   const char* across = x > share * speed ? "east" : x < -share * speed ? "west" : "";
   towards += !towards.empty() && *across != '\0' ? "-" : "";
-  return fmt::format(
-      "It moves towards the {}{} at {:.4g} m/s, and at that speed would go {:.4g} m further until "
-      "time.end. ",
-      towards, across, speed, speed * (parameters_.time.end - time_));
+  return fmt::format("It moves towards the {}{} at {:.4g} m/s.", towards, across, speed);
 }
 
 template <int Dim, class Real>
@@ -89,8 +91,9 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   }
   if (bad_.fault == mpm::Fault::left_map) {
     return way_ahead(p) +
-           "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
-           "particles go.";
+           " Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
+           "particles go. " +
+           anew;
   }
   if (bad_.fault != mpm::Fault::left_domain) {
     return too_long;
@@ -105,7 +108,11 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   }
   const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow; widen them";
   const bool rises_or_falls = 2.0 * std::abs(static_cast<double>(particles_.velocity(p, Dim - 1))) > own;
-  return Dim == 2 || rises_or_falls ? too_far + " in its direction." : too_far + ". " + way_ahead(p);
+  if (Dim == 2 || rises_or_falls) {
+    return too_far + " in its direction.";
+  }
+  const bool on_dem = parameters_.terrain.kind == config::TerrainKind::dem;
+  return too_far + ". " + way_ahead(p) + (on_dem ? fmt::format(" If terrain.file ends there too: {}", anew) : "");
 }
 
 template <int Dim, class Real>

@@ -8,6 +8,7 @@
 #include "base/instances.hpp"
 #include "sim/body_shape.hpp"
 #include "sim/initial_state.hpp"
+#include "sim/memory_need.hpp"
 #include "sim/seed.hpp"
 #include "sim/starting_noise.hpp"
 
@@ -185,6 +186,26 @@ void require_above_ground(const config::Case& parameters, const Model<Dim, Real>
   }
 }
 
+// A release: what other bodies reach to was checked when the case was read.
+template <int Dim>
+void require_within_domain(const config::Case& parameters, const std::string& name, std::size_t first,
+                           const std::vector<Seed<Dim>>& seeds) {
+  constexpr const char* axes[] = {"x", "y", "elevation"};
+  const config::Grid& grid = parameters.grid;
+  for (std::size_t p = first; p < seeds.size(); ++p) {
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const double place = seeds[p].place[static_cast<int>(a)];
+      if (place < grid.min[a] || place > grid.max[a]) {
+        throw UserError(fmt::format(
+            "{}: body '{}' has a particle at x = {:.10g} m, y = {:.10g} m, elevation {:.6g} m, outside the domain, "
+            "whose {} is from {:.10g} to {:.10g} m. Widen grid.min and grid.max.",
+            config::place_of(parameters, "body." + name), name, seeds[p].place[0], seeds[p].place[1],
+            seeds[p].place[Dim - 1], axes[a], grid.min[a], grid.max[a]));
+      }
+    }
+  }
+}
+
 // The place a seed is displaced to, with initial.noise; its regular place where it would leave its body or the space
 // above the ground. All else of a particle is that of its regular place.
 template <int Dim, class Real>
@@ -212,13 +233,22 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
   std::vector<std::string> names;
   std::vector<BodyShape<Dim>> shapes;
   std::vector<const config::Release*> releases;
+  double filled = 0.0;  // volume times particles in a cell
+  for (const auto& [name, body] : parameters.bodies) {
+    shapes.emplace_back(parameters, site, body, release_of(site, model, name, body));
+    filled += shapes.back().volume() * std::pow(body.particles_per_axis, Dim);
+  }
+  require_memory<Dim>(parameters, filled);
   for (const auto& [name, body] : parameters.bodies) {
     const std::size_t before = seeds.size();
+    const BodyShape<Dim>& shape = shapes[bodies.size()];
     names.push_back(name);
-    shapes.emplace_back(parameters, site, body, release_of(site, model, name, body));
-    seed_body(parameters, body, shapes.back(), static_cast<int>(bodies.size()), seeds);
-    require_volume(parameters, name, body, shapes.back(), before, seeds);
+    seed_body(parameters, body, shape, static_cast<int>(bodies.size()), seeds);
+    require_volume(parameters, name, body, shape, before, seeds);
     require_above_ground(parameters, model, name, before, seeds);
+    if (shape.release()) {
+      require_within_domain(parameters, name, before, seeds);
+    }
     releases.push_back(site.releases.count(name) != 0 ? &site.releases.at(name) : nullptr);
     bodies.push_back(&body);
     const auto material = std::find(model.material_names.begin(), model.material_names.end(), body.material);

@@ -243,19 +243,23 @@ def test_folder_that_is_there(thawslide: Program, tmp_path: Path, slope: Slope, 
     )
 
 
+ANEW = (
+    r"`thawslide new` crops the DEM to the domain: make the case anew with a smaller --reach-angle, which takes more "
+    r"of the DEM, or from a larger DEM\."
+)
 # What is said of a particle over ground that is not known.
 NO_GROUND = (
     r"error: the run went bad at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: the "
-    r"terrain below it is not known: the DEM ends or has a hole there\. It moves towards the east at (\S+) m/s, and at "
-    r"that speed would go (\S+) m further until time\.end\. Give a DEM that reaches further there, and \[grid\] with "
-    r'it, or set grid\.leaving = "remove" to let such particles go\.\n'
+    r"terrain below it is not known: the DEM ends or has a hole there\. It moves towards the east at (\S+) m/s\. "
+    r"Give a DEM that reaches further there, and \[grid\] with it, or set grid\.leaving = \"remove\" to let such "
+    rf"particles go\. {ANEW}\n"
 )
 # And of one that reaches the domain's side.
 LEFT_DOMAIN = (
     r"error: the run went bad at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: "
     r"it left the domain\. It moves at \S+ m/s, the slide at \S+ m/s in the mean\. Likely cause: the slide ran further "
-    r"than \[grid\] min and max allow; widen them\. It moves towards the east at (\S+) m/s, and at that speed would go "
-    r"(\S+) m further until time\.end\. \n"
+    r"than \[grid\] min and max allow; widen them\. It moves towards the east at (\S+) m/s\. "
+    rf"If terrain\.file ends there too: {ANEW}\n"
 )
 
 
@@ -276,7 +280,7 @@ def test_a_slide_that_leaves_the_known_ground_stops_there(
     east = WEST + CELL * ((hole.start if hole else COLUMNS) - 1)
     assert east - 3.0 * CELL < float(told[1]) < east + CELL
     assert SOUTH + 200.0 < float(told[2]) < SOUTH + 400.0
-    assert float(told[3]) > 20.0 and float(told[4]) > 100.0
+    assert float(told[3]) > 20.0
     assert run_facts(run)["status"] == "failed"
     with rasterio.open(run / "maps" / "max_speed.tif") as file:
         assert file.read(1, masked=True).max() > 40.0

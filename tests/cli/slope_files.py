@@ -39,9 +39,12 @@ def write_slope(path: Path, crs: str | None = "EPSG:32632", hole: slice | None =
     return path
 
 
-def write_release(path: Path, west: float, south: float, **attributes: float) -> Path:
+def write_release(
+    path: Path, west: float, south: float, width: float = WIDTH, depth: float = DEPTH, **attributes: float
+) -> Path:
     """Write a rectangle with its attributes."""
-    ring = [[west, south], [west + WIDTH, south], [west + WIDTH, south + DEPTH], [west, south + DEPTH], [west, south]]
+    east, north = west + width, south + depth
+    ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
     feature = {
         "type": "Feature",
         "properties": {"name": "slide", **attributes},

@@ -1,0 +1,82 @@
+// The domain that `thawslide new` proposes: it holds the release, whose edge and top lie between points of the DEM.
+#include "config/case_proposal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace thawslide::config {
+namespace {
+
+constexpr double cell = 10.0;  // of the DEM [m]
+
+Raster points(int columns, int rows) {
+  Raster raster;
+  raster.x = 1000.0;
+  raster.y = 2000.0;
+  raster.cell_x = raster.cell_y = cell;
+  raster.columns = columns;
+  raster.rows = rows;
+  return raster;
+}
+
+Raster dem_points() {
+  Raster dem = points(60, 40);
+  dem.values.assign(60 * 40, 0.0);
+  for (int row = 0; row < dem.rows; ++row) {
+    for (int column = 0; column < dem.columns; ++column) {
+      dem.values[dem.index(column, row)] = 500.0 - 0.8 * cell * column;
+    }
+  }
+  return dem;
+}
+
+Raster release_at(int first_column, int first_row, double thickness) {
+  Raster raster = points(60, 40);
+  raster.values.assign(60 * 40, 0.0);
+  for (int row = first_row; row < first_row + 8; ++row) {
+    for (int column = first_column; column < first_column + 10; ++column) {
+      raster.values[raster.index(column, row)] = thickness;
+    }
+  }
+  return raster;
+}
+
+TEST(CaseProposal, HoldsAReleaseThinnerThanASlopeAcrossACellOfTheDem) {
+  for (const double thickness : {3.0, 1.0, 0.1}) {
+    const Proposal proposal = propose(dem_points(), release_at(20, 15, thickness), 44.0);
+    EXPECT_EQ(proposal.thickness, thickness);
+    EXPECT_NEAR(proposal.volume, 80.0 * cell * cell * thickness, 1e-6);
+    const double margin = margin_cells * proposal.cell;
+    EXPECT_LE(proposal.min[0], 1190.0 - margin);
+    EXPECT_GE(proposal.max[0], 1300.0 + margin);
+    EXPECT_LE(proposal.min[1], 2140.0 - margin);
+    EXPECT_GE(proposal.max[1], 2230.0 + margin);
+    // The point to the west of the release is 8 m above its highest one.
+    EXPECT_GE(proposal.max[2], 500.0 - 0.8 * 190.0 + thickness + margin);
+    EXPECT_LE(proposal.min[2], 500.0 - 0.8 * 300.0 - thickness - margin) << "room for one that is cut out";
+  }
+}
+
+TEST(CaseProposal, BeginsAtTheEdgeOfTheDemWhereAMultipleOfTheCellWouldCutTheRelease) {
+  const Proposal west = propose(dem_points(), release_at(1, 1, 23.0), 8.0);
+  EXPECT_EQ(west.cell, 6.0);
+  EXPECT_EQ(west.min[0], 1000.0) << "a multiple of 6 m would be 1002 m";
+  EXPECT_EQ(west.min[1], 2000.0);
+  const Proposal east = propose(dem_points(), release_at(49, 31, 23.0), 8.0);
+  EXPECT_EQ(east.max[0], 1590.0);
+  EXPECT_EQ(east.max[1], 2390.0);
+  for (const Proposal& proposal : {west, east}) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double cells = (proposal.max[a] - proposal.min[a]) / proposal.cell;
+      EXPECT_NEAR(cells, std::round(cells), 1e-9) << "axis " << a;
+    }
+    EXPECT_GE(proposal.min[0], 1000.0);
+    EXPECT_LE(proposal.max[0], 1590.0);
+    EXPECT_GE(proposal.min[1], 2000.0);
+    EXPECT_LE(proposal.max[1], 2390.0);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::config
