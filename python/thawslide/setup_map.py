@@ -141,10 +141,10 @@ def _note(scenes: list[Scene]) -> str:
 
 
 def _draw_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -> None:
+    if painter is not None:
+        for thickness in each_cell_once([each.thickness for each in setup.releases if each.thickness is not None]):
+            paint(axes, Map(thickness.grid, np.where(thickness.values > 0.0, thickness.values, np.nan)), painter)
     for number, release in enumerate(setup.releases):
-        if release.thickness is not None and painter is not None:
-            values = np.where(release.thickness.values > 0.0, release.thickness.values, np.nan)
-            paint(axes, Map(release.thickness.grid, values), painter)
         for outline in release.outlines:
             axes.plot(*outline.T, color=_BODY_COLOURS[number % len(_BODY_COLOURS)], linewidth=1.2, zorder=5)
     _frame(axes, setup.domain, BLACK, 1.4, linestyle="--")
@@ -156,6 +156,36 @@ def _draw_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -
             linewidth=1.6, path_effects=None if len(points) == 1 else HALO, zorder=7,
         )  # fmt: skip
         name_place(axes, name, (float(points[-1][0]), float(points[-1][1])))
+
+
+def each_cell_once(thicknesses: list[Map]) -> list[Map]:
+    """Return maps no two of which fill a cell: bodies that touch share cells, and the first one gets the sum."""
+    filled = [np.nan_to_num(each.values) for each in thicknesses]
+    for number, each in enumerate(thicknesses):
+        for before in range(number):
+            cells = _shared_cells(thicknesses[before].grid, each.grid)
+            if cells is not None:
+                first, second = filled[before][cells[0]], filled[number][cells[1]]  # views
+                both = (first > 0.0) & (second > 0.0)
+                first[both] += second[both]
+                second[both] = 0.0
+    return [Map(each.grid, values) for each, values in zip(thicknesses, filled, strict=True)]
+
+
+def _shared_cells(one: Grid, other: Grid) -> tuple[tuple[slice, slice], tuple[slice, slice]] | None:
+    """Return rows and columns that two grids share, in the indices of each; None where cells do not coincide."""
+    cells: list[tuple[slice, slice]] = []
+    for first, second, size, other_size, count, other_count in (
+        (one.y0, other.y0, one.cell_y, other.cell_y, one.rows, other.rows),
+        (one.x0, other.x0, one.cell_x, other.cell_x, one.columns, other.columns),
+    ):
+        steps = (second - first) / size
+        shift = round(steps)
+        begin, end = max(0, shift), min(count, shift + other_count)
+        if size != other_size or abs(steps - shift) > 1e-3 or begin >= end:
+            return None
+        cells.append((slice(begin, end), slice(begin - shift, end - shift)))
+    return (cells[0][0], cells[1][0]), (cells[0][1], cells[1][1])
 
 
 def _frame(axes: Axes, box: Box, colour: str, width: float, **style: Any) -> None:

@@ -54,10 +54,20 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps) {
   }
   config::Body body;
   body.shape = config::BodyShape::release;
-  body.release = maps.release;
-  body.thickness.from = maps.thickness > 0.0 ? config::MapValue::From::number : config::MapValue::From::attribute;
-  body.thickness.number = maps.thickness;
-  body.thickness.source = "thickness";
+  if (gis::is_raster_file(maps.release)) {
+    if (maps.thickness > 0.0) {
+      throw UserError(fmt::format(
+          "--thickness: {} is a raster, whose values are the thickness in metres; leave --thickness out, or "
+          "give polygons to --release.",
+          maps.release));
+    }
+    body.thickness = {config::MapValue::From::raster, 0.0, maps.release};
+  } else {
+    body.release = maps.release;
+    body.thickness.from = maps.thickness > 0.0 ? config::MapValue::From::number : config::MapValue::From::attribute;
+    body.thickness.number = maps.thickness;
+    body.thickness.source = "thickness";
+  }
   if (maps.largest_volume > 0.0) {
     body.largest_volume = maps.largest_volume;
   }
@@ -72,6 +82,7 @@ namespace {
 // A message that names keys of a case, for a user who has not got one yet.
 std::string in_words_of_options(std::string message) {
   const std::vector<std::pair<std::string, std::string>> words{
+      {"which body.slide.thickness asks for", "which is needed without --thickness"},
       {"terrain.crs = ", "--crs "},
       {"body.slide.largest_volume", "--largest-volume"},
       {"body.slide.thickness", "--thickness"},
@@ -94,7 +105,7 @@ config::Site look_at_files(const config::Case& trial) {
   try {
     gis::SiteAndNotes read = gis::load_site(trial);
     for (const std::string& note : read.notes) {
-      fmt::print("note: {}\n", note);
+      fmt::print("note: {}\n", in_words_of_options(note));
     }
     return std::move(read.site);
   } catch (const UserError& error) {

@@ -12,6 +12,7 @@
 
 #include "app/commands.hpp"
 #include "app/map_files.hpp"
+#include "app/map_output.hpp"
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
 #include "app/setup_json.hpp"
@@ -53,6 +54,12 @@ void draw(const Json& setup, const std::string& picture) {
   }
 }
 
+// setup.png, of a variant its name before it: several case files may share a folder.
+std::string picture_beside(const fs::path& case_file) {
+  const std::string variant = case_file.stem() == "case" ? "" : case_file.stem().string() + "-";
+  return (case_file.parent_path() / (variant + "setup.png")).string();
+}
+
 // Seconds one step takes now, measured on the first steps.
 template <int Dim>
 double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
@@ -70,7 +77,7 @@ double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
 // What each release comes to.
 void print_releases(const config::Site& site) {
   for (const auto& [name, release] : site.releases) {
-    const double volume = sim::raster_volume(release.thickness);
+    const double volume = volume_of(release.thickness);
     double covered = 0.0, thickest = 0.0;
     for (const double thickness : release.thickness.values) {
       covered += thickness > 0.0 ? 1.0 : 0.0;
@@ -84,15 +91,33 @@ void print_releases(const config::Site& site) {
   }
 }
 
-// Bytes of the snapshots; the other files are small beside them.
+// What maps take in memory, and what they would if the slide passed all of them.
+void print_maps(const sim::FlowMaps& maps) {
+  const sim::MapGrid& grid = maps.map_grid();
+  const double cells = static_cast<double>(grid.columns) * grid.rows;
+  fmt::print("  maps        {} x {} cells of {:g} x {:g} m; memory {:.1f} MB for the release, at most {:.1f} MB\n",
+             grid.columns, grid.rows, grid.cell_x, grid.cell_y, static_cast<double>(maps.bytes()) / 1e6,
+             cells * static_cast<double>(sim::FlowMaps::bytes_of_cell() + sizeof(double)) / 1e6);
+}
+
+// Bytes of the snapshots and of the maps, as if none of these could be compressed; the other files are small.
 template <int Dim>
-void print_disk(const sim::Simulation<Dim, double>& simulation) {
+void print_disk(const sim::Simulation<Dim, double>& simulation, const sim::FlowMaps* maps) {
   const config::Time& time = simulation.parameters().time;
   const double count = std::ceil(time.end / time.output_interval * (1.0 - 1e-12)) + 1.0;
   const auto bytes = static_cast<double>(
       io::snapshot_bytes(io::take_snapshot<Dim, double>(simulation.particles(), simulation.model().origin, 0.0, 0))
           .size());
-  fmt::print("  disk        about {:.0f} MB: {:.0f} snapshots of {:.1f} MB\n", count * bytes / 1e6, count, bytes / 1e6);
+  std::string of_maps;
+  double map_bytes = 0.0;
+  if (maps != nullptr && can_write_maps()) {
+    const auto kinds = static_cast<double>(sim::map_kinds().size());
+    const double one = static_cast<double>(maps->map_grid().columns) * maps->map_grid().rows * sizeof(double);
+    map_bytes = kinds * one;
+    of_maps = fmt::format(", {:.0f} maps of {:.1f} MB before they are compressed", kinds, one / 1e6);
+  }
+  fmt::print("  disk        {} {:.0f} MB: {:.0f} snapshots of {:.1f} MB{}\n", of_maps.empty() ? "about" : "at most",
+             (count * bytes + map_bytes) / 1e6, count, bytes / 1e6, of_maps);
 }
 
 double peak_memory_megabytes() {
@@ -108,8 +133,9 @@ int check_case(const CheckOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
-    const sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
-    const Json picture = options.picture.empty() ? Json() : setup_json<Dim>(simulation);
+    sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
+    records.start(simulation);
+    const Json setup = options.draws ? setup_json<Dim>(simulation) : Json();
     const auto limit = simulation.step_limit();
     const double dt = simulation.next_step(parameters.time.end);
     const double steps = std::ceil(parameters.time.end / dt * (1.0 - 1e-12));
@@ -128,12 +154,16 @@ int check_case(const CheckOptions& options) {
     fmt::print("  steps       {:.0f}\n", steps);
     const double seconds = measured_step_seconds<Dim>(simulation);
     fmt::print("  memory      {:.0f} MB\n", peak_memory_megabytes());
-    print_disk(simulation);
+    if (records.maps() != nullptr) {
+      print_maps(*records.maps());
+    }
+    print_disk(simulation, records.maps());
     fmt::print("  time        about {} on {} thread{} (measured on the first steps)\n", duration_text(seconds * steps),
                thread_count(), thread_count() == 1 ? "" : "s");
-    if (!options.picture.empty()) {
-      draw(picture, options.picture);
-      fmt::print("  picture     {}\n", options.picture);
+    if (options.draws) {
+      const std::string picture = options.picture.empty() ? picture_beside(parameters.file) : options.picture;
+      draw(setup, picture);
+      fmt::print("  picture     {}\n", picture);
     }
     return static_cast<int>(ExitCode::done);
   });

@@ -28,7 +28,8 @@ int resume_run(const ResumeOptions& options);
 struct CheckOptions {
   CaseOptions of_case;
   int threads = 0;
-  std::string picture;  // empty: none
+  bool draws = false;   // a picture
+  std::string picture;  // its file; empty: setup.png beside the case
 };
 int check_case(const CheckOptions& options);
 

@@ -1,5 +1,6 @@
 // The command line: what can be asked, and how it ends (exit codes in ARCHITECTURE.md).
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <exception>
 
@@ -26,14 +27,26 @@ void add_threads_option(CLI::App& command, int& threads) {
       ->check(CLI::Range(1, 1024));
 }
 
+// CLI11's own check prints the largest number that a computer knows.
+CLI::Validator above_zero() {
+  return {[](std::string& text) {
+            double number = 0.0;
+            const bool is_number = CLI::detail::lexical_cast(text, number);
+            return is_number && number > 0.0 && std::isfinite(number) ? std::string()
+                                                                      : fmt::format("{} found; allowed: above 0", text);
+          },
+          "above 0"};
+}
+
 // Returns the option of the release.
 CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
   command.add_option("--dem", maps.dem, "Terrain model, GeoTIFF or ESRI ASCII, in projected metres")->required();
-  CLI::Option* release = command.add_option("--release", maps.release, "Polygons: Shapefile, GeoPackage or GeoJSON");
+  CLI::Option* release = command.add_option("--release", maps.release,
+                                            "Polygons (Shapefile, GeoPackage, GeoJSON), or a raster of the thickness");
   command
       .add_option("--thickness", maps.thickness,
-                  "Vertical thickness of the release [m] (default: the polygons' attribute 'thickness')")
-      ->check(CLI::PositiveNumber)
+                  "Vertical thickness of the polygons [m] (default: their attribute 'thickness')")
+      ->check(above_zero())
       ->needs(release);
   auto* placement = command.add_option_group("placement");
   placement->add_flag("--cut", maps.cut, "Cut the release out of the DEM: the DEM is the surface before the slide")
@@ -85,10 +98,14 @@ int run_program(int count, char** arguments) {
   CLI::App* check = program.add_subcommand("check", "Validate a case and say what its run will take");
   add_case_options(*check, check_options.of_case);
   add_threads_option(*check, check_options.threads);
-  check->add_option("--picture", check_options.picture, "Draw terrain, grid, bodies and boundaries to a PNG file")
-      ->expected(0, 1)
-      ->default_str("setup.png");
-  check->callback([&] { exit_code = check_case(check_options); });
+  CLI::Option* picture = check->add_option(
+      "--picture", check_options.picture,
+      "Draw terrain, grid, bodies and boundaries to a PNG file (default: setup.png beside the case file)");
+  picture->expected(0, 1);
+  check->callback([&] {
+    check_options.draws = picture->count() > 0;
+    exit_code = check_case(check_options);
+  });
 
   BlockOptions block_options;
   CLI::App* block = program.add_subcommand("block", "Run a case as a rigid block: a look in a moment");
@@ -108,7 +125,7 @@ int run_program(int count, char** arguments) {
   make_new
       ->add_option("--largest-volume", new_options.maps.largest_volume,
                    "Confirms a release above the usual limit of body.slide.largest_volume [m3]")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   make_new->callback([&] { exit_code = make_new_case(new_options); });
 
   SectionOptions section_options;
@@ -117,7 +134,8 @@ int run_program(int count, char** arguments) {
   section->add_option("--line", section_options.line, "File with the line, downhill: Shapefile, GeoPackage or GeoJSON")
       ->required();
   add_map_options(*section, section_options.maps)
-      ->description("Polygons: Shapefile, GeoPackage or GeoJSON (default: none, the profile alone)");
+      ->description(
+          "Polygons (Shapefile, GeoPackage, GeoJSON), or a raster of the thickness (default: the profile alone)");
   section->callback([&] { exit_code = make_section(section_options); });
 
   DescribeOptions describe_options;

@@ -21,17 +21,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* dem_name = "dem.tif";
 constexpr double many_particles = 1e6;
 
 // The DEM as it is, cropped to the domain and some cells about it.
-void write_cropped_dem(const fs::path& folder, const Raster& ground, const config::Proposal& proposal) {
+void write_cropped_dem(const fs::path& file, const Raster& ground, const config::Proposal& proposal) {
   const double margin = 3.0 * proposal.cell;
   const gis::Rectangle about =
       gis::Rectangle{proposal.min[0], proposal.min[1], proposal.max[0], proposal.max[1]}.widened(
           margin + 2.0 * ground.cell_x, margin + 2.0 * ground.cell_y);
   const Raster cropped = gis::part_of(ground, gis::points_in(ground, about));
-  gis::write_geotiff((folder / dem_name).string(), cropped, {"m", "elevation"});
+  gis::write_geotiff(file.string(), cropped, {"m", "elevation"});
 }
 
 // As many cells along each axis as a case may have.
@@ -48,11 +47,12 @@ void require_resolvable(const config::Proposal& proposal) {
   }
 }
 
+// With the files that belong to it.
 void copy_release(const fs::path& folder, const config::Case& trial) {
-  for (const fs::path& file : config::input_files(trial)) {
-    if (file.stem() == fs::path(trial.bodies.at(body_name).release).stem()) {
-      fs::copy_file(file, folder / file.filename());
-    }
+  config::Case release_alone;
+  release_alone.bodies = trial.bodies;
+  for (const fs::path& file : config::input_files(release_alone)) {
+    fs::copy_file(file, folder / file.filename());
   }
 }
 
@@ -66,16 +66,21 @@ int make_new_case(const NewOptions& options) {
   require_resolvable(proposal);
   config::ProposalInput input;
   input.title = title_of(options.folder);
-  input.dem_file = dem_name;
-  input.release_file = fs::path(options.maps.release).filename().string();
+  const std::string release_name = fs::path(options.maps.release).filename().string();
+  input.dem_file = release_name == "dem.tif" ? "terrain.tif" : "dem.tif";
   input.thickness = trial.bodies.at(body_name).thickness;
+  if (input.thickness.from == config::MapValue::From::raster) {
+    input.thickness.source = release_name;
+  } else {
+    input.release_file = release_name;
+  }
   input.placement = options.maps.cut ? config::Placement::cut : config::Placement::on_top;
   input.reach_angle = options.reach_angle;
   input.largest_volume = options.maps.largest_volume;
 
   const fs::path folder = options.folder;
   make_new_folder(folder);
-  write_cropped_dem(folder, *site.ground, proposal);
+  write_cropped_dem(folder / input.dem_file, *site.ground, proposal);
   copy_release(folder, trial);
   io::write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
 

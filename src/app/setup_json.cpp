@@ -50,7 +50,7 @@ Json map_json(const sim::Simulation<3, double>& simulation) {
     const auto release = site.releases.find(name);
     if (release != site.releases.end()) {
       entry["outlines"] = release->second.outlines;
-      entry["volume_m3"] = sim::raster_volume(release->second.thickness);
+      entry["volume_m3"] = volume_of(release->second.thickness);
       entry["thickness"] = thinned(release->second.thickness);
     }
     json["bodies"].push_back(entry);

@@ -51,11 +51,26 @@ void print_table(const std::vector<sim::HistoryRow>& rows) {
 std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters) {
   const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters));
   std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site);
-  fmt::print(
-      "a section along maps.path, with the release's mean thickness across the path; fronts are distances along it\n");
+  fmt::print("a section along {}, with the release's mean thickness across the path; fronts are distances along it\n",
+             section.path_given ? "maps.path"
+                                : "the way of steepest descent from the release's centre, as maps.path is not given");
+  const auto first_beyond = [&](double end) {
+    return std::find_if(rows.begin(), rows.end(),
+                        [&](const sim::HistoryRow& row) { return value_of(row, "front_position_m") > end; });
+  };
+  if (section.pit) {
+    const auto beyond = first_beyond(section.pit->along);
+    fmt::print("note: that way ends in a pit after {:.6g} m, at x = {:.10g}, y = {:.10g}{}\n", section.pit->along,
+               section.pit->place[0], section.pit->place[1],
+               beyond == rows.end() ? ", which the front does not reach"
+                                    : fmt::format(". The front comes there at {:.4g} s, and the block stops here. Give "
+                                                  "maps.path, a line that goes on, to follow it further",
+                                                  value_of(*beyond, "time_s")));
+    rows.erase(beyond == rows.end() ? beyond : beyond + 1, rows.end());
+    return rows;
+  }
   const double end = section.site.profile.distance.back();
-  const auto beyond = std::find_if(rows.begin(), rows.end(),
-                                   [&](const sim::HistoryRow& row) { return value_of(row, "front_position_m") > end; });
+  const auto beyond = first_beyond(end);
   if (beyond != rows.end()) {
     fmt::print(
         "note: the path's ground is known for {:.6g} m; from {:.4g} s on, when the front leaves it, the ground goes on "

@@ -1,6 +1,7 @@
 // What heat starts from: the content at t = 0, and the scaling by the band that is in force.
 #include "band/heat.hpp"
 #include "base/instances.hpp"
+#include "base/parallel.hpp"
 
 namespace thawslide::band {
 
@@ -29,14 +30,23 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
     return by_place ? layer_thickness(particles.position.template get<Vector<Real, Dim - 1>>(p)) / thickness
                     : of_a_cell;
   };
-  Real added = 0;
-  for (const std::uint32_t p : grid.order()) {
-    const Real scaling = scaling_at(p);
-    const Real old = particles.thermal_scaling(p);
-    if (scaling != old) {
-      added += particles.initial_volume(p) * particles.heat_content(p) * (Real(1) / scaling - Real(1) / old);
-      particles.thermal_scaling(p) = scaling;
+  const auto rescale_tile = [&](std::size_t t, Real& added) {
+    for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      const Real scaling = scaling_at(p), old = particles.thermal_scaling(p);
+      if (scaling != old) {
+        added += particles.initial_volume(p) * particles.heat_content(p) * (Real(1) / scaling - Real(1) / old);
+        particles.thermal_scaling(p) = scaling;
+      }
     }
+  };
+  if (!by_place) {
+    return parallel_sum<Real>(grid.tiles().size(), rescale_tile);
+  }
+  // A thickness that depends on the place remembers what it worked out, one call at a time.
+  Real added = 0;
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    rescale_tile(t, added);
   }
   return added;
 }

@@ -1,7 +1,6 @@
 // Several numbers worked on at once: lane k of every quantity belongs to the k-th particle of a batch. A formula that
-// takes its numbers as a template parameter works for one number and for lanes alike; `select` stands in for a branch.
-//
-// g++ keeps an array of registers in registers only if it is never indexed by a variable: hence `unrolled`.
+// takes its numbers as a template parameter and uses the words of base/select.hpp works for one number and for lanes
+// alike. For the processor alone: nvcc does not take the vector types of g++.
 #pragma once
 
 #include <algorithm>
@@ -18,17 +17,9 @@
 
 #include "base/linear.hpp"
 #include "base/portability.hpp"
+#include "base/select.hpp"
 
 namespace thawslide {
-
-// body(k) for k = 0 .. Count-1, k being a constant.
-template <std::size_t Count, class Body>
-THAWSLIDE_ALWAYS_INLINE void unrolled(const Body& body) {
-  [&]<std::size_t... K>(std::index_sequence<K...>) THAWSLIDE_INLINE_LAMBDA {
-    (body(std::integral_constant<std::size_t, K>()), ...);
-  }
-  (std::make_index_sequence<Count>());
-}
 
 // Numbers of a real type side by side in one vector register, and what belongs to them.
 template <class Real, std::size_t Count>
@@ -212,26 +203,10 @@ THAWSLIDE_ALWAYS_INLINE LaneMask<Real> lanes_before(std::size_t count) {
   return Lanes<Real>::of([](std::size_t lane) { return lane; }) < Lanes<Real>(static_cast<Real>(count));
 }
 
-// The type of a number, or of one lane.
-template <class Value>
-struct NumberOf {
-  using Type = Value;
-};
 template <class Real>
 struct NumberOf<Lanes<Real>> {
   using Type = Real;
 };
-
-// The same words for one number.
-template <class Value>
-THAWSLIDE_ALWAYS_INLINE Value select(bool condition, const Value& a, const Value& b) {
-  return condition ? a : b;
-}
-template <class Real, class Function, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_ALWAYS_INLINE Real each_lane(Real number, const Function& function) {
-  return function(number);
-}
-THAWSLIDE_ALWAYS_INLINE bool any(bool condition) { return condition; }
 
 // Calls body(k) for the lanes k of a mask.
 template <class Real, class Body>
@@ -242,35 +217,15 @@ THAWSLIDE_ALWAYS_INLINE void for_each_lane(const LaneMask<Real>& mask, const Bod
     }
   }
 }
-template <class Body>
-THAWSLIDE_ALWAYS_INLINE void for_each_lane(bool condition, const Body& body) {
-  if (condition) {
-    body(std::size_t{0});
-  }
-}
 
 // The number in one lane.
 template <class Real>
 THAWSLIDE_ALWAYS_INLINE Real in_lane(const Lanes<Real>& lanes, std::size_t lane) {
   return lanes[lane];
 }
-template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_ALWAYS_INLINE Real in_lane(Real number, std::size_t /*lane*/) {
-  return number;
-}
 template <class Real>
 THAWSLIDE_ALWAYS_INLINE void set_lane(Lanes<Real>& lanes, std::size_t lane, Real number) {
   lanes = Lanes<Real>::of([&](std::size_t k) { return k == lane ? number : lanes[k]; });
-}
-template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_ALWAYS_INLINE void set_lane(Real& number, std::size_t /*lane*/, Real other) {
-  number = other;
-}
-
-// function(number), number by number and out of line: where that is the rare way.
-template <class Value, class Function>
-[[gnu::noinline, gnu::cold]] Value rarely(Value x, const Function& function) {
-  return each_lane(x, function);
 }
 
 // Lanes of `a` where bit Half of the lane is 0 and of `b` moved up by Half elsewhere; the rest of both likewise.

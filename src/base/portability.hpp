@@ -30,7 +30,7 @@ inline void prefetch(const void* place, std::size_t bytes_on) {
 
 // A tolerance in either precision.
 template <class Real>
-constexpr Real by_precision(double in_double, double in_single) {
+THAWSLIDE_HD constexpr Real by_precision(double in_double, double in_single) {
   return static_cast<Real>(sizeof(Real) == sizeof(double) ? in_double : in_single);
 }
 

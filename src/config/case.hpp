@@ -137,14 +137,21 @@ struct Body {
   MapValue thickness;
   ThicknessAlong thickness_along = ThicknessAlong::vertical;
   Placement placement = Placement::on_top;
-  double taper = 0.0;           // m, width over which the thickness falls to 0 at the edge
-  double largest_volume = 2e8;  // m3; more must be confirmed by a larger value
+  double taper = 0.0;               // m, width over which the thickness falls to 0 at the edge
+  double surface_tolerance = 0.01;  // m, of a thickness between two surfaces: what counts as none
+  double largest_volume = 2e8;      // m3; more must be confirmed by a larger value
 };
 
 struct Frame {
   Point min{}, max{};   // box at t = 0; moves with its velocity
   std::string axis;     // x, y or z: the component it prescribes
   double velocity = 0;  // m/s
+};
+
+struct Initial {
+  double noise =
+      0.0;       // largest displacement of a particle from its regular place, as a share of the particles' distance
+  int seed = 0;  // of the displacements
 };
 
 struct Mechanics {
@@ -248,6 +255,7 @@ struct Case {
   std::map<std::string, Material> materials;
   std::map<std::string, Body> bodies;
   std::map<std::string, Frame> frames;
+  Initial initial;
   Mechanics mechanics;
   Basal basal;
   Mechanisms mechanisms;

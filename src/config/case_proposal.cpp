@@ -142,8 +142,11 @@ void propose_times(Proposal& proposal, double farthest) {
 namespace {
 
 std::string thickness_text(const MapValue& thickness) {
-  return thickness.from == MapValue::From::attribute ? fmt::format("{{ attribute = \"{}\" }}", thickness.source)
-                                                     : number_text(thickness.number);
+  if (thickness.from == MapValue::From::number) {
+    return number_text(thickness.number);
+  }
+  const char* const kind = thickness.from == MapValue::From::attribute ? "attribute" : "raster";
+  return fmt::format("{{ {} = \"{}\" }}", kind, thickness.source);
 }
 
 std::string point_text(const Point& point) {
@@ -177,8 +180,7 @@ file = "{dem}"
 [body.slide]
 material = "rock_ice"
 shape = "release"
-release = "{release}"
-thickness = {given}  # m
+{release}thickness = {given}  # m
 thickness_along = "vertical"  # "normal": across the slope
 placement = "{placement}"  # {placement_text}
 {confirmed}{state}
@@ -194,7 +196,9 @@ arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
                                 : std::string()),
       fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()),
       fmt::arg("min", point_text(proposal.min)), fmt::arg("max", point_text(proposal.max)),
-      fmt::arg("dem", input.dem_file), fmt::arg("release", input.release_file),
+      fmt::arg("dem", input.dem_file),
+      fmt::arg("release",
+               input.release_file.empty() ? std::string() : fmt::format("release = \"{}\"\n", input.release_file)),
       fmt::arg("given", thickness_text(input.thickness)), fmt::arg("placement", is_cut ? "cut" : "on_top"),
       fmt::arg("placement_text", is_cut ? "out of the DEM, which is the surface before the slide; \"on_top\": onto it"
                                         : "the DEM is what it slides on; \"cut\": out of the DEM"));

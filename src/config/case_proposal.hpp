@@ -12,7 +12,7 @@ namespace thawslide::config {
 // What a user gives, and what a look at the files shows.
 struct ProposalInput {
   std::string title;
-  std::string dem_file, release_file;  // as the case is to name them
+  std::string dem_file, release_file;  // as the case is to name them; no release_file where a raster gives the release
   MapValue thickness;
   Placement placement = Placement::on_top;
   double reach_angle = 8.0;     // degrees: how far the slide is given room to run

@@ -1,4 +1,6 @@
-// The parameters of bodies and frames: [body.NAME], [frame.NAME].
+// The parameters of bodies, frames and where particles stand at t = 0: [body.NAME], [frame.NAME], [initial].
+#include <limits>
+
 #include "config/table_declaration.hpp"
 #include "physics/mixture.hpp"
 
@@ -68,6 +70,16 @@ std::vector<Parameter<Body>> release_parameters() {
                                .range = at_least(0),
                                .text = "width along the edge over which the thickness falls to 0"})
           .only_if(when_release, "shape", is_release),
+      parameter(&Body::surface_tolerance,
+                {.key = "surface_tolerance",
+                 .unit = "m",
+                 .range = at_least(0),
+                 .text = "noise of the surface before the slide and the DEM: a difference up to it counts as none, and "
+                         "within polygons the surface may lie so far below the DEM"})
+          .only_if("when the shape is \"release\" and thickness is a surface", "thickness",
+                   [](const Case&, const Body& body) {
+                     return body.shape == BodyShape::release && body.thickness.from == MapValue::From::surface;
+                   }),
       parameter(&Body::largest_volume,
                 {.key = "largest_volume",
                  .unit = "m3",
@@ -135,6 +147,23 @@ std::vector<Parameter<Frame>> frame_parameters() {
   };
 }
 
+std::vector<Parameter<Initial>> initial_parameters() {
+  return {
+      parameter(&Initial::noise,
+                {.key = "noise",
+                 .range = {.low = 0, .high = 0.5, .high_open = true},
+                 .text = "largest displacement at random of a particle from its regular place, either way along each "
+                         "axis, as a share of the distance of particles; one that would leave its body keeps its "
+                         "place; 0: none"}),
+      parameter(&Initial::seed,
+                {.key = "seed",
+                 .range = between(0, static_cast<double>(std::numeric_limits<int>::max())),
+                 .text = "number from which the displacements follow: another one, other displacements"})
+          .only_if("when initial.noise is above 0", "noise",
+                   [](const Case&, const Initial& initial) { return initial.noise > 0.0; }),
+  };
+}
+
 }  // namespace
 
 void declare_bodies(Tables& tables) {
@@ -142,6 +171,8 @@ void declare_bodies(Tables& tables) {
                                                       &Case::bodies, body_parameters()));
   tables.push_back(std::make_unique<NamedTable<Frame>>("frame", "A rigid box that prescribes one velocity component",
                                                        &Case::frames, frame_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Initial>>("initial", "Where particles stand at t = 0", &Case::initial,
+                                                          initial_parameters()));
 }
 
 }  // namespace thawslide::config

@@ -21,6 +21,10 @@ struct Release {
   double area = 0.0;  // horizontal, of the outlines [m2]
   std::vector<Polyline2> outlines;       // closed rings, for pictures; empty where a raster gives the release
   std::map<std::string, Raster> fields;  // by key of the body: "temperature", "porosity", ... where a map gives it
+  // Of a body that touches another one, else empty. A place belongs to the body within whose outline it lies, beyond
+  // all outlines to the one with the largest claim.
+  Raster standing;  // vertical thickness [m] in the body's own part, without an edge towards the others
+  Raster claim;  // share of each point's cell that the outline covers; beyond all outlines, that its taper spreads to
 };
 
 struct Site {

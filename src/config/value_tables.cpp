@@ -166,7 +166,7 @@ bool Value<InitialField>::read(const toml::node& node, const ValueReader& at, In
   InitialField found;
   const toml::table* table = node.as_table();
   const std::string map = table == nullptr ? "" : only_key(*table, {"attribute", "raster"});
-  if (!map.empty()) {
+  if (table != nullptr && !map.empty()) {
     found.over = map == "raster" ? InitialField::Over::raster : InitialField::Over::attribute;
     if (!read_source(*table, map, at, found.source)) {
       return false;

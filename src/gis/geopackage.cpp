@@ -1,5 +1,6 @@
 #include "gis/geopackage.hpp"
 
+#include <cpl_conv.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
@@ -123,6 +124,8 @@ bool write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
 }  // namespace
 
 void write_geopackage(const std::string& file, const std::vector<MapLayer>& layers, const std::string& crs) {
+  // The date of the last change, which the format wants, would make files of equal content differ.
+  const CPLConfigOptionSetter no_date("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false);
   WholeFile whole(file);
   const GdalMessages messages;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");

@@ -155,4 +155,10 @@ Raster RasterFile::read(const std::optional<Rectangle>& window) const {
   return raster;
 }
 
+bool is_raster_file(const std::string& file) {
+  const GdalMessages messages;
+  const auto is = [&](unsigned kind) { return GDALIdentifyDriverEx(file.c_str(), kind, nullptr, nullptr) != nullptr; };
+  return is(GDAL_OF_RASTER) && !is(GDAL_OF_VECTOR);
+}
+
 }  // namespace thawslide::gis

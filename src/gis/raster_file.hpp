@@ -56,4 +56,7 @@ struct BandText {
 void write_geotiff(const std::string& file, const Raster& raster, const BandText& text,
                    Precision precision = Precision::float64);
 
+// Whether GDAL takes the file for a raster, and not for polygons, lines or points too.
+[[nodiscard]] bool is_raster_file(const std::string& file);
+
 }  // namespace thawslide::gis

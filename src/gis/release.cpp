@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "base/raster_sampling.hpp"
+#include "gis/geopackage.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
 #include "gis/release_fields.hpp"
 #include "gis/release_thickness.hpp"
+#include "gis/taper.hpp"
 #include "gis/told_at.hpp"
 
 namespace thawslide::gis {
@@ -42,69 +44,40 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   const double most = *std::max_element(thickness.values.begin(), thickness.values.end());
   if (!(volume > 0.0)) {
     fail_at(parameters, key_of(name, "thickness"),
-            "the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.");
+            fmt::format("{}: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.",
+                        file_of_place(parameters, name)));
   }
   const double largest = parameters.bodies.at(name).largest_volume;
   if (volume > largest) {
-    fail_at(
-        parameters, key_of_place(parameters, name),
-        fmt::format("the release has {:.4g} m3, up to {:.4g} m thick, and body.{}.largest_volume allows {:g} m3. Is "
-                    "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
-                    "larger body.{}.largest_volume.",
-                    volume, most, name, largest, name));
+    fail_at(parameters, key_of_place(parameters, name),
+            fmt::format(
+                "{}: the release has {:.4g} m3, up to {:.4g} m thick, and body.{}.largest_volume allows {:g} m3. Is "
+                "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+                "larger body.{}.largest_volume.",
+                file_of_place(parameters, name), volume, most, name, largest, name));
   }
 }
 
 }  // namespace
 
-config::Release load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
-                             std::vector<std::string>& notes) {
-  const ReleaseArea area = load_release_area(parameters, body, ground, notes);
+LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
+                           std::vector<std::string>& notes) {
+  ReleaseArea area = load_release_area(parameters, body, ground, notes);
   const Raster thickness = vertical_thickness_of(parameters, body, area, ground.raster, notes);
   check_volume(parameters, body, thickness);
-  config::Release release;
+  LoadedRelease loaded;
+  config::Release& release = loaded.release;
   release.thickness = cropped(thickness, ground.raster);
   release.fields = fields_of(parameters, body, area, release.thickness, notes);
-  if (area.is_raster()) {
-    const double covered = std::accumulate(area.share.values.begin(), area.share.values.end(), 0.0);
-    release.area = covered * area.share.cell_x * area.share.cell_y;
-  }
   for (const Polygon& polygon : area.polygons) {
     release.outlines.push_back(polygon.outline);
     release.outlines.insert(release.outlines.end(), polygon.holes.begin(), polygon.holes.end());
   }
-  if (!area.is_raster()) {
-    release.area = area_of(area.polygons);
-  }
-  return release;
-}
-
-void check_overlaps(const config::Case& parameters, const std::map<std::string, config::Release>& releases) {
-  for (auto second = releases.begin(); second != releases.end(); ++second) {
-    for (auto first = releases.begin(); first != second; ++first) {
-      const Raster& one = first->second.thickness;
-      const Raster& other = second->second.thickness;
-      const PointWindow shared = points_of(one, other);
-      int count = 0;
-      std::string place;
-      for (int row = shared.first_row; row < shared.first_row + shared.rows; ++row) {
-        for (int column = shared.first_column; column < shared.first_column + shared.columns; ++column) {
-          const auto column_of_one = static_cast<int>(std::lround((other.x_of(column) - one.x) / one.cell_x));
-          const auto row_of_one = static_cast<int>(std::lround((other.y_of(row) - one.y) / one.cell_y));
-          if (other.at(column, row) > 0.0 && one.at(column_of_one, row_of_one) > 0.0 && count++ == 0) {
-            place = fmt::format("{:.10g}, {:.10g}", other.x_of(column), other.y_of(row));
-          }
-        }
-      }
-      if (count > 0) {
-        fail_at(
-            parameters, key_of_place(parameters, second->first),
-            fmt::format("the bodies '{}' and '{}' both have a thickness at {} points of the ground, such as {}. Draw "
-                        "their outlines apart, with a cell of the terrain model and their tapers between them.",
-                        first->first, second->first, count, place));
-      }
-    }
-  }
+  loaded.polygons = area.is_raster() ? areas_of_mask(area.share) : std::move(area.polygons);
+  release.area = area_of(loaded.polygons);
+  loaded.spread = tapered(area.share, parameters.bodies.at(body).taper);
+  loaded.share = std::move(area.share);
+  return loaded;
 }
 
 }  // namespace thawslide::gis

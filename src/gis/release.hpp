@@ -7,14 +7,20 @@
 #include "config/case.hpp"
 #include "config/site.hpp"
 #include "gis/dem.hpp"
+#include "gis/polygons.hpp"
 
 namespace thawslide::gis {
 
-// `ground` as the terrain model has it, before anything is cut out of it. Adds to the notes.
-[[nodiscard]] config::Release load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
-                                           std::vector<std::string>& notes);
+// A release, and where it lies.
+struct LoadedRelease {
+  config::Release release;
+  Polygons polygons;  // the area it covers; of a raster the cells about its points
+  Raster share;       // of each point's cell that it covers
+  Raster spread;      // the same, handed to the points about it by the taper as the thickness is
+};
 
-// Throws UserError where two releases have a thickness at the same point.
-void check_overlaps(const config::Case& parameters, const std::map<std::string, config::Release>& releases);
+// `ground` as the terrain model has it, before anything is cut out of it. Adds to the notes.
+[[nodiscard]] LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
+                                         std::vector<std::string>& notes);
 
 }  // namespace thawslide::gis

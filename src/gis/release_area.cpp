@@ -50,7 +50,8 @@ void check_place(const config::Case& parameters, const std::string& body, const 
   check("the domain", domain_of(parameters), "Widen grid.min and grid.max.");
 }
 
-Rectangle extent_of_positive(const std::string& file, const Raster& source, const std::string& crs) {
+Rectangle extent_of_positive(const config::Body& body, const Raster& source, const std::string& crs) {
+  const std::string& file = body.thickness.source;
   std::vector<double> x, y;
   for (int row = 0; row < source.rows; ++row) {
     for (int column = 0; column < source.columns; ++column) {
@@ -61,7 +62,13 @@ Rectangle extent_of_positive(const std::string& file, const Raster& source, cons
     }
   }
   if (x.empty()) {
-    throw UserError(fmt::format("{}: the thickness is nowhere above 0: there is no release.", file));
+    if (body.thickness.from == config::MapValue::From::raster) {
+      throw UserError(fmt::format("{}: the thickness is nowhere above 0: there is no release.", file));
+    }
+    throw UserError(
+        fmt::format("{}: the surface before the slide lies nowhere more than {:g} m above the terrain model: there is "
+                    "no release. Are the two files swapped?",
+                    file, body.surface_tolerance));
   }
   if (!Reprojection(source.crs, crs).apply(x, y)) {
     throw UserError(
@@ -85,11 +92,10 @@ Raster thickness_without_polygons(const config::Case& parameters, const std::str
   if (thickness.from == config::MapValue::From::raster) {
     return map;
   }
-  constexpr double rounding = 0.01;  // m, of elevations in files
   Raster above = sampled(map, ground.raster, Missing::nothing);
   for (std::size_t k = 0; k < above.values.size(); ++k) {
     const double difference = above.values[k] - ground.raster.values[k];
-    above.values[k] = difference > rounding ? difference : 0.0;
+    above.values[k] = difference > parameters.bodies.at(name).surface_tolerance ? difference : 0.0;
   }
   return above;
 }
@@ -100,8 +106,8 @@ ReleaseArea area_of_raster(const config::Case& parameters, const std::string& na
   const std::string key = key_of_place(parameters, name);
   ReleaseArea area;
   area.source = thickness_without_polygons(parameters, name, ground, notes);
-  const Rectangle extent = told_at(
-      parameters, key, [&] { return extent_of_positive(body.thickness.source, area.source, ground.raster.crs); });
+  const Rectangle extent =
+      told_at(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
   check_place(parameters, name, extent.widened(0.5 * body.taper, 0.5 * body.taper), ground);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
   area.share = told_at(parameters, key, [&] {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/nearest_known.hpp"
 #include "gis/coverage.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
@@ -89,7 +90,7 @@ std::map<std::string, Raster> fields_of(const config::Case& parameters, const st
           made.values[k] = std::numeric_limits<double>::quiet_NaN();
         }
       }
-      fill_from_nearest(made);
+      fill_from_nearest_known(made);
       return part_of(made, points_of(thickness, made));
     });
   }

@@ -1,7 +1,6 @@
 #include "gis/release_thickness.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "gis/coverage.hpp"
 #include "gis/map_raster.hpp"
@@ -189,15 +188,15 @@ class ThicknessMaker {
       if (!has_ground(column, row, i, j)) {
         return;
       }
-      constexpr double rounding = 0.01;  // m, of elevations in files
       const double difference = above - ground_.at(i, j);
-      if (difference < -rounding) {
+      if (difference < -body_.surface_tolerance) {
         told(fmt::format(
-            "the surface before the slide lies {:.4g} m below the terrain model; allowed: above it. Are the "
-            "two files swapped? Else draw the release smaller.",
-            -difference));
+            "the surface before the slide lies {:.4g} m below the terrain model; allowed: above it, or below "
+            "by up to {:g} m. Are the two files swapped? Else draw the release smaller, or set "
+            "body.{}.surface_tolerance to the noise of the two.",
+            -difference, body_.surface_tolerance, name_));
       }
-      value *= std::max(difference, 0.0);
+      value *= difference > body_.surface_tolerance ? difference : 0.0;
     });
     return thickness;
   }
@@ -232,10 +231,6 @@ class ThicknessMaker {
 };
 
 }  // namespace
-
-double volume_of(const Raster& thickness) {
-  return std::accumulate(thickness.values.begin(), thickness.values.end(), 0.0) * thickness.cell_x * thickness.cell_y;
-}
 
 Raster vertical_thickness_of(const config::Case& parameters, const std::string& body, const ReleaseArea& area,
                              const Raster& ground, std::vector<std::string>& notes) {

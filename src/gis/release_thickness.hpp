@@ -8,8 +8,6 @@
 
 namespace thawslide::gis {
 
-[[nodiscard]] double volume_of(const Raster& thickness);  // [m3], no point without data
-
 // [m], at the points of the area's share, with its taper. Throws UserError where it is missing or negative. Adds to the
 // notes.
 [[nodiscard]] Raster vertical_thickness_of(const config::Case& parameters, const std::string& body,

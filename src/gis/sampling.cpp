@@ -1,47 +1,12 @@
 #include "gis/sampling.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <deque>
-#include <limits>
 
 #include "base/error.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
 
 namespace thawslide::gis {
-
-namespace {
-
-constexpr double no_data = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
-double bilinear(const Raster& raster, double x, double y, Missing missing) {
-  const double beyond = missing == Missing::zero ? 0.0 : no_data;
-  constexpr double rounding = 1e-9;  // cells
-  const double place_x = (x - raster.x) / raster.cell_x, place_y = (y - raster.y) / raster.cell_y;
-  if (!(place_x >= -rounding && place_x <= raster.columns - 1 + rounding && place_y >= -rounding &&
-        place_y <= raster.rows - 1 + rounding)) {
-    return beyond;
-  }
-  const int column = std::clamp(static_cast<int>(std::floor(place_x)), 0, std::max(raster.columns - 2, 0));
-  const int row = std::clamp(static_cast<int>(std::floor(place_y)), 0, std::max(raster.rows - 2, 0));
-  const double s = std::clamp(place_x - column, 0.0, 1.0), t = std::clamp(place_y - row, 0.0, 1.0);
-  double value = 0.0, weight = 0.0;
-  const auto add = [&](int i, int j, double share) {
-    const double one = share > rounding ? raster.at(i, j) : no_data;
-    if (!std::isnan(one)) {
-      value += share * one;
-      weight += share;
-    }
-  };
-  add(column, row, (1.0 - s) * (1.0 - t));
-  add(column + 1, row, s * (1.0 - t));
-  add(column, row + 1, (1.0 - s) * t);
-  add(column + 1, row + 1, s * t);
-  return weight == 0.0 ? beyond : missing == Missing::zero ? value : value / weight;
-}
 
 Gradient gradient_at(const Raster& raster, int column, int row) {
   const double here = raster.at(column, row);
@@ -81,28 +46,6 @@ Raster sampled(const Raster& raster, const Raster& layout, Missing missing) {
     }
   }
   return result;
-}
-
-void fill_from_nearest(Raster& raster) {
-  std::deque<std::pair<int, int>> front;
-  for (int row = 0; row < raster.rows; ++row) {
-    for (int column = 0; column < raster.columns; ++column) {
-      if (!std::isnan(raster.at(column, row))) {
-        front.emplace_back(column, row);
-      }
-    }
-  }
-  while (!front.empty()) {
-    const auto [column, row] = front.front();
-    front.pop_front();
-    for (const auto& [i, j] : {std::pair{column - 1, row}, std::pair{column + 1, row}, std::pair{column, row - 1},
-                               std::pair{column, row + 1}}) {
-      if (i >= 0 && j >= 0 && i < raster.columns && j < raster.rows && std::isnan(raster.at(i, j))) {
-        raster.values[raster.index(i, j)] = raster.at(column, row);
-        front.emplace_back(i, j);
-      }
-    }
-  }
 }
 
 }  // namespace thawslide::gis

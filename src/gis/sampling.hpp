@@ -1,17 +1,9 @@
-// Values of rasters between their points, and at those of another one.
+// Rasters at the points of another one, and their gradients.
 #pragma once
 
-#include "base/raster.hpp"
+#include "base/raster_sampling.hpp"
 
 namespace thawslide::gis {
-
-// What a point without data stands for.
-enum class Missing { nothing, zero };
-
-// Bilinear interpolation between the four points about x, y. Points without data count as 0 (zero), or not at all
-// (nothing: the weights of the others are enlarged). NaN beyond the outermost points and where no point has data; 0
-// there with Missing::zero.
-[[nodiscard]] double bilinear(const Raster& raster, double x, double y, Missing missing);
 
 // dz/dx and dz/dy at a point by central differences; one-sided where a neighbour has no data; 0 where both have none.
 struct Gradient {
@@ -21,8 +13,5 @@ struct Gradient {
 
 // A raster of any reference system at the points of a layout.
 [[nodiscard]] Raster sampled(const Raster& raster, const Raster& layout, Missing missing);
-
-// Points without data get the value of the nearest one that has data, counted in steps along rows and columns.
-void fill_from_nearest(Raster& raster);
 
 }  // namespace thawslide::gis

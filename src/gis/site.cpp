@@ -9,6 +9,7 @@
 #include "gis/reference_system.hpp"
 #include "gis/release.hpp"
 #include "gis/told_at.hpp"
+#include "gis/touching.hpp"
 #include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
@@ -88,6 +89,7 @@ SiteAndNotes load_site(const config::Case& parameters) {
     site.crs = dem.raster.crs;
     site.crs_name = name_of(site.crs);
   }
+  std::map<std::string, LoadedRelease> releases;
   for (const auto& [name, body] : parameters.bodies) {
     if (body.shape != config::BodyShape::release) {
       continue;
@@ -96,9 +98,13 @@ SiteAndNotes load_site(const config::Case& parameters) {
       fail_at(parameters, fmt::format("body.{}.shape", name),
               "a release lies on a terrain model. Set terrain.type = \"dem\" and terrain.file.");
     }
-    site.releases[name] = load_release(parameters, name, dem, loaded.notes);
+    releases[name] = load_release(parameters, name, dem, loaded.notes);
   }
-  check_overlaps(parameters, site.releases);
+  check_overlaps(parameters, releases);
+  join_touching(parameters, releases);
+  for (auto& [name, release] : releases) {
+    site.releases[name] = std::move(release.release);
+  }
   if (!dem.raster.empty()) {
     site.ground = std::make_shared<const Raster>(less_what_is_cut(parameters, site.releases, std::move(dem.raster)));
   }

@@ -13,6 +13,7 @@
 #include "gis/gdal_messages.hpp"
 #include "gis/geometry.hpp"
 #include "gis/polygon_checks.hpp"
+#include "gis/raster_file.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
 
@@ -47,7 +48,7 @@ bool holds(OGRwkbGeometryType type, Kind kind) {
   }
 }
 
-GDALDatasetUniquePtr open_vector(const std::string& file) {
+GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
   const GdalMessages messages;
   GDALDatasetUniquePtr dataset(
       GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
@@ -55,6 +56,13 @@ GDALDatasetUniquePtr open_vector(const std::string& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {
       throw UserError(fmt::format("{}: there is no such file. Correct the path.", file));
+    }
+    if (is_raster_file(file)) {
+      throw UserError(fmt::format(
+          "{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage or GeoJSON.{}", file, word_of(kind),
+          kind == Kind::polygons ? " A raster of a body's thickness goes to thickness = { raster "
+                                   "= \"FILE\" }, which needs no polygons."
+                                 : ""));
     }
     throw UserError(fmt::format(
         "{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf beside it), GeoPackage "
@@ -98,16 +106,18 @@ OGRLayer& layer_with(const std::string& file, GDALDataset& dataset, Kind kind) {
                     file, fitting.size(), word_of(kind), config::list_words(fitting)));
   }
   if (features == 0 || chosen != nullptr) {
-    throw UserError(fmt::format("{}: the layer is empty; needed: {}.", file, word_of(kind)));
+    throw UserError(fmt::format("{}: the layer is empty; needed: {}. Draw them, or name the file that has them.", file,
+                                word_of(kind)));
   }
-  throw UserError(fmt::format("{}: the file has no {}, but {}.", file, word_of(kind), config::list_words(all)));
+  throw UserError(fmt::format("{}: the file has no {}, but {}. Name the file that has them.", file, word_of(kind),
+                              config::list_words(all)));
 }
 
 class LayerReader {
  public:
   LayerReader(const std::string& file, const std::string& crs, Kind kind) : kind_(kind) {
     result_.file = file;
-    dataset_ = open_vector(file);
+    dataset_ = open_vector(file, kind);
     layer_ = &layer_with(file, *dataset_, kind);
     choose_reprojection(crs);
   }
@@ -118,15 +128,19 @@ class LayerReader {
     for (int k = 0; k < definition.GetFieldCount(); ++k) {
       result_.attributes.emplace_back(definition.GetFieldDefn(k)->GetNameRef());
     }
+    const auto require_whole = [&] {
+      if (messages.any_error()) {
+        throw UserError(
+            fmt::format("{}: the features cannot be read{}. The file seems to be damaged or cut off: copy it "
+                        "anew.",
+                        result_.file, messages.remark()));
+      }
+    };
     for (const auto& feature : *layer_) {
+      require_whole();
       take(*feature);
     }
-    if (messages.any_error()) {
-      throw UserError(
-          fmt::format("{}: the features cannot be read{}. The file seems to be damaged or cut off: copy it "
-                      "anew.",
-                      result_.file, messages.remark()));
-    }
+    require_whole();
     if (kind_ == Kind::polygons) {
       check_polygons(result_);
     }
@@ -273,9 +287,10 @@ std::string attribute_named(const VectorLayer& layer, const std::string& name, c
       return attribute;
     }
   }
+  const std::string hint = config::did_you_mean(name, layer.attributes);
   throw UserError(fmt::format("{}: there is no attribute '{}', which {} asks for; the file has: {}{}", layer.file, name,
                               key, layer.attributes.empty() ? "none" : config::list_words(layer.attributes),
-                              config::did_you_mean(name, layer.attributes)));
+                              hint.empty() ? ". Correct the name, or add the attribute." : hint));
 }
 
 std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<std::string>& names,

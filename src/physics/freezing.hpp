@@ -6,11 +6,10 @@
 // list of curves (band/model.hpp).
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
-#include "base/lanes.hpp"
 #include "base/portability.hpp"
+#include "base/select.hpp"
 
 namespace thawslide::physics {
 
@@ -61,7 +60,6 @@ struct PowerLawCurve {
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CurveValues<Value> at(Value temperature) const {
-    using std::max, std::min;
     const Value above = temperature - reference_temperature;
     const Value base = Real(1) - min(above, Value(0));
     const Value inverse = Real(1) / base;
@@ -73,7 +71,6 @@ struct PowerLawCurve {
   }
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value saturation(Value temperature) const {
-    using std::min;
     return Real(1) / power(Real(1) - min(temperature - reference_temperature, Value(0)), exponent, whole);
   }
   // The temperature [C] at which the saturation is S, 0 < S <= 1: the lowest where S = 1.

@@ -4,7 +4,6 @@
 // L_f is per kilogram (Table 1 prints J/m3). H rises strictly with T and is convex below Tref, linear above.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "physics/freezing.hpp"
@@ -55,7 +54,7 @@ struct HeatContent {
   // where convexity makes it converge from any start.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD Value temperature(Value heat, Value porosity, Value guess) const {
-    using std::abs, std::min;
+    using std::abs;
     const Value frozen = frozen_capacity(porosity);
     const Value rise = capacity_rise(porosity);
     const Value melting = melting_heat(porosity);

@@ -7,11 +7,10 @@
 // Intrinsic densities stay at their reference: Eq. 3 acts only through the expansion coefficients and K_L.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
-#include "base/lanes.hpp"
 #include "base/portability.hpp"
+#include "base/select.hpp"
 
 namespace thawslide::physics {
 
@@ -115,7 +114,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value log_of_ratio(Value a, Value b) {
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value updated_porosity(const Phases<Real>& phases, Value porosity,
                                                             Value volume_strain, Value temperature_change) {
-  using std::max, std::min;
   const Value exponent = phases.rock_expansion * temperature_change - volume_strain;
   const Value updated = porosity - (Real(1) - porosity) * exponential_minus_one(exponent);
   return max(min(updated, Value(largest_porosity<Real>)), Value(smallest_porosity<Real>));

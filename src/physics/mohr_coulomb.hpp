@@ -9,13 +9,12 @@
 // dilation the flow cannot reach it, and, as in Clausen et al., the stress is put there.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
 
-#include "base/lanes.hpp"
 #include "base/portability.hpp"
+#include "base/select.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/principal.hpp"
 
@@ -66,10 +65,11 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
       law.normal_[i] = normal(i, law.ratio_);
     }
     for (int s = 0; s < set_count; ++s) {
+      const ActiveSet& set = active_set(s);
       Matrix<Real, 3> coupling = Matrix<Real, 3>::Identity();
-      for (int a = 0; a < sets[s].count; ++a) {
-        for (int b = 0; b < sets[s].count; ++b) {
-          coupling(a, b) = law.normal_[sets[s].plane[a]].dot(law.relaxation_[sets[s].plane[b]]);
+      for (int a = 0; a < set.count; ++a) {
+        for (int b = 0; b < set.count; ++b) {
+          coupling(a, b) = law.normal_[set.plane[a]].dot(law.relaxation_[set.plane[b]]);
         }
       }
       law.inverse_coupling_[s] = coupling.inverse();
@@ -94,11 +94,10 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   template <int Dim, class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto may_yield(const SymmetricTensor<Value>& trial,
                                                                     Value plastic_strain) const {
-    using std::max, std::min, std::sqrt;
+    using std::sqrt;
     // exp(-eps) is nowhere below 1 - eps.
-    const Value lowest_cohesion =
-        std::min(cohesion_, residual_cohesion_) +
-        std::max(cohesion_ - residual_cohesion_, Real(0)) * max(Real(1) - plastic_strain, Value(0));
+    const Value lowest_cohesion = min(cohesion_, residual_cohesion_) + max(cohesion_ - residual_cohesion_, Real(0)) *
+                                                                           max(Real(1) - plastic_strain, Value(0));
     const Value shear_limit = Real(2) * root_of_ratio_ * lowest_cohesion;
     if constexpr (Dim == 2) {
       const Value centre = Real(0.5) * (trial[0] + trial[1]), half_difference = Real(0.5) * (trial[0] - trial[1]);
@@ -113,7 +112,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   template <int Dim = 3, class Value>
   [[nodiscard]] THAWSLIDE_HD ReturnResult<Value> update(const SymmetricTensor<Value>& trial,
                                                         Value plastic_strain) const {
-    using std::abs, std::max, std::sqrt;
+    using std::abs, std::sqrt;
     const Value shear_limit = Real(2) * root_of_ratio_ * cohesion(plastic_strain);
     if (!any(!surely_elastic(trial, shear_limit))) {
       return {trial};
@@ -153,9 +152,13 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   };
   // Face, cut-off face, edges, corners: from the likely to the rare.
   static constexpr int set_count = 12;
-  static constexpr ActiveSet sets[set_count] = {{1, {0, 0, 0}}, {1, {3, 0, 0}}, {2, {0, 1, 0}}, {2, {0, 2, 0}},
-                                                {2, {0, 3, 0}}, {2, {3, 4, 0}}, {3, {3, 4, 5}}, {3, {0, 1, 3}},
-                                                {3, {0, 3, 4}}, {3, {0, 2, 3}}, {3, {2, 3, 4}}, {3, {0, 2, 4}}};
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static const ActiveSet& active_set(int number) {
+    // A static array of the class would not exist on a device.
+    static constexpr ActiveSet sets[set_count] = {{1, {0, 0, 0}}, {1, {3, 0, 0}}, {2, {0, 1, 0}}, {2, {0, 2, 0}},
+                                                  {2, {0, 3, 0}}, {2, {3, 4, 0}}, {3, {3, 4, 5}}, {3, {0, 1, 3}},
+                                                  {3, {0, 3, 4}}, {3, {0, 2, 3}}, {3, {2, 3, 4}}, {3, {0, 2, 4}}};
+    return sets[number];
+  }
 
   // Of the largest and the smallest principal stress, or of bounds on them.
   template <class Value>
@@ -229,7 +232,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     limits << Vector<Real, 3>::Constant(shear_limit), Vector<Real, 3>::Constant(tension_cutoff_);
     const int with_cutoff = std::isfinite(tension_cutoff_) ? planes : 3;
     for (int s = 0; s < set_count; ++s) {
-      const ActiveSet& set = sets[s];
+      const ActiveSet& set = active_set(s);
       Vector<Real, 3> values = trial;
       if (set.plane[set.count - 1] < with_cutoff && relax(s, limits, values) && admissible(values, limits, tolerance)) {
         torn = set.plane[set.count - 1] >= 3 || set.plane[0] >= 3;
@@ -254,7 +257,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
 
   // Takes the plastic strain of an active set of planes off the trial stress; false if a multiplier is negative.
   [[nodiscard]] THAWSLIDE_HD bool relax(int number, const Vector<Real, planes>& limits, Vector<Real, 3>& values) const {
-    const ActiveSet& set = sets[number];
+    const ActiveSet& set = active_set(number);
     Vector<Real, 3> excess = Vector<Real, 3>::Zero();
     for (int a = 0; a < 3 && a < set.count; ++a) {
       excess[a] = normal_[set.plane[a]].dot(values) - limits[set.plane[a]];

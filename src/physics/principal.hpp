@@ -3,12 +3,11 @@
 // keeps all digits where values meet.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
-#include "base/lanes.hpp"
 #include "base/linear.hpp"
 #include "base/portability.hpp"
+#include "base/select.hpp"
 
 namespace thawslide::physics {
 
@@ -82,7 +81,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value isolated_root(Value h) {
 // The axis of the value that lies furthest from the other two; some axis where all meet.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> isolated_axis(const Matrix<Value, 3>& deviator) {
-  using std::max, std::min, std::sqrt;
+  using std::sqrt;
   using Real = typename NumberOf<Value>::Type;
   const Value size = sqrt(deviator.squaredNorm() / Real(6));
   const Value inverse = Real(1) / select(size > Value(0), size, Value(1));

@@ -4,17 +4,15 @@
 // material asks for it, the gap closes first (after the volume correction of Tampubolon et al. 2017, Sec. 4.3.4).
 #pragma once
 
-#include <algorithm>
-
 #include "base/linear.hpp"
 #include "base/portability.hpp"
+#include "base/select.hpp"
 
 namespace thawslide::physics {
 
 // Of a volumetric strain increment, what closes a gap and so bears no stress: 0 to the gap's volumetric strain.
 template <class Real>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real closing_strain(Real gap, Real volume_strain) {
-  using std::max, std::min;
   return min(gap, max(Real(0), -volume_strain));
 }
 

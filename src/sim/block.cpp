@@ -226,7 +226,7 @@ void require_one_body(const config::Case& parameters) {
 std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site) {
   if (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none) {
     throw UserError(
-        fmt::format("{}: the block model slides a 2D section along a terrain, or a 3D case on a DEM along maps.path. "
+        fmt::format("{}: the block model slides a 2D section along a terrain, or a 3D case on a DEM. "
                     "Give case.dimension = 2 and a terrain.type other than \"none\", or use `thawslide run`.",
                     parameters.file));
   }

@@ -12,25 +12,31 @@ struct PhaseMasses {
   Real rock, ice, water;
 };
 
+// The saturation that a particle's masses are counted with. Heat sees the volume V/xi of it, the band's own, and only
+// that has melted: the rest stands for matter as it was at t = 0.
+template <int Dim, class Real>
+Real saturation_of_masses(const mpm::Particles<Dim, Real>& particles, std::uint32_t p) {
+  const Real start = particles.initial_saturation(p);
+  return start + (particles.liquid_saturation(p) - start) / particles.thermal_scaling(p);
+}
+
 // Those of t = 0, of which ice and water change into each other at constant sum.
 template <int Dim, class Real>
 PhaseMasses<Real> initial_masses(const mpm::Particles<Dim, Real>& particles, const physics::Phases<Real>& phases,
                                  std::uint32_t p) {
-  const Real start = particles.initial_saturation(p);
+  const Real start = particles.initial_saturation(p), saturation = saturation_of_masses(particles, p);
   const Real pore_water = particles.initial_volume(p) * particles.initial_porosity(p) *
                           (phases.water_density * start + phases.ice_density * (Real(1) - start));
-  return {particles.mass(p) - pore_water, (Real(1) - particles.liquid_saturation(p)) * pore_water,
-          particles.liquid_saturation(p) * pore_water};
+  return {particles.mass(p) - pore_water, (Real(1) - saturation) * pore_water, saturation * pore_water};
 }
 
 // Those of the current porosity and volume, as printed: their sum is not the particle's mass.
 template <int Dim, class Real>
 PhaseMasses<Real> current_masses(const mpm::Particles<Dim, Real>& particles, const physics::Phases<Real>& phases,
                                  std::uint32_t p) {
-  const Real pore = particles.volume(p) * particles.porosity(p);
-  return {(particles.volume(p) - pore) * phases.rock_density,
-          pore * (Real(1) - particles.liquid_saturation(p)) * phases.ice_density,
-          pore * particles.liquid_saturation(p) * phases.water_density};
+  const Real pore = particles.volume(p) * particles.porosity(p), saturation = saturation_of_masses(particles, p);
+  return {(particles.volume(p) - pore) * phases.rock_density, pore * (Real(1) - saturation) * phases.ice_density,
+          pore * saturation * phases.water_density};
 }
 
 }  // namespace

@@ -53,6 +53,10 @@ class FlowMaps {
   // The same at t = 0: what changes of elevation count from.
   void start(const Grid& grid, const Particles& particles);
 
+  // What cells take in memory that the slide ever was near; and one of them.
+  [[nodiscard]] std::size_t bytes() const { return tiles_.size() * sizeof(MapTile); }
+  [[nodiscard]] static constexpr std::size_t bytes_of_cell() { return sizeof(MapTile) / tile_cells; }
+
   [[nodiscard]] const MapGrid& map_grid() const { return map_grid_; }
   [[nodiscard]] double arrival_thickness() const { return arrival_thickness_; }
   // The cell at a column and row of the map grid; a cell like new where the slide never was near.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/raster_sampling.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
 #include "sim/model.hpp"
@@ -22,7 +23,7 @@ double initial_value(const InitialField& field, const config::Release* release, 
   }
   THAWSLIDE_ASSERT(release != nullptr, "the field {} of the map '{}' without a release", key, field.source);
   const Raster& map = release->fields.at(key);
-  const double value = raster_at(map, seed.place[0], seed.place[1], std::nan(""));
+  const double value = bilinear(map, seed.place[0], seed.place[1], Missing::unknown);
   if (std::isfinite(value)) {
     return value;
   }

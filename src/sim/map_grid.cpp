@@ -1,6 +1,6 @@
 #include "sim/map_grid.hpp"
 
-#include <limits>
+#include <cmath>
 
 #include "base/error.hpp"
 
@@ -22,6 +22,14 @@ MapAxis axis_over(double corner, double cell, double from, double to) {
   return {corner + (0.5 - before) * cell, cell, before + after};
 }
 
+// The smallest size of two digits at which so many cells cover what these do [m].
+double cell_for(const MapAxis& x, const MapAxis& y, double most_cells) {
+  const double margin = 1.01;  // cells are whole and reach beyond the ends
+  const double least = margin * std::sqrt(x.cells * x.cell * y.cells * y.cell / most_cells);
+  const double digit = std::pow(10.0, std::floor(std::log10(least)) - 1.0);
+  return std::ceil(least / digit) * digit;
+}
+
 }  // namespace
 
 MapGrid map_grid_of(const config::Case& parameters, const config::Site& site) {
@@ -38,12 +46,13 @@ MapGrid map_grid_of(const config::Case& parameters, const config::Site& site) {
   const Raster& ground = site.ground ? *site.ground : none;
   const MapAxis x = axis_along(0, ground.x, ground.x_end(), ground.cell_x);
   const MapAxis y = axis_along(1, ground.y, ground.y_end(), ground.cell_y);
-  constexpr double most_cells = std::numeric_limits<std::int32_t>::max();
-  if (x.cells * y.cells > most_cells) {
+  if (x.cells * y.cells > most_map_cells) {
     throw UserError(fmt::format(
-        "{}: maps of {:.0f} x {:.0f} cells of {:g} x {:g} m are too many; allowed: {:.0f} cells. Use a larger "
-        "maps.cell.",
-        config::place_of(parameters, "maps.cell"), x.cells, y.cells, x.cell, y.cell, most_cells));
+        "{}: maps of {:.0f} x {:.0f} cells of {:g} x {:g} m are too many: each would take {:.3g} GB of memory "
+        "while it is written. Allowed: {:.3g} cells, {:.3g} GB. Give maps.cell, {:g} m or more.",
+        config::place_of(parameters, "maps.cell"), x.cells, y.cells, x.cell, y.cell,
+        x.cells * y.cells * sizeof(double) / 1e9, most_map_cells, most_map_cells * sizeof(double) / 1e9,
+        cell_for(x, y, most_map_cells)));
   }
   return {x.first, y.first, x.cell, y.cell, static_cast<int>(x.cells), static_cast<int>(y.cells), site.crs};
 }

@@ -33,10 +33,13 @@ struct MapGrid {
   [[nodiscard]] int cell_row(double row) const { return std::min(static_cast<int>(row), rows - 1); }
 };
 
+// So that a map that is written, a real for each cell, takes 2 GB of memory at most.
+constexpr double most_map_cells = 2.5e8;
+
 // The grid of the case's maps: on the points of the ground's raster, or on cells of maps.cell that begin at that
 // raster's corner; without a raster, on cells that begin at the corner of the domain, of maps.cell or of the size of
 // the background grid's. Whole cells are added on each side until the grid covers the domain, so that no part of a
-// slide lies beside it. Throws UserError for more cells than a raster can hold.
+// slide lies beside it. Throws UserError for more than most_map_cells.
 [[nodiscard]] MapGrid map_grid_of(const config::Case& parameters, const config::Site& site);
 
 // The cells along one axis that a box overlaps, and its shares in them, which sum to 1.

@@ -9,6 +9,7 @@
 #include "sim/path_line.hpp"
 #include "sim/release_body.hpp"
 #include "sim/section.hpp"
+#include "sim/steepest_descent.hpp"
 
 namespace thawslide::sim {
 
@@ -97,13 +98,7 @@ void make_plain(InitialField& field, const std::string& key, const config::Relea
   }
 }
 
-void require_section(const config::Case& parameters, const config::Site& site) {
-  if (site.path.empty()) {
-    throw UserError(
-        fmt::format("{}: the block model slides a 3D case along a line, and the case names none. Give maps.path, a "
-                    "file with a line from the release down the way it will take.",
-                    config::place_of(parameters, "maps")));
-  }
+void require_section(const config::Case& parameters) {
   require_one_body(parameters);
   const auto& [name, body] = *parameters.bodies.begin();
   if (body.shape != config::BodyShape::release) {
@@ -118,6 +113,32 @@ void require_section(const config::Case& parameters, const config::Site& site) {
                     "know. Set it to 0, or use `thawslide run`.",
                     config::place_of(parameters, "case.gravity_tilt"), parameters.general.gravity_tilt));
   }
+}
+
+Place2 centre_of(const config::Release& release) {
+  Place2 centre{0.0, 0.0};
+  double sum = 0.0;
+  for_points(release.thickness, [&](double x, double y, double thickness) {
+    centre = {centre[0] + thickness * x, centre[1] + thickness * y};
+    sum += thickness;
+  });
+  return {centre[0] / sum, centre[1] / sum};
+}
+
+// The way straight down from the release's centre.
+Descent descent_from(const config::Case& parameters, const config::Release& release, const Raster& ground) {
+  const Place2 centre = centre_of(release);
+  const double width = std::max(parameters.grid.cell, 2.0 * std::max(ground.cell_x, ground.cell_y));
+  Descent descent = steepest_descent(ground, centre, width);
+  if (descent.line.empty()) {
+    throw UserError(
+        fmt::format("{}: no way leads down from the release's centre at x = {:.10g}, y = {:.10g}: over {:g} m the "
+                    "ground is {} there. "
+                    "Give maps.path, a file with a line from the release down the way it will take.",
+                    config::place_of(parameters, "maps"), centre[0], centre[1], width,
+                    descent.pit ? "level, or a pit," : "not known all about"));
+  }
+  return descent;
 }
 
 // Stations of the path, and the ends of the release with its full thickness.
@@ -144,12 +165,17 @@ void set_domain(config::Grid& grid, const config::ProfileTable& profile) {
 }  // namespace
 
 PathSection section_along_path(const config::Case& parameters, const config::Site& site) {
-  require_section(parameters, site);
-  const PathLine line(site.path);
-  const std::string source = config::place_of(parameters, "maps.path");
+  require_section(parameters);
   const auto& [name, given] = *parameters.bodies.begin();
   const config::Release& release = site.releases.at(name);
   const Raster& ground = *site.ground;
+  PathSection section;
+  section.path_given = !site.path.empty();
+  const Descent way = section.path_given ? Descent{PathLine(site.path), {}} : descent_from(parameters, release, ground);
+  const PathLine& line = way.line;
+  const std::string source = section.path_given
+                                 ? config::place_of(parameters, "maps.path")
+                                 : fmt::format("{}: the way straight down", config::place_of(parameters, "maps"));
   const double points_apart = std::min(ground.cell_x, ground.cell_y), cell = parameters.grid.cell;
   const ReleaseOnPath on_path = release_on_path(line, release, std::max(cell, 2.0 * points_apart));
   if (on_path.nearest > std::max(ground.cell_x, ground.cell_y)) {
@@ -158,8 +184,16 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
                     "release.",
                     source, name, on_path.nearest));
   }
+  if (way.pit && line.length() < on_path.to) {
+    throw UserError(
+        fmt::format("{} from the release's centre ends in a pit at x = {:.10g}, y = {:.10g}, below the release itself. "
+                    "Give maps.path, a file with a line from the release down the way it will take.",
+                    source, (*way.pit)[0], (*way.pit)[1]));
+  }
+  if (way.pit) {
+    section.pit = PathSection::Pit{line.length(), *way.pit};
+  }
 
-  PathSection section;
   config::ProfileTable& profile = section.site.profile;
   profile.distance = stations_about(line, on_path, cell, 0.5 * points_apart);
   profile.terrain = ground_along(line, profile.distance, ground);

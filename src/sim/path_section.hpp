@@ -1,4 +1,5 @@
-// The section of a 3D case on a DEM along its path: the 2D case that the rigid block slides.
+// The section of a 3D case on a DEM along its path: the 2D case that the rigid block slides. A case without a path gets
+// the way of steepest descent from the centre of its release.
 //
 // The terrain is the ground below the path from the release on, which goes on straight where the release reaches beyond
 // its ends; it ends with the path, or where this leaves the terrain model below the release. The release stands on it
@@ -8,18 +9,29 @@
 // its parts along the path and upwards. Sides and frames are left out: the block never meets them.
 #pragma once
 
+#include <optional>
+
 #include "config/case.hpp"
 #include "config/site.hpp"
+#include "sim/path_line.hpp"
 
 namespace thawslide::sim {
 
 struct PathSection {
   config::Case parameters;  // 2D: x is the distance along the path [m], y the elevation [m]
   config::Site site;        // its profile
+  bool path_given = true;   // or found by steepest descent
+
+  // That the way of steepest descent ends in: where, along it [m] and in space. What lies beyond is no way down.
+  struct Pit {
+    double along;
+    Place2 place;
+  };
+  std::optional<Pit> pit;
 };
 
-// Of a case with one body. Throws UserError for a case without a path, with a path that passes the release by or has
-// no ground there, with a body that is no release, or with tilted gravity.
+// Of a case with one body. Throws UserError for a path that passes the release by or has no ground there, for a release
+// from which no way leads down, for a body that is no release, and for tilted gravity.
 [[nodiscard]] PathSection section_along_path(const config::Case& parameters, const config::Site& site);
 
 }  // namespace thawslide::sim

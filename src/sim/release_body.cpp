@@ -11,22 +11,28 @@ namespace {
 
 constexpr double thinnest = 0.1;  // of a particle's height over the distance of particles
 
-}  // namespace
-
-double raster_at(const Raster& raster, double x, double y, double outside) {
-  const double across = (x - raster.x) / raster.cell_x, up = (y - raster.y) / raster.cell_y;
-  const double column = std::floor(across), row = std::floor(up);
-  const double share_x = across - column, share_y = up - row;
-  double value = 0.0;
-  for (int k = 0; k < 4; ++k) {
-    const double weight = (k % 2 == 0 ? 1.0 - share_x : share_x) * (k / 2 == 0 ? 1.0 - share_y : share_y);
-    const double i = column + k % 2, j = row + k / 2;
-    const bool inside = i >= 0.0 && j >= 0.0 && i < raster.columns && j < raster.rows;
-    const double there = inside ? raster.at(static_cast<int>(i), static_cast<int>(j)) : outside;
-    value += weight > 0.0 ? weight * (std::isnan(there) ? outside : there) : 0.0;
+// By the parity of the sides that a ray to the east crosses.
+bool is_within(const std::vector<config::Polyline2>& rings, double x, double y) {
+  bool within = false;
+  for (const config::Polyline2& ring : rings) {
+    for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
+      const auto& low = ring[k][1] <= ring[k + 1][1] ? ring[k] : ring[k + 1];
+      const auto& high = ring[k][1] <= ring[k + 1][1] ? ring[k + 1] : ring[k];
+      if (low[1] <= y && y < high[1] && x < low[0] + (y - low[1]) / (high[1] - low[1]) * (high[0] - low[0])) {
+        within = !within;
+      }
+    }
   }
-  return value;
+  return within;
 }
+
+// Of a place near the body: its outline goes before every share.
+double claim_of(const config::Release& release, double x, double y) {
+  constexpr double within_outline = 2.0;
+  return is_within(release.outlines, x, y) ? within_outline : bilinear(release.claim, x, y, Missing::zero);
+}
+
+}  // namespace
 
 double nearest_value(const Raster& raster, double x, double y) {
   constexpr int reach = 2;  // points on each side
@@ -51,32 +57,44 @@ double nearest_value(const Raster& raster, double x, double y) {
   return value;
 }
 
-double raster_volume(const Raster& thickness) {
-  double sum = 0.0;
-  for (const double value : thickness.values) {
-    sum += std::isnan(value) ? 0.0 : value;
-  }
-  return sum * thickness.cell_x * thickness.cell_y;
-}
-
 double ReleaseBody::bottom(double x, double y) const {
   return ground_->height(Vector<double, 2>(x - origin_[0], y - origin_[1])) + origin_[2];
 }
 
 bool ReleaseBody::contains(const Vector<double, 3>& place) const {
-  const double thickness = raster_at(*thickness_, place[0], place[1], 0.0);
+  const double here = bilinear(thickness(), place[0], place[1], Missing::zero);
   const double above = place[2] - bottom(place[0], place[1]);
-  return above > 0.0 && above < thickness;
+  return above > 0.0 && above < here && owns(place[0], place[1]);
+}
+
+bool ReleaseBody::owns(double x, double y) const {
+  if (release_->claim.empty()) {
+    return true;
+  }
+  const double claim = claim_of(*release_, x, y);
+  bool is_later = false;  // of bodies that claim the same the first one has it
+  for (const auto& [name, other] : *releases_) {
+    is_later = is_later || &other == release_;
+    if (&other == release_ || other.claim.empty() || bilinear(other.claim, x, y, Missing::zero) == 0.0) {
+      continue;
+    }
+    const double rival = claim_of(other, x, y);
+    if (rival > claim || (rival == claim && !is_later)) {
+      return false;
+    }
+  }
+  return claim > 0.0;
 }
 
 // By the midpoint rule, finer than the raster's points.
 double ReleaseBody::mean_thickness(double x, double y, double width) const {
-  const double finest = std::min(thickness_->cell_x, thickness_->cell_y);
+  const Raster& t = thickness();
+  const double finest = std::min(t.cell_x, t.cell_y);
   const int parts = 1 + 2 * static_cast<int>(std::ceil(width / finest));
   double sum = 0.0;
   for (int j = 0; j < parts; ++j) {
     for (int i = 0; i < parts; ++i) {
-      sum += raster_at(*thickness_, x + width * ((i + 0.5) / parts - 0.5), y + width * ((j + 0.5) / parts - 0.5), 0.0);
+      sum += bilinear(t, x + width * ((i + 0.5) / parts - 0.5), y + width * ((j + 0.5) / parts - 0.5), Missing::zero);
     }
   }
   return sum / (parts * parts);
@@ -86,23 +104,29 @@ void ReleaseBody::seed(const Vector<double, 3>& corner, double spacing, int body
   const auto number = [&](double place, int axis) {
     return static_cast<long>(std::floor((place - corner[axis]) / spacing));
   };
-  const Raster& t = *thickness_;
+  const Raster& t = thickness();
   const long first_column = number(t.x - t.cell_x, 0), last_column = number(t.x_end() + t.cell_x, 0);
   const long first_row = number(t.y - t.cell_y, 1), last_row = number(t.y_end() + t.cell_y, 1);
   for (long j = first_row; j <= last_row; ++j) {
     for (long i = first_column; i <= last_column; ++i) {
       const double x = corner[0] + (static_cast<double>(i) + 0.5) * spacing;
       const double y = corner[1] + (static_cast<double>(j) + 0.5) * spacing;
+      if (!owns(x, y)) {
+        continue;
+      }
       const double thickness = mean_thickness(x, y, spacing);
       const long fitting = std::lround(thickness / spacing);
       // Thin where the release is thin, not where it only reaches into the column.
-      const bool is_thin = fitting == 0 && thickness >= thinnest * spacing && raster_at(t, x, y, 0.0) > 0.0;
+      const bool is_thin = fitting == 0 && thickness >= thinnest * spacing && bilinear(t, x, y, Missing::zero) > 0.0;
       const long count = is_thin ? 1 : fitting;
       const double low = count > 0 ? bottom(x, y) : 0.0;
       for (long k = 0; k < count; ++k) {
         const double height = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * thickness;
+        const std::array<std::uint32_t, 3> lattice{static_cast<std::uint32_t>(i - first_column),
+                                                   static_cast<std::uint32_t>(j - first_row),
+                                                   static_cast<std::uint32_t>(k)};
         seeds.push_back({body, Vector<double, 3>(x, y, low + height), thickness - height,
-                         thickness / static_cast<double>(count) * spacing * spacing});
+                         thickness / static_cast<double>(count) * spacing * spacing, lattice});
       }
     }
   }

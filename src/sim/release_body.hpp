@@ -1,41 +1,50 @@
 // A body that map files give: it stands on the ground, as thick as they say.
 #pragma once
 
-#include "base/raster.hpp"
+#include <map>
+#include <string>
+
+#include "base/raster_sampling.hpp"
+#include "config/site.hpp"
 #include "sim/seed.hpp"
 #include "terrain/surface.hpp"
 
 namespace thawslide::sim {
 
-// Value of a raster at a place, bilinear between its points; `outside` beyond them and where there is no data.
-double raster_at(const Raster& raster, double x, double y, double outside);
-
 // Value of the point nearest to a place, of those that have one; throws UserError if none of the next few has.
 double nearest_value(const Raster& raster, double x, double y);
 
-// Sum of the values times the area of a cell: the volume of a thickness [m3].
-double raster_volume(const Raster& thickness);
-
 class ReleaseBody {
  public:
-  // thickness: vertical [m]. origin: of the ground's coordinates [m]. Both must outlive the body.
-  ReleaseBody(const Raster& thickness, const terrain::Surface<3>& ground, const Vector<double, 3>& origin)
-      : thickness_(&thickness), ground_(&ground), origin_(origin) {}
+  using Releases = std::map<std::string, config::Release>;
 
-  [[nodiscard]] double volume() const { return raster_volume(*thickness_); }
+  // releases: of all bodies, with that of `name`. origin: of the ground's coordinates [m]. Releases and ground must
+  // outlive the body.
+  ReleaseBody(const Releases& releases, const std::string& name, const terrain::Surface<3>& ground,
+              const Vector<double, 3>& origin)
+      : releases_(&releases), release_(&releases.at(name)), ground_(&ground), origin_(origin) {}
+
+  [[nodiscard]] double volume() const { return volume_of(release_->thickness); }
   // Elevation of the ground below a place, and whether the body is there [m].
   [[nodiscard]] double bottom(double x, double y) const;
   [[nodiscard]] bool contains(const Vector<double, 3>& place) const;
 
   // Columns of particles, `spacing` [m] apart on the lattice of `corner`: as many in each as fit its thickness best,
   // of equal height from the ground to the top, and of the volume of their share of it. So the lowest stand on the
-  // ground everywhere. Columns thinner than a tenth of the spacing get none.
+  // ground everywhere. Columns thinner than a tenth of the spacing get none, nor those whose centre is another body's.
   void seed(const Vector<double, 3>& corner, double spacing, int body, std::vector<Seed<3>>& seeds) const;
 
  private:
+  // Vertical [m], in the body's own part.
+  [[nodiscard]] const Raster& thickness() const {
+    return release_->standing.empty() ? release_->thickness : release_->standing;
+  }
   [[nodiscard]] double mean_thickness(double x, double y, double width) const;
+  // Whether a place is not another body's, as config::Release says.
+  [[nodiscard]] bool owns(double x, double y) const;
 
-  const Raster* thickness_;
+  const Releases* releases_;
+  const config::Release* release_;
   const terrain::Surface<3>* ground_;
   Vector<double, 3> origin_;
 };

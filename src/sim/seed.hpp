@@ -1,6 +1,8 @@
 // A particle to be, at t = 0.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "base/linear.hpp"
@@ -10,9 +12,10 @@ namespace thawslide::sim {
 template <int Dim>
 struct Seed {
   int body;
-  Vector<double, Dim> place;  // absolute [m]
-  double depth;               // vertical, below the body's top [m]
-  double volume;              // [m3], per metre of width in 2D
+  Vector<double, Dim> place;               // absolute [m]
+  double depth;                            // vertical, below the body's top [m]
+  double volume;                           // [m3], per metre of width in 2D
+  std::array<std::uint32_t, 3> lattice{};  // numbers of its column, row and layer, from the body's lowest corner on
 };
 
 }  // namespace thawslide::sim

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/nearest_known.hpp"
 #include "terrain/convex_polygon.hpp"
-#include "terrain/nearest_known.hpp"
 #include "terrain/nearest_on_triangle.hpp"
 #include "terrain/surface_integrals.hpp"
 

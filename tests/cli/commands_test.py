@@ -100,14 +100,33 @@ def test_check_writes_nothing(thawslide: Program, small_case: Path) -> None:
     assert [file.name for file in small_case.iterdir()] == ["case.toml"]
 
 
-@pytest.mark.parametrize(("words", "name"), [(["out.png"], "out.png"), ([], "setup.png")])
 def test_check_draws_a_picture(
-    thawslide: Program, report_environment: dict[str, str], small_case: Path, words: list[str], name: str
+    thawslide: Program,
+    report_environment: dict[str, str],
+    small_case: Path,
+    tmp_path: Path,
 ) -> None:
-    outcome = thawslide("check", small_case, "--picture", *words, environment=report_environment, folder=small_case)
-    assert outcome.returncode == 0, outcome.stderr
-    assert (small_case / name).read_bytes().startswith(PNG)
-    assert f"picture     {name}" in outcome.stdout
+    """To the named file, seen from where the command is given; without a name beside the case file."""
+    (small_case / "stiff.toml").write_text('[case]\nbased_on = "case.toml"\n')
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    for case, words, file in (
+        (small_case, ["out.png"], elsewhere / "out.png"),
+        (small_case, [], small_case / "setup.png"),
+        (small_case / "stiff.toml", [], small_case / "stiff-setup.png"),
+    ):
+        outcome = thawslide(
+            "check",
+            case,
+            "--picture",
+            *words,
+            environment=report_environment,
+            folder=elsewhere,
+        )
+        assert outcome.returncode == 0, outcome.stderr
+        assert file.read_bytes().startswith(PNG)
+        assert outcome.stdout.endswith(f"  picture     {words[0] if words else file}\n")
+    assert [file.name for file in elsewhere.iterdir()] == ["out.png"]
 
 
 def test_check_says_what_the_picture_needs(thawslide: Program, small_case: Path, tmp_path: Path) -> None:

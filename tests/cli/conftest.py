@@ -15,10 +15,11 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+from slope_files import SOUTH, WEST, Slope, write_release, write_slope
 
 ROOT = Path(__file__).resolve().parents[2]
 LAMPLUGH = ROOT / "cases" / "lamplugh"
-LIMIT = 60.0  # s, of one command
+LIMIT = 60.0  # s, of one command that is not said to be long
 
 # A block that rests on flat ground: 48 particles, sound as it stands.
 SMALL_CASE = """[case]
@@ -61,6 +62,7 @@ cohesion = 0.0
 
 Outcome = subprocess.CompletedProcess[str]
 Program = Callable[..., Outcome]
+Interrupted = Callable[[Path, Path, list[str], int, int], int]
 
 
 @pytest.fixture(scope="session")
@@ -93,7 +95,12 @@ def report_environment(plain_environment: dict[str, str]) -> dict[str, str]:
 def thawslide(binary: Path, plain_environment: dict[str, str]) -> Program:
     """Return a function that runs the program with these words and returns what came of it."""
 
-    def start(*words: object, environment: dict[str, str] | None = None, folder: Path | None = None) -> Outcome:
+    def start(
+        *words: object,
+        environment: dict[str, str] | None = None,
+        folder: Path | None = None,
+        limit: float = LIMIT,
+    ) -> Outcome:
         return subprocess.run(
             [str(binary), *map(str, words)],
             env=environment or plain_environment,
@@ -101,9 +108,29 @@ def thawslide(binary: Path, plain_environment: dict[str, str]) -> Program:
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
-            timeout=LIMIT,
+            timeout=limit,
             check=False,
         )
+
+    return start
+
+
+@pytest.fixture(scope="session")
+def interrupted(binary: Path, plain_environment: dict[str, str]) -> Interrupted:
+    """Return a function that runs a case into a folder, sends a signal after so many percent, and returns the code."""
+
+    def start(case: Path, run: Path, words: list[str], number: int, percent: int) -> int:
+        command = [str(binary), "run", str(case), "--output", str(run), *words]
+        pipe = subprocess.PIPE
+        with subprocess.Popen(command, env=plain_environment, stdout=pipe, stderr=pipe, text=True) as process:
+            assert process.stdout and process.stderr
+            for line in process.stdout:
+                share = line.split("%")[0].strip()
+                if "%" in line and share.isdigit() and int(share) >= percent:
+                    process.send_signal(number)
+                    break
+            process.communicate(timeout=LIMIT)
+            return process.returncode
 
     return start
 
@@ -114,6 +141,21 @@ def small_case(tmp_path: Path) -> Path:
     folder.mkdir()
     (folder / "case.toml").write_text(SMALL_CASE)
     return folder
+
+
+@pytest.fixture
+def slope(tmp_path: Path) -> Slope:
+    """Return a function that writes a slope as a terrain model."""
+
+    def write(name: str = "dem.tif", **words: Any) -> Path:
+        return write_slope(tmp_path / name, **words)
+
+    return write
+
+
+@pytest.fixture
+def release(tmp_path: Path) -> Path:
+    return write_release(tmp_path / "release.geojson", WEST + 200.0, SOUTH + 250.0)
 
 
 def sets(**values: object) -> list[str]:
@@ -157,7 +199,7 @@ def assert_same_bits(one: Path, other: Path) -> None:
     names = [file.name for file in snapshot_files(one)]
     assert names == [file.name for file in snapshot_files(other)]
     for name in names:
-        first, second = datasets(one / "snapshots" / name), datasets(other / "snapshots" / name)
+        first, second = (datasets(one / "snapshots" / name), datasets(other / "snapshots" / name))
         assert first.keys() == second.keys()
         for key, values in first.items():
             assert values.dtype == second[key].dtype and values.shape == second[key].shape, f"{name}: {key}"

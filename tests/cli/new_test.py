@@ -1,65 +1,17 @@
-"""From a terrain model and a polygon to maps in two commands, and what is said of wrong ones."""
+"""From a terrain model and a polygon to maps in two commands."""
 
 from __future__ import annotations
 
-import json
+import re
+import signal
 import tomllib
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 import rasterio
-from conftest import Outcome, Program, assert_same_bits, history, run_facts
-from rasterio.transform import from_origin
-
-WEST, SOUTH, CELL = 412_000.0, 5_160_000.0, 10.0
-COLUMNS, ROWS = 90, 60
-THICKNESS = 24.0  # m
-# A rectangle of 120 m by 100 m on the slope.
-WIDTH, DEPTH = 120.0, 100.0
-
-Slope = Callable[..., Path]
-
-
-@pytest.fixture
-def slope(tmp_path: Path) -> Slope:
-    """Return a function that writes a slope of 30 degrees towards the east, level from the middle on."""
-
-    def write(name: str = "dem.tif", crs: str | None = "EPSG:32632", hole: bool = False) -> Path:
-        x = CELL * np.arange(COLUMNS)
-        heights = np.tile(1000.0 + np.tan(np.radians(30.0)) * np.maximum(0.0, 450.0 - x), (ROWS, 1))
-        if hole:
-            heights[25:35, 20:30] = -9999.0
-        path = tmp_path / name
-        corner = from_origin(WEST - CELL / 2, SOUTH + (ROWS - 0.5) * CELL, CELL, CELL)
-        profile = {"driver": "GTiff", "count": 1, "dtype": "float64", "height": ROWS, "width": COLUMNS}
-        with rasterio.open(path, "w", **profile, crs=crs, transform=corner, nodata=-9999.0) as file:
-            file.write(heights, 1)
-        return path
-
-    return write
-
-
-@pytest.fixture
-def release(tmp_path: Path) -> Path:
-    return write_release(tmp_path / "release.geojson", WEST + 200.0, SOUTH + 250.0)
-
-
-def write_release(path: Path, west: float, south: float, **attributes: float) -> Path:
-    ring = [[west, south], [west + WIDTH, south], [west + WIDTH, south + DEPTH], [west, south + DEPTH], [west, south]]
-    feature = {
-        "type": "Feature",
-        "properties": {"name": "slide", **attributes},
-        "geometry": {"type": "Polygon", "coordinates": [ring]},
-    }
-    system = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32632"}}
-    path.write_text(json.dumps({"type": "FeatureCollection", "crs": system, "features": [feature]}))
-    return path
-
-
-def made(thawslide: Program, folder: Path, dem: Path, release: Path, *words: object) -> Outcome:
-    return thawslide("new", folder, "--dem", dem, "--release", release, *words)
+from conftest import Interrupted, Outcome, Program, assert_same_bits, history, run_facts, sets
+from slope_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, Slope, made, write_release, write_thickness
 
 
 def refused(outcome: Outcome) -> str:
@@ -151,20 +103,39 @@ def test_release_cut_out_of_the_dem(thawslide: Program, tmp_path: Path, slope: S
     assert lowered == pytest.approx(THICKNESS, abs=1e-9)
 
 
-def test_stopped_and_resumed_maps_have_the_same_bits(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+@pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 20), (signal.SIGINT, 50)])
+def test_a_run_stopped_by_a_signal_goes_on_to_the_same_bits(
+    thawslide: Program,
+    interrupted: Interrupted,
+    tmp_path: Path,
+    slope: Slope,
+    release: Path,
+    number: int,
+    percent: int,
 ) -> None:
-    folder = tmp_path / "slide"
+    """Maps, probes, history, snapshots and checkpoint are those of the run that nothing stopped."""
+    folder, whole, parts = tmp_path / "slide", tmp_path / "whole", tmp_path / "parts"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
-    shared = ["--set", "time.stepping=fixed", "--set", "time.step=0.01"]
-    whole, parts = tmp_path / "whole", tmp_path / "parts"
-    assert thawslide("run", folder, *shared, "--set", "time.end=0.6", "--output", whole).returncode == 0
-    assert thawslide("run", folder, *shared, "--set", "time.end=0.3", "--output", parts).returncode == 0
-    case = parts / "case.toml"
-    case.write_text(case.read_text().replace("end = 0.3", "end = 0.6", 1))
-    assert thawslide("resume", parts).returncode == 0
-    assert history(whole)["kinetic_J"][-1] == history(parts)["kinetic_J"][-1]
-    for file in sorted((whole / "maps").glob("*.tif")):
+    case = folder / "case.toml"
+    text = case.read_text().replace("temperature = ", "velocity = [10.0, 0.0, -5.0]\ntemperature = ", 1)
+    case.write_text(f"{text}\n[probe.gauge]\npoint = [{WEST + 330.0}, {SOUTH + 300.0}]\n")
+    # Neither rows nor snapshots nor checkpoints fall together.
+    words = sets(time__end=2, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.3)
+    assert thawslide("run", folder, *words, "--output", whole).returncode == 0
+    assert interrupted(folder, parts, words, number, percent) == 4
+    facts = run_facts(parts)
+    assert facts["status"] == "stopped" and percent / 50 <= facts["simulated_time_s"] < 2.0
+    outcome = thawslide("resume", parts)
+    assert outcome.returncode == 0, outcome.stderr
+    assert_same_bits(whole, parts)
+    after, complete = run_facts(parts), run_facts(whole)
+    for key in ("steps", "deposit_volume_m3", "deposit_area_m2", "travel_distance_m", "angle_of_reach_degrees"):
+        assert complete[key] is not None and after[key] == complete[key], key
+    for name in ("checkpoint.bin", "probes.csv"):
+        assert (whole / name).read_bytes() == (parts / name).read_bytes(), name
+    maps = sorted((whole / "maps").glob("*.tif"))
+    assert len(maps) == 12
+    for file in maps:
         with rasterio.open(file) as one, rasterio.open(parts / "maps" / file.name) as other:
             assert one.read(1).tobytes() == other.read(1).tobytes(), file.name
 
@@ -178,65 +149,43 @@ def test_threads_do_not_change_a_bit(thawslide: Program, tmp_path: Path, slope: 
         words = ["--set", "time.end=0.4", "--threads", threads, "--output", runs[-1]]
         assert thawslide("run", folder, *words).returncode == 0
     assert_same_bits(*runs)
+    first, second = (sorted((run / "maps").iterdir()) for run in runs)
+    assert [file.name for file in first] == [file.name for file in second]
+    for one, other in zip(first, second, strict=True):
+        assert one.read_bytes() == other.read_bytes(), one.name
 
 
-def test_dem_without_a_system(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    text = refused(made(thawslide, tmp_path / "slide", slope(crs=None), release, "--thickness", THICKNESS))
-    assert "dem.tif" in text and "--crs" in text and "terrain.crs" not in text
-    given = made(thawslide, tmp_path / "slide", slope(crs=None), release, "--thickness", 24, "--crs", "EPSG:32632")
-    assert given.returncode == 0, given.stderr
-
-
-def test_thickness_neither_given_nor_in_the_file(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
-    text = refused(made(thawslide, tmp_path / "slide", slope(), release))
-    assert "thickness" in text and not (tmp_path / "slide").exists()
-
-
-def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    text = refused(made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 1000.0 * THICKNESS))
-    assert "--largest-volume" in text
-
-
-@pytest.mark.parametrize("content", ["", '{"type": "FeatureColl'])
-def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slope, content: str) -> None:
-    broken = tmp_path / "broken.geojson"
-    broken.write_text(content)
-    text = refused(made(thawslide, tmp_path / "slide", slope(), broken, "--thickness", THICKNESS))
-    assert "--release: " in text and "broken.geojson: the file cannot be opened" in text
-    absent = refused(made(thawslide, tmp_path / "slide", slope(), tmp_path / "absent.shp", "--thickness", THICKNESS))
-    assert "absent.shp: there is no such file" in absent and not (tmp_path / "slide").exists()
-
-
-def test_release_beside_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    beside = write_release(tmp_path / "beside.geojson", WEST + 5000.0, SOUTH)
-    text = refused(made(thawslide, tmp_path / "slide", slope(), beside, "--thickness", THICKNESS))
-    assert "beside.geojson" in text
-
-
-def test_release_over_a_hole(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    text = refused(made(thawslide, tmp_path / "slide", slope(hole=True), release, "--thickness", THICKNESS))
-    assert "no data" in text or "nodata" in text
-
-
-def test_folder_that_is_there(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    text = refused(made(thawslide, tmp_path, slope(), release, "--thickness", THICKNESS))
-    assert "there is something already" in text
-
-
-def test_a_slide_that_leaves_the_dem_stops_there(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
-    """It ends with exit code 3, says where, and keeps the maps so far."""
+def test_release_by_a_raster(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """`new` takes a raster of the thickness where it takes polygons, also one that is called like its own DEM."""
+    dem = slope()
+    raster = write_thickness(tmp_path / "elsewhere" / "dem.tif", dem, THICKNESS)
     folder, run = tmp_path / "slide", tmp_path / "run"
+    outcome = made(thawslide, folder, dem, raster)
+    assert outcome.returncode == 0, outcome.stderr
+    assert {path.name for path in folder.iterdir()} == {"case.toml", "dem.tif", "terrain.tif"}
+    assert (folder / "dem.tif").read_bytes() == raster.read_bytes()
+    case = tomllib.loads((folder / "case.toml").read_text())
+    assert case["terrain"]["file"] == "terrain.tif"
+    assert case["body"]["slide"]["thickness"] == {"raster": "dem.tif"} and "release" not in case["body"]["slide"]
+    done = thawslide("run", folder, "--output", run, "--set", "time.end=0.01")
+    assert done.returncode == 0, done.stderr
+    with rasterio.open(run / "maps" / "release.tif") as file:
+        assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(WIDTH * DEPTH * THICKNESS, rel=1e-9)
+
+
+def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    folder = tmp_path / "slide"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
-    case = folder / "case.toml"
-    case.write_text(case.read_text().replace("temperature = ", "velocity = [80.0, 0.0, 0.0]\ntemperature = ", 1))
-    words = ["--set", "basal.friction_angle=1", "--set", "basal.friction=constant"]
-    done = thawslide("run", folder, "--output", run, *words)
-    assert done.returncode == 3, done.stderr
-    assert "left the domain" in done.stderr or "terrain below it is not known" in done.stderr
-    assert run_facts(run)["status"] == "failed"
-    with rasterio.open(run / "maps" / "max_speed.tif") as file:
-        assert file.read(1, masked=True).max() > 40.0
+    outcome = thawslide("check", folder, "--set", "maps.cell=5")
+    assert outcome.returncode == 0, outcome.stderr
+    said = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
+    words = re.fullmatch(
+        r"(\d+) x (\d+) cells of 5 x 5 m; memory (\d+\.\d) MB for the release, at most (\d+\.\d) MB", said["maps"]
+    )
+    assert words, said["maps"]
+    columns, rows = int(words[1]), int(words[2])
+    at_start, at_most = float(words[3]), float(words[4])
+    assert 0.0 < at_start < at_most
+    assert f"10 maps of {columns * rows * 8 / 1e6:.1f} MB before they are compressed" in said["disk"]
+    refusal = refused(thawslide("check", folder, "--set", "maps.cell=0.01"))
+    assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal

@@ -5,15 +5,13 @@ from __future__ import annotations
 import re
 import signal
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import LAMPLUGH, LIMIT, Program, assert_same_bits, history, run_facts, sets, snapshot_files
+from conftest import LAMPLUGH, LIMIT, Interrupted, Program, assert_same_bits, history, run_facts, sets, snapshot_files
 
 # Neither rows nor snapshots nor checkpoints fall together.
 WORDS = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.4)
-Interrupted = Callable[[Path, int, int], int]
 
 
 @pytest.fixture(scope="module")
@@ -24,32 +22,12 @@ def whole(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return run
 
 
-@pytest.fixture(scope="module")
-def interrupted(binary: Path, plain_environment: dict[str, str]) -> Interrupted:
-    """Return a function that runs into a folder, sends a signal after so many percent, and returns the exit code."""
-
-    def start(run: Path, number: int, percent: int) -> int:
-        command = [str(binary), "run", str(LAMPLUGH), "--output", str(run), *WORDS]
-        pipe = subprocess.PIPE
-        with subprocess.Popen(command, env=plain_environment, stdout=pipe, stderr=pipe, text=True) as process:
-            assert process.stdout and process.stderr
-            for line in process.stdout:
-                share = line.split("%")[0].strip()
-                if "%" in line and share.isdigit() and int(share) >= percent:
-                    process.send_signal(number)
-                    break
-            process.communicate(timeout=LIMIT)
-            return process.returncode
-
-    return start
-
-
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 10), (signal.SIGINT, 30)])
 def test_a_stopped_run_goes_on_to_the_same_bits(
     thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path, number: int, percent: int
 ) -> None:
     run = tmp_path / "run"
-    assert interrupted(run, number, percent) == 4
+    assert interrupted(LAMPLUGH, run, WORDS, number, percent) == 4
     facts = run_facts(run)
     assert facts["status"] == "stopped" and facts["message"] == f"signal {int(number)}"
     stop = facts["simulated_time_s"]
@@ -72,7 +50,7 @@ def test_a_killed_run_goes_on_from_its_last_checkpoint(
     thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
-    assert interrupted(run, signal.SIGKILL, 30) == -signal.SIGKILL
+    assert interrupted(LAMPLUGH, run, WORDS, signal.SIGKILL, 30) == -signal.SIGKILL
     assert run_facts(run)["status"] == "running"
     rows = history(run)["time_s"]
     outcome = thawslide("resume", run)

@@ -203,10 +203,6 @@ def test_an_existing_folder_is_left_alone(thawslide: Program, maps: Maps, tmp_pa
 def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "space"
     assert thawslide("new", folder, "--dem", maps.dem, "--release", maps.release).returncode == 0
-    without = thawslide("block", folder)
-    assert without.returncode == 2
-    assert "Give maps.path, a file with a line from the release down the way it will take." in without.stderr
-
     file = tmp_path / "block.csv"
     coulomb = sets(
         maps__path=maps.line,
@@ -225,6 +221,12 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
     assert columns["front_position_m"][0] == pytest.approx(190.0, abs=10.0)
     assert "goes on with its last gradient" not in slid.stdout
+
+    down = thawslide("block", folder, "--output", file, *coulomb, *sets(maps__path='""'))
+    assert down.returncode == 0, down.stderr
+    assert "the way of steepest descent from the release's centre, as maps.path is not given" in down.stdout
+    columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
+    assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
 
     far = thawslide("block", folder, *coulomb, *sets(time__end=40))
     assert far.returncode == 0, far.stderr

@@ -29,15 +29,17 @@ LONGEST_LINE = 120  # characters, in documents; clang-format and ruff see to the
 
 
 def code_files(*folders: str) -> list[Path]:
-    """Return C++ files below the folders."""
-    return sorted(path for folder in folders for path in (ROOT / folder).rglob("*.[ch]pp"))
+    """Return C++ files below the folders, and those for devices."""
+    return sorted(
+        path for folder in folders for kind in ("[ch]pp", "cu") for path in (ROOT / folder).rglob(f"*.{kind}")
+    )
 
 
 def own_files() -> list[Path]:
     """Return text files of the project, without what is generated or built."""
     folders = ["src", "tests", "benchmarks", "python/thawslide", "cases", "docs", "scripts", ".ci"]
     inside = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file()]
-    kinds = {".cpp", ".hpp", ".in", ".py", ".toml", ".md", ".txt", ".csv", ".ini", ""}
+    kinds = {".cpp", ".hpp", ".cu", ".in", ".py", ".toml", ".md", ".txt", ".csv", ".ini", ""}
     found = [path for path in [*inside, *ROOT.iterdir()] if path.is_file() and path.suffix in kinds]
     return sorted(path for path in found if "__pycache__" not in path.parts and ".pytest_cache" not in path.parts)
 
@@ -109,10 +111,22 @@ def test_only_base_names_the_parallel_backend() -> None:
 
 
 def test_physics_knows_no_arrays_input_or_output() -> None:
-    allowed = {"cmath", "limits", "utility", "variant", "array", "algorithm"}
+    allowed = {"cmath", "limits", "utility", "variant", "array"}
     for path in code_files("src/physics"):
         used = set(re.findall(r"#include <([^>]+)>", path.read_text()))
         assert used <= allowed, f"{place(path)} includes {sorted(used - allowed)}"
+
+
+def test_physics_reaches_nothing_that_devices_cannot_compile() -> None:
+    reached = {place(path): path for path in code_files("src/physics")}
+    waiting = list(reached.values())
+    while waiting:
+        for include in includes_of(waiting.pop().read_text()):
+            if f"src/{include}" not in reached:
+                reached[f"src/{include}"] = SOURCE / include
+                waiting.append(SOURCE / include)
+    outside = {"src/base/portability.hpp", "src/base/select.hpp", "src/base/linear.hpp"}
+    assert {name for name in reached if not name.startswith("src/physics/")} == outside
 
 
 def test_core_neither_prints_nor_exits_nor_catches_signals() -> None:

@@ -12,7 +12,8 @@ from map_runs import MIDDLE, SOUTH, WEST, centres, ground, slab
 from matplotlib.patches import Rectangle
 
 from thawslide.command_line import main
-from thawslide.setup_map import SetupOnMap, draw_setup_on_map
+from thawslide.maps import Grid, Map
+from thawslide.setup_map import SetupOnMap, draw_setup_on_map, each_cell_once
 from thawslide.setup_picture import read_setup
 
 
@@ -90,6 +91,18 @@ def test_both_views_hold_domain_release_path_and_probes(write: Any) -> None:
         "Coordinates: EPSG:31287. Terrain: light from the north-west and above, contour lines every 20"
     )
     assert note.endswith("In (b), contour lines every 5 m.")
+
+
+def test_cells_that_bodies_share_are_painted_once() -> None:
+    """With the sum of both; the others stay as they are, and maps of other cells too."""
+    west = Map(Grid(0.0, 0.0, 10.0, 10.0, 3, 2), np.array([[4.0, 4.0, 2.0], [4.0, 4.0, 2.0]]))
+    east = Map(Grid(20.0, 10.0, 10.0, 10.0, 2, 2), np.array([[1.0, 3.0], [1.0, 3.0]]))
+    coarse = Map(Grid(0.0, 0.0, 20.0, 20.0, 1, 1), np.array([[7.0]]))
+    first, second, third = each_cell_once([west, east, coarse])
+    np.testing.assert_array_equal(first.values, [[4.0, 4.0, 2.0], [4.0, 4.0, 3.0]])
+    np.testing.assert_array_equal(second.values, [[0.0, 3.0], [1.0, 3.0]])
+    np.testing.assert_array_equal(third.values, [[7.0]])
+    assert west.values[1, 2] == 2.0
 
 
 @pytest.mark.parametrize(

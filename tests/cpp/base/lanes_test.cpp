@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <limits>
 #include <numeric>
 
 namespace thawslide {
@@ -78,6 +80,26 @@ TYPED_TEST(LanesTest, MasksKnowTheirLanes) {
     EXPECT_EQ(any(!before), count < lane_count<Real>);
     for (std::size_t k = 0; k < lane_count<Real>; ++k) {
       EXPECT_EQ(before[k], k < count);
+    }
+  }
+}
+
+// Zeros of both signs and what is no number, too.
+TYPED_TEST(LanesTest, SmallerAndLargerAreThoseOfOneNumberInEveryBit) {
+  using Real = TypeParam;
+  const std::array<Real, 7> numbers{Real(-2),
+                                    Real(-0.0),
+                                    Real(0),
+                                    Real(1.5),
+                                    std::numeric_limits<Real>::infinity(),
+                                    -std::numeric_limits<Real>::infinity(),
+                                    std::numeric_limits<Real>::quiet_NaN()};
+  const auto is_same = [](Real a, Real b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+  for (const Real a : numbers) {
+    for (const Real b : numbers) {
+      EXPECT_TRUE(is_same(min(a, b), min(Lanes<Real>(a), Lanes<Real>(b))[0])) << a << " " << b;
+      EXPECT_TRUE(is_same(max(a, b), max(Lanes<Real>(a), Lanes<Real>(b))[0])) << a << " " << b;
+      EXPECT_TRUE(is_same(min(a, b), std::min(a, b)) && is_same(max(a, b), std::max(a, b))) << a << " " << b;
     }
   }
 }

@@ -272,6 +272,23 @@ TEST(Values, GiveOneAnotherAMeaning) {
       "it. Set terrain.type = \"plane\", or remove terrain.slope.");
 }
 
+TEST(Values, OfStartingNoiseAreASmallShareAndASeedOfIt) {
+  const auto with_initial = [](const std::string& lines) {
+    return error_of_changed({{"[basal]", "[initial]\n" + lines + "\n[basal]"}});
+  };
+  EXPECT_EQ(with_initial("noise = 0.1\nseed = 5"), "no error");
+  EXPECT_EQ(with_initial("seed = 5"),
+            "FOLDER/case.toml:21:8: initial.seed has a meaning only when initial.noise is above 0. Remove it, or "
+            "change initial.noise.");
+  const std::string too_large = with_initial("noise = 0.5");
+  EXPECT_EQ(too_large.find("FOLDER/case.toml:21:9: initial.noise is 0.5; allowed: >= 0 and < 0.5 (largest "), 0U)
+      << too_large;
+  const std::string negative = with_initial("noise = 0.1\nseed = -1");
+  EXPECT_EQ(
+      negative.find("FOLDER/case.toml:22:8: initial.seed is -1; allowed: between 0 and 2147483647, ends included"), 0U)
+      << negative;
+}
+
 TEST(Frames, MeetTheDomain) {
   const auto with_frame = [](const std::string& min, const std::string& max, const std::string& rest) {
     return error_of_text(sound + "[frame.wall]\nmin = " + min + "\nmax = " + max + "\n" + rest);

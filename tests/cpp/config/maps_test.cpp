@@ -186,6 +186,9 @@ TEST_F(Maps, AreForBodiesOfTheShapeRelease) {
   EXPECT_EQ(error_of_changed({{"shape = \"box\"", "shape = \"box\"\ntaper = 5.0"}}),
             "FOLDER/case.toml:18:9: body.block.taper has a meaning only when the shape is \"release\". Remove it, or "
             "change body.block.shape.");
+  EXPECT_EQ(error_of_text(with_body_lines("surface_tolerance = 0.5")),
+            "FOLDER/case.toml:22:21: body.slide.surface_tolerance has a meaning only when the shape is \"release\" and "
+            "thickness is a surface. Remove it, or change body.slide.thickness.");
   EXPECT_EQ(
       error_on_dem({{"release = \"release.geojson\"\nthickness = 10.0",
                      "thickness = { raster = \"map.tif\" }\npolygons = [\"a\"]"}}),

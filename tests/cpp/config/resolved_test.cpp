@@ -99,6 +99,9 @@ min = [50.0, 0.0]
 max = [60.0, 9.0]
 axis = "y"
 velocity = 2.25
+[initial]
+noise = 0.125
+seed = 7
 [mechanics]
 enabled = false
 shape_function = "linear"
@@ -235,6 +238,13 @@ ice_content = { attribute = "ice" }
 friction_angle = 25.0
 )";
 
+// The same release between two surfaces.
+std::string release_of_a_surface() {
+  std::string text = release_on_dem;
+  const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");
+  return text.replace(begin, end - begin, "thickness = { surface = \"inputs/before.tif\" }\nsurface_tolerance = 0.5\n");
+}
+
 Lines lines_of(const std::string& text) {
   Lines lines;
   std::istringstream stream(text);
@@ -255,7 +265,7 @@ Case read_with_inputs(const std::string& text) {
   write_beside_the_case("inputs/profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,-1\n");
   write_beside_the_case("inputs/targets.csv", "quantity,time_s,value,unit,source\n");
   for (const std::string name :
-       {"dem.tif", "path.geojson", "section.geojson", "release.shp", "thickness.tif", "saturation.tif"}) {
+       {"dem.tif", "path.geojson", "section.geojson", "release.shp", "thickness.tif", "saturation.tif", "before.tif"}) {
     write_beside_the_case("inputs/" + name, "");
   }
   return case_from_text(text);
@@ -270,7 +280,7 @@ std::string own_name(const TableDeclaration& table) {
 
 TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
   Lines given, resolved;
-  for (const std::string& text : {every_key, rest_in_3d, release_on_dem}) {
+  for (const std::string& text : {every_key, rest_in_3d, release_on_dem, release_of_a_surface()}) {
     const std::string written = resolved_toml(read_with_inputs(text), "inputs");
     EXPECT_EQ(resolved_toml(read_with_inputs(written), "inputs"), written);
     for (const auto& [table, keys] : lines_of(text)) {

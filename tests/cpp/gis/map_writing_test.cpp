@@ -2,6 +2,9 @@
 #include <cpl_minixml.h>
 #include <ogrsf_frmts.h>
 
+#include <chrono>
+#include <thread>
+
 #include "gis/geopackage.hpp"
 #include "gis/map_style.hpp"
 #include "gis/vector_file.hpp"
@@ -66,6 +69,22 @@ TEST(MapWritingTest, LayersCarryTheirStyles) {
 TEST(MapWritingTest, GeopackageWithoutASystem) {
   write_geopackage(in_folder("maps.gpkg"), layers(), "");
   EXPECT_EQ(read_lines(in_folder("maps.gpkg"), "").features.size(), 2U);
+}
+
+// The format's date of the last change has a resolution of a millisecond.
+TEST(MapWritingTest, EqualLayersMakeEqualBytes) {
+  const std::string crs = reference_system_named("EPSG:31287");
+  const auto bytes = [&](const std::string& name) {
+    std::vector<MapLayer> styled = layers();
+    styled[1].style = vector_style({LayerKind::lines, {0, 0, 0}, 0.4, 1.0, ""});
+    write_geopackage(in_folder(name), styled, crs);
+    std::ifstream stream(in_folder(name), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  const std::string first = bytes("first.gpkg");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  EXPECT_GT(first.size(), 10000U);
+  EXPECT_TRUE(first == bytes("second.gpkg"));
 }
 
 TEST(MapWritingTest, FoldersThatAreNotThere) {

@@ -77,7 +77,7 @@ TEST(ReleaseFaultsTest, Attributes) {
   geojson("release.geojson", {{R"("thick":0)", box}});
   EXPECT_EQ(error_of_site(parameters),
             std::string(at_thickness) +
-                "the release has no volume: its thickness is 0 everywhere. Needed: a thickness "
+                "FOLDER/release.geojson: the release has no volume: its thickness is 0 everywhere. Needed: a thickness "
                 "in metres.");
 }
 
@@ -95,23 +95,12 @@ TEST(ReleaseFaultsTest, VolumeThatMustBeConfirmed) {
   config::Case parameters = case_with_release({{"", box_at(200, 200, 800, 600)}}, 8500.0);
   EXPECT_EQ(error_of_site(parameters),
             std::string(at_release) +
-                "the release has 2.04e+09 m3, up to 8500 m thick, and body.rock.largest_volume allows 2e+08 m3. Is the "
+                "FOLDER/release.geojson: the release has 2.04e+09 m3, up to 8500 m thick, and body.rock.largest_volume "
+                "allows 2e+08 m3. Is the "
                 "thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a larger "
                 "body.rock.largest_volume.");
   parameters.bodies["rock"].largest_volume = 3e9;
   EXPECT_EQ(error_of_site(parameters), "no error");
-}
-
-TEST(ReleaseFaultsTest, BodiesMayNotOverlap) {
-  config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
-  parameters.bodies["snow"] = release_body(geojson("snow.geojson", {{"", box_at(390, 390, 450, 450)}}), 3.0);
-  EXPECT_EQ(
-      error_of_site(parameters),
-      "case.toml: body.snow.release: the bodies 'rock' and 'snow' both have a thickness at 9 points of the ground, "
-      "such as 400390, 300390. Draw their outlines apart, with a cell of the terrain model and their tapers between "
-      "them.");
-  parameters.bodies["snow"] = release_body(geojson("snow.geojson", {{"", box_at(405, 405, 450, 450)}}), 3.0);
-  EXPECT_EQ(load_site(parameters).site.releases.size(), 2U);
 }
 
 TEST(ReleaseFaultsTest, ThicknessRasters) {
@@ -129,10 +118,11 @@ TEST(ReleaseFaultsTest, ThicknessRasters) {
           "FOLDER/thickness.tif: the raster (x from 400600 to 400695, y from 300000 to 300095) does not reach the "
           "release (x from 400290 to 400410, y from 300290 to 300410). Check that both are in the same place and "
           "reference system.");
-  EXPECT_EQ(with(raster_of([](double x, double) { return x > west + 500.0 ? 1.0 : 0.0; }, west, south, 5.0, 201, 161)),
-            std::string(at_thickness) +
-                "the release has no volume: its thickness is 0 everywhere. Needed: a thickness in "
-                "metres.");
+  EXPECT_EQ(
+      with(raster_of([](double x, double) { return x > west + 500.0 ? 1.0 : 0.0; }, west, south, 5.0, 201, 161)),
+      std::string(at_thickness) +
+          "FOLDER/release.geojson: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in "
+          "metres.");
 }
 
 TEST(ReleaseFaultsTest, RasterAsTheRelease) {
@@ -151,6 +141,17 @@ TEST(ReleaseFaultsTest, RasterAsTheRelease) {
   EXPECT_NE(with(raster_of([](double, double) { return 2.0; }, west, south, 5.0, 100, 100))
                 .find("the release lies partly outside the domain, by 100 m in the west and 100 m in the south;"),
             std::string::npos);
+  parameters.bodies["rock"] = release_body(geotiff("release.tif", ground()), 5.0);
+  EXPECT_EQ(error_of_site(parameters),
+            std::string(at_release) +
+                "FOLDER/release.tif: the file is a raster; needed: polygons, in a Shapefile, GeoPackage or GeoJSON. A "
+                "raster of a body's thickness goes to thickness = { raster = \"FILE\" }, which needs no polygons.");
+  parameters.bodies["rock"] = raster_body(geotiff("before.tif", ground()));
+  parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
+  EXPECT_EQ(
+      error_of_site(parameters),
+      "case.toml: body.rock.thickness: FOLDER/before.tif: the surface before the slide lies nowhere more than 0.01 "
+      "m above the terrain model: there is no release. Are the two files swapped?");
   parameters.bodies["rock"] = raster_body(in_folder("none.tif"));
   EXPECT_EQ(error_of_site(parameters),
             "case.toml: body.rock.thickness: FOLDER/none.tif: there is no such file. Correct the path.");
@@ -169,8 +170,14 @@ TEST(ReleaseFaultsTest, SurfacesBeforeTheSlide) {
   EXPECT_EQ(with(-3.0),
             std::string(at_thickness) +
                 "FOLDER/before.tif: at 400300, 300300, within the release, the surface before the slide lies 3 "
-                "m below the terrain model; allowed: above it. Are the two files swapped? Else draw the release "
-                "smaller.");
+                "m below the terrain model; allowed: above it, or below by up to 0.01 m. Are the two files swapped? "
+                "Else draw "
+                "the release smaller, or set body.rock.surface_tolerance to the noise of the two.");
+  body.surface_tolerance = 3.5;
+  EXPECT_EQ(with(-3.0), std::string(at_thickness) +
+                            "FOLDER/release.geojson: the release has no volume: its thickness is 0 everywhere. Needed: "
+                            "a thickness in metres.");
+  body.surface_tolerance = 0.01;
   body.placement = config::Placement::cut;
   EXPECT_EQ(with(12.0),
             "case.toml: body.rock.placement: a thickness between a surface before the slide and the terrain "

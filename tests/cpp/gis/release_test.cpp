@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/raster_sampling.hpp"
 #include "gis/polygons.hpp"
 #include "site_case.hpp"
 

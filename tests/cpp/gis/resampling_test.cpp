@@ -104,17 +104,6 @@ TEST(ResamplingTest, TaperKeepsTheVolumeAndReachesHalfItsWidth) {
   EXPECT_EQ(tapered(thickness, 4.0).values, thickness.values);
 }
 
-TEST(ResamplingTest, ValuesBetweenPoints) {
-  Raster raster = raster_of(plane, 0.0, 0.0, 5.0, 5, 4);
-  EXPECT_NEAR(bilinear(raster, 7.3, 11.9, Missing::nothing), plane(7.3, 11.9), 1e-9);
-  EXPECT_EQ(bilinear(raster, 20.0, 15.0, Missing::nothing), raster.at(4, 3));
-  EXPECT_TRUE(std::isnan(bilinear(raster, 20.1, 15.0, Missing::nothing)));
-  EXPECT_EQ(bilinear(raster, 20.1, 15.0, Missing::zero), 0.0);
-  raster.values[raster.index(1, 1)] = missing;
-  EXPECT_EQ(bilinear(raster, 7.5, 5.0, Missing::nothing), raster.at(2, 1));
-  EXPECT_EQ(bilinear(raster, 7.5, 5.0, Missing::zero), 0.5 * raster.at(2, 1));
-}
-
 TEST(ResamplingTest, GradientsAndThicknessAlongTheNormal) {
   Raster raster = raster_of(plane, 0.0, 0.0, 5.0, 5, 4);
   for (const auto& [column, row] : {std::pair{2, 2}, std::pair{0, 0}, std::pair{4, 3}}) {
@@ -126,13 +115,6 @@ TEST(ResamplingTest, GradientsAndThicknessAlongTheNormal) {
   // 3-4-5: a slope whose cosine is 0.8.
   EXPECT_NEAR(vertical_thickness(8.0, 0.75, 0.0), 10.0, 1e-12);
   EXPECT_NEAR(vertical_thickness(8.0, 0.45, -0.6), 10.0, 1e-12);
-}
-
-TEST(ResamplingTest, GapsTakeTheNearestValue) {
-  Raster raster = raster_of([](double x, double) { return x < 2.5 ? x : missing; }, 0.0, 0.0, 1.0, 6, 3);
-  fill_from_nearest(raster);
-  EXPECT_EQ(raster.at(5, 1), 2.0);
-  EXPECT_EQ(raster.at(1, 2), 1.0);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "../support/record.hpp"
+#include "base/lanes.hpp"
 #include "physics/tension_gap.hpp"
 
 namespace thawslide::physics {

@@ -40,8 +40,8 @@ TEST(Ledger, ClosesOnAShortLamplugh) {
                     (value_of(start, "ice_kg") + value_of(start, "water_kg")),
                 1.0, 1e-12);
     EXPECT_GT(value_of(row, "water_kg"), value_of(start, "water_kg"));
-    // Water made is latent heat taken in, over L_f; heat counts the volume over xi = 200.
-    const double melted = (value_of(row, "latent_J") - value_of(start, "latent_J")) * 200.0 / 333.5e3;
+    // Water made is latent heat taken in, over L_f: both count the volume over xi = 200.
+    const double melted = (value_of(row, "latent_J") - value_of(start, "latent_J")) / 333.5e3;
     EXPECT_NEAR((value_of(row, "water_kg") - value_of(start, "water_kg")) / melted, 1.0, 1e-4);
     const double work = value_of(row, "friction_work_J");
     EXPECT_GT(work, 1e12);

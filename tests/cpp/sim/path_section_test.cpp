@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "../support/case_from_text.hpp"
 #include "../support/small_terrain.hpp"
 #include "base/error.hpp"
 #include "sim/block.hpp"
+#include "sim/steepest_descent.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -228,11 +230,6 @@ TEST(PathSection, SaysWhatItNeeds) {
   made.parameters.file = "case.toml";
   made.parameters.places = {{"maps.path", "case.toml:60:1"}};
   const InSpace sound = made;
-  made.site.path.clear();
-  EXPECT_EQ(error_of(made),
-            "case.toml: the block model slides a 3D case along a line, and the case names none. Give maps.path, a file "
-            "with a line from the release down the way it will take.");
-  made = sound;
   made.site.path = {{0.0, 400.0}, {1000.0, 400.0}};
   EXPECT_EQ(error_of(made),
             "case.toml:60:1: the path passes the release of body 'slide' by, 362.5 m away. Draw it through the "
@@ -250,6 +247,88 @@ TEST(PathSection, SaysWhatItNeeds) {
   made = sound;
   made.parameters.bodies["other"] = made.parameters.bodies.at("slide");
   EXPECT_EQ(error_of(made), "case.toml: the block model slides one body, and the case has 2. Use `thawslide run`.");
+}
+
+// Down a plane the way is straight, up to where half a width is left of the terrain model.
+TEST(SteepestDescent, OfAPlaneIsItsLineOfFall) {
+  constexpr double width = 20.0;
+  for (const double azimuth : {0.0, 37.0, 90.0, 203.0}) {
+    const double down_x = std::cos(azimuth * degree), down_y = std::sin(azimuth * degree);
+    const Raster plane =
+        raster(-400.0, -400.0, 5.0, 161, 161, [&](double x, double y) { return -0.4 * (x * down_x + y * down_y); });
+    const Descent descent = steepest_descent(plane, {3.0, 7.0}, width);
+    EXPECT_FALSE(descent.pit);
+    for (const Place2& corner : descent.line.corners()) {
+      EXPECT_NEAR((corner[0] - 3.0) * down_y - (corner[1] - 7.0) * down_x, 0.0, 1e-9) << azimuth;
+    }
+    const Place2 end = descent.line.corners().back();
+    const double left = 400.0 - std::max(std::abs(end[0]), std::abs(end[1]));
+    EXPECT_NEAR(left, 0.5 * width, 0.1 * width);
+  }
+}
+
+// Around a bowl's lowest point all ways rise.
+TEST(SteepestDescent, OfABowlEndsInItsLowestPoint) {
+  constexpr double width = 20.0;
+  const Raster bowl = raster(-400.0, -400.0, 5.0, 161, 161, [](double x, double y) { return 1e-3 * (x * x + y * y); });
+  const Descent descent = steepest_descent(bowl, {180.0, 240.0}, width);
+  ASSERT_TRUE(descent.pit);
+  EXPECT_EQ(*descent.pit, descent.line.corners().back());
+  EXPECT_LT(std::hypot((*descent.pit)[0], (*descent.pit)[1]), 0.1 * width);
+  EXPECT_NEAR(descent.line.length(), 300.0, 0.1 * width);
+  for (const Place2& corner : descent.line.corners()) {
+    EXPECT_NEAR(0.8 * corner[0] - 0.6 * corner[1], 0.0, 0.1 * width);
+  }
+  EXPECT_TRUE(steepest_descent(bowl, {0.0, 0.0}, width).line.empty());
+}
+
+TEST(PathSection, WithoutAPathItIsTheWayStraightDown) {
+  const config::Case flat = flat_case(slope);
+  InSpace made = case_on_dem(flat, 90.0, 0.0);
+  made.site.path.clear();
+  const PathSection section = section_along_path(made.parameters, made.site);
+  EXPECT_FALSE(section.path_given);
+  EXPECT_FALSE(section.pit);
+  const auto rows = run_block(section.parameters, section.site), expected = run_block(flat);
+  ASSERT_EQ(rows.size(), expected.size());
+  for (const char* column : {"velocity_m_s", "displacement_m", "normal_pressure_Pa", "band_saturation"}) {
+    EXPECT_NEAR(value_of(rows.back(), column) / value_of(expected.back(), column), 1.0, 1e-6) << column;
+  }
+  // The path begins at the release's centre, 200 m down the plane.
+  EXPECT_NEAR(value_of(rows.back(), "front_position_m") - value_of(expected.back(), "front_position_m"), -200.0, 1e-3);
+}
+
+TEST(PathSection, WithoutAWayDownItSaysWhatToGive) {
+  InSpace made = case_on_dem(flat_case(slope), 0.0, 0.0);
+  made.parameters.file = "case.toml";
+  made.site.path.clear();
+  Raster ground = *made.site.ground;
+  const auto reshape = [&](const std::function<double(double, double)>& height) {
+    for (int row = 0; row < ground.rows; ++row) {
+      for (int column = 0; column < ground.columns; ++column) {
+        ground.values[ground.index(column, row)] = height(ground.x_of(column), ground.y_of(row));
+      }
+    }
+    made.site.ground = std::make_shared<const Raster>(ground);
+  };
+  const auto bowl_about = [](double middle) {
+    return [middle](double x, double y) { return 1e-3 * ((x - middle) * (x - middle) + y * y); };
+  };
+  reshape([](double, double) { return 7.0; });
+  EXPECT_EQ(
+      error_of(made),
+      "case.toml: no way leads down from the release's centre at x = 200, y = 0: over 10 m the ground is level, or "
+      "a pit, there. Give maps.path, a file with a line from the release down the way it will take.");
+  reshape(bowl_about(260.0));
+  EXPECT_NE(error_of(made).find("case.toml: the way straight down from the release's centre ends in a pit at x = "),
+            std::string::npos)
+      << error_of(made);
+  reshape(bowl_about(900.0));
+  const PathSection section = section_along_path(made.parameters, made.site);
+  ASSERT_TRUE(section.pit);
+  // The floor between the lowest points of the terrain model, at 897.5 and 902.5 m, is level.
+  EXPECT_NEAR(section.pit->along, 700.0, 2.5 + 1e-9);
+  EXPECT_NEAR(section.pit->place[0], 900.0, 2.5 + 1e-9);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "case_from_text.hpp"
 #include "config/site.hpp"
+#include "friction_alone.hpp"
 #include "sim/simulation.hpp"
 #include "small_terrain.hpp"
 
@@ -18,6 +19,48 @@ using Height = std::function<double(double x, double y)>;  // [m], of places in 
 
 // The sole body of a case of slide_on_dem().
 const std::string release_table = "[body.slide]\nshape = \"release\"\nthickness = { raster = \"thickness.tif\" }\n";
+
+// Time [s], grid and domain [m].
+struct Frame {
+  double end, step, cell;
+  Position least, greatest;
+};
+
+// The text of a case in which a release of the material "matter" slides with Coulomb friction [degrees] alone;
+// `material`: the tables of the material, and more.
+inline std::string release_on_dem(const Frame& frame, const std::string& material, double friction_angle) {
+  const auto list = [](const Position& p) { return fmt::format("[{}, {}, {}]", p[0], p[1], p[2]); };
+  return fmt::format(R"(
+[case]
+dimension = 3
+[time]
+end = {}
+step = {}
+[grid]
+cell = {}
+min = {}
+max = {}
+[terrain]
+type = "dem"
+file = "dem.tif"
+)",
+                     frame.end, frame.step, frame.cell, list(frame.least), list(frame.greatest)) +
+         material + release_table + "material = \"matter\"\n" + friction_alone(friction_angle);
+}
+
+// Rock that hardly deforms, under the stress of a slab on a slope; viscosity over stiffness [s].
+inline std::string elastic_rock(double viscosity_time) {
+  return fmt::format(R"(
+[material.matter]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+viscosity_time = {}
+[mechanics]
+slope_shear = true
+)",
+                     viscosity_time);
+}
 
 // A case with `text`, in which the terrain model is terrain.file = "dem.tif" and the release is `release_table`. The
 // files are there, and empty: what they stand for is in the site.

@@ -8,7 +8,6 @@
 #include <random>
 
 #include "../support/small_terrain.hpp"
-#include "terrain/nearest_known.hpp"
 #include "terrain/nearest_on_triangle.hpp"
 
 namespace thawslide::terrain {
@@ -157,33 +156,6 @@ TEST(HeightField, IsKnownWhereAllPointsOfACellHaveData) {
   EXPECT_FALSE(ground.is_known({points.x_end() + 0.1, points.y}));
   EXPECT_FALSE(ground.is_known({points.x - 0.1, points.y}, {points.x + 5.0, points.y + 5.0}));
   EXPECT_TRUE(HeightField(rough_raster()).is_known({points.x, points.y}, {points.x_end(), points.y_end()}));
-}
-
-TEST(FillFromNearestKnown, TakesTheNearestPoint) {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<double> number(0.0, 1.0);
-  Raster points = rough_raster();
-  points.cell_y = 3.0;
-  for (double& value : points.values) {
-    value = number(random) < 0.93 ? no_data : value;
-  }
-  Raster filled = points;
-  fill_from_nearest_known(filled);
-  for (int row = 0; row < points.rows; ++row) {
-    for (int column = 0; column < points.columns; ++column) {
-      double least = HUGE_VAL, of_taken = HUGE_VAL;
-      for (int j = 0; j < points.rows; ++j) {
-        for (int i = 0; i < points.columns; ++i) {
-          const double squared = std::pow(5.0 * (i - column), 2) + std::pow(3.0 * (j - row), 2);
-          if (!std::isnan(points.at(i, j))) {
-            least = std::min(least, squared);
-            of_taken = points.at(i, j) == filled.at(column, row) ? std::min(of_taken, squared) : of_taken;
-          }
-        }
-      }
-      EXPECT_EQ(of_taken, least);
-    }
-  }
 }
 
 }  // namespace

@@ -57,20 +57,12 @@ shape = "box"
 min = {}
 max = {}
 velocity = {}
-[basal]
-friction = "constant"
-friction_angle = 12.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
 )",
                      dimension, corner(-25.0, 0.0, -90.0), corner(295.0, 2.5, 40.0),
                      flat ? "" : "y_min = \"roller\"\ny_max = \"roller\"",
                      flat ? "type = \"profile\"\nfile = \"profile.csv\"" : "type = \"dem\"\nfile = \"dem.tif\"",
-                     corner(-20.0, 0.0, 0.0), corner(20.0, 2.5, 7.5), corner(14.0, 0.0, 0.0));
+                     corner(-20.0, 0.0, 0.0), corner(20.0, 2.5, 7.5), corner(14.0, 0.0, 0.0)) +
+         friction_alone(12.0);
 }
 
 sim::Simulation<2, double> in_profile() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../support/case_from_text.hpp"
+#include "../support/dry_sand.hpp"
 #include "../support/record.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -17,10 +18,8 @@ namespace {
 using namespace testing_support;
 using sim::Simulation;
 
-// A column against a smooth wall, of dry sand, 10 m wide. Sand whose angle of repose is 31 degrees slides along planes
-// at tau = tan(31) sigma; without dilation such planes bear sin(phi) sigma (Davis 1968): phi = asin(tan(31)) = 36.9
-// degrees.
-const std::string column = R"(
+// A column against a smooth wall, 10 m wide.
+const std::string column = dry_sand(2e7) + R"(
 [time]
 end = 6.0
 step = 0.0035
@@ -33,26 +32,10 @@ x_min = "roller"
 [terrain]
 type = "flat"
 elevation = 0.0
-[material.sand]
-law = "mohr_coulomb"
-youngs_modulus = 2e7
-poisson_ratio = 0.3
-friction_angle = 36.93
-cohesion = 0.0
-gaps_close_first = true
 [body.column]
 material = "sand"
 min = [0.0, 0.0]
 max = [10.0, 10.0]
-[basal]
-friction = "constant"
-friction_angle = 31.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
 )";
 
 struct Deposit {

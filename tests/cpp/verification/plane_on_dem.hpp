@@ -21,39 +21,8 @@ inline constexpr double gravity = 9.81;
 inline constexpr double width = 40.0;   // of the block, square in the map [m]
 inline constexpr double height = 20.0;  // vertical [m]
 
-inline const std::string block = R"(
-[case]
-dimension = 3
-[time]
-end = 1.0
-step = 0.001
-[grid]
-cell = 5.0
-min = [-100.0, -100.0, -120.0]
-max = [100.0, 100.0, 120.0]
-[terrain]
-type = "dem"
-file = "dem.tif"
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-)" + release_table + R"(
-material = "rock"
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = 10.0
-cohesion_law = "constant"
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+inline const std::string block =
+    release_on_dem({1.0, 0.001, 5.0, {-100.0, -100.0, -120.0}, {100.0, 100.0, 120.0}}, elastic_rock(0.02), 10.0);
 
 struct Plane {
   double slope;          // [degrees]
@@ -109,8 +78,13 @@ inline Slide slide(const Plane& plane, const std::vector<std::string>& sets) {
 }
 
 inline std::vector<std::string> rubbing(double friction_angle, double cohesion = 0.0) {
-  return {fmt::format("basal.friction_angle={}", friction_angle), fmt::format("basal.cohesion={}", cohesion)};
+  return {fmt::format("basal.friction_angle={}", friction_angle), "basal.cohesion_law=constant",
+          fmt::format("basal.cohesion={}", cohesion), "heat.enabled=true"};
 }
+
+// The nodes share the base by the load that they carry. On slopes they together count some hundredths too much, which
+// cohesion feels and friction does not.
+inline double allowed_of_area(const Plane& plane) { return 0.005 + 0.0015 * plane.slope; }
 
 // a = g (sin - mu cos) - c A/m; work = mu m g cos times the way, and that of the cohesion.
 inline Slide expect_slide(Record& record, const Plane& plane, double friction_angle, double cohesion = 0.0,
@@ -124,11 +98,12 @@ inline Slide expect_slide(Record& record, const Plane& plane, double friction_an
   const double acceleration = gravity * std::sin(plane.slope * degree) - resistance / seen.mass;
   record.expect_near("acceleration over exact, " + plane.text(), seen.acceleration / acceleration, 1.0,
                      cohesion > 0.0 ? 0.02 : 2e-3);
-  record.expect_near("work of friction over exact, " + plane.text(), seen.work / (resistance * seen.way), 1.0,
+  record.expect_near("heat over exact, " + plane.text(), seen.heat / (resistance * seen.way), 1.0,
                      cohesion > 0.0 ? 0.02 : 2e-3);
+  record.expect_near("heat over work of friction, " + plane.text(), seen.heat / seen.work, 1.0, 1e-12);
   record.expect_near("speed across the fall line [m/s], " + plane.text(), seen.aside, 0.0, 5e-3);
   record.expect_near("area of contact over exact, " + plane.text(), seen.area / plane.base_area(), 1.0,
-                     plane.slope > 40.0 ? 0.08 : 0.05);
+                     allowed_of_area(plane));
   return seen;
 }
 
@@ -136,16 +111,18 @@ inline void expect_rest(Record& record, const Plane& plane, double friction_angl
   const Slide seen = slide(plane, rubbing(friction_angle));
   record.expect_near("speed below the friction angle [m/s], " + plane.text(), seen.velocity, 0.0, 2e-3);
   record.expect_near("creep below the friction angle [m], " + plane.text(), seen.way, 0.0, 2e-3);
-  record.expect_near("area of contact over exact, " + plane.text(), seen.area / plane.base_area(), 1.0, 0.08);
+  record.expect_near("area of contact over exact, " + plane.text(), seen.area / plane.base_area(), 1.0,
+                     allowed_of_area(plane));
 }
 
 inline Record make_record(const std::string& title) {
-  return Record(title,
-                "An elastic block, 40 m square in the map and 20 m high, on a planar terrain model that falls in any "
-                "direction to the grid.",
-                "a = g (sin - mu cos) - c A/m; work of friction = (mu m g cos + c A) times the way; at rest below the "
-                "friction angle; A the area in the map over the cosine",
-                "Coulomb friction with cohesion");
+  return Record(
+      title,
+      "An elastic block, 40 m square in the map and 20 m high, on a planar terrain model that falls in any "
+      "direction to the grid.",
+      "a = g (sin - mu cos) - c A/m; heat = work of friction = (mu m g cos + c A) times the way; at rest below the "
+      "friction angle; A the area in the map over the cosine",
+      "Coulomb friction with cohesion");
 }
 
 }  // namespace plane_on_dem

@@ -1,13 +1,13 @@
 // The nearest known point in two sweeps: first along each column, then along each row over the columns' nearest points.
 // The squared distances to these are parabolas along the row, of which the lower envelope counts: Felzenszwalb and
 // Huttenlocher (2012), Distance transforms of sampled functions, Theory of Computing 8, section 2.1.
-#include "terrain/nearest_known.hpp"
+#include "base/nearest_known.hpp"
 
 #include <cmath>
 
 #include "base/error.hpp"
 
-namespace thawslide::terrain {
+namespace thawslide {
 
 namespace {
 
@@ -86,4 +86,4 @@ void fill_from_nearest_known(Raster& raster) {
   }
 }
 
-}  // namespace thawslide::terrain
+}  // namespace thawslide

@@ -1,0 +1,181 @@
+#include "gis/touching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "base/nearest_known.hpp"
+#include "gis/point_window.hpp"
+#include "gis/release_area.hpp"
+#include "gis/release_thickness.hpp"
+#include "gis/sampling.hpp"
+#include "gis/told_at.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+using Releases = std::map<std::string, LoadedRelease>;
+
+// Of the smaller area: outlines drawn along one another by hand, or taken from another reference system, share slivers.
+constexpr double overlap_tolerance = 1e-3;
+
+// A raster by the indices of another layout of the same grid; 0 beyond it.
+class ByIndicesOf {
+ public:
+  ByIndicesOf(const Raster& layout, const Raster& raster)
+      : raster_(&raster),
+        column_(static_cast<int>(std::lround((layout.x - raster.x) / raster.cell_x))),
+        row_(static_cast<int>(std::lround((layout.y - raster.y) / raster.cell_y))) {}
+
+  [[nodiscard]] double at(int column, int row) const {
+    const int i = column + column_, j = row + row_;
+    const bool is_inside = i >= 0 && j >= 0 && i < raster_->columns && j < raster_->rows;
+    return is_inside ? raster_->at(i, j) : 0.0;
+  }
+
+ private:
+  const Raster* raster_;
+  int column_, row_;
+};
+
+// Whether some place lies within a cell of both.
+bool touch(const LoadedRelease& one, const LoadedRelease& other) {
+  const Raster& spread = one.spread;
+  const ByIndicesOf there(spread, other.spread);
+  const PointWindow shared = points_of(other.spread, spread);
+  const int last_column = std::min(spread.columns, shared.first_column + shared.columns + 1);
+  const int last_row = std::min(spread.rows, shared.first_row + shared.rows + 1);
+  for (int row = std::max(0, shared.first_row - 1); row < last_row; ++row) {
+    for (int column = std::max(0, shared.first_column - 1); column < last_column; ++column) {
+      for (int k = 0; spread.at(column, row) > 0.0 && k < 9; ++k) {
+        if (there.at(column + k % 3 - 1, row + k / 3 - 1) > 0.0) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+std::set<std::string> touching_ones(const config::Case& parameters, const Releases& releases) {
+  std::set<std::string> found;
+  for (auto second = releases.begin(); second != releases.end(); ++second) {
+    for (auto first = releases.begin(); first != second; ++first) {
+      if (!touch(first->second, second->second)) {
+        continue;
+      }
+      const double one = parameters.bodies.at(first->first).taper, other = parameters.bodies.at(second->first).taper;
+      if (one != other) {
+        fail_at(parameters, key_of(second->first, "taper"),
+                fmt::format("the bodies '{}' and '{}' touch, or lie in one another's taper, and their tapers differ: "
+                            "{:g} m and {:g} m; allowed: the same. Set both keys to one value.",
+                            first->first, second->first, one, other));
+      }
+      found.insert({first->first, second->first});
+    }
+  }
+  return found;
+}
+
+// As many points more on each side as a column of particles reaches over.
+Raster widened_layout(const config::Case& parameters, const std::string& name, const Raster& thickness) {
+  const double reach = 0.5 * parameters.grid.cell / parameters.bodies.at(name).particles_per_axis;
+  const int columns = 2 + static_cast<int>(std::ceil(reach / thickness.cell_x));
+  const int rows = 2 + static_cast<int>(std::ceil(reach / thickness.cell_y));
+  Raster layout = layout_of(thickness, {-columns, -rows, thickness.columns + 2 * columns, thickness.rows + 2 * rows});
+  layout.values.assign(static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows), 0.0);
+  return layout;
+}
+
+// t_b / w_b, beyond the body that of the nearest point.
+Raster thickness_within(const LoadedRelease& loaded, const Raster& layout) {
+  const ByIndicesOf thickness(layout, loaded.release.thickness), spread(layout, loaded.spread);
+  Raster within = layout;
+  for (int row = 0; row < layout.rows; ++row) {
+    for (int column = 0; column < layout.columns; ++column) {
+      const double share = spread.at(column, row);
+      within.values[within.index(column, row)] =
+          share > 0.0 ? thickness.at(column, row) / share : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  fill_from_nearest_known(within);
+  return within;
+}
+
+double sum_at(const std::vector<ByIndicesOf>& rasters, int column, int row) {
+  double sum = 0.0;
+  for (const ByIndicesOf& raster : rasters) {
+    sum += raster.at(column, row);
+  }
+  return sum;
+}
+
+void join(const config::Case& parameters, const std::string& name, const Releases& releases, config::Release& release) {
+  const LoadedRelease& loaded = releases.at(name);
+  const Raster layout = widened_layout(parameters, name, loaded.release.thickness);
+  std::vector<ByIndicesOf> shares, spreads;
+  for (const auto& [other, one] : releases) {
+    shares.emplace_back(layout, one.share);
+    spreads.emplace_back(layout, one.spread);
+  }
+  const ByIndicesOf share(layout, loaded.share), spread(layout, loaded.spread);
+  release.standing = thickness_within(loaded, layout);
+  release.claim = layout;
+  Raster own = layout;
+  for (int row = 0; row < layout.rows; ++row) {
+    for (int column = 0; column < layout.columns; ++column) {
+      const std::size_t k = layout.index(column, row);
+      const double all_shares = sum_at(shares, column, row), all_spreads = sum_at(spreads, column, row);
+      release.standing.values[k] *= std::min(1.0, all_spreads);
+      release.claim.values[k] = all_shares > 0.0 ? share.at(column, row) : spread.at(column, row);
+      const double of_all = all_shares > 0.0 ? all_shares : all_spreads;
+      own.values[k] =
+          release.claim.values[k] > 0.0 ? release.standing.values[k] * release.claim.values[k] / of_all : 0.0;
+    }
+  }
+  // Tapers that end at another body move volume between the two: each keeps its own.
+  const double scale = volume_of(loaded.release.thickness) / volume_of(own);
+  for (std::size_t k = 0; k < own.values.size(); ++k) {
+    own.values[k] *= scale;
+    release.standing.values[k] *= scale;
+  }
+  release.thickness = part_of(own, points_of(loaded.release.thickness, own));
+}
+
+}  // namespace
+
+void check_overlaps(const config::Case& parameters, const Releases& releases) {
+  for (auto second = releases.begin(); second != releases.end(); ++second) {
+    for (auto first = releases.begin(); first != second; ++first) {
+      const Polygons& one = first->second.polygons;
+      const Polygons& other = second->second.polygons;
+      const Polygons both = intersection_of(one, other);
+      const double shared = area_of(both), allowed = overlap_tolerance * std::min(area_of(one), area_of(other));
+      if (shared <= allowed) {
+        continue;
+      }
+      const Rectangle place = extent_of(both);
+      fail_at(parameters, key_of_place(parameters, second->first),
+              fmt::format("the bodies '{}' and '{}' overlap by {:.4g} m2 about {:.10g}, {:.10g}; allowed: bodies that "
+                          "touch or lie apart, but for slivers up to {:.4g} m2, {:g} % of the smaller one. Draw them "
+                          "apart (QGIS: Vector > Geoprocessing Tools > Difference).",
+                          first->first, second->first, shared, 0.5 * (place.min_x + place.max_x),
+                          0.5 * (place.min_y + place.max_y), allowed, 100.0 * overlap_tolerance));
+    }
+  }
+}
+
+void join_touching(const config::Case& parameters, Releases& releases) {
+  std::map<std::string, config::Release> joined;
+  for (const std::string& name : touching_ones(parameters, releases)) {
+    joined[name] = releases.at(name).release;
+    join(parameters, name, releases, joined[name]);
+  }
+  for (auto& [name, release] : joined) {
+    releases.at(name).release = std::move(release);
+  }
+}
+
+}  // namespace thawslide::gis

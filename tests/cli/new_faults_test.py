@@ -1,0 +1,282 @@
+"""What is said of terrain models and releases that cannot be used, and of slides that leave the known ground."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+import rasterio
+from conftest import Program, run_facts
+from rasterio.transform import from_origin
+from slope_files import (
+    CELL,
+    COLUMNS,
+    DEPTH,
+    SOUTH,
+    THICKNESS,
+    WEST,
+    WIDTH,
+    Slope,
+    assert_refused,
+    made,
+    said,
+    write_release,
+    write_thickness,
+)
+
+
+def test_raster_releases_that_cannot_be_used(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    folder, dem = tmp_path / "slide", slope()
+    raster = write_thickness(tmp_path / "thick.tif", dem, THICKNESS)
+    assert_refused(
+        made(thawslide, folder, dem, raster, "--thickness", 3),
+        tmp_path,
+        "--thickness: thick.tif is a raster, whose values are the thickness in metres; leave --thickness out, or give "
+        "polygons to --release.",
+    )
+    assert_refused(
+        made(thawslide, folder, dem, write_thickness(raster, dem, 1000.0 * THICKNESS)),
+        tmp_path,
+        "--release: thick.tif: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows 2e+08 "
+        "m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "larger --largest-volume.",
+    )
+    assert_refused(
+        made(thawslide, folder, dem, write_thickness(raster, dem, 0.0)),
+        tmp_path,
+        "--release: thick.tif: the thickness is nowhere above 0: there is no release.",
+    )
+
+
+def test_dem_without_a_system(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    bare, folder = slope("bare.tif", crs=None), tmp_path / "slide"
+    assert_refused(
+        made(thawslide, folder, bare, release, "--thickness", THICKNESS),
+        tmp_path,
+        "--dem: bare.tif: the file names no coordinate reference system (x from 411995 to 412895, y from 5159995 to "
+        '5160595). Set --crs to the one its maker states, such as --crs "EPSG:31287".',
+    )
+    assert_refused(
+        made(thawslide, folder, bare, release, "--thickness", THICKNESS, "--crs", "EPSG:4326"),
+        tmp_path,
+        '--crs: EPSG:4326 is in degrees; allowed: a map projection in metres, such as "EPSG:31287".',
+    )
+    given = made(thawslide, folder, bare, release, "--thickness", THICKNESS, "--crs", "EPSG:32632")
+    assert given.returncode == 0, given.stderr
+
+
+def test_dem_with_a_wrong_tag(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    wrong, folder = slope("wrong.tif", crs="EPSG:4326"), tmp_path / "slide"
+    assert_refused(
+        made(thawslide, folder, wrong, release, "--thickness", THICKNESS),
+        tmp_path,
+        "--dem: wrong.tif: the tag says degrees (EPSG:4326), the numbers are metric (x from 411995 to 412895, y from "
+        '5159995 to 5160595). Set --crs "EPSG:..." to the system the numbers are in; its maker states it.',
+    )
+    given = made(thawslide, folder, wrong, release, "--thickness", THICKNESS, "--crs", "EPSG:32632")
+    assert given.returncode == 0, given.stderr
+    assert given.stdout.startswith(
+        "note: wrong.tif is taken to be in EPSG:32632, as --crs says; the file says EPSG:4326\n"
+    )
+
+
+def test_dem_in_degrees(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    degrees = slope("degrees.tif", crs="EPSG:4326")
+    with rasterio.open(degrees, "r+") as file:
+        file.transform = from_origin(7.9, 46.5, 1e-4, 1e-4)
+    assert_refused(
+        made(thawslide, tmp_path / "slide", degrees, release, "--thickness", THICKNESS),
+        tmp_path,
+        "--dem: degrees.tif: the coordinates are degrees (EPSG:4326; x from 7.9 to 7.909, y from 46.494 to 46.5); "
+        "allowed: a map projection in metres. Reproject: gdalwarp -t_srs EPSG:32632 -tr 11 11 -r bilinear degrees.tif "
+        "degrees-EPSG32632.tif",
+    )
+
+
+def test_dem_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """Cut off in its values, cut off in its head, absent."""
+    dem, folder = slope(), tmp_path / "slide"
+    whole = dem.read_bytes()
+    for size, begin, end in (
+        (9000, "the values cannot be read; GDAL says: ", ". The file seems to be damaged or cut off: copy it anew.\n"),
+        (
+            100,
+            "the raster cannot be opened; GDAL says: ",
+            ". Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is whole and may be read.\n",
+        ),
+    ):
+        dem.write_bytes(whole[:size])
+        outcome = made(thawslide, folder, dem, release, "--thickness", THICKNESS)
+        assert outcome.returncode == 2 and not folder.exists()
+        text = said(outcome.stderr, tmp_path)
+        assert text.startswith(f"error: --dem: dem.tif: {begin}") and text.endswith(end), text
+    dem.unlink()
+    assert_refused(
+        made(thawslide, folder, dem, release, "--thickness", THICKNESS),
+        tmp_path,
+        "--dem: dem.tif: there is no such file. Correct the path.",
+    )
+
+
+def test_thickness_neither_given_nor_in_the_file(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(), release),
+        tmp_path,
+        "--release: release.geojson: there is no attribute 'thickness', which is needed without --thickness; the file "
+        "has: name. Correct the name, or add the attribute.",
+    )
+    nothing = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 0)
+    assert nothing.returncode == 2
+    assert nothing.stderr.startswith("--thickness: 0 found; allowed: above 0\n")
+
+
+def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    words = ["--thickness", 1000.0 * THICKNESS]
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(), release, *words),
+        tmp_path,
+        "--release: release.geojson: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows "
+        "2e+08 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "larger --largest-volume.",
+    )
+
+
+@pytest.mark.parametrize("content", ["", '{"type": "FeatureColl'])
+def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slope, content: str) -> None:
+    broken, folder = tmp_path / "broken.geojson", tmp_path / "slide"
+    broken.write_text(content)
+    outcome = made(thawslide, folder, slope(), broken, "--thickness", THICKNESS)
+    assert outcome.returncode == 2 and not folder.exists()
+    text = said(outcome.stderr, tmp_path)
+    assert text.startswith("error: --release: broken.geojson: the file cannot be opened; GDAL says: "), text
+    assert text.endswith(
+        ". Allowed: Shapefile (with its .shx and .dbf beside it), GeoPackage or GeoJSON; check that the file is whole "
+        "and may be read.\n"
+    ), text
+    assert_refused(
+        made(thawslide, folder, slope(), tmp_path / "absent.shp", "--thickness", THICKNESS),
+        tmp_path,
+        "--release: absent.shp: there is no such file. Correct the path.",
+    )
+
+
+def test_release_outside_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    for east, place, found in (
+        (5000.0, "outside the terrain model, by 4230 m in the east", "x from 417000 to 417120"),
+        (820.0, "partly outside the terrain model, by 50 m in the east", "x from 412820 to 412940"),
+    ):
+        beside = write_release(tmp_path / "beside.geojson", WEST + east, SOUTH)
+        assert_refused(
+            made(thawslide, tmp_path / "slide", slope(), beside, "--thickness", THICKNESS),
+            tmp_path,
+            f"--release: beside.geojson: the release lies {place}; found: {found}, y from 5160000 to 5160100; allowed: "
+            "x from 412000 to 412890, y from 5160000 to 5160590. Check that both have the same place and reference "
+            "system (the ground's is EPSG:32632), or take a larger terrain model.",
+        )
+
+
+def test_release_without_a_polygon_or_with_a_crossing_one(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    content = json.loads(release.read_text())
+    ring = content["features"][0]["geometry"]["coordinates"][0]
+    ring[1], ring[2] = ring[2], ring[1]
+    release.write_text(json.dumps(content))
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(), release, "--thickness", THICKNESS),
+        tmp_path,
+        "--release: release.geojson: polygon 1 (slide) crosses itself at or near 412260 5160300. Correct its outline "
+        "there (QGIS: Vector > Geometry Tools > Check Validity).",
+    )
+    content["features"] = []
+    release.write_text(json.dumps(content))
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(), release, "--thickness", THICKNESS),
+        tmp_path,
+        "--release: release.geojson: the layer is empty; needed: polygons. Draw them, or name the file that has them.",
+    )
+
+
+def test_release_over_a_hole(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(hole=slice(20, 30)), release, "--thickness", THICKNESS),
+        tmp_path,
+        "--release: release.geojson: the release lies over nodata of the terrain model at 100 of its points, such as "
+        "412200, 5160250. Fill the holes (gdal_fillnodata.py dem.tif filled.tif), or move the release.",
+    )
+
+
+def test_bodies_that_overlap(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """A second body, added by hand: refused where outlines overlap, seeded beside the first one where they touch."""
+    folder, run = tmp_path / "slide", tmp_path / "run"
+    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    with (folder / "case.toml").open("a") as case:
+        case.write('[body.toe]\nmaterial = "rock_ice"\nshape = "release"\nrelease = "toe.geojson"\nthickness = 12.0\n')
+    write_release(folder / "toe.geojson", WEST + 310.0, SOUTH + 250.0)
+    outcome = thawslide("run", folder, "--output", run, "--set", "time.end=0.01")
+    line = 1 + (folder / "case.toml").read_text().splitlines().index('release = "toe.geojson"')
+    assert outcome.returncode == 2 and not run.exists()
+    assert said(outcome.stderr, tmp_path) == (
+        f"error: slide/case.toml:{line}:11: body.toe.release: the bodies 'slide' and 'toe' overlap by 1000 m2 about "
+        "412315, 5160300; allowed: bodies that touch or lie apart, but for slivers up to 12 m2, 0.1 % of the smaller "
+        "one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).\n"
+    )
+    write_release(folder / "toe.geojson", WEST + 320.0, SOUTH + 250.0)
+    done = thawslide("run", folder, "--output", run, "--set", "time.end=0.01")
+    assert done.returncode == 0, done.stderr
+    with rasterio.open(run / "maps" / "release.tif") as file:
+        assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(WIDTH * DEPTH * (THICKNESS + 12.0), rel=1e-9)
+
+
+def test_folder_that_is_there(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    folder = tmp_path / "full"
+    folder.mkdir()
+    (folder / "notes.txt").write_text("mine")
+    assert_refused(
+        made(thawslide, folder, slope(), release, "--thickness", THICKNESS),
+        tmp_path,
+        "full: there is something already; give the name of a folder that is not there yet, or an empty one.",
+    )
+
+
+# What is said of a particle over ground that is not known.
+NO_GROUND = (
+    r"error: the run went bad at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: the "
+    r"terrain below it is not known: the DEM ends or has a hole there\. It moves towards the east at (\S+) m/s, and at "
+    r"that speed would go (\S+) m further until time\.end\. Give a DEM that reaches further there, and \[grid\] with "
+    r'it, or set grid\.leaving = "remove" to let such particles go\.\n'
+)
+# And of one that reaches the domain's side.
+LEFT_DOMAIN = (
+    r"error: the run went bad at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: "
+    r"it left the domain\. It moves at \S+ m/s, the slide at \S+ m/s in the mean\. Likely cause: the slide ran further "
+    r"than \[grid\] min and max allow; widen them\. It moves towards the east at (\S+) m/s, and at that speed would go "
+    r"(\S+) m further until time\.end\. \n"
+)
+
+
+@pytest.mark.parametrize("hole", [None, slice(60, 70)])
+def test_a_slide_that_leaves_the_known_ground_stops_there(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path, hole: slice | None
+) -> None:
+    """At the DEM's edge and at a hole on its way it ends with exit code 3, says where, and keeps the maps so far."""
+    folder, run = tmp_path / "slide", tmp_path / "run"
+    assert made(thawslide, folder, slope(hole=hole), release, "--thickness", THICKNESS).returncode == 0
+    case = folder / "case.toml"
+    case.write_text(case.read_text().replace("temperature = ", "velocity = [80.0, 0.0, 0.0]\ntemperature = ", 1))
+    words = ["--set", "basal.friction_angle=1", "--set", "basal.friction=constant"]
+    done = thawslide("run", folder, "--output", run, *words)
+    assert done.returncode == 3, done.stderr
+    told = re.fullmatch(NO_GROUND, done.stderr) or (None if hole else re.fullmatch(LEFT_DOMAIN, done.stderr))
+    assert told, done.stderr
+    east = WEST + CELL * ((hole.start if hole else COLUMNS) - 1)
+    assert east - 3.0 * CELL < float(told[1]) < east + CELL
+    assert SOUTH + 200.0 < float(told[2]) < SOUTH + 400.0
+    assert float(told[3]) > 20.0 and float(told[4]) > 100.0
+    assert run_facts(run)["status"] == "failed"
+    with rasterio.open(run / "maps" / "max_speed.tif") as file:
+        assert file.read(1, masked=True).max() > 40.0

@@ -1,0 +1,118 @@
+"""Physics in device code: it compiles wherever nvcc is found, and its kernels keep to their registers."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+KERNELS = Path(__file__).with_name("physics_kernels.cu")
+OLDEST = 12  # version of nvcc: the first with C++20
+LIMIT = 300.0  # s; it takes about 10 alone
+
+# Registers that a kernel may use: what nvcc 13.0 gives it, and a tenth or so for other versions. A multiprocessor of
+# sm_90 has 65,536, so that 80 leave it 24 groups of 32 threads, 96 leave it 20.
+REGISTERS = {
+    "strain_and_stress<LinearElastic<double>, 2>": 52,  # 46
+    "strain_and_stress<LinearElastic<double>, 3>": 80,  # 72
+    "strain_and_stress<MohrCoulomb<double>, 2>": 68,  # 60
+    "strain_and_stress<MohrCoulomb<double>, 3>": 96,  # 84
+    "yield_and_gap<2>": 50,  # 44
+    "yield_and_gap<3>": 80,  # 72
+    "heat<PowerLawCurve<double>>": 60,  # 54
+    "heat<LinearCurve<double>>": 56,  # 50
+    "mixture": 40,  # 32
+    "pore_water": 44,  # 38
+    "basal_contact": 40,  # 32
+}
+
+
+def find_nvcc() -> str:
+    """Return nvcc's path, or skip the test."""
+    beside = os.environ.get("CUDA_HOME", "/usr/local/cuda")
+    nvcc = shutil.which("nvcc") or shutil.which("nvcc", path=f"{beside}/bin")
+    if not nvcc:
+        pytest.skip(f"no nvcc on the path or in {beside}/bin: device code is not compiled here")
+    told = subprocess.run([nvcc, "--version"], capture_output=True, text=True, timeout=60, check=True).stdout
+    version = re.search(r"release (\d+)\.(\d+)", told)
+    assert version, told
+    if int(version.group(1)) < OLDEST:
+        pytest.skip(f"{nvcc} is of version {version.group(1)}.{version.group(2)}; C++20 needs {OLDEST}.0")
+    return nvcc
+
+
+def compiled(nvcc: str, source: Path, folder: Path) -> str:
+    """Compile for sm_90 and return what the compiler and ptxas say, with names as in the source."""
+    eigen = subprocess.run(["pkg-config", "--cflags-only-I", "eigen3"], capture_output=True, text=True, check=True)
+    options = ["-std=c++20", "-arch=sm_90", f"-I{ROOT / 'src'}", "--expt-relaxed-constexpr", "--ptxas-options=-v"]
+    options += ["-Werror", "all-warnings", "-Xcompiler", "-Wall,-Wextra"]
+    for place in eigen.stdout.split():
+        options += ["-isystem", place.removeprefix("-I")]
+    options += ["-diag-suppress", "20012"]  # Eigen 3.4 marks functions that need no mark
+    command = [nvcc, *options, "-c", str(source), "-o", str(folder / "kernels.o")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False)
+    told = done.stdout + done.stderr
+    assert done.returncode == 0, f"{' '.join(command)}\n{told}"
+    return subprocess.run(["c++filt"], input=told, capture_output=True, text=True, check=True).stdout
+
+
+def short_name(demangled: str) -> str:
+    """Return a kernel's name and template arguments, without result, parameters and namespaces."""
+    name = demangled.removeprefix("void ").replace("thawslide::physics::", "").replace("> >", ">>")
+    return name.split("(")[0]
+
+
+def resources(told: str) -> dict[str, tuple[int, int]]:
+    """Return registers and spilled bytes of each kernel."""
+    found = {}
+    for part in told.split("Compiling entry function '")[1:]:
+        spilled = [int(number) for number in re.findall(r"(\d+) bytes spill", part)]
+        registers = re.search(r"Used (\d+) registers", part)
+        assert spilled and registers, part
+        found[short_name(part.split("' for '")[0])] = (int(registers.group(1)), sum(spilled))
+    return found
+
+
+def test_kernels_of_physics_compile_without_spills_within_their_registers(tmp_path: Path) -> None:
+    used = resources(compiled(find_nvcc(), KERNELS, tmp_path))
+    assert set(used) == set(REGISTERS)
+    assert {kernel: spilled for kernel, (_, spilled) in used.items() if spilled > 0} == {}
+    assert {kernel: number for kernel, (number, _) in used.items() if number > REGISTERS[kernel]} == {}
+
+
+def test_spills_and_unmarked_functions_are_found(tmp_path: Path) -> None:
+    nvcc = find_nvcc()
+    greedy = tmp_path / "greedy.cu"
+    greedy.write_text("""#include "base/select.hpp"
+__global__ void __launch_bounds__(1024, 2) greedy(double* numbers) {
+  double kept[64];
+  thawslide::unrolled<64>([&](auto k) { kept[k] = numbers[threadIdx.x + 32 * k]; });
+  __syncthreads();
+  thawslide::unrolled<64>([&](auto k) { numbers[threadIdx.x + 32 * k] = kept[63 - k]; });
+}
+""")
+    registers, spilled = resources(compiled(nvcc, greedy, tmp_path))["greedy"]
+    assert registers <= 32
+    assert spilled > 0
+    unmarked = tmp_path / "unmarked.cu"
+    unmarked.write_text("""double twice(double number) { return 2 * number; }
+__global__ void unmarked(double* numbers) { numbers[0] = twice(numbers[0]); }
+""")
+    with pytest.raises(AssertionError, match="twice"):
+        compiled(nvcc, unmarked, tmp_path)
+
+
+def test_every_function_marked_for_devices_is_called_by_a_kernel() -> None:
+    headers = "".join(path.read_text() for path in sorted((ROOT / "src" / "physics").glob("*.hpp")))
+    headers = re.sub(r"//.*", "", headers)
+    marked = re.findall(r"THAWSLIDE_HD [^;{}(]*?\b(\w+)\(", headers)
+    assert len(marked) == headers.count("THAWSLIDE_HD") > 60
+    code = headers + re.sub(r"//.*", "", KERNELS.read_text())
+    for name in sorted(set(marked)):
+        called = len(re.findall(rf"\b{name}(?:<[^;()]*>)?(?: \w+)?\(", code)) - marked.count(name)
+        assert called > 0, f"neither {KERNELS.name} nor another function of src/physics calls {name}"

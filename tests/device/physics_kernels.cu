@@ -1,0 +1,156 @@
+// Every function of src/physics that devices may call, in kernels of one particle a thread, in double precision. They
+// are compiled and never run: that they can be, and in how many registers, is the test.
+#include <cstddef>
+#include <utility>
+
+#include "physics/basal_friction.hpp"
+#include "physics/clapeyron.hpp"
+#include "physics/contact.hpp"
+#include "physics/elasticity.hpp"
+#include "physics/freezing.hpp"
+#include "physics/heat_content.hpp"
+#include "physics/kinematics.hpp"
+#include "physics/mixture.hpp"
+#include "physics/mohr_coulomb.hpp"
+#include "physics/pressurization.hpp"
+#include "physics/principal.hpp"
+#include "physics/tension_gap.hpp"
+
+namespace thawslide::physics {
+
+using Real = double;
+using Tensor = SymmetricTensor<Real>;
+
+// One number after the other of a thread's particle; those of the particles side by side.
+class Row {
+ public:
+  __device__ Row(Real* numbers, std::size_t particles)
+      : number_(numbers + blockIdx.x * blockDim.x + threadIdx.x), particles_(particles) {}
+
+  __device__ Real take() {
+    const Real number = *number_;
+    number_ += particles_;
+    return number;
+  }
+  template <int Count>
+  __device__ Vector<Real, Count> take_vector() {
+    Vector<Real, Count> vector;
+    unrolled<Count>([&](auto k) { vector[k] = take(); });
+    return vector;
+  }
+  template <int Dim>
+  __device__ Matrix<Real, Dim> take_matrix() {
+    Matrix<Real, Dim> matrix;
+    unrolled<Dim * Dim>([&](auto k) { matrix(k / Dim, k % Dim) = take(); });
+    return matrix;
+  }
+  __device__ void put(Real number) {
+    *number_ = number;
+    number_ += particles_;
+  }
+  template <int Count>
+  __device__ void put(const Vector<Real, Count>& vector) {
+    unrolled<Count>([&](auto k) { put(vector[k]); });
+  }
+
+ private:
+  Real* number_;
+  std::size_t particles_;
+};
+
+template <class Law, int Dim>
+__global__ void strain_and_stress(Law law, Elastic<Real> elastic, Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const StrainIncrement<Real, Dim> step = strain_increment<Real, Dim>(row.take_matrix<Dim>());
+  const Tensor old = rotate<Real, Dim>(row.take_vector<6>(), step.rotation);
+  const Tensor trial = old + stress_increment(elastic, step.strain);
+  const ReturnResult<Real> now = law.template update<Dim>(trial, row.take());
+  result.put<6>(now.stress);
+  result.put(now.equivalent_plastic_strain_increment);
+  result.put(now.plastic_work_density);
+  result.put(now.opening);
+  result.put(step.volume_ratio);
+}
+template __global__ void strain_and_stress<LinearElastic<Real>, 2>(LinearElastic<Real>, Elastic<Real>, Real*, Real*,
+                                                                   std::size_t);
+template __global__ void strain_and_stress<LinearElastic<Real>, 3>(LinearElastic<Real>, Elastic<Real>, Real*, Real*,
+                                                                   std::size_t);
+template __global__ void strain_and_stress<MohrCoulomb<Real>, 2>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*,
+                                                                 std::size_t);
+template __global__ void strain_and_stress<MohrCoulomb<Real>, 3>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*,
+                                                                 std::size_t);
+
+// What decides whether a particle needs its law at all, and what gaps take of its strain.
+template <int Dim>
+__global__ void yield_and_gap(MohrCoulomb<Real> law, Elastic<Real> elastic, Real* numbers, Real* results,
+                              std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Tensor strain = row.take_vector<6>();
+  const Real plastic_strain = row.take();
+  const Tensor borne = borne_strain<Real>(strain, closing_strain(row.take(), row.take()));
+  const Tensor trial = stress_increment(elastic, borne);
+  result.put(law.may_yield<Dim>(trial, plastic_strain) ? Real(1) : Real(0));
+  result.put(law.cohesion(plastic_strain));
+  const Principal<Real> own = principal<Dim>(trial);
+  result.put<6>(from_principal(own));
+  result.put(Elastic<Real>::from_young_poisson(row.take(), row.take()).p_wave_modulus());
+}
+template __global__ void yield_and_gap<2>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
+template __global__ void yield_and_gap<3>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
+
+template <class Curve>
+__global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Real temperature = row.take(), change = row.take(), porosity = row.take();
+  const Real content = law.content(temperature, porosity);
+  const Real warmer = law.temperature(content + row.take(), porosity, temperature);
+  result.put(law.apparent_capacity(temperature, porosity));
+  result.put(law.drowns_in_round_off(change) ? Real(0) : law.secant_capacity(temperature, change, porosity));
+  result.put(warmer);
+  result.put(law.curve.saturation(warmer));
+  result.put(law.curve.temperature(row.take()));
+  result.put(law.melting_heat(porosity));
+}
+template __global__ void heat<PowerLawCurve<Real>>(HeatContent<Real, PowerLawCurve<Real>>, Real*, Real*, std::size_t);
+template __global__ void heat<LinearCurve<Real>>(HeatContent<Real, LinearCurve<Real>>, Real*, Real*, std::size_t);
+
+__global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Real porosity = row.take(), saturation = row.take();
+  result.put(effective_solid_fraction(phases, porosity, saturation));
+  result.put(mixture_density(phases, porosity, saturation));
+  result.put(heat_capacity(phases, porosity, saturation));
+  result.put(conductivity(phases, porosity, saturation));
+  result.put(expansion(phases, porosity, saturation));
+  result.put(updated_porosity(phases, porosity, row.take(), row.take()));
+}
+
+__global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign, bool as_printed, Real* numbers,
+                           Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Real porosity = row.take(), saturation = row.take(), temperature = row.take();
+  const Real ice = ice_pressure(phases, gravity, row.take());
+  const Real liquid = liquid_pressure_clapeyron(phases, ice, temperature, row.take(), sign);
+  result.put(pore_pressure(saturation, liquid, ice));
+  result.put(undrained_pressure_coefficient(phases, porosity, saturation));
+  result.put(pore_stiffness(phases, porosity, saturation));
+  const Real scaling = pore_space_scaling(row.take(), as_printed);
+  const Real diffusivity = hydraulic_diffusivity(phases, porosity, saturation, scaling * row.take());
+  result.put(share_levelled_within_cell(diffusivity, row.take(), 3, dt));
+}
+
+__global__ void basal_contact(FrictionClamp clamp, bool cap_pressure, Real dt, Real* numbers, Real* results,
+                              std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Real friction = lubrication_factor(row.take(), row.take(), row.take(), row.take());
+  const Real cohesion = cohesion_after_slip(row.take(), row.take(), row.take(), row.take());
+  const Real with_ice = cohesion_of_ice(cohesion, row.take());
+  const Real lasting = cohesion_until(with_ice, row.take(), row.take(), row.take());
+  const Real strength = sliding_strength(friction, row.take(), row.take(), lasting, clamp, cap_pressure);
+  const ContactImpulse<Real> impulse = contact_impulse(row.take(), row.take(), row.take(), dt, strength);
+  result.put(impulse.normal);
+  result.put(impulse.tangential);
+  result.put(impulse.slides ? Real(1) : Real(0));
+}
+
+}  // namespace thawslide::physics
