@@ -16,8 +16,6 @@ struct CellNodes {
     return (node / 9 * edge + node / 3 % 3) * edge + node % 3;
   }
 };
-inline constexpr std::int32_t no_cell = -1;
-
 constexpr int no_flux = -1;
 
 // What particles add to the records of a patch: cell by cell, a cell being the particles of one nearest node. Within a
@@ -35,7 +33,6 @@ class CellSums {
 
  public:
   explicit CellSums(Patch<Dim, Real, Components>& patch) : patch_(patch) {}
-  ~CellSums() { end_cell(); }
   CellSums(const CellSums&) = delete;
   CellSums& operator=(const CellSums&) = delete;
 
@@ -46,21 +43,18 @@ class CellSums {
     unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
                                                 THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
     const auto& nodes = stencil.nodes.first;
-    if (nodes[0] != cell_) {
-      end_cell();
-    }
     for (std::size_t first = 0, last = 0; first < count; first = last) {
       while (last < count && nodes[last] == nodes[first]) {
         ++last;
       }
-      const bool begins = cell_ == no_cell, ends = last < count;
+      const bool begins = first > 0 || !is_open_, ends = last < count || !stencil.nodes.goes_on;
       Real* records = patch_.records[static_cast<std::size_t>(nodes[first])].data() + First;
       unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
         add_particles<static_cast<int>(g()) == FluxGroup>(stencil, first, last, value[g], flux, begins, ends, sums_[g],
                                                           records + g * width);
       });
-      cell_ = ends ? no_cell : nodes[first];
     }
+    is_open_ = stencil.nodes.goes_on;
   }
 
  private:
@@ -116,23 +110,9 @@ class CellSums {
     });
   }
 
-  void end_cell() {
-    if (cell_ == no_cell) {
-      return;
-    }
-    Real* records = patch_.records[static_cast<std::size_t>(cell_)].data() + First;
-    for (std::size_t g = 0; g < groups; ++g) {
-      unrolled<layers * layer_nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-        Real* record = records + CellNodes<Dim>::place(k) * size + g * width;
-        (Register::load(record) + sums_[g][k]).store(record);
-      });
-    }
-    cell_ = no_cell;
-  }
-
   Patch<Dim, Real, Components>& patch_;
-  std::int32_t cell_ = no_cell;  // lowest node of the cell that sums_ holds
-  Register sums_[groups][layers * layer_nodes]{};
+  bool is_open_ = false;                           // the last batch's last cell goes on
+  Register sums_[groups][layers * layer_nodes]{};  // of that cell
 };
 
 // The same for the linear shape functions, whose particles see the corners of the cell of nodes they lie in, not the
@@ -147,7 +127,6 @@ class LinearCellSums {
 
  public:
   explicit LinearCellSums(Patch<Dim, Real, Components>& patch) : patch_(patch) {}
-  ~LinearCellSums() { end_cell(); }
   LinearCellSums(const LinearCellSums&) = delete;
   LinearCellSums& operator=(const LinearCellSums&) = delete;
 
@@ -162,13 +141,15 @@ class LinearCellSums {
     const auto corners = hats.corners();
     const auto& cells = hats.nodes.first;
     for (std::size_t lane = 0; lane < count; ++lane) {
-      if (cells[lane] != cell_) {
-        end_cell();
+      if (lane > 0 ? cells[lane] != cells[lane - 1] : !is_open_) {
         sums_.fill(Register(Real(0)));
-        cell_ = cells[lane];
       }
       add_particle(corners, lane, value[lane], flux, &sums_[static_cast<std::size_t>(corners.first_in_cell[lane])]);
+      if (lane + 1 < count ? cells[lane] != cells[lane + 1] : !hats.nodes.goes_on) {
+        end_cell(static_cast<std::size_t>(cells[lane]));
+      }
     }
+    is_open_ = hats.nodes.goes_on;
   }
 
  private:
@@ -210,21 +191,17 @@ class LinearCellSums {
     });
   }
 
-  void end_cell() {
-    if (cell_ == no_cell) {
-      return;
-    }
-    Real* records = patch_.records[static_cast<std::size_t>(cell_)].data() + First;
+  void end_cell(std::size_t first_node) {
+    Real* records = patch_.records[first_node].data() + First;
     unrolled<nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       Real* record = records + CellNodes<Dim>::place(k) * size;
       (Register::load(record) + sums_[k]).store(record);
     });
-    cell_ = no_cell;
   }
 
   Patch<Dim, Real, Components>& patch_;
-  std::int32_t cell_ = no_cell;  // lowest node of the cell that sums_ holds
-  std::array<Register, nodes> sums_{};
+  bool is_open_ = false;                // the last batch's last cell goes on
+  std::array<Register, nodes> sums_{};  // of the cell at hand
 };
 
 template <int FluxGroup, std::size_t Carried, std::size_t First = 0, int Dim, class Real, int Components>

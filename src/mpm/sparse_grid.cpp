@@ -345,6 +345,11 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
       before_nearest[a] = Lanes<Real>::load_whole(nearest.data()) - Real(1);
     }
     batch.nodes = nodes_from<Dim, Real>(tile.key, before_nearest);
+    batch.nodes.goes_on = false;
+    if (!batches.empty()) {
+      const TileBatch<Dim, Real>& before = batches.back();
+      batches.back().nodes.goes_on = before.nodes.first[before.count - 1] == batch.nodes.first[0];
+    }
     batches.push_back(batch);
     broken_[t] += batch.whole ? 0 : 1;
   }
