@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "band/averages.hpp"
 #include "base/error.hpp"
@@ -206,12 +207,14 @@ void Simulation<Dim, Real>::settle() {
   model_.constraints.frames.clear();
   model_.contact.base_holds = true;
   model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
+  const config::Leaving leaving = std::exchange(parameters_.grid.leaving, config::Leaving::stop);  // nothing may go
   const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
                                                                          : parameters_.time.safety * step_limit().step;
   const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
   for (std::int64_t k = 0; k < steps; ++k) {
     step(dt);
   }
+  parameters_.grid.leaving = leaving;
   // The settled stress goes to particles as they were seeded, so that nothing else of the settling stays.
   std::vector<SymmetricTensor<Real>> settled(particles_.size());
   for (std::size_t p = 0; p < particles_.size(); ++p) {
