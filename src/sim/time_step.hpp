@@ -1,7 +1,6 @@
 // How long a step may be.
 #pragma once
 
-#include <algorithm>
 #include <string>
 
 #include "config/case.hpp"
@@ -16,13 +15,10 @@ struct StepLimit {
   std::string what;
 };
 
-// The band's smallest thickness over time [m]; 0 without a band.
-inline double smallest_thickness(const config::Case& parameters) {
-  const auto& thickness = parameters.band.thickness.value;
-  return thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
-}
-
 // The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage.
+// The band's smallest thickness over time [m]; 0 without a band.
+double smallest_thickness(const config::Case& parameters);
+
 template <int Dim, class Real>
 StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                               const mpm::Particles<Dim, Real>& particles);
