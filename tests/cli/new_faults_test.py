@@ -131,7 +131,7 @@ def test_thickness_neither_given_nor_in_the_file(
     )
     nothing = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 0)
     assert nothing.returncode == 2
-    assert nothing.stderr.startswith("--thickness: 0 found; allowed: above 0\n")
+    assert nothing.stderr.startswith("error: --thickness: 0 found; allowed: above 0. Run with --help")
 
 
 def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
