@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
+#include "gis/holes.hpp"
 #include "gis/site.hpp"
 #endif
 
@@ -16,6 +17,9 @@ config::Site read_map_files(const config::Case& parameters) {
   }
 #ifdef THAWSLIDE_WITH_GIS
   gis::SiteAndNotes read = gis::load_site(parameters);
+  if (const std::string holes = gis::holes_note(parameters, read.site); !holes.empty()) {
+    read.notes.push_back(holes);
+  }
   for (const std::string& note : read.notes) {
     fmt::print("note: {}\n", note);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -72,6 +73,14 @@ class ProfileReader {
   }
 
   void take_header(const Fields& fields) {
+    const bool is_binary = std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
+      return std::any_of(field.begin(), field.end(), [](unsigned char sign) { return std::iscntrl(sign) != 0; });
+    });
+    if (is_binary) {
+      fail(
+          "this is no text file; allowed: columns separated by commas under the header "
+          "distance_m,terrain_elevation_m[,surface_elevation_m]. A terrain model is read with terrain.type = \"dem\"");
+    }
     const bool is_known =
         (fields.size() == 2 || fields.size() == 3) && std::equal(fields.begin(), fields.end(), all_columns.begin());
     if (!is_known) {

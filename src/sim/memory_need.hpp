@@ -5,9 +5,10 @@
 
 namespace thawslide::sim {
 
-// Of particles with the cells about them, roughly; the number for 2D is an estimate.
+// Heap in use over particles after a run of 100,000, with grid and nodes [bytes]; measured by benchmarks/speed
+// (docs/performance.md). Thin slides take more a particle, compact ones less.
 template <int Dim>
-inline constexpr double bytes_of_particle = Dim == 3 ? 730.0 : 500.0;
+inline constexpr double bytes_of_particle = Dim == 3 ? 727.0 : 705.0;
 
 // Bytes that this process may use: the machine's memory, or less where a limit is set (ulimit -v).
 [[nodiscard]] double memory_allowed();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../support/friction_alone.hpp"
 #include "../support/record.hpp"
 #include "base/error.hpp"
 #include "base/raster_sampling.hpp"
@@ -81,15 +82,8 @@ max = [400654.0, 300552.0, 1702.0]
 law = "elastic"
 youngs_modulus = 5e7
 poisson_ratio = 0.2
-[basal]
-friction = "constant"
-friction_angle = 15.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
+)" + testing_support::friction_alone(15.0) +
+                          R"(
 [terrain]
 type = "dem"
 file = "dem.tif"

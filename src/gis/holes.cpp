@@ -1,0 +1,62 @@
+#include "gis/holes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gis/told_at.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+// To the nearest release, each taken as the rectangle that holds it [m].
+double distance_to_releases(const config::Site& site, double x, double y) {
+  double least = HUGE_VAL;
+  for (const auto& [name, release] : site.releases) {
+    const Raster& area = release.thickness;
+    const double along_x = std::max({0.0, area.x - x, x - area.x_end()});
+    const double along_y = std::max({0.0, area.y - y, y - area.y_end()});
+    least = std::min(least, std::hypot(along_x, along_y));
+  }
+  return least;
+}
+
+}  // namespace
+
+std::string holes_note(const config::Case& parameters, const config::Site& site) {
+  const Raster& ground = *site.ground;
+  const Rectangle domain = domain_of(parameters);
+  std::size_t points = 0, unknown = 0;
+  double nearest = HUGE_VAL, nearest_x = 0.0, nearest_y = 0.0;
+  for (int row = 0; row < ground.rows; ++row) {
+    for (int column = 0; column < ground.columns; ++column) {
+      const double x = ground.x_of(column), y = ground.y_of(row);
+      if (!domain.holds(x, y)) {
+        continue;
+      }
+      ++points;
+      if (!std::isnan(ground.at(column, row))) {
+        continue;
+      }
+      const double distance = distance_to_releases(site, x, y);
+      if (unknown++ == 0 || distance < nearest) {
+        nearest = distance;
+        nearest_x = x;
+        nearest_y = y;
+      }
+    }
+  }
+  if (unknown == 0) {
+    return "";
+  }
+  const std::string from = site.releases.empty() ? "" : fmt::format(", about {:.0f} m from the release", nearest);
+  return fmt::format(
+      "{} of {} points of the terrain model within the domain have no data, the nearest at ({:.0f}, {:.0f}){}: a slide "
+      "that gets there {}",
+      unknown, points, nearest_x, nearest_y, from,
+      parameters.grid.leaving == config::Leaving::remove ? "is removed and counted" : "ends the run");
+}
+
+}  // namespace thawslide::gis
