@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "mpm/batch_transfer.hpp"
+#include "mpm/cell_sums.hpp"
 #include "mpm/nodes.hpp"
 #include "physics/heat_content.hpp"
 #include "physics/kinematics.hpp"
@@ -147,6 +147,7 @@ void momentum_to_nodes(benchmark::State& state) {
   patch.clear();
   mpm::Contribution<Dim, double, mpm::MomentumLayout<Dim>::size> carried;
   for (auto _ : state) {
+    auto sums = mpm::cell_sums<0, mpm::MomentumLayout<Dim>::size>(patch);
     body.for_batches([&](const auto& batch, const auto& stencil) {
       for (std::size_t c = 0; c < mpm::MomentumLayout<Dim>::size; ++c) {
         benchmark::DoNotOptimize(carried.value[c]);
@@ -154,7 +155,7 @@ void momentum_to_nodes(benchmark::State& state) {
       for (std::size_t k = 0; k < Dim * Dim; ++k) {
         benchmark::DoNotOptimize(carried.flux[k / Dim][k % Dim]);
       }
-      mpm::add_to_nodes<0>(stencil, batch.count, carried, patch);
+      sums.add(stencil, batch.count, carried);
     });
     benchmark::DoNotOptimize(patch);
   }

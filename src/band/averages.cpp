@@ -2,7 +2,7 @@
 
 #include "band/heat_nodes.hpp"
 #include "base/instances.hpp"
-#include "mpm/batch_transfer.hpp"
+#include "mpm/cell_sums.hpp"
 
 namespace thawslide::band {
 
@@ -16,13 +16,14 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particle
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
     patch.clear();
+    auto sums = mpm::linear_cell_sums<false, HatLayout::size>(patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const Lanes<Real> volume = particles.volume.load(batch);
       mpm::Contribution<Dim, Real, HatLayout::size> carried;
       carried.value[HatLayout::volume] = volume;
       carried.value[HatLayout::temperature] = volume * particles.temperature.load(batch);
       carried.value[HatLayout::pore_pressure] = volume * particles.pore_pressure.load(batch);
-      add_to_nodes<mpm::no_flux>(hat_stencil(grid, particles, batch), batch.count, carried, patch);
+      sums.add(hat_stencil(grid, particles, batch), batch.count, carried);
     }
   });
   heat_nodes.state.resize(grid.blocks().size());

@@ -5,7 +5,7 @@
 #include "band/heat_nodes.hpp"
 #include "band/particle_heat.hpp"
 #include "base/instances.hpp"
-#include "mpm/batch_transfer.hpp"
+#include "mpm/cell_sums.hpp"
 #include "physics/pressurization.hpp"
 
 namespace thawslide::band {
@@ -78,10 +78,11 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
     patch.clear();
     mpm::Patch<Dim, Real, 3> state;
     load_patch(grid, t, work.state, state);
+    auto sums = mpm::linear_cell_sums<true, 4>(patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto stencil = hat_stencil(grid, particles, batch);
       auto carried = heat_flows(grid, model, law, dt, levels, stencil, state, batch, particles);
-      add_to_nodes<0>(stencil, batch.count, carried, patch);
+      sums.add(stencil, batch.count, carried);
     }
   });
 }
@@ -124,6 +125,7 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
     }
     auto& patch = patches[t];
     patch.clear();
+    auto sums = mpm::linear_cell_sums<false, 4>(patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto stencil = hat_stencil(grid, particles, batch);
       const Lanes<Real> change = change_of_temperature(stencil, state, dt, batch, particles);
@@ -136,7 +138,7 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
       mpm::Contribution<Dim, Real, 4> carried;
       carried.value[2] = particles.initial_volume.load(batch) / particles.thermal_scaling.load(batch) * secant;
       carried.value[3] = carried.value[2] * particles.conduction_in_cell.load(batch);
-      add_to_nodes<mpm::no_flux>(stencil, batch.count, carried, patch);
+      sums.add(stencil, batch.count, carried);
     }
   });
   grid.mark_blocks_about(work.changing_tiles, work.changing_blocks);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/instances.hpp"
-#include "mpm/batch_transfer.hpp"
+#include "mpm/cell_sums.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/pressurization.hpp"
 
@@ -124,12 +124,13 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
     patch.clear();
     mpm::Patch<Dim, Real, 1> pressure;
     load_pressures(grid, t, nodes, pressure);
+    auto sums = mpm::linear_cell_sums<true, 3>(patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const Lanes<Real> hydraulic = model.hydraulic(particles, batch);
       if (any(hydraulic > Real(0))) {
         const auto stencil = hat_stencil(grid, particles, batch);
         auto carried = seepage_flows(grid, model, dt, stencil, pressure, hydraulic, batch, particles);
-        add_to_nodes<0>(stencil, batch.count, carried, patch);
+        sums.add(stencil, batch.count, carried);
       }
     }
   });

@@ -1,9 +1,10 @@
 // Parallel loops. Their backend is named in parallel.cpp alone.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
+#include <vector>
+
+#include "base/error.hpp"
 
 namespace thawslide {
 
@@ -48,26 +49,29 @@ void parallel_for(std::size_t count, const Body& body) {
   parallel_for(count, calls_at_a_time(count), body);
 }
 
-// What body(k, sum) adds up for k = 0 .. count-1, each once, on any thread: within parts of the calls in order, then
-// part after part. The parts follow from `count` alone, and so does every bit of the sum.
+// What body(k, sum) adds up for k = 0 .. count-1, each once and from zero, on any thread; then call after call. No bit
+// of the sum depends on how many calls run at a time.
 template <class Sum, class Body>
 [[nodiscard]] Sum parallel_sum(std::size_t count, const Body& body) {
-  constexpr std::size_t most_parts = 256;
-  const std::size_t calls = std::max<std::size_t>(1, (count + most_parts - 1) / most_parts);  // of a part
-  std::array<Sum, most_parts> sums;
-  const std::size_t parts = (count + calls - 1) / calls;
-  const std::size_t at_a_time = std::max<std::size_t>(1, calls_at_a_time(count) / calls);
-  parallel_for(parts, at_a_time, [&](std::size_t part) {
-    Sum sum{};
-    for (std::size_t k = part * calls; k < std::min(count, (part + 1) * calls); ++k) {
+  thread_local std::vector<Sum> room;  // kept: a step allocates nothing
+  THAWSLIDE_ASSERT(room.empty(), "a sum of {} calls within one of {}", count, room.size());
+  room.resize(count);
+  Sum* sums = room.data();
+  try {
+    parallel_for(count, [&](std::size_t k) {
+      Sum sum{};
       body(k, sum);
-    }
-    sums[part] = sum;
-  });
-  Sum sum{};
-  for (std::size_t part = 0; part < parts; ++part) {
-    sum += sums[part];
+      sums[k] = sum;
+    });
+  } catch (...) {
+    room.clear();
+    throw;
   }
+  Sum sum{};
+  for (std::size_t k = 0; k < count; ++k) {
+    sum += sums[k];
+  }
+  room.clear();
   return sum;
 }
 

@@ -51,6 +51,7 @@ struct BatchNodes {
   std::array<std::int32_t, lane_count<Real>> first;  // by lane
   std::uint8_t runs;                                 // of lanes that see the same nodes: 1, 2 or many
   std::uint8_t second_run;                           // first lane of the second of two
+  bool goes_on;                                      // the next batch begins with a particle that sees the last's nodes
 };
 
 // A batch of one tile and one material. It and its nodes hold until some particle of the tile has another nearest node.

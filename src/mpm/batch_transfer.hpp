@@ -62,6 +62,13 @@ THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Di
           })};
 }
 
+// The corners of the cells of nodes that particles lie in: as places in the patch, and among the 3^Dim nodes about the
+// nearest one.
+template <int Dim, class Real>
+struct CornerStencil : BatchStencil<Dim, Real, 2> {
+  std::array<std::int32_t, lane_count<Real>> first_in_cell;  // of the lowest one, by lane
+};
+
 // The linear hats of a batch's cells: at their corners, to which particles add, and at all nodes about their nearest
 // ones, of which they read, since neighbours share these more often than corners.
 template <int Dim, class Real>
@@ -70,20 +77,25 @@ struct HatStencil {
   const BatchNodes<Real>& nodes;
   Real inverse_cell;
 
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real, 2> corners() const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE CornerStencil<Dim, Real> corners() const {
     const Lanes<Real> zero = Real(0), one = Real(1), slope = inverse_cell;
-    Lanes<Real> place = Lanes<Real>::load_whole(nodes.first.data());
+    Lanes<Real> place = Lanes<Real>::load_whole(nodes.first.data()), in_cell = zero;
     for (int a = 0; a < Dim; ++a) {
-      place += select(offset[a] >= zero, Lanes<Real>(Real(power(Tile<Dim>::patch_edge, a))), zero);
+      const auto right = offset[a] >= zero;
+      place += select(right, Lanes<Real>(Real(power(Tile<Dim>::patch_edge, a))), zero);
+      in_cell += select(right, Lanes<Real>(Real(power(3, a))), zero);
     }
     BatchNodes<Real> corner_nodes;
     place.store_whole(corner_nodes.first.data());
     corner_nodes.runs = BatchNodes<Real>::many_runs;
-    return {corner_nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
-              const Lanes<Real> along = select(offset[a] >= zero, offset[a], one + offset[a]);
-              const Lanes<Real> back = select(offset[a] >= zero, one - offset[a], -offset[a]);
-              return AxisWeights<Lanes<Real>, 2>{{back, along}, {-slope, slope}};
-            })};
+    CornerStencil<Dim, Real> corners{{corner_nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
+                                        const Lanes<Real> along = select(offset[a] >= zero, offset[a], one + offset[a]);
+                                        const Lanes<Real> back = select(offset[a] >= zero, one - offset[a], -offset[a]);
+                                        return AxisWeights<Lanes<Real>, 2>{{back, along}, {-slope, slope}};
+                                      })},
+                                     {}};
+    in_cell.store_whole(corners.first_in_cell.data());
+    return corners;
   }
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> about() const {
     return {nodes,
@@ -265,88 +277,5 @@ struct Contribution {
     unrolled<Dim * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { flux[c / width][c % width] = Real(0); });
   }
 };
-
-// What the particles first ... last-1 of a batch, which see the same nodes, add to one register of the records there:
-// the sums stay in registers, a layer of nodes at a time, while particle after particle adds to them. Axis by axis, the
-// last one first: fewer products than node by node. value, flux: a row a particle.
-template <bool HasFlux, int Dim, class Real, std::size_t Width, class Register, std::size_t Size>
-THAWSLIDE_ALWAYS_INLINE void add_run(const BatchStencil<Dim, Real, Width>& stencil, std::size_t first, std::size_t last,
-                                     const Register (&value)[Size], const Register (&flux)[Dim][Size],
-                                     std::size_t record_size, Real* records) {
-  constexpr auto edge = static_cast<std::size_t>(Tile<Dim>::patch_edge);
-  unrolled<Dim == 3 ? Width : 1>([&](auto layer) THAWSLIDE_INLINE_LAMBDA {
-    const auto place = [&](std::size_t k) {
-      return records + ((layer * edge + k / Width) * edge + k % Width) * record_size;
-    };
-    Register sums[Width * Width];
-    unrolled<Width * Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA { sums[k] = Register::load(place(k)); });
-    for (std::size_t lane = first; lane < last; ++lane) {
-      const auto weight = [&](std::size_t axis, std::size_t k)
-                              THAWSLIDE_INLINE_LAMBDA { return Register(stencil.axis[axis].weight[k][lane]); };
-      const auto slope = [&](std::size_t axis, std::size_t k)
-                             THAWSLIDE_INLINE_LAMBDA { return Register(stencil.axis[axis].slope[k][lane]); };
-      Register in_layer = value[lane], along_0 = flux[0][lane], along_1 = flux[1][lane];
-      if constexpr (Dim == 3) {
-        in_layer *= weight(2, layer);
-        if constexpr (HasFlux) {
-          in_layer += slope(2, layer) * flux[2][lane];
-          along_0 *= weight(2, layer);
-          along_1 *= weight(2, layer);
-        }
-      }
-      unrolled<Width>([&](auto j) THAWSLIDE_INLINE_LAMBDA {
-        Register in_row = weight(1, j) * in_layer;
-        if constexpr (HasFlux) {
-          in_row += slope(1, j) * along_1;
-        }
-        const Register along = weight(1, j) * along_0;
-        unrolled<Width>([&](auto i) THAWSLIDE_INLINE_LAMBDA {
-          Register& sum = sums[j * Width + i];
-          sum += weight(0, i) * in_row;
-          if constexpr (HasFlux) {
-            sum += slope(0, i) * along;
-          }
-        });
-      });
-    }
-    unrolled<Width * Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA { sums[k].store(place(k)); });
-  });
-}
-
-constexpr int no_flux = -1;
-
-// Adds to every node particle after particle, a register of components at a time, from component `First` on.
-// FluxGroup: number of the register, from there, to which the flux adds.
-template <int FluxGroup, std::size_t First = 0, int Dim, class Real, std::size_t Width, int Components,
-          std::size_t Carried>
-THAWSLIDE_ALWAYS_INLINE void add_to_nodes(const BatchStencil<Dim, Real, Width>& stencil, std::size_t count,
-                                          const Contribution<Dim, Real, Carried>& carried,
-                                          Patch<Dim, Real, Components>& patch) {
-  using Added = Contribution<Dim, Real, Carried>;
-  using Register = typename Added::Register;
-  constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components);
-  constexpr std::size_t groups = Added::groups, width = Added::width;
-  static_assert(size % width == 0 && First % width == 0 && First + groups * width <= size);
-  Register value[groups][lanes], flux[Dim][lanes];
-  unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { by_particle(&carried.value[g * width], value[g]); });
-  unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
-                                              THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
-  const auto& nodes = stencil.nodes.first;
-  for (std::size_t first = 0, last = 0; first < count; first = last) {
-    while (last < count && nodes[last] == nodes[first]) {
-      ++last;
-    }
-    Real* records = patch.records[static_cast<std::size_t>(nodes[first])].data() + First;
-    unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
-      add_run<static_cast<int>(g()) == FluxGroup>(stencil, first, last, value[g], flux, size, records + g * width);
-    });
-  }
-}
-template <int FluxGroup, std::size_t First = 0, int Dim, class Real, int Components, std::size_t Carried>
-THAWSLIDE_ALWAYS_INLINE void add_to_nodes(const HatStencil<Dim, Real>& hats, std::size_t count,
-                                          const Contribution<Dim, Real, Carried>& carried,
-                                          Patch<Dim, Real, Components>& patch) {
-  add_to_nodes<FluxGroup, First>(hats.corners(), count, carried, patch);
-}
 
 }  // namespace thawslide::mpm

@@ -45,8 +45,10 @@ class FieldBase {
   virtual void append_values(const std::vector<std::size_t>& order, std::size_t components,
                              std::vector<double>& to) const = 0;
   virtual void resize(std::size_t particles) = 0;
-  // Keeps the first particles alone.
-  virtual void truncate(std::size_t particles) = 0;
+  // More or fewer particles: the first ones keep their values, new ones have 0.
+  virtual void set_size(std::size_t particles) = 0;
+  // The particle at `to` becomes the one at `from`.
+  virtual void copy(std::size_t from, std::size_t to) = 0;
   // Particle k becomes the one that stood at order[k], for as many as `order` has. scratch: room for the work, kept
   // between calls.
   virtual void reorder(const std::vector<std::uint32_t>& order, AlignedVector<std::byte>& scratch) = 0;
@@ -171,18 +173,26 @@ class Field final : public FieldBase {
   void keep(bool kept) { kept_ = kept; }
 
   void resize(std::size_t particles) override {
-    THAWSLIDE_ASSERT(particles <= most_numbers / Components, "field {}: {} particles of {} numbers are too many",
-                     info().name, particles, Components);
+    expect_room(particles);
     particles_ = particles;
     data_.assign(kept_ ? (particles + lanes - 1) / lanes * lanes * Components : 0, T{});
     data_.shrink_to_fit();
   }
 
-  void truncate(std::size_t particles) override {
-    THAWSLIDE_ASSERT(particles <= particles_, "field {}: {} particles kept of {}", info().name, particles, particles_);
+  void set_size(std::size_t particles) override {
+    expect_room(particles);
+    for (std::size_t p = particles; kept_ && p < particles_; ++p) {  // what is taken away must not come back
+      set(p, Vector<T, Components>(Vector<T, Components>::Zero()));
+    }
     particles_ = particles;
     if (kept_) {
-      data_.resize((particles + lanes - 1) / lanes * lanes * Components);
+      data_.resize((particles + lanes - 1) / lanes * lanes * Components, T{});
+    }
+  }
+
+  void copy(std::size_t from, std::size_t to) override {
+    for (int c = 0; kept_ && c < Components; ++c) {
+      (*this)(to, c) = (*this)(from, c);
     }
   }
 
@@ -222,6 +232,10 @@ class Field final : public FieldBase {
   }
 
  private:
+  void expect_room(std::size_t particles) const {
+    THAWSLIDE_ASSERT(particles <= most_numbers / Components, "field {}: {} particles of {} numbers are too many",
+                     info().name, particles, Components);
+  }
   static std::size_t position(std::size_t particle, int component) {
     return (particle / lanes * Components + static_cast<std::size_t>(component)) * lanes + particle % lanes;
   }

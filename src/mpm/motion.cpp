@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
-#include "mpm/batch_transfer.hpp"
+#include "mpm/cell_sums.hpp"
 
 namespace thawslide::mpm {
 
@@ -46,18 +46,22 @@ AffineBatch<Dim, Real> affine_stencil(const SparseGrid<Dim, Real>& grid, const P
   return make_affine<Shape>(grid, make_stencil<Shape>(grid, batch, place, size, model.sides), place, model.sides);
 }
 
+// Components of the register that S m C (x_i - x_p) is added to.
+template <int Dim, class Real>
+constexpr std::size_t affine_width = Contribution<Dim, Real, Dim>::width;
+
 // Adds S m C (x_i - x_p), the momentum of the velocity about the particles, to components First ... of the nodes.
-template <std::size_t First, int Dim, class Real, int Components>
+template <std::size_t First, int Dim, class Real, class Sums>
 void add_affine_momentum(const AffineBatch<Dim, Real>& affine, const Particles<Dim, Real>& particles,
-                         const Batch<Real>& batch, Patch<Dim, Real, Components>& patch) {
-  constexpr std::size_t width = Contribution<Dim, Real, Dim>::width;
+                         const Batch<Real>& batch, Sums& sums) {
+  constexpr std::size_t width = affine_width<Dim, Real>;
   const Lanes<Real> mass = particles.mass.load(batch);
   const Matrix<Lanes<Real>, Dim> moment = mass * affine_velocity(particles, batch) * affine.moment.asDiagonal();
   Contribution<Dim, Real, Dim> carried;
   unrolled<static_cast<std::size_t>(Dim * Dim)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
     carried.flux[k / Dim][First % width + k % Dim] = moment(static_cast<int>(k) % Dim, static_cast<int>(k) / Dim);
   });
-  add_to_nodes<0, First / width * width>(affine.nodes, batch.count, carried, patch);
+  sums.add(affine.nodes, batch.count, carried);
 }
 
 // V sigma [J] that Eq. 12 sees.
@@ -121,16 +125,19 @@ void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Re
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
       auto& patch = patches[t];
       patch.clear();
+      auto sums = cell_sums<0, MomentumLayout<Dim>::size>(patch);
       for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
         const auto place = place_of(grid, particles, batch);
         const auto stencil = make_stencil<Shape>(grid, batch, place, model.sizes.of(particles, batch), model.sides);
         auto carried = momentum_contribution(particles, model, viscous, batch);
-        add_to_nodes<0>(stencil, batch.count, carried, patch);
+        sums.add(stencil, batch.count, carried);
       }
       if constexpr (decltype(transfer)::affine) {
+        constexpr std::size_t first = MomentumLayout<Dim>::momentum / affine_width<Dim, Real> * affine_width<Dim, Real>;
+        auto affine_sums = cell_sums<0, Dim, first>(patch);
         for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
           const auto affine = affine_stencil<Shape>(grid, particles, model, batch);
-          add_affine_momentum<MomentumLayout<Dim>::momentum>(affine, particles, batch, patch);
+          add_affine_momentum<MomentumLayout<Dim>::momentum>(affine, particles, batch, affine_sums);
         }
       }
     });
@@ -181,6 +188,7 @@ Real move_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, const MotionMod
                Patch<Dim, Real, Dim>& patch) {
   using Layout = MotionLayout<Dim>;
   Real kinetic = 0;
+  auto sums = cell_sums<no_flux, Dim>(patch);
   for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
     const auto place = place_of(grid, particles, batch);
     const auto stencil = make_stencil<Shape>(grid, batch, place, model.sizes.of(particles, batch), model.sides);
@@ -196,13 +204,14 @@ Real move_tile(const SparseGrid<Dim, Real>& grid, std::size_t t, const MotionMod
     for (std::size_t a = 0; a < Dim; ++a) {
       momentum.value[a] = particles.mass.load(batch) * particles.velocity.load(batch, static_cast<int>(a));
     }
-    add_to_nodes<no_flux>(stencil, batch.count, momentum, patch);
+    sums.add(stencil, batch.count, momentum);
   }
   if constexpr (Transfer::affine) {
+    auto affine_sums = cell_sums<0, Dim>(patch);
     for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto affine = affine_stencil<Shape>(grid, particles, model, batch);
       batch.add_to(kinetic, -take_affine_velocity(affine, motion, dt, particles, batch));
-      add_affine_momentum<0>(affine, particles, batch, patch);
+      add_affine_momentum<0>(affine, particles, batch, affine_sums);
     }
   }
   return kinetic;

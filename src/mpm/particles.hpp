@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <numeric>
 #include <vector>
 
 #include "base/linear.hpp"
@@ -75,19 +76,36 @@ class Particles {
     }
   }
 
-  // Takes the marked particles away; the others keep their order in memory.
-  void remove(const std::vector<std::uint8_t>& marked) {
-    std::vector<std::uint32_t> kept;
-    for (std::uint32_t p = 0; p < size_; ++p) {
-      if (marked[p] == 0) {
-        kept.push_back(p);
+  static constexpr std::uint32_t nowhere = ~std::uint32_t{0};
+
+  // Takes the marked particles away; the last ones in memory take their places. Returns where each now stands.
+  std::vector<std::uint32_t> remove(const std::vector<std::uint8_t>& marked) {
+    THAWSLIDE_ASSERT(marked.size() == size_, "{} marks for {} particles", marked.size(), size_);
+    std::vector<std::uint32_t> now_at(size_);
+    std::iota(now_at.begin(), now_at.end(), 0u);
+    std::size_t end = size_;
+    for (std::size_t p = 0; p < end; ++p) {
+      while (end > p && marked[end - 1] != 0) {
+        now_at[--end] = nowhere;
+      }
+      if (p < end && marked[p] != 0) {
+        now_at[p] = nowhere;
+        now_at[--end] = static_cast<std::uint32_t>(p);
+        for (FieldBase* field : fields.all()) {
+          field->copy(end, p);
+        }
       }
     }
-    reorder(kept);
-    size_ = kept.size();
-    for (FieldBase* field : fields.all()) {
-      field->truncate(size_);
-    }
+    set_size(end);
+    return now_at;
+  }
+
+  // Room for more particles, all of whose values are 0; returns the first one's place. Who appends gives them ids that
+  // no other particle of the run has had.
+  std::size_t append(std::size_t count) {
+    const std::size_t first = size_;
+    set_size(size_ + count);
+    return first;
   }
 
   void reorder(const std::vector<std::uint32_t>& order) {
@@ -97,6 +115,13 @@ class Particles {
   }
 
  private:
+  void set_size(std::size_t particles) {
+    size_ = particles;
+    for (FieldBase* field : fields.all()) {
+      field->set_size(particles);
+    }
+  }
+
   std::size_t size_ = 0;
   AlignedVector<std::byte> scratch_;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 
@@ -27,13 +28,6 @@ typename Tile<Dim>::Index neighbour(const typename Tile<Dim>::Index& tile, int d
     direction /= 3;
   }
   return other;
-}
-
-// Place in nearest_ of a particle's number along an axis: as many particles as lanes side by side, axis after axis.
-template <int Dim, class Real>
-std::size_t in_nearest(std::size_t particle, std::size_t axis) {
-  constexpr std::size_t most = Batch<Real>::most;
-  return (particle / most * Dim + axis) * most + particle % most;
 }
 
 // Places of nodes in the patch of a tile, from their numbers along the axes.
@@ -63,9 +57,11 @@ BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Di
 
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval) {
-  const bool first_call = order_.size() != particles.size();
-  if (first_call) {
-    start(particles);
+  const bool first_call = keys_.empty();
+  THAWSLIDE_ASSERT(particles.size() >= keys_.size(), "{} particles are left of {}, and which is not known",
+                   particles.size(), keys_.size());
+  if (particles.size() > keys_.size()) {
+    note_appended(particles);
   }
   blocks_changed_ = false;
   stale_.assign(tiles_.size(), 0);
@@ -82,11 +78,7 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
   }
   batches_.resize(tiles_.size());
   broken_.resize(tiles_.size());
-  parallel_for(tiles_.size(), [&](std::size_t t) {
-    if (stale_[t] != 0) {
-      make_batches(particles, t);
-    }
-  });
+  make_stale_batches(particles);
   note_order(sorts);
 }
 
@@ -105,17 +97,17 @@ void SparseGrid<Dim, Real>::note_order(bool sorted) {
   }
 }
 
-// All particles are new.
+// Particles beyond those known have no nearest node yet.
 template <int Dim, class Real>
-void SparseGrid<Dim, Real>::start(const Particles<Dim, Real>& particles) {
-  const std::size_t count = particles.size();
-  keys_.assign(count, no_key);
-  moved_.assign(count + Batch<Real>::most, 0);
-  nearest_.assign((count + Batch<Real>::most) * Dim, never);
-  order_.resize(count);
-  tiles_.clear();
-  one_material_ = true;
-  for (std::size_t p = 0; p < count; ++p) {
+void SparseGrid<Dim, Real>::note_appended(const Particles<Dim, Real>& particles) {
+  const std::size_t before = keys_.size(), count = particles.size();
+  keys_.resize(count, no_key);
+  moved_.resize(count + Batch<Real>::most, 0);
+  nearest_.resize((count + Batch<Real>::most) * Dim, never);
+  for (std::size_t p = before; p < count; ++p) {
+    for (std::size_t a = 0; a < Dim; ++a) {
+      nearest_[in_nearest(p, a)] = never;
+    }
     one_material_ = one_material_ && particles.material(p) == particles.material(0);
   }
 }
@@ -127,10 +119,10 @@ void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
   former_numbers_.resize(order_.size());
   for (std::size_t a = 0; a < Dim; ++a) {
     for (std::size_t k = 0; k < order_.size(); ++k) {
-      former_numbers_[k] = nearest_[in_nearest<Dim, Real>(order_[k], a)];
+      former_numbers_[k] = nearest_[in_nearest(order_[k], a)];
     }
     for (std::size_t k = 0; k < order_.size(); ++k) {
-      nearest_[in_nearest<Dim, Real>(k, a)] = former_numbers_[k];
+      nearest_[in_nearest(k, a)] = former_numbers_[k];
     }
   }
   for (std::size_t k = 0; k < order_.size(); ++k) {
@@ -177,7 +169,7 @@ std::uint64_t SparseGrid<Dim, Real>::key_of(std::size_t particle) const {
   Index node{}, tile{};
   int local = 0;
   for (std::size_t a = 0; a < Dim; ++a) {
-    node[a] = nearest_[in_nearest<Dim, Real>(particle, a)];
+    node[a] = nearest_[in_nearest(particle, a)];
   }
   T::split(node, tile, local);
   return (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
@@ -207,7 +199,7 @@ void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
   count_leaving();
   list_tiles();
   former_order_.swap(order_);
-  order_.resize(former_order_.size());
+  order_.resize(particles.size());
   parallel_for(tiles_.size(), [&](std::size_t t) { merge_tile(t, before); });
 }
 
@@ -304,6 +296,15 @@ void SparseGrid<Dim, Real>::mark_blocks_about(const std::vector<std::uint8_t>& t
   }
 }
 
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::make_stale_batches(const Particles<Dim, Real>& particles) {
+  parallel_for(tiles_.size(), [&](std::size_t t) {
+    if (stale_[t] != 0) {
+      make_batches(particles, t);
+    }
+  });
+}
+
 // Particles, as many as lanes, that stand side by side in memory go together, the others fill up batches.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, std::size_t t) {
@@ -336,15 +337,19 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
     for (int a = 0; a < Dim; ++a) {
       auto& nearest = batch.nearest[static_cast<std::size_t>(a)];
       if (batch.whole) {
-        std::copy_n(&nearest_[in_nearest<Dim, Real>(batch.particle[0], static_cast<std::size_t>(a))], most,
-                    nearest.begin());
+        std::copy_n(&nearest_[in_nearest(batch.particle[0], static_cast<std::size_t>(a))], most, nearest.begin());
       }
       for (std::size_t lane = 0; !batch.whole && lane < most; ++lane) {
-        nearest[lane] = nearest_[in_nearest<Dim, Real>(batch.particle[lane], static_cast<std::size_t>(a))];
+        nearest[lane] = nearest_[in_nearest(batch.particle[lane], static_cast<std::size_t>(a))];
       }
       before_nearest[a] = Lanes<Real>::load_whole(nearest.data()) - Real(1);
     }
     batch.nodes = nodes_from<Dim, Real>(tile.key, before_nearest);
+    batch.nodes.goes_on = false;
+    if (!batches.empty()) {
+      const TileBatch<Dim, Real>& before = batches.back();
+      batches.back().nodes.goes_on = before.nodes.first[before.count - 1] == batch.nodes.first[0];
+    }
     batches.push_back(batch);
     broken_[t] += batch.whole ? 0 : 1;
   }

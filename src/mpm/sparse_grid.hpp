@@ -29,10 +29,14 @@ class SparseGrid {
   [[nodiscard]] Real cell() const { return cell_; }
   [[nodiscard]] Real inverse_cell() const { return inverse_cell_; }
 
-  // Brings order, tiles, batches and blocks up to date with the particles' positions. Particles stand by nearest node,
+  // Brings order, tiles, batches and blocks up to date with the particles' positions. Particles may have been appended
+  // since; which were removed `remove` must have been told. Particles stand by nearest node,
   // then by id, whatever their place in memory. When many no longer stand in memory in this order, and every `interval`
   // calls, they are moved to do so; with an interval of 0 at the first call only.
   void update(Particles<Dim, Real>& particles, int interval);
+
+  // Follows Particles::remove, with what that returned.
+  void remove(const Particles<Dim, Real>& particles, const std::vector<std::uint32_t>& now_at);
 
   // Particle indices in canonical order.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
@@ -76,7 +80,8 @@ class SparseGrid {
     bool changed;  // some of its particles came, left or moved within
   };
 
-  void start(const Particles<Dim, Real>& particles);
+  void note_appended(const Particles<Dim, Real>& particles);
+  void drop_from_tiles(const std::vector<std::uint32_t>& now_at);
   bool compute_keys(const Particles<Dim, Real>& particles);
   [[nodiscard]] std::uint64_t key_of(std::size_t particle) const;
   void note_movers(std::size_t first, std::size_t count, std::vector<Mover>& movers);
@@ -88,7 +93,13 @@ class SparseGrid {
   void reorder(Particles<Dim, Real>& particles);
   void note_order(bool sorted);
   void connect_blocks();
+  void make_stale_batches(const Particles<Dim, Real>& particles);
   void make_batches(const Particles<Dim, Real>& particles, std::size_t t);
+  // Place in nearest_ of a particle's number along an axis: as many particles as lanes side by side, axis after axis.
+  static std::size_t in_nearest(std::size_t particle, std::size_t axis) {
+    constexpr std::size_t most = Batch<Real>::most;
+    return (particle / most * Dim + axis) * most + particle % most;
+  }
 
   Real cell_, inverse_cell_;
   std::vector<std::uint64_t> keys_;           // by particle: tile key, then place in the tile

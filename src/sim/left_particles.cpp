@@ -67,8 +67,8 @@ void Simulation<Dim, Real>::handle_left_particles() {
   ledger_.left_mechanical += sums.kinetic + sums.potential;
   ledger_.left_thermal += sums.sensible + sums.latent;
   ledger_.left_momentum += sums.momentum;
-  particles_.remove(left_);
-  find_particles_cells();
+  grid_.remove(particles_, particles_.remove(left_));
+  update_ground();
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real) template void Simulation<Dim, Real>::handle_left_particles();

@@ -47,6 +47,11 @@ void Simulation<Dim, Real>::step(double dt) {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::find_particles_cells() {
   grid_.update(particles_, sorting_interval_);
+  update_ground();
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::update_ground() {
   if (model_.ground && grid_.blocks_changed()) {
     ground_.update(*model_.ground, grid_);
   }

@@ -66,6 +66,7 @@ class Simulation {
  private:
   // The stages of a step, in order (simulation.cpp).
   void find_particles_cells();
+  void update_ground();
   void momentum_to_grid();
   void average_band_on_grid();
   void resolve_contact();

@@ -27,11 +27,6 @@ double wave_limit(double cell, double speed, double viscosity_time) {
 
 }  // namespace
 
-double smallest_thickness(const config::Case& parameters) {
-  const auto& thickness = parameters.band.thickness.value;
-  return thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
-}
-
 template <int Dim, class Real>
 StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                               const mpm::Particles<Dim, Real>& particles) {

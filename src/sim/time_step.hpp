@@ -1,6 +1,7 @@
 // How long a step may be.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "config/case.hpp"
@@ -15,10 +16,13 @@ struct StepLimit {
   std::string what;
 };
 
-// The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage.
 // The band's smallest thickness over time [m]; 0 without a band.
-double smallest_thickness(const config::Case& parameters);
+inline double smallest_thickness(const config::Case& parameters) {
+  const auto& thickness = parameters.band.thickness.value;
+  return thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
+}
 
+// The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage.
 template <int Dim, class Real>
 StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                               const mpm::Particles<Dim, Real>& particles);

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/instances.hpp"
-#include "mpm/batch_transfer.hpp"
+#include "mpm/cell_sums.hpp"
 
 namespace thawslide::terrain {
 
@@ -71,13 +71,25 @@ THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>&
                           });
 }
 
+// Of the register that the sums by hats begin in; what else is in it gets 0.
+constexpr std::size_t first_by_hats = mpm::NearBaseLayout::saturation_by_hats / mpm::record_step * mpm::record_step;
+
+template <int Dim, class Real>
+struct NearBaseSums {
+  using Layout = mpm::NearBaseLayout;
+  mpm::CellSums<mpm::no_flux, 0, Layout::by_mass, Dim, Real, Layout::size> by_mass;
+  mpm::LinearCellSums<false, first_by_hats, Layout::size - first_by_hats, Dim, Real, Layout::size> by_hats;
+
+  explicit NearBaseSums(NearBasePatch<Dim, Real>& patch) : by_mass(patch), by_hats(patch) {}
+};
+
 // What a batch adds to the sums of NearBaseLayout, by mass with the momentum shape functions and by volume with the
 // hats.
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stencil,
                                        const mpm::HatStencil<Dim, Real>& hats, const mpm::MotionModel<Dim, Real>& model,
                                        const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch,
-                                       NearBasePatch<Dim, Real>& patch) {
+                                       NearBaseSums<Dim, Real>& sums) {
   using Layout = mpm::NearBaseLayout;
   const Lanes<Real> mass = particles.mass.load(batch), volume = particles.volume.load(batch);
   const Lanes<Real> saturation = particles.liquid_saturation.load(batch);
@@ -88,13 +100,11 @@ THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stenc
   by_mass.value[Layout::saturation] = mass * saturation;
   by_mass.value[Layout::solid_fraction] = mass * solid_fraction;
   by_mass.value[Layout::slip] = mass * particles.slip.load(batch);
-  add_to_nodes<mpm::no_flux>(stencil, batch.count, by_mass, patch);
-  constexpr std::size_t first =
-      Layout::saturation_by_hats / mpm::record_step * mpm::record_step;  // of their register; what else is in it gets 0
-  mpm::Contribution<Dim, Real, Layout::size - first> by_hats;
-  by_hats.value[Layout::saturation_by_hats - first] = volume * saturation;
-  by_hats.value[Layout::solid_fraction_by_hats - first] = volume * solid_fraction;
-  add_to_nodes<mpm::no_flux, first>(hats, batch.count, by_hats, patch);
+  sums.by_mass.add(stencil, batch.count, by_mass);
+  mpm::Contribution<Dim, Real, Layout::size - first_by_hats> by_hats;
+  by_hats.value[Layout::saturation_by_hats - first_by_hats] = volume * saturation;
+  by_hats.value[Layout::solid_fraction_by_hats - first_by_hats] = volume * solid_fraction;
+  sums.by_hats.add(hats, batch.count, by_hats);
 }
 
 }  // namespace
@@ -137,6 +147,7 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
       }
       DistancePatch<Dim, Real> distances;
       load_distances(grid, ground, t, distances);
+      NearBaseSums<Dim, Real> sums(patch);
       for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
         if (!ground.any_near(t, batch)) {
           continue;
@@ -146,7 +157,7 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
         const auto place = place_of(grid, particles, batch);
         const auto stencil =
             mpm::make_stencil<decltype(shape)>(grid, batch, place, model.sizes.of(particles, batch), model.sides);
-        add_state(stencil, hats, model, particles, batch, patch);
+        add_state(stencil, hats, model, particles, batch, sums);
         lower_clearance(stencil, batch.count, max(Lanes<Real>(Real(0)), distance - particles.reach.load(batch)), patch);
       }
     });

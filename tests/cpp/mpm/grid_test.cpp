@@ -41,9 +41,31 @@ class Crowd {
     }
   }
 
+  // Takes particles away by chance, or those beyond x = `from`; returns where the others went.
+  std::vector<std::uint32_t> remove(double share, double from) {
+    std::bernoulli_distribution goes(share);
+    std::vector<std::uint8_t> marked(particles.size());
+    for (std::size_t p = 0; p < marked.size(); ++p) {
+      marked[p] = goes(random_) || particles.position(p, 0) > from ? 1 : 0;
+    }
+    return particles.remove(marked);
+  }
+
+  void append(std::size_t count) {
+    std::uniform_real_distribution<double> place(10.0, 60.0);
+    for (std::size_t p = particles.append(count); p < particles.size(); ++p) {
+      particles.id(p) = next_id_++;
+      particles.material(p) = p % 5 == 0 ? 1 : 0;
+      for (int a = 0; a < Dim; ++a) {
+        particles.position(p, a) = place(random_);
+      }
+    }
+  }
+
   Particles<Dim, double> particles;
 
  private:
+  std::int64_t next_id_ = 1'000'000;
   std::mt19937 random_{7};
 };
 
@@ -128,6 +150,12 @@ void expect_batches(const Particles<Dim, double>& particles, const SparseGrid<Di
         EXPECT_TRUE(!batch.whole || p == batch.particle[0] + lane);
       }
       expect_runs(batch.nodes);
+      const auto same_node = [&](std::uint32_t k) {
+        const auto [key, local, id] = canonical(particles, grid.order()[k]);
+        const auto [last_key, last_local, last_id] = canonical(particles, batch.particle[batch.count - 1]);
+        return key == last_key && local == last_local;
+      };
+      EXPECT_EQ(batch.nodes.goes_on, place < tile.last && same_node(place));
     }
     EXPECT_EQ(place, tile.last);
   }
@@ -148,6 +176,58 @@ void expect_the_grid_to_follow() {
   }
   EXPECT_GT(changes_of_blocks, 3);
   EXPECT_LT(changes_of_blocks, 40);
+}
+
+// Right after a removal as after the next update.
+template <int Dim>
+void expect_the_grid_to_follow_changes_of_the_set() {
+  Crowd<Dim> crowd(Dim == 2 ? 200 : 900);
+  SparseGrid<Dim, double> grid(cell);
+  for (int step = 0; step < 40 && !testing::Test::HasFailure(); ++step) {
+    SCOPED_TRACE(step);
+    grid.update(crowd.particles, 17);
+    expect_tiles_and_blocks(crowd.particles, grid);
+    expect_batches(crowd.particles, grid);
+    if (step % 2 == 0) {
+      grid.remove(crowd.particles, crowd.remove(step % 4 == 0 ? 0.05 : 0.0, step % 10 == 0 ? 45.0 : 68.0));
+      expect_tiles_and_blocks(crowd.particles, grid);
+      expect_batches(crowd.particles, grid);
+    }
+    if (step % 3 == 0) {
+      crowd.append(Dim == 2 ? 15 : 60);
+    }
+    crowd.move(step % 3 == 0 ? 3.0 : 0.1);
+  }
+}
+
+TEST(SparseGrid, FollowsParticlesThatComeAndGoInThePlane) { expect_the_grid_to_follow_changes_of_the_set<2>(); }
+TEST(SparseGrid, FollowsParticlesThatComeAndGoInSpace) { expect_the_grid_to_follow_changes_of_the_set<3>(); }
+
+TEST(Particles, KeepTheirValuesWhenOthersGoAndNewOnesHaveNone) {
+  Particles<2, double> particles;
+  particles.resize(21);
+  for (std::size_t p = 0; p < 21; ++p) {
+    particles.id(p) = static_cast<std::int64_t>(p);
+    particles.velocity(p, 1) = 10.0 * static_cast<double>(p);
+  }
+  std::vector<std::uint8_t> marked(21, 0);
+  for (const std::size_t p : {0U, 3U, 4U, 19U, 20U}) {
+    marked[p] = 1;
+  }
+  const auto now_at = particles.remove(marked);
+  ASSERT_EQ(particles.size(), 16U);
+  for (std::size_t p = 0; p < 21; ++p) {
+    EXPECT_EQ((now_at[p] == Particles<2, double>::nowhere), marked[p] == 1) << p;
+    if (marked[p] == 0) {
+      EXPECT_EQ(particles.id(now_at[p]), static_cast<std::int64_t>(p));
+      EXPECT_EQ(particles.velocity(now_at[p], 1), 10.0 * static_cast<double>(p));
+    }
+  }
+  EXPECT_EQ(particles.append(5), 16U);
+  for (std::size_t p = 16; p < 21; ++p) {
+    EXPECT_EQ(particles.velocity(p, 1), 0.0);
+    EXPECT_EQ(particles.id(p), 0);
+  }
 }
 
 TEST(SparseGrid, FollowsParticlesInThePlane) { expect_the_grid_to_follow<2>(); }

@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-#include "mpm/batch_transfer.hpp"
+#include "mpm/cell_sums.hpp"
 #include "mpm/motion.hpp"
 #include "terrain/contact.hpp"
 
@@ -107,6 +107,7 @@ class ManufacturedVibration {
     mpm::with_shape<double>(model_.shape, [&](auto shape) {
       for (std::size_t t = 0; t < grid_.tiles().size(); ++t) {
         patches[t].clear();
+        auto sums = mpm::cell_sums<mpm::no_flux, 2>(patches[t]);
         for (const auto& batch : grid_.batches(t)) {
           const auto place = mpm::place_of(grid_, particles_, batch);
           const auto stencil =
@@ -118,7 +119,7 @@ class ManufacturedVibration {
               return particles_.mass(p) * body_force(start(p))[static_cast<int>(a)];
             });
           }
-          add_to_nodes<mpm::no_flux>(stencil, batch.count, force, patches[t]);
+          sums.add(stencil, batch.count, force);
         }
       }
     });

@@ -1,0 +1,216 @@
+// What particles add to the records of a patch, in canonical order: particle after particle to the nodes of a cell,
+// which is the particles of one nearest node, cell after cell to the patch. So no sum depends on where batches begin.
+#pragma once
+
+#include "mpm/batch_transfer.hpp"
+
+namespace thawslide::mpm {
+
+// The nodes that the particles of a cell see, 3 an axis.
+template <int Dim>
+struct CellNodes {
+  static constexpr std::size_t count = static_cast<std::size_t>(power(3, Dim));
+  // In the patch, from the lowest one.
+  static constexpr std::size_t place(std::size_t node) {
+    constexpr auto edge = static_cast<std::size_t>(Tile<Dim>::patch_edge);
+    return (node / 9 * edge + node / 3 % 3) * edge + node % 3;
+  }
+};
+constexpr int no_flux = -1;
+
+// What particles add to the records of a patch: cell by cell, a cell being the particles of one nearest node. Within a
+// cell particle after particle from zero on, in registers, a register of components at a time; the sum of a cell goes
+// to the patch as one. So no sum depends on where batches begin. From component `First` on; FluxGroup: number of the
+// register, from there, to which the flux adds.
+template <int FluxGroup, std::size_t First, std::size_t Carried, int Dim, class Real, int Components>
+class CellSums {
+  using Added = Contribution<Dim, Real, Carried>;
+  using Register = typename Added::Register;
+  static constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components);
+  static constexpr std::size_t groups = Added::groups, width = Added::width, nodes_per_axis = 3;
+  static constexpr std::size_t layers = Dim == 3 ? nodes_per_axis : 1, layer_nodes = nodes_per_axis * nodes_per_axis;
+  static_assert(size % width == 0 && First % width == 0 && First + groups * width <= size);
+
+ public:
+  explicit CellSums(Patch<Dim, Real, Components>& patch) : patch_(patch) {}
+  CellSums(const CellSums&) = delete;
+  CellSums& operator=(const CellSums&) = delete;
+
+  // The next `count` particles in canonical order.
+  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count, const Added& carried) {
+    Register value[groups][lanes], flux[Dim][lanes];
+    unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { by_particle(&carried.value[g * width], value[g]); });
+    unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
+                                                THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
+    const auto& nodes = stencil.nodes.first;
+    for (std::size_t first = 0, last = 0; first < count; first = last) {
+      while (last < count && nodes[last] == nodes[first]) {
+        ++last;
+      }
+      const bool begins = first > 0 || !is_open_, ends = last < count || !stencil.nodes.goes_on;
+      Real* records = patch_.records[static_cast<std::size_t>(nodes[first])].data() + First;
+      unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
+        add_particles<static_cast<int>(g()) == FluxGroup>(stencil, first, last, value[g], flux, begins, ends, sums_[g],
+                                                          records + g * width);
+      });
+    }
+    is_open_ = stencil.nodes.goes_on;
+  }
+
+ private:
+  // The particles first ... last-1 of a batch, of one cell, a layer of nodes at a time. Axis by axis, the last one
+  // first: fewer products than node by node. value, flux: a row a particle.
+  template <bool HasFlux>
+  THAWSLIDE_ALWAYS_INLINE static void add_particles(const BatchStencil<Dim, Real>& stencil, std::size_t first,
+                                                    std::size_t last, const Register (&value)[lanes],
+                                                    const Register (&flux)[Dim][lanes], bool begins, bool ends,
+                                                    Register (&of_cell)[layers * layer_nodes], Real* records) {
+    unrolled<layers>([&](auto layer) THAWSLIDE_INLINE_LAMBDA {
+      Register sums[layer_nodes];
+      unrolled<layer_nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+        sums[k] = begins ? Register(Real(0)) : of_cell[layer * layer_nodes + k];
+      });
+      for (std::size_t lane = first; lane < last; ++lane) {
+        const auto weight = [&](std::size_t axis, std::size_t k)
+                                THAWSLIDE_INLINE_LAMBDA { return Register(stencil.axis[axis].weight[k][lane]); };
+        const auto slope = [&](std::size_t axis, std::size_t k)
+                               THAWSLIDE_INLINE_LAMBDA { return Register(stencil.axis[axis].slope[k][lane]); };
+        Register in_layer = value[lane], along_0 = flux[0][lane], along_1 = flux[1][lane];
+        if constexpr (Dim == 3) {
+          in_layer *= weight(2, layer);
+          if constexpr (HasFlux) {
+            in_layer += slope(2, layer) * flux[2][lane];
+            along_0 *= weight(2, layer);
+            along_1 *= weight(2, layer);
+          }
+        }
+        unrolled<nodes_per_axis>([&](auto j) THAWSLIDE_INLINE_LAMBDA {
+          Register in_row = weight(1, j) * in_layer;
+          if constexpr (HasFlux) {
+            in_row += slope(1, j) * along_1;
+          }
+          const Register along = weight(1, j) * along_0;
+          unrolled<nodes_per_axis>([&](auto i) THAWSLIDE_INLINE_LAMBDA {
+            Register& sum = sums[j * nodes_per_axis + i];
+            sum += weight(0, i) * in_row;
+            if constexpr (HasFlux) {
+              sum += slope(0, i) * along;
+            }
+          });
+        });
+      }
+      unrolled<layer_nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+        if (ends) {
+          Real* record = records + CellNodes<Dim>::place(layer * layer_nodes + k) * size;
+          (Register::load(record) + sums[k]).store(record);
+        } else {
+          of_cell[layer * layer_nodes + k] = sums[k];
+        }
+      });
+    });
+  }
+
+  Patch<Dim, Real, Components>& patch_;
+  bool is_open_ = false;                           // the last batch's last cell goes on
+  Register sums_[groups][layers * layer_nodes]{};  // of that cell
+};
+
+// The same for the linear shape functions, whose particles see the corners of the cell of nodes they lie in, not the
+// same ones for all particles of a nearest node.
+template <bool HasFlux, std::size_t First, std::size_t Carried, int Dim, class Real, int Components>
+class LinearCellSums {
+  using Added = Contribution<Dim, Real, Carried>;
+  using Register = typename Added::Register;
+  static constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components), width = Added::width;
+  static constexpr std::size_t nodes = CellNodes<Dim>::count;
+  static_assert(Added::groups == 1 && First % width == 0 && First + width <= size);
+
+ public:
+  explicit LinearCellSums(Patch<Dim, Real, Components>& patch) : patch_(patch) {}
+  LinearCellSums(const LinearCellSums&) = delete;
+  LinearCellSums& operator=(const LinearCellSums&) = delete;
+
+  // The next `count` particles in canonical order.
+  THAWSLIDE_ALWAYS_INLINE void add(const HatStencil<Dim, Real>& hats, std::size_t count, const Added& carried) {
+    Register value[lanes], flux[Dim][lanes];
+    by_particle(carried.value, value);
+    if constexpr (HasFlux) {
+      unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
+                                                  THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
+    }
+    const auto corners = hats.corners();
+    const auto& cells = hats.nodes.first;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (lane > 0 ? cells[lane] != cells[lane - 1] : !is_open_) {
+        sums_.fill(Register(Real(0)));
+      }
+      add_particle(corners, lane, value[lane], flux, &sums_[static_cast<std::size_t>(corners.first_in_cell[lane])]);
+      if (lane + 1 < count ? cells[lane] != cells[lane + 1] : !hats.nodes.goes_on) {
+        end_cell(static_cast<std::size_t>(cells[lane]));
+      }
+    }
+    is_open_ = hats.nodes.goes_on;
+  }
+
+ private:
+  // Axis by axis, the last one first.
+  THAWSLIDE_ALWAYS_INLINE static void add_particle(const CornerStencil<Dim, Real>& corners, std::size_t lane,
+                                                   const Register& value, const Register (&flux)[Dim][lanes],
+                                                   Register* sums) {
+    const auto weight = [&](std::size_t axis, std::size_t k)
+                            THAWSLIDE_INLINE_LAMBDA { return Register(corners.axis[axis].weight[k][lane]); };
+    const auto slope = [&](std::size_t axis, std::size_t k)
+                           THAWSLIDE_INLINE_LAMBDA { return Register(corners.axis[axis].slope[k][lane]); };
+    unrolled<Dim == 3 ? 2 : 1>([&](auto layer) THAWSLIDE_INLINE_LAMBDA {
+      Register in_layer = value, along_0, along_1;
+      if constexpr (HasFlux) {
+        along_0 = flux[0][lane];
+        along_1 = flux[1][lane];
+      }
+      if constexpr (Dim == 3) {
+        in_layer *= weight(2, layer);
+        if constexpr (HasFlux) {
+          in_layer += slope(2, layer) * flux[2][lane];
+          along_0 *= weight(2, layer);
+          along_1 *= weight(2, layer);
+        }
+      }
+      unrolled<2>([&](auto j) THAWSLIDE_INLINE_LAMBDA {
+        Register in_row = weight(1, j) * in_layer;
+        if constexpr (HasFlux) {
+          in_row += slope(1, j) * along_1;
+        }
+        unrolled<2>([&](auto i) THAWSLIDE_INLINE_LAMBDA {
+          Register& sum = sums[(layer * 3 + j) * 3 + i];
+          sum += weight(0, i) * in_row;
+          if constexpr (HasFlux) {
+            sum += slope(0, i) * (weight(1, j) * along_0);
+          }
+        });
+      });
+    });
+  }
+
+  void end_cell(std::size_t first_node) {
+    Real* records = patch_.records[first_node].data() + First;
+    unrolled<nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+      Real* record = records + CellNodes<Dim>::place(k) * size;
+      (Register::load(record) + sums_[k]).store(record);
+    });
+  }
+
+  Patch<Dim, Real, Components>& patch_;
+  bool is_open_ = false;                // the last batch's last cell goes on
+  std::array<Register, nodes> sums_{};  // of the cell at hand
+};
+
+template <int FluxGroup, std::size_t Carried, std::size_t First = 0, int Dim, class Real, int Components>
+THAWSLIDE_ALWAYS_INLINE auto cell_sums(Patch<Dim, Real, Components>& patch) {
+  return CellSums<FluxGroup, First, Carried, Dim, Real, Components>(patch);
+}
+template <bool HasFlux, std::size_t Carried, int Dim, class Real, int Components>
+THAWSLIDE_ALWAYS_INLINE auto linear_cell_sums(Patch<Dim, Real, Components>& patch) {
+  return LinearCellSums<HasFlux, 0, Carried, Dim, Real, Components>(patch);
+}
+
+}  // namespace thawslide::mpm

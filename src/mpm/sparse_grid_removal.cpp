@@ -1,0 +1,66 @@
+// Particles that are taken out of the grid between two steps.
+#include "base/instances.hpp"
+#include "mpm/sparse_grid.hpp"
+
+namespace thawslide::mpm {
+
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>& particles, const std::vector<std::uint32_t>& now_at) {
+  const std::size_t count = particles.size();
+  for (std::size_t p = count; p < now_at.size(); ++p) {
+    if (now_at[p] != Particles<Dim, Real>::nowhere) {
+      keys_[now_at[p]] = keys_[p];
+      for (std::size_t a = 0; a < Dim; ++a) {
+        nearest_[in_nearest(now_at[p], a)] = nearest_[in_nearest(p, a)];
+      }
+    }
+  }
+  keys_.resize(count);
+  moved_.resize(count + Batch<Real>::most);
+  nearest_.resize((count + Batch<Real>::most) * Dim);
+  drop_from_tiles(now_at);
+  order_.resize(count);
+  make_stale_batches(particles);
+}
+
+// Order and tiles without the particles that are nowhere now; stale are the tiles whose particles are others or stand
+// elsewhere in memory.
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& now_at) {
+  std::uint32_t placed = 0;
+  std::size_t tiles = 0;
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    OccupiedTile tile = tiles_[t];
+    std::uint8_t stale = 0;
+    const std::uint32_t first = placed;
+    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+      const std::uint32_t p = order_[k], now = now_at[p];
+      stale = now != p ? 1 : stale;
+      if (now != Particles<Dim, Real>::nowhere) {
+        order_[placed++] = now;
+      }
+    }
+    if (placed > first) {
+      tiles_[tiles] = {tile.key, first, placed};
+      batches_[tiles].swap(batches_[t]);
+      broken_[tiles] = broken_[t];
+      stale_[tiles] = stale;
+      ++tiles;
+    }
+  }
+  blocks_changed_ = tiles < tiles_.size();
+  tiles_.resize(tiles);
+  batches_.resize(tiles);
+  broken_.resize(tiles);
+  stale_.resize(tiles);
+  if (blocks_changed_) {
+    connect_blocks();
+  }
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real) \
+  template void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>&, const std::vector<std::uint32_t>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::mpm
