@@ -127,11 +127,9 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
     auto sums = mpm::linear_cell_sums<true, 3>(patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const Lanes<Real> hydraulic = model.hydraulic(particles, batch);
-      if (any(hydraulic > Real(0))) {
-        const auto stencil = hat_stencil(grid, particles, batch);
-        auto carried = seepage_flows(grid, model, dt, stencil, pressure, hydraulic, batch, particles);
-        sums.add(stencil, batch.count, carried);
-      }
+      const auto stencil = hat_stencil(grid, particles, batch);
+      auto carried = seepage_flows(grid, model, dt, stencil, pressure, hydraulic, batch, particles);
+      sums.add(stencil, batch.count, carried);
     }
   });
   work.flows.resize(grid.blocks().size());

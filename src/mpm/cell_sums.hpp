@@ -36,6 +36,9 @@ class CellSums {
   CellSums(const CellSums&) = delete;
   CellSums& operator=(const CellSums&) = delete;
 
+  // Instead of `add`, where what a batch adds is not asked for: what is left of its first cell is not, either.
+  void skip() { is_open_ = false; }
+
   // The next `count` particles in canonical order.
   THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count, const Added& carried) {
     Register value[groups][lanes], flux[Dim][lanes];
@@ -129,6 +132,9 @@ class LinearCellSums {
   explicit LinearCellSums(Patch<Dim, Real, Components>& patch) : patch_(patch) {}
   LinearCellSums(const LinearCellSums&) = delete;
   LinearCellSums& operator=(const LinearCellSums&) = delete;
+
+  // Instead of `add`, where what a batch adds is not asked for: what is left of its first cell is not, either.
+  void skip() { is_open_ = false; }
 
   // The next `count` particles in canonical order.
   THAWSLIDE_ALWAYS_INLINE void add(const HatStencil<Dim, Real>& hats, std::size_t count, const Added& carried) {

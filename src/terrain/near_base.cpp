@@ -150,6 +150,8 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
       NearBaseSums<Dim, Real> sums(patch);
       for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
         if (!ground.any_near(t, batch)) {
+          sums.by_mass.skip();
+          sums.by_hats.skip();
           continue;
         }
         const auto hats = hat_stencil(grid, particles, batch);
