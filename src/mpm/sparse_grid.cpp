@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -16,8 +15,6 @@ namespace {
 constexpr std::size_t keys_per_task = 1024;
 // Sorting takes about as long as this many steps lose with all particles out of order.
 constexpr double most_scattered = 4;
-constexpr std::int32_t never = std::numeric_limits<std::int32_t>::min();  // the number of a nearest node
-constexpr std::uint64_t no_key = ~std::uint64_t{0};
 constexpr std::size_t none = ~std::size_t{0};
 
 template <int Dim>
@@ -94,21 +91,6 @@ void SparseGrid<Dim, Real>::note_order(bool sorted) {
   } else if (broken > fewest_broken_) {
     const std::size_t whole = order_.size() / Batch<Real>::most + 1;
     scattered_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(whole);
-  }
-}
-
-// Particles beyond those known have no nearest node yet.
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::note_appended(const Particles<Dim, Real>& particles) {
-  const std::size_t before = keys_.size(), count = particles.size();
-  keys_.resize(count, no_key);
-  moved_.resize(count + Batch<Real>::most, 0);
-  nearest_.resize((count + Batch<Real>::most) * Dim, never);
-  for (std::size_t p = before; p < count; ++p) {
-    for (std::size_t a = 0; a < Dim; ++a) {
-      nearest_[in_nearest(p, a)] = never;
-    }
-    one_material_ = one_material_ && particles.material(p) == particles.material(0);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/key_index.hpp"
@@ -68,6 +69,9 @@ class SparseGrid {
 
  private:
   static constexpr std::size_t stencil = static_cast<std::size_t>(T::stencil);
+  // Of a particle that no step has seen yet: the number of its nearest node, and its key.
+  static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::min();
+  static constexpr std::uint64_t no_key = ~std::uint64_t{0};
 
   // A particle that has another nearest node than at the last call, and the tile that it was in then.
   struct Mover {

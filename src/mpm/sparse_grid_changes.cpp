@@ -1,8 +1,23 @@
-// Particles that are taken out of the grid between two steps.
+// Particles that come and go between two steps.
 #include "base/instances.hpp"
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::mpm {
+
+// Particles beyond those known have no nearest node yet.
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::note_appended(const Particles<Dim, Real>& particles) {
+  const std::size_t before = keys_.size(), count = particles.size();
+  keys_.resize(count, no_key);
+  moved_.resize(count + Batch<Real>::most, 0);
+  nearest_.resize((count + Batch<Real>::most) * Dim, never);
+  for (std::size_t p = before; p < count; ++p) {
+    for (std::size_t a = 0; a < Dim; ++a) {
+      nearest_[in_nearest(p, a)] = never;
+    }
+    one_material_ = one_material_ && particles.material(p) == particles.material(0);
+  }
+}
 
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>& particles, const std::vector<std::uint32_t>& now_at) {
@@ -58,7 +73,8 @@ void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& no
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                           \
+  template void SparseGrid<Dim, Real>::note_appended(const Particles<Dim, Real>&); \
   template void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>&, const std::vector<std::uint32_t>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
