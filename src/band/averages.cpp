@@ -2,38 +2,47 @@
 
 #include "band/heat_nodes.hpp"
 #include "base/instances.hpp"
-#include "mpm/cell_sums.hpp"
+#include "mpm/particle_pass.hpp"
 
 namespace thawslide::band {
 
-using mpm::LinearLayout;
+namespace {
+
+// The sums of Eq. 21.
+template <int Dim, class Real>
+struct AddAverages {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<mpm::Averages>;
+  using Account = mpm::NoAccount;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& added,
+                                          Account& /*account*/) const {
+    const auto volume = particles.volume.load(at);
+    auto& averages = added.template of<mpm::Averages>();
+    averages.value[mpm::Averages::volume] = volume;
+    averages.value[mpm::Averages::temperature] = volume * particles.temperature.load(at);
+    averages.value[mpm::Averages::pore_pressure] = volume * particles.pore_pressure.load(at);
+  }
+};
+
+}  // namespace
 
 template <int Dim, class Real>
-void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
-                     const BandModel<Dim, Real>& model, mpm::Nodes<Dim, Real>& nodes,
-                     HeatNodes<Dim, Real>& heat_nodes) {
-  const auto patches = nodes.linear.patches(grid.tiles().size());
-  parallel_for(grid.tiles().size(), [&](std::size_t t) {
-    auto& patch = patches[t];
-    patch.clear();
-    auto sums = mpm::linear_cell_sums<false, LinearLayout::size>(patch);
-    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-      const Lanes<Real> volume = particles.volume.load(batch);
-      mpm::Contribution<Dim, Real, LinearLayout::size> carried;
-      carried.value[LinearLayout::volume] = volume;
-      carried.value[LinearLayout::temperature] = volume * particles.temperature.load(batch);
-      carried.value[LinearLayout::pore_pressure] = volume * particles.pore_pressure.load(batch);
-      sums.add(linear_stencil(grid, particles, batch), batch.count, carried);
-    }
-  });
-  heat_nodes.state.resize(grid.blocks().size());
-  sum_patches(grid, nodes.linear, [&](std::size_t b) { set_node_state(grid, model, nodes, b, heat_nodes); });
+void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                     mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
+  mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, mpm::every_tile, AddAverages<Dim, Real>{});
+  nodes.averages.resize(grid.blocks().size());
+  nodes.state.resize(grid.blocks().size());
+  const SetNodalState<Dim, Real> set_state{grid, model};
+  mpm::node_pass<mpm::NoAccount>(
+      grid, [&](std::size_t b) { mpm::sum_block<mpm::Averages>(grid, b, nodes); },
+      [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) { set_state(nodes, at); });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \
-  template void average_on_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const mpm::Particles<Dim, Real>&, \
-                                           const BandModel<Dim, Real>&, mpm::Nodes<Dim, Real>&,                 \
-                                           HeatNodes<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                   \
+  template void average_on_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, \
+                                           mpm::Particles<Dim, Real>&, mpm::Nodes<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

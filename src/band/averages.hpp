@@ -1,16 +1,16 @@
-// Averages of band quantities at nodes.
+// Temperature and pore pressure at the nodes (Eq. 21).
 #pragma once
 
-#include "band/heat.hpp"
+#include "band/model.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/particles.hpp"
 
 namespace thawslide::band {
 
-// Temperature and pore pressure (Eq. 21 with normalised weights) to the nodes, by volume with the linear shape
-// functions: their sums, and in heat_nodes.state the averages.
+// What the nodes see of the particles' temperature and pore pressure by the linear shape functions: nodes.averages, the
+// sums, and nodes.state.
 template <int Dim, class Real>
-void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
-                     const BandModel<Dim, Real>& model, mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& heat_nodes);
+void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                     mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes);
 
 }  // namespace thawslide::band

@@ -1,10 +1,7 @@
 // Heat on the grid (Eqs. 9, 18-20), with the shear band scaling of Sec. 2.3: as if the grid were xi times finer.
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <memory>
-#include <vector>
 
 #include "band/model.hpp"
 #include "mpm/nodes.hpp"
@@ -31,25 +28,11 @@ struct HeatGain {
   }
 };
 
-// Records of the heat stage at a node.
-template <int Dim, class Real>
-struct HeatNodes {
-  explicit HeatNodes(const std::shared_ptr<mpm::PatchRoom>& room) : rates(room) {}
-
-  mpm::NodeRecords<Dim, Real, 4> rates;     // heat flow in [W], advection [W], capacity [J/K], subgrid heat [J]
-  mpm::NodeRecords<Dim, Real, 4> capacity;  // its last two, with the secant capacity, where temperatures change
-  mpm::NodeRecords<Dim, Real, 3> state;     // temperature [C], pore pressure [Pa], rate of temperature [K/s]
-  mpm::NodeRecords<Dim, Real, 1> orphan;    // friction heat of nodes without linear weight, per mass [W/kg]
-  bool any_orphan = false;
-  std::vector<std::uint8_t> changing_tiles, changing_blocks;  // where temperatures change
-};
-
-// Heat content, temperature and saturation of all particles after dt; work.state must hold what average_on_grid made of
-// this step. first_step: prescribed temperatures jump now.
+// Heat content, temperature and saturation of all particles after dt; nodes.state must hold what average_on_grid made
+// of this step. first_step: prescribed temperatures jump now.
 template <int Dim, class Real>
 HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                            bool first_step, const mpm::Nodes<Dim, Real>& nodes, HeatNodes<Dim, Real>& work,
-                            mpm::Particles<Dim, Real>& particles);
+                            bool first_step, mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);
 
 // Sets heat content and saturation from temperature and porosity (at t = 0).
 template <int Dim, class Real>

@@ -55,13 +55,14 @@ struct BandModel {
   mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
   mpm::HeldSides<Dim> sides;
 
-  // Hydraulic conductivities of a batch's particles [m/s].
-  [[nodiscard]] Lanes<Real> hydraulic(const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) const {
-    return hydraulic_conductivity.size() == 1
-               ? Lanes<Real>(hydraulic_conductivity[0])
-               : Lanes<Real>::of([&](std::size_t lane) {
-                   return hydraulic_conductivity[static_cast<std::size_t>(particles.material(batch.particle[lane]))];
-                 });
+  // Hydraulic conductivities [m/s].
+  template <class Particles, class At>
+  [[nodiscard]] typename At::Value hydraulic(const Particles& particles, const At& at) const {
+    if (hydraulic_conductivity.size() == 1) {
+      return hydraulic_conductivity[0];
+    }
+    return at.each(
+        [&](std::uint32_t p) { return hydraulic_conductivity[static_cast<std::size_t>(particles.material(p))]; });
   }
 
   // Calls work(content) with the heat content law of the run.

@@ -13,6 +13,7 @@ namespace thawslide::mpm {
 
 template <class Real>
 struct Batch {
+  using Value = Lanes<Real>;
   static constexpr std::size_t most = lane_count<Real>;
 
   std::array<std::uint32_t, most> particle;  // by lane; lanes from `count` on repeat the last one
@@ -26,6 +27,35 @@ struct Batch {
     for (std::size_t lane = 0; lane < count; ++lane) {
       sum += numbers[lane];
     }
+  }
+  // of(particle), lane by lane.
+  template <class Of>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Value each(const Of& of) const {
+    return Value::of([&](std::size_t lane) { return of(particle[lane]); });
+  }
+  template <class Body>
+  void for_each(const Body& body) const {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      body(particle[lane]);
+    }
+  }
+};
+
+// One particle, in a batch's place.
+template <class Real>
+struct One {
+  using Value = Real;
+
+  std::array<std::uint32_t, 1> particle;
+
+  THAWSLIDE_ALWAYS_INLINE void add_to(Real& sum, Real quantity) const { sum += quantity; }
+  template <class Of>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Value each(const Of& of) const {
+    return of(particle[0]);
+  }
+  template <class Body>
+  void for_each(const Body& body) const {
+    body(particle[0]);
   }
 };
 

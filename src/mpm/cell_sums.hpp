@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mpm/batch_transfer.hpp"
+#include "mpm/kernel.hpp"
 
 namespace thawslide::mpm {
 
@@ -16,7 +17,6 @@ struct CellNodes {
     return (node / 9 * edge + node / 3 % 3) * edge + node % 3;
   }
 };
-constexpr int no_flux = -1;
 
 // What particles add to the records of a patch: cell by cell, a cell being the particles of one nearest node. Within a
 // cell particle after particle from zero on, in registers, a register of components at a time; the sum of a cell goes

@@ -119,6 +119,13 @@ class Field final : public FieldBase {
     }
     values.scatter(&data_[position(0, component)], places(batch), batch.count);
   }
+  // The value of one particle.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE T load(const One<T>& one, int component = 0) const {
+    return (*this)(one.particle[0], component);
+  }
+  THAWSLIDE_ALWAYS_INLINE void store(const One<T>& one, T value, int component = 0) {
+    (*this)(one.particle[0], component) = value;
+  }
   // Whole numbers, from and to lanes of a real type.
   template <class Real>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<Real> load_whole(const Batch<Real>& batch) const {
@@ -138,20 +145,20 @@ class Field final : public FieldBase {
     }
   }
   // Whole vectors and tensors.
-  template <int Size>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Vector<Lanes<T>, Size> load_vector(const Batch<T>& batch) const {
-    Vector<Lanes<T>, Size> v;
+  template <int Size, class At>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Vector<typename At::Value, Size> load_vector(const At& at) const {
+    Vector<typename At::Value, Size> v;
     unrolled<static_cast<std::size_t>(Size)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       constexpr int c = static_cast<int>(k());
-      v[c] = c < Components ? load(batch, c) : Lanes<T>(T(0));
+      v[c] = c < Components ? load(at, c) : typename At::Value(T(0));
     });
     return v;
   }
-  template <class Values>
-  THAWSLIDE_ALWAYS_INLINE void store_vector(const Batch<T>& batch, const Values& values) {
+  template <class At, class Values>
+  THAWSLIDE_ALWAYS_INLINE void store_vector(const At& at, const Values& values) {
     unrolled<static_cast<std::size_t>(Components)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       constexpr int c = static_cast<int>(k());
-      store(batch, values[c], c);
+      store(at, values[c], c);
     });
   }
 

@@ -122,7 +122,7 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
 // Strain, rotation, stress (Eq. 11), volume and porosity (Eq. 6, mechanical part) from the mapped-back velocities.
 template <int Dim, class Real>
 StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
-                                            const MotionModel<Dim, Real>& model, Real dt, const Nodes<Dim, Real>& nodes,
+                                            const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes,
                                             BadParticle& bad);
 
 // Lets the step's displacement take effect; reports a particle that is not finite or outside [lower, upper].

@@ -1,6 +1,7 @@
 // What nodes hold during a step: the layouts of their records.
 #pragma once
 
+#include "mpm/kernel.hpp"
 #include "mpm/transfer.hpp"
 
 namespace thawslide::mpm {
@@ -24,13 +25,16 @@ struct MotionLayout {
   static constexpr int size = 2 * Dim;
 };
 
-// Sums over particles with the linear shape functions, weighted by volume: temperature, pore pressure (Eq. 21,
-// normalised).
-struct LinearLayout {
+// Sums over particles, weighted by volume (Eq. 21, not normalised).
+struct Averages {
+  using Functions = LinearFunctions;
   static constexpr std::size_t volume = 0;  // sum S V [m3]
   static constexpr std::size_t temperature = 1;
   static constexpr std::size_t pore_pressure = 2;
+  template <int Dim>
   static constexpr int size = 3;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.averages; }
 };
 
 // What the particles near the ground tell its candidate nodes: sums S m X with the momentum shape functions, for nodes
@@ -65,16 +69,95 @@ struct ContactLayout {
   static constexpr int size = 3;
 };
 
+// What particles see of heat and pore pressure: the averages, or a prescribed temperature, and what
+// becomes of them.
+struct NodalState {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t temperature = 0;       // [C]
+  static constexpr std::size_t pore_pressure = 1;     // [Pa]
+  static constexpr std::size_t temperature_rate = 2;  // [K/s]
+  static constexpr std::size_t pressure_change = 3;   // what seepage brings in the step [Pa], Eq. 22
+  template <int Dim>
+  static constexpr int size = 4;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.state; }
+};
+
+// Sums over particles of what changes their heat (Eq. 19).
+struct HeatRates {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t conduction = 0;  // [W]
+  static constexpr std::size_t advection = 1;   // [W]
+  static constexpr std::size_t capacity = 2;    // [J/K]
+  static constexpr std::size_t subgrid = 3;     // heat taken by subgrid diffusion [J]
+  template <int Dim>
+  static constexpr int size = 4;
+  static constexpr int flux = 0;
+  static auto& in(auto& nodes) { return nodes.heat_rates; }
+};
+
+// Friction heat of nodes without linear weight, per mass [W/kg].
+struct OrphanHeat {
+  using Functions = MomentumFunctions;
+  template <int Dim>
+  static constexpr int size = 1;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.orphan_heat; }
+};
+
+// Sums over particles of what changes their pore pressure (Eq. 23).
+struct Seepage {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t inflow = 0;      // times K_L [Pa m3/s]
+  static constexpr std::size_t pore_space = 1;  // [m3]
+  static constexpr std::size_t subgrid = 2;     // pore space times subgrid diffusion [Pa m3]
+  template <int Dim>
+  static constexpr int size = 3;
+  static constexpr int flux = 0;
+  static auto& in(auto& nodes) { return nodes.seepage; }
+};
+
+// Velocity mapped back from the moved particles (MUSL) [m/s].
+struct Velocity {
+  using Functions = MomentumFunctions;
+  template <int Dim>
+  static constexpr int size = Dim;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.velocity; }
+};
+
+template <class Name, int Dim, class Real>
+using PatchOf = Patch<Dim, Real, components_of<Name, Dim>>;
+template <class Name, int Dim, class Real>
+using RecordsOf = NodeRecords<Dim, Real, components_of<Name, Dim>>;
+
+// Where temperatures change and water seeps: tiles with such particles, and blocks whose nodes these see.
+struct ActivityMarks {
+  std::vector<std::uint8_t> changing_tiles, changing_blocks;
+  std::vector<std::uint8_t> seeping_tiles, seeping_blocks;
+};
+
 template <int Dim, class Real>
 struct Nodes {
   std::shared_ptr<PatchRoom> room = std::make_shared<PatchRoom>();
   NodeRecords<Dim, Real, MomentumLayout<Dim>::size> momentum{room};
   NodeRecords<Dim, Real, MotionLayout<Dim>::size> motion;
-  NodeRecords<Dim, Real, Dim> velocity{room};  // mapped back from the moved particles (MUSL) [m/s]
-  NodeRecords<Dim, Real, LinearLayout::size> linear{room};
+  RecordsOf<Velocity, Dim, Real> velocity{room};
+  RecordsOf<Averages, Dim, Real> averages{room};
   NodeRecords<Dim, Real, BaseLayout::size> base;
   NodeRecords<Dim, Real, ContactLayout::size> contact;
   NodeRecords<Dim, Real, NearGroundLayout::size> near_ground{room};  // of candidate nodes alone
+  RecordsOf<NodalState, Dim, Real> state;
+  RecordsOf<HeatRates, Dim, Real> heat_rates{room};
+  RecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
+  RecordsOf<OrphanHeat, Dim, Real> orphan_heat;
+  RecordsOf<Seepage, Dim, Real> seepage{room};  // of blocks to whose nodes water seeps
+  ActivityMarks marks;
+
+  template <class Name>
+  [[nodiscard]] auto& of() {
+    return Name::in(*this);
+  }
 };
 
 // Position [m, relative to the domain's lower corner] of a node of a block.

@@ -54,6 +54,11 @@ class PatchRoom {
   AlignedVector<std::byte> bytes_;
 };
 
+// A node of the grid: its block, and its place there.
+struct NodeAt {
+  std::size_t block, node;
+};
+
 // One record a node of every active block, and the patches that are summed into it.
 template <int Dim, class Real, int Components>
 class NodeRecords {
@@ -69,6 +74,8 @@ class NodeRecords {
   [[nodiscard]] const Record& operator()(std::size_t block, std::size_t node) const {
     return records_[block * nodes + node];
   }
+  [[nodiscard]] Record& operator()(const NodeAt& at) { return (*this)(at.block, at.node); }
+  [[nodiscard]] const Record& operator()(const NodeAt& at) const { return (*this)(at.block, at.node); }
   void resize(std::size_t blocks) { resize_sparingly(records_, blocks * nodes); }
 
   // Patches for the tiles, to be cleared and filled by whoever works on a tile, and to be summed before other records

@@ -60,7 +60,7 @@ void Simulation<Dim, Real>::update_ground() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::average_band_on_grid() {
   if (model_.ground || model_.band.heat || model_.band.pressure) {
-    band::average_on_grid(grid_, particles_, model_.band, nodes_, heat_nodes_);
+    band::average_on_grid(grid_, model_.band, particles_, nodes_);
   }
 }
 
@@ -119,7 +119,7 @@ void Simulation<Dim, Real>::conduct_heat() {
     return;
   }
   ledger_.band_rescale += added;
-  const auto gain = band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, heat_nodes_, particles_);
+  const auto gain = band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_);
   ledger_.friction_heat += gain.friction;
   ledger_.boundary_heat += gain.boundary;
   ledger_.advection += gain.advection;
@@ -133,7 +133,7 @@ void Simulation<Dim, Real>::drain_pore_pressure() {
     return;
   }
   update_columns();
-  band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, seepage_nodes_, particles_);
+  band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, particles_);
 }
 
 template <int Dim, class Real>

@@ -46,7 +46,6 @@ class Simulation {
   [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const { return particles_; }
   [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const { return grid_; }
   [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const { return nodes_; }
-  [[nodiscard]] const band::HeatNodes<Dim, Real>& heat_nodes() const { return heat_nodes_; }
   // Null without terrain.
   [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
   [[nodiscard]] const Ledger<Dim, Real>& ledger() const { return ledger_; }
@@ -95,8 +94,6 @@ class Simulation {
   mpm::SparseGrid<Dim, Real> grid_;
   mpm::Nodes<Dim, Real> nodes_;
   terrain::GroundOnGrid<Dim, Real> ground_;
-  band::HeatNodes<Dim, Real> heat_nodes_{nodes_.room};
-  band::SeepageNodes<Dim, Real> seepage_nodes_{nodes_.room};
   band::FlowDepth<Dim, Real> flow_depth_;
   terrain::ContactWork<Dim, Real> contact_;
   Ledger<Dim, Real> ledger_;

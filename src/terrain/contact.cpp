@@ -13,9 +13,9 @@ namespace thawslide::terrain {
 
 namespace {
 
+using mpm::Averages;
 using mpm::BaseLayout;
 using mpm::ContactLayout;
-using mpm::LinearLayout;
 using mpm::MomentumLayout;
 using mpm::MotionLayout;
 using NearGround = mpm::NearGroundLayout;
@@ -70,7 +70,7 @@ NodeState<Dim, Real> trial_state(
 template <int Dim, class Real>
 Real at_base(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real sum_by_linear,
              std::size_t by_mass) {
-  const Real volume = nodes.linear(b, k)[LinearLayout::volume];
+  const Real volume = nodes.averages(b, k)[Averages::volume];
   return volume > Real(0) ? sum_by_linear / volume
                           : nodes.near_ground(b, k)[by_mass] / nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
 }
@@ -92,7 +92,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
                       const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
   using Layout = NearGround;
-  const auto& linear = nodes.linear(b, k);
+  const auto& linear = nodes.averages(b, k);
   const auto& near_ground = nodes.near_ground(b, k);
   const auto average = [&](Real sum_by_linear, std::size_t by_mass) {
     return at_base(nodes, b, k, sum_by_linear, by_mass);
@@ -106,10 +106,10 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   contact.state[c] = state;
   basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
-      model.pore_pressure ? average(linear[LinearLayout::pore_pressure], Layout::pore_pressure) : Real(0);
+      model.pore_pressure ? average(linear[Averages::pore_pressure], Layout::pore_pressure) : Real(0);
   basal.saturation[c] = average(near_ground[Layout::saturation_by_linear], Layout::saturation);
   basal.solid_fraction[c] = average(near_ground[Layout::solid_fraction_by_linear], Layout::solid_fraction);
-  basal.temperature[c] = average(linear[LinearLayout::temperature], Layout::temperature);
+  basal.temperature[c] = average(linear[Averages::temperature], Layout::temperature);
   basal.slip[c] = near_ground[Layout::slip] / state.mass;
   basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
 }

@@ -121,7 +121,7 @@ void expect_the_scalar_step(const config::Case& parameters, bool yields, bool ho
   const auto now = points_of(simulation);
   const auto every_node = [](std::size_t /*block*/, std::size_t /*node*/) { return true; };
   expect_same_sums(simulation.nodes().momentum, scalar, scalar.momentum(), 0, every_node);
-  expect_same_sums(simulation.nodes().linear, scalar, scalar.linear(), 0, every_node);
+  expect_same_sums(simulation.nodes().averages, scalar, scalar.linear(), 0, every_node);
   const auto candidates = [&](std::size_t b, std::size_t k) { return simulation.ground()->block(b)[k].candidate; };
   expect_same_sums(simulation.nodes().near_ground, scalar, scalar.near_ground_by_mass(), 0, candidates);
   expect_same_sums(simulation.nodes().near_ground, scalar, scalar.near_ground_by_linear(),
@@ -162,7 +162,7 @@ void expect_the_scalar_step(const config::Case& parameters, bool yields, bool ho
   EXPECT_GT(warmed, now.size() / 20);
   EXPECT_GT(std::min(in_band, at_pressure_of_air), now.size() / 30);
   // Tiles whose temperatures change and tiles whose do not, which spare themselves the secant capacity.
-  const auto& changing = simulation.heat_nodes().changing_tiles;
+  const auto& changing = simulation.nodes().marks.changing_tiles;
   const auto count = std::count(changing.begin(), changing.end(), 1);
   EXPECT_GT(count, 0);
   EXPECT_LT(static_cast<std::size_t>(count), changing.size());

@@ -152,13 +152,13 @@ class ScalarContact {
   [[nodiscard]] double average(const Index& node, const typename ContactSums<Dim>::Sums& sums, std::size_t by_linear,
                                std::size_t by_mass) const {
     const auto linear = sums_.linear.find(node);
-    const double volume = linear != sums_.linear.end() ? linear->second[mpm::LinearLayout::volume] : 0.0;
+    const double volume = linear != sums_.linear.end() ? linear->second[mpm::Averages::volume] : 0.0;
     return volume > 0.0 ? sums.at(node)[by_linear] / volume : sums_.near_ground_by_mass.at(node)[by_mass] / mass(node);
   }
 
   [[nodiscard]] double strength(const Index& node, double normal_pressure) const {
     const auto& law = model_.law;
-    const double pore = average(node, sums_.linear, mpm::LinearLayout::pore_pressure, NearGround::pore_pressure);
+    const double pore = average(node, sums_.linear, mpm::Averages::pore_pressure, NearGround::pore_pressure);
     const double solid =
         average(node, sums_.near_ground_by_linear, solid_fraction_by_linear, NearGround::solid_fraction);
     const double factor =

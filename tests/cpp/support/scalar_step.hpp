@@ -27,7 +27,7 @@ class ScalarStep {
   ScalarStep(const sim::Simulation<Dim, double>& simulation, double dt, std::vector<Point<Dim>> points)
       : points_(std::move(points)), simulation_(simulation), dt_(dt), transfer_{1.0 / simulation.grid().cell()} {
     momentum_ = add_up(Transfer::ugimp, mpm::MomentumLayout<Dim>::size, [&](const auto& p) { return momentum_of(p); });
-    linear_ = add_up(Transfer::linear, mpm::LinearLayout::size, [&](const Point<Dim>& p) {
+    linear_ = add_up(Transfer::linear, mpm::components_of<mpm::Averages, Dim>, [&](const Point<Dim>& p) {
       return Carried<Dim>{{p.volume, p.volume * p.temperature, p.volume * p.pore_pressure}, {}};
     });
     near_ground_by_mass_ = add_up(Transfer::ugimp, mpm::NearGroundLayout::by_mass, [&](const Point<Dim>& p) {
@@ -232,7 +232,7 @@ class ScalarStep {
       for (Point<Dim>& p : points_) {
         p.capacity = content.apparent_capacity(p.temperature, p.initial_porosity);
         const double conductivity = physics::conductivity(phases(), p.porosity, p.saturation);
-        p.conduction_in_cell = (seen(p, mpm::LinearLayout::temperature).value - p.temperature) *
+        p.conduction_in_cell = (seen(p, mpm::Averages::temperature).value - p.temperature) *
                                physics::share_of_subgrid_diffusion(conductivity / p.capacity,
                                                                    transfer_.inverse_cell * p.scaling, Dim, dt_);
       }
@@ -256,8 +256,8 @@ class ScalarStep {
   }
 
   [[nodiscard]] Carried<Dim> heat_flow(const Point<Dim>& p) const {
-    const Place by_temperature = seen(p, mpm::LinearLayout::temperature).gradient;
-    const Place by_pressure = seen(p, mpm::LinearLayout::pore_pressure).gradient;
+    const Place by_temperature = seen(p, mpm::Averages::temperature).gradient;
+    const Place by_pressure = seen(p, mpm::Averages::pore_pressure).gradient;
     const double conductivity = physics::conductivity(phases(), p.porosity, p.saturation);
     const double mobility =
         p.scaling * simulation_.model().band.hydraulic_conductivity[p.material] / phases().water_unit_weight;
@@ -271,7 +271,7 @@ class ScalarStep {
     const auto& band = simulation_.model().band;
     const auto conductivity = [&](const Point<Dim>& p) { return band.hydraulic_conductivity[p.material]; };
     const Sums flows = add_up(Transfer::linear, 3, [&](Point<Dim> p) {
-      const Seen around = seen(p, mpm::LinearLayout::pore_pressure);
+      const Seen around = seen(p, mpm::Averages::pore_pressure);
       const bool flowing = p.old_temperature >= tref;
       const double space = p.volume / p.scaling * p.porosity;
       const double flow =
@@ -293,9 +293,9 @@ class ScalarStep {
         continue;
       }
       const bool flowing = p.old_temperature >= tref;
-      double pressure =
-          flowing ? p.liquid_pressure + by_subgrid_diffusion(p, seen(p, mpm::LinearLayout::pore_pressure).value)
-                  : ice * phases().water_density / phases().ice_density;
+      double pressure = flowing
+                            ? p.liquid_pressure + by_subgrid_diffusion(p, seen(p, mpm::Averages::pore_pressure).value)
+                            : ice * phases().water_density / phases().ice_density;
       for_nodes(p, Transfer::linear, [&](const Index& node, double weight, const Place& /*slope*/) {
         const auto& sum = flows.at(node);
         pressure += flowing && sum[1] > 0.0 ? weight * (dt_ * sum[0] - sum[2]) / sum[1] : 0.0;

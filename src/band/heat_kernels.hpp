@@ -1,0 +1,224 @@
+// What a particle does in conduct_heat: kernels (mpm/kernel.hpp). With the tangent to its heat content it tells the
+// nodes what flows; with the secant along the change that these predict, what it will take; then it takes it.
+#pragma once
+
+#include "band/particle_heat.hpp"
+#include "mpm/kernel.hpp"
+#include "mpm/nodes.hpp"
+#include "physics/pressurization.hpp"
+
+namespace thawslide::band {
+
+// Conduction and advection (Eq. 19), and the capacity with the tangent. Differences within a cell, which nodes do not
+// see, diffuse between particle and nodes by themselves, and the heat that this brings is taken off at the nodes
+// (subgrid diffusion; Gerya and Yuen 2003).
+template <int Dim, class Real, class Law>
+struct HeatFlows {
+  using Reads = mpm::RecordList<mpm::NodalState>;
+  using Adds = mpm::RecordList<mpm::HeatRates>;
+  using Account = mpm::NoAccount;
+
+  const BandModel<Dim, Real>& model;
+  const Law& law;
+  Real dt, inverse_cell;
+  bool subgrid;  // false where prescribed temperatures jump, since nodes then are ahead of particles, and as printed
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+                                          Account& /*account*/) const {
+    using Value = typename At::Value;
+    const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature);
+    const auto gradient = gradient_of(state, 0);
+    const Value scaling = particles.thermal_scaling.load(at);
+    const Value tangent = law.tangent(particles, at);
+    const Value capacity = particles.initial_volume.load(at) / scaling * tangent;
+    Value in_cell = Real(0);
+    auto& rates = added.template of<mpm::HeatRates>();
+    if (model.conduction) {
+      const Value conductivity =
+          physics::conductivity(model.phases, particles.porosity.load(at), particles.liquid_saturation.load(at));
+      const Value flow = -particles.volume.load(at) * scaling * conductivity;
+      for (std::size_t a = 0; a < Dim; ++a) {
+        rates.flux[a][mpm::HeatRates::conduction] = flow * gradient[static_cast<int>(a)];
+      }
+      if (subgrid) {
+        in_cell = (state.value[0] - particles.temperature.load(at)) *
+                  physics::share_of_subgrid_diffusion(conductivity / tangent, inverse_cell * scaling, Dim, dt);
+      }
+    }
+    particles.secant_capacity.store(at, tangent);
+    particles.conduction_in_cell.store(at, in_cell);
+    const auto melted = particles.temperature.load(at) >= model.reference_temperature;
+    if (model.advection && model.seepage && model.thermal_pressurization && any(melted)) {
+      rates.value[mpm::HeatRates::advection] = select(melted, advection(particles, at, seen, gradient), Value(Real(0)));
+    }
+    rates.value[mpm::HeatRates::capacity] = capacity;
+    rates.value[mpm::HeatRates::subgrid] = capacity * in_cell;
+  }
+
+ private:
+  // Water seeps where it is melted; the heat it carries [W].
+  template <class Particles, class At, class Seen, class Gradient>
+  THAWSLIDE_ALWAYS_INLINE typename At::Value advection(const Particles& particles, const At& at, const Seen& seen,
+                                                       const Gradient& temperature_gradient) const {
+    const auto pressure_gradient =
+        gradient_of(seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure), 0);
+    const auto mobility =
+        particles.thermal_scaling.load(at) * model.hydraulic(particles, at) / model.phases.water_unit_weight;
+    const Real capacity = model.phases.water_density * model.phases.water_heat_capacity;
+    return particles.volume.load(at) * capacity * mobility * pressure_gradient.dot(temperature_gradient);
+  }
+};
+
+// The change of temperature [K] of a step, at the particle's place and within its cell.
+template <class Real, class Particles, class At, class Seen>
+THAWSLIDE_ALWAYS_INLINE typename At::Value change_of_temperature(const Particles& particles, const At& at,
+                                                                 const Seen& seen, Real dt) {
+  return particles.conduction_in_cell.load(at) +
+         dt * seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature_rate).value[0];
+}
+
+// The secant capacity along the predicted change: with it the sum of what particles take equals what nodes give. Where
+// no temperature changes it is the tangent.
+template <int Dim, class Real, class Law>
+struct SecantCapacity {
+  using Reads = mpm::RecordList<mpm::NodalState>;
+  using Adds = mpm::RecordList<mpm::HeatRates>;
+  using Account = mpm::NoAccount;
+
+  const Law& law;
+  Real dt;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+                                          Account& /*account*/) const {
+    using Value = typename At::Value;
+    const Value change = change_of_temperature(particles, at, seen, dt);
+    Value secant = particles.secant_capacity.load(at);  // still the tangent
+    const auto negligible = law.content.is_negligible(change);
+    if (any(!negligible)) {
+      secant = select(negligible, secant, law.secant(particles, at, change));
+      particles.secant_capacity.store(at, secant);
+    }
+    auto& rates = added.template of<mpm::HeatRates>();
+    const Value capacity = particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * secant;
+    rates.value[mpm::HeatRates::capacity] = capacity;
+    rates.value[mpm::HeatRates::subgrid] = capacity * particles.conduction_in_cell.load(at);
+  }
+};
+
+// Friction heat of nodes that the linear shape functions do not reach goes to the particles whose momentum does, as a
+// change within the cell.
+template <int Dim, class Real>
+struct TakeOrphanHeat {
+  using Reads = mpm::RecordList<mpm::OrphanHeat>;
+  using Adds = mpm::RecordList<>;
+  using Account = mpm::NoAccount;
+
+  Real dt;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& /*added*/,
+                                          Account& /*account*/) const {
+    const auto specific = seen.template read<mpm::OrphanHeat, 1>().value[0];
+    const auto gain = dt * specific * particles.mass.load(at) * particles.thermal_scaling.load(at) /
+                      particles.initial_volume.load(at);  // [J/m3]
+    particles.conduction_in_cell.store(at,
+                                       particles.conduction_in_cell.load(at) +
+                                           select(gain != Real(0), gain / particles.secant_capacity.load(at), gain));
+  }
+};
+
+// Saturation and porosity follow a change of temperature where there was one.
+template <class Phases, class Law, class Particles, class At, class Mask, class Value>
+THAWSLIDE_ALWAYS_INLINE void follow_temperature(const Phases& phases, const Law& law, Particles& particles,
+                                                const At& at, const Mask& changed, const Value& before) {
+  using Real = typename NumberOf<Value>::Type;
+  const Value temperature = particles.temperature.load(at), porosity = particles.porosity.load(at);
+  const Value saturation = law.content.curve.saturation(temperature);
+  particles.liquid_saturation.store(at, select(changed, saturation, particles.liquid_saturation.load(at)));
+  const Value updated = physics::updated_porosity(phases, porosity, Value(Real(0)), temperature - before);
+  particles.porosity.store(at, select(changed, updated, porosity));
+}
+
+// Eq. 18 for the heat content: the gain goes to the particle's account, and its temperature follows.
+template <int Dim, class Real, class Law>
+struct TakeHeat {
+  using Reads = mpm::RecordList<mpm::NodalState>;
+  using Adds = mpm::RecordList<>;
+  using Account = mpm::NoAccount;
+
+  const BandModel<Dim, Real>& model;
+  const Law& law;
+  Real dt;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& /*added*/,
+                                          Account& /*account*/) const {
+    using Value = typename At::Value;
+    const Value secant = particles.secant_capacity.load(at);
+    const Value gain = secant * change_of_temperature(particles, at, seen, dt);
+    const Value temperature = particles.temperature.load(at), before = particles.heat_content.load(at);
+    const Value heat_content = before + gain;
+    particles.previous_temperature.store(at, temperature);
+    const auto changed = heat_content != before;
+    if (any(changed)) {
+      particles.heat_content.store(at, heat_content);
+      const Value now = law.temperature(particles, at, heat_content, temperature + gain / secant);
+      particles.temperature.store(at, select(changed, now, temperature));
+      follow_temperature(model.phases, law, particles, at, changed, temperature);
+    }
+  }
+};
+
+// Eqs. 18 and 19 as printed: the old apparent capacity turns heat into a change of temperature. The heat a particle
+// then holds is not what it was given; the difference is counted [J].
+template <int Dim, class Real, class Law>
+struct TakeHeatAsPrinted {
+  using Reads = mpm::RecordList<mpm::NodalState>;
+  using Adds = mpm::RecordList<>;
+  using Account = Real;
+
+  const BandModel<Dim, Real>& model;
+  const Law& law;
+  Real dt;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& /*added*/,
+                                          Account& made) const {
+    using Value = typename At::Value;
+    const Value tangent = particles.secant_capacity.load(at);
+    const Value gain = tangent * change_of_temperature(particles, at, seen, dt);
+    const Value before = particles.temperature.load(at), temperature = before + gain / tangent;
+    particles.previous_temperature.store(at, before);
+    particles.temperature.store(at, temperature);
+    const auto changed = gain != Real(0);
+    if (any(changed)) {
+      follow_temperature(model.phases, law, particles, at, changed, before);
+    }
+    const Value taken = tangent * (temperature - before), held = particles.heat_content.load(at);
+    const Value holds = law.heat(particles, at);
+    particles.heat_content.store(at, holds);
+    at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (holds - held - taken));
+  }
+};
+
+// Heat made by masses that follow porosity and volume [J]: temperatures stay, the heat the particles hold does not.
+template <int Dim, class Real, class Law>
+struct CountMassesAnew {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Account = Real;
+
+  const Law& law;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+                                          Account& made) const {
+    const auto before = particles.heat_content.load(at), anew = law.heat(particles, at);
+    particles.heat_content.store(at, anew);
+    at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (anew - before));
+  }
+};
+
+}  // namespace thawslide::band

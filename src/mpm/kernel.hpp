@@ -1,0 +1,87 @@
+// What kernels are: the pure functions of one particle's numbers that make up the stages of a step, and what they say
+// of themselves. A kernel is an object with
+//   Reads, Adds   lists of the node records that it reads and adds to (mpm/nodes.hpp)
+//   Account       what it sums over all particles
+//   operator()(particles, at, seen, added, account)
+// `at` names one particle, or a batch of them (mpm/batch.hpp): particles.FIELD.load(at) gives its numbers. What it
+// reads of the nodes about it is seen.read<Record, Count>(), what it adds to them goes to added.of<Record>(). A kernel
+// has no loops, batches or patches in it; mpm/particle_pass.hpp runs it over all particles.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+#include "base/portability.hpp"
+
+namespace thawslide::mpm {
+
+// The shape functions that tie a record to particles: those of momentum, which the run chooses, or the linear ones.
+struct MomentumFunctions {};
+struct LinearFunctions {};
+
+// Of a record to which no kernel adds a flux.
+inline constexpr int no_flux = -1;
+
+// Of a kernel that sums nothing over particles.
+struct NoAccount {
+  NoAccount& operator+=(const NoAccount& /*part*/) { return *this; }
+};
+
+template <class... Names>
+struct RecordList {};
+
+template <class Name, class List>
+inline constexpr bool holds = false;
+template <class Name, class... Names>
+inline constexpr bool holds<Name, RecordList<Names...>> = (std::is_same_v<Name, Names> || ...);
+
+// Whether two lists have no record in common.
+template <class First, class Second>
+inline constexpr bool are_disjoint = false;
+template <class... Names, class Second>
+inline constexpr bool are_disjoint<RecordList<Names...>, Second> = (!holds<Names, Second> && ...);
+
+// All records of some lists, each once.
+template <class List, class... Lists>
+struct Joined {
+  using Type = List;
+};
+template <class... Names, class Name, class... Others, class... Lists>
+struct Joined<RecordList<Names...>, RecordList<Name, Others...>, Lists...>
+    : Joined<std::conditional_t<holds<Name, RecordList<Names...>>, RecordList<Names...>, RecordList<Names..., Name>>,
+             RecordList<Others...>, Lists...> {};
+template <class... Names, class... Lists>
+struct Joined<RecordList<Names...>, RecordList<>, Lists...> : Joined<RecordList<Names...>, Lists...> {};
+template <class... Lists>
+using AllOf = typename Joined<RecordList<>, Lists...>::Type;
+
+// Numbers of a record.
+template <class Name, int Dim>
+inline constexpr int components_of = Name::template size<Dim>;
+
+// One item a record of a list, found by the record's name.
+template <class Name, class Item>
+struct Named {
+  Item item;
+};
+template <class... Items>
+struct ByName : Items... {
+  template <class Name, class Item>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static Item& pick(Named<Name, Item>& named) {
+    return named.item;
+  }
+  template <class Name, class Item>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static const Item& pick(const Named<Name, Item>& named) {
+    return named.item;
+  }
+  template <class Name>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto& of() {
+    return pick<Name>(*this);
+  }
+  template <class Name>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE const auto& of() const {
+    return pick<Name>(*this);
+  }
+};
+
+}  // namespace thawslide::mpm
