@@ -6,28 +6,28 @@
 
 namespace thawslide::band {
 
-using mpm::HatLayout;
+using mpm::LinearLayout;
 
 template <int Dim, class Real>
 void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
                      const BandModel<Dim, Real>& model, mpm::Nodes<Dim, Real>& nodes,
                      HeatNodes<Dim, Real>& heat_nodes) {
-  const auto patches = nodes.hats.patches(grid.tiles().size());
+  const auto patches = nodes.linear.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
     patch.clear();
-    auto sums = mpm::linear_cell_sums<false, HatLayout::size>(patch);
+    auto sums = mpm::linear_cell_sums<false, LinearLayout::size>(patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const Lanes<Real> volume = particles.volume.load(batch);
-      mpm::Contribution<Dim, Real, HatLayout::size> carried;
-      carried.value[HatLayout::volume] = volume;
-      carried.value[HatLayout::temperature] = volume * particles.temperature.load(batch);
-      carried.value[HatLayout::pore_pressure] = volume * particles.pore_pressure.load(batch);
-      sums.add(hat_stencil(grid, particles, batch), batch.count, carried);
+      mpm::Contribution<Dim, Real, LinearLayout::size> carried;
+      carried.value[LinearLayout::volume] = volume;
+      carried.value[LinearLayout::temperature] = volume * particles.temperature.load(batch);
+      carried.value[LinearLayout::pore_pressure] = volume * particles.pore_pressure.load(batch);
+      sums.add(linear_stencil(grid, particles, batch), batch.count, carried);
     }
   });
   heat_nodes.state.resize(grid.blocks().size());
-  sum_patches(grid, nodes.hats, [&](std::size_t b) { set_node_state(grid, model, nodes, b, heat_nodes); });
+  sum_patches(grid, nodes.linear, [&](std::size_t b) { set_node_state(grid, model, nodes, b, heat_nodes); });
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \

@@ -31,7 +31,7 @@ Lanes<Real> advected_heat(const BandModel<Dim, Real>& model, const Stencil& sten
 template <int Dim, class Real, class Law, class Stencil>
 THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 4> heat_flows(const mpm::SparseGrid<Dim, Real>& grid,
                                                                    const BandModel<Dim, Real>& model, const Law& law,
-                                                                   Real dt, bool levels, const Stencil& stencil,
+                                                                   Real dt, bool subgrid, const Stencil& stencil,
                                                                    const mpm::Patch<Dim, Real, 3>& state,
                                                                    const mpm::Batch<Real>& batch,
                                                                    mpm::Particles<Dim, Real>& particles) {
@@ -49,9 +49,9 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 4> heat_flows(const mpm::Sp
     for (std::size_t a = 0; a < Dim; ++a) {
       carried.flux[a][0] = flow * gradient[static_cast<int>(a)];
     }
-    if (levels) {
+    if (subgrid) {
       in_cell = (seen.value[0] - particles.temperature.load(batch)) *
-                physics::share_levelled_within_cell(conductivity / tangent, grid.inverse_cell() * scaling, Dim, dt);
+                physics::share_of_subgrid_diffusion(conductivity / tangent, grid.inverse_cell() * scaling, Dim, dt);
     }
   }
   particles.secant_capacity.store(batch, tangent);
@@ -66,12 +66,12 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 4> heat_flows(const mpm::Sp
 }
 
 // What particles add to Eq. 19's sums, not yet summed: conduction and advection, and the capacity with the tangent to
-// the heat content. Differences within a cell, which nodes do not see, are levelled by the particles themselves, and
-// the heat that this brings is taken off at the nodes (Gerya and Yuen 2003); `levels` is false in the step in which
-// prescribed temperatures jump, since the nodes then are ahead of the particles, and for the printed update.
+// the heat content. Differences within a cell, which nodes do not see, fall by the particles' own subgrid diffusion,
+// and the heat that this brings is taken off at the nodes (Gerya and Yuen 2003); `subgrid` is false in the step in
+// which prescribed temperatures jump, since the nodes then are ahead of the particles, and for the printed update.
 template <int Dim, class Real, class Law>
 void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, const Law& law, Real dt,
-                   bool levels, mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
+                   bool subgrid, mpm::Particles<Dim, Real>& particles, HeatNodes<Dim, Real>& work) {
   const auto patches = work.rates.patches(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     auto& patch = patches[t];
@@ -80,8 +80,8 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
     load_patch(grid, t, work.state, state);
     auto sums = mpm::linear_cell_sums<true, 4>(patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-      const auto stencil = hat_stencil(grid, particles, batch);
-      auto carried = heat_flows(grid, model, law, dt, levels, stencil, state, batch, particles);
+      const auto stencil = linear_stencil(grid, particles, batch);
+      auto carried = heat_flows(grid, model, law, dt, subgrid, stencil, state, batch, particles);
       sums.add(stencil, batch.count, carried);
     }
   });
@@ -89,22 +89,23 @@ void flows_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, 
 
 // The change of temperature [K] of a step, at the particles' places and within their cells.
 template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE Lanes<Real> change_of_temperature(const mpm::HatStencil<Dim, Real>& stencil,
+THAWSLIDE_ALWAYS_INLINE Lanes<Real> change_of_temperature(const mpm::LinearStencil<Dim, Real>& stencil,
                                                           const mpm::Patch<Dim, Real, 3>& state, Real dt,
                                                           const mpm::Batch<Real>& batch,
                                                           const mpm::Particles<Dim, Real>& particles) {
   return particles.conduction_in_cell.load(batch) + dt * mpm::read_nodes<1>(stencil, state, 2).value[0];
 }
 
-// Whether some particle's temperature in a tile may change by more than drowns in round-off.
+// Whether some particle's temperature in a tile may change by more than is negligible.
 template <int Dim, class Real, class Law>
 bool temperatures_change(const std::vector<mpm::TileBatch<Dim, Real>>& batches, const Law& law, Real dt,
                          const mpm::Patch<Dim, Real, 3>& state, const mpm::Particles<Dim, Real>& particles) {
-  const auto half_drowns = [&](auto change) { return law.content.drowns_in_round_off(Real(2) * change); };
-  return !std::all_of(state.records.begin(), state.records.end(),
-                      [&](const auto& node) { return half_drowns(dt * node[2]); }) ||
-         std::any_of(batches.begin(), batches.end(),
-                     [&](const auto& batch) { return any(!half_drowns(particles.conduction_in_cell.load(batch))); });
+  const auto half_negligible = [&](auto change) { return law.content.is_negligible(Real(2) * change); };
+  return !std::all_of(state.records.begin(), state.records.end(), [&](const auto& node) {
+    return half_negligible(dt * node[2]);
+  }) || std::any_of(batches.begin(), batches.end(), [&](const auto& batch) {
+    return any(!half_negligible(particles.conduction_in_cell.load(batch)));
+  });
 }
 
 // Secant capacity along the predicted change, to particles and, not yet summed, to nodes: with it the sum of what
@@ -127,12 +128,12 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
     patch.clear();
     auto sums = mpm::linear_cell_sums<false, 4>(patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-      const auto stencil = hat_stencil(grid, particles, batch);
+      const auto stencil = linear_stencil(grid, particles, batch);
       const Lanes<Real> change = change_of_temperature(stencil, state, dt, batch, particles);
       Lanes<Real> secant = particles.secant_capacity.load(batch);  // still the tangent
-      const auto drowns = law.content.drowns_in_round_off(change);
-      if (any(!drowns)) {
-        secant = select(drowns, secant, law.secant(batch, change));
+      const auto negligible = law.content.is_negligible(change);
+      if (any(!negligible)) {
+        secant = select(negligible, secant, law.secant(batch, change));
         particles.secant_capacity.store(batch, secant);
       }
       mpm::Contribution<Dim, Real, 4> carried;
@@ -144,7 +145,7 @@ void secant_capacity_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const Law& 
   grid.mark_blocks_about(work.changing_tiles, work.changing_blocks);
 }
 
-// What particles get of the heat of nodes without hat weight [W/kg], by the weight of their momentum there.
+// What particles get of the heat of nodes without linear weight [W/kg], by the weight of their momentum there.
 template <int Dim, class Real>
 Lanes<Real> orphan_heating(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                            const mpm::Patch<Dim, Real, 1>& orphan, const mpm::Particles<Dim, Real>& particles,
@@ -188,7 +189,7 @@ void heat_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
                                [](const auto& record) { return record[0] != Real(0); });
     }
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-      const auto stencil = hat_stencil(grid, particles, batch);
+      const auto stencil = linear_stencil(grid, particles, batch);
       Lanes<Real> gain =
           particles.secant_capacity.load(batch) * change_of_temperature(stencil, state, dt, batch, particles);
       if (any_orphan) {

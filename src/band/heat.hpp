@@ -36,10 +36,10 @@ template <int Dim, class Real>
 struct HeatNodes {
   explicit HeatNodes(const std::shared_ptr<mpm::PatchRoom>& room) : rates(room) {}
 
-  mpm::NodeRecords<Dim, Real, 4> rates;     // heat flow in [W], advection [W], capacity [J/K], levelled in cells [J]
+  mpm::NodeRecords<Dim, Real, 4> rates;     // heat flow in [W], advection [W], capacity [J/K], subgrid heat [J]
   mpm::NodeRecords<Dim, Real, 4> capacity;  // its last two, with the secant capacity, where temperatures change
   mpm::NodeRecords<Dim, Real, 3> state;     // temperature [C], pore pressure [Pa], rate of temperature [K/s]
-  mpm::NodeRecords<Dim, Real, 1> orphan;    // friction heat of nodes without hat weight, per mass [W/kg]
+  mpm::NodeRecords<Dim, Real, 1> orphan;    // friction heat of nodes without linear weight, per mass [W/kg]
   bool any_orphan = false;
   std::vector<std::uint8_t> changing_tiles, changing_blocks;  // where temperatures change
 };

@@ -40,13 +40,13 @@ void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim,
                     const mpm::Nodes<Dim, Real>& nodes, std::size_t b, HeatNodes<Dim, Real>& work) {
   const bool has_faces = any_face_condition(model);
   for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-    const auto& hats = nodes.hats(b, k);
+    const auto& linear = nodes.linear(b, k);
     auto& state = work.state(b, k);
     state.fill(Real(0));
-    if (hats[mpm::HatLayout::volume] > Real(0)) {
-      const Real inverse_volume = Real(1) / hats[mpm::HatLayout::volume];
-      state[0] = hats[mpm::HatLayout::temperature] * inverse_volume;
-      state[1] = hats[mpm::HatLayout::pore_pressure] * inverse_volume;
+    if (linear[mpm::LinearLayout::volume] > Real(0)) {
+      const Real inverse_volume = Real(1) / linear[mpm::LinearLayout::volume];
+      state[0] = linear[mpm::LinearLayout::temperature] * inverse_volume;
+      state[1] = linear[mpm::LinearLayout::pore_pressure] * inverse_volume;
       const HeatFace<Real>* face = has_faces ? face_of(grid, model, b, k) : nullptr;
       if (face != nullptr && face->kind == FaceHeat::temperature) {
         state[0] = face->value;
@@ -59,7 +59,7 @@ void set_node_state(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim,
 template <class Real>
 struct NodalHeat {
   HeatGain<Real> gain;
-  bool any_orphan = false;  // heat at a node without hat weight
+  bool any_orphan = false;  // heat at a node without linear weight
 
   NodalHeat& operator+=(const NodalHeat& part) {
     gain += part.gain;
@@ -68,9 +68,9 @@ struct NodalHeat {
   }
 };
 
-// The nodal rate of temperature with what `stored_at` gives: the capacity, and the heat that particles took by
-// levelling within cells; friction heat and face conditions come in here. sum_block(b) comes first and makes the sums
-// of a block that stored_at reads.
+// The nodal rate of temperature with what `stored_at` gives: the capacity, and the heat that particles took by subgrid
+// diffusion; friction heat and face conditions come in here. sum_block(b) comes first and makes the sums of a block
+// that stored_at reads.
 template <int Dim, class Real, class SumBlock, class StoredAt>
 HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                            bool first_step, const mpm::Nodes<Dim, Real>& nodes, const SumBlock& sum_block,
@@ -84,7 +84,7 @@ HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       const auto& rates = work.rates(b, k);
       const Real friction = nodes.contact(b, k)[mpm::ContactLayout::friction_heat];
-      const auto [capacity, levelled] = stored_at(b, k);
+      const auto [capacity, subgrid_heat] = stored_at(b, k);
       Real& rate = work.state(b, k)[2];
       rate = Real(0);
       work.orphan(b, k)[0] = Real(0);
@@ -96,19 +96,19 @@ HeatGain<Real> solve_rates(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
         }
         continue;
       }
-      Real power = rates[0] + rates[1] + friction - levelled * inverse_dt;
+      Real power = rates[0] + rates[1] + friction - subgrid_heat * inverse_dt;
       gain.advection += dt * rates[1];
       const HeatFace<Real>* face = has_faces ? face_of(grid, model, b, k) : nullptr;
       if (face != nullptr && face->kind == FaceHeat::temperature) {
-        const auto& hats = nodes.hats(b, k);
-        const Real mapped = hats[mpm::HatLayout::temperature] / hats[mpm::HatLayout::volume];
+        const auto& linear = nodes.linear(b, k);
+        const Real mapped = linear[mpm::LinearLayout::temperature] / linear[mpm::LinearLayout::volume];
         rate = first_step ? (face->value - mapped) / dt : Real(0);
         gain.boundary += dt * (capacity * rate - power);
         continue;
       }
       if (face != nullptr && face->kind == FaceHeat::flux) {
         // A full row of cells gives its face node half a cell of volume: area = 2 V / cell.
-        const Real inflow = face->value * Real(2) * nodes.hats(b, k)[mpm::HatLayout::volume] / grid.cell();
+        const Real inflow = face->value * Real(2) * nodes.linear(b, k)[mpm::LinearLayout::volume] / grid.cell();
         gain.boundary += dt * inflow;
         power += inflow;
       }

@@ -11,7 +11,7 @@ namespace thawslide::band {
 
 namespace {
 
-using mpm::HatLayout;
+using mpm::LinearLayout;
 
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE LaneMask<Real> melted_before(const BandModel<Dim, Real>& model,
@@ -63,7 +63,7 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 3> seepage_flows(
         scaling * pore_scaling *
         physics::hydraulic_diffusivity(model.phases, porosity, Lanes<Real>(Real(1)), hydraulic);
     const Lanes<Real> share =
-        physics::share_levelled_within_cell(diffusivity, Lanes<Real>(grid.inverse_cell()), Dim, dt);
+        physics::share_of_subgrid_diffusion(diffusivity, Lanes<Real>(grid.inverse_cell()), Dim, dt);
     in_cell = select(flows, (seen.value[0] - particles.pore_pressure.load(batch)) * share, zero);
     const Lanes<Real> mobility = hydraulic / model.phases.water_unit_weight;
     const Lanes<Real> flow = select(flows, -volume * scaling * mobility * model.phases.water_bulk_modulus, zero);
@@ -81,12 +81,12 @@ THAWSLIDE_ALWAYS_INLINE mpm::Contribution<Dim, Real, 3> seepage_flows(
 template <int Dim, class Real>
 void load_pressures(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, const mpm::Nodes<Dim, Real>& nodes,
                     mpm::Patch<Dim, Real, 1>& pressures) {
-  mpm::Patch<Dim, Real, HatLayout::size> hats;
-  load_patch(grid, t, nodes.hats, hats);
-  for (std::size_t k = 0; k < hats.records.size(); ++k) {
-    const auto& node = hats.records[k];
-    const bool has_weight = node[HatLayout::volume] > Real(0);
-    pressures.records[k][0] = has_weight ? node[HatLayout::pore_pressure] / node[HatLayout::volume] : Real(0);
+  mpm::Patch<Dim, Real, LinearLayout::size> linear;
+  load_patch(grid, t, nodes.linear, linear);
+  for (std::size_t k = 0; k < linear.records.size(); ++k) {
+    const auto& node = linear.records[k];
+    const bool has_weight = node[LinearLayout::volume] > Real(0);
+    pressures.records[k][0] = has_weight ? node[LinearLayout::pore_pressure] / node[LinearLayout::volume] : Real(0);
   }
 }
 
@@ -109,8 +109,8 @@ bool find_seepage(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
 }
 
 // Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or whole as printed); frozen particles
-// keep their pressure and act as sinks. Differences within a cell, which nodes do not see, are levelled by the
-// particles themselves, and what this changes at the nodes is taken off there (Gerya and Yuen 2003).
+// keep their pressure and act as sinks. Differences within a cell, which nodes do not see, fall by the particles' own
+// subgrid diffusion, and what this changes at the nodes is taken off there (Gerya and Yuen 2003).
 template <int Dim, class Real>
 void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                      const mpm::Nodes<Dim, Real>& nodes, Real dt, SeepageNodes<Dim, Real>& work,
@@ -127,7 +127,7 @@ void seepage_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
     auto sums = mpm::linear_cell_sums<true, 3>(patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const Lanes<Real> hydraulic = model.hydraulic(particles, batch);
-      const auto stencil = hat_stencil(grid, particles, batch);
+      const auto stencil = linear_stencil(grid, particles, batch);
       auto carried = seepage_flows(grid, model, dt, stencil, pressure, hydraulic, batch, particles);
       sums.add(stencil, batch.count, carried);
     }
@@ -193,7 +193,7 @@ Pressures<Lanes<Real>> melted_pressures(const mpm::SparseGrid<Dim, Real>& grid, 
   const auto permeable = model.hydraulic(particles, batch) > zero;
   Lanes<Real> seepage_change = zero;
   if (seepage && any(was_melted & permeable)) {
-    const auto stencil = hat_stencil(grid, particles, batch);
+    const auto stencil = linear_stencil(grid, particles, batch);
     const Lanes<Real> change = particles.seepage_in_cell.load(batch) + mpm::read_nodes<1>(stencil, changes).value[0];
     seepage_change = select(was_melted & permeable, change, zero);
   }

@@ -63,7 +63,7 @@ inline std::vector<Choice<Leaving>> choices(Leaving) {
 }
 inline std::vector<Choice<ShapeFunction>> choices(ShapeFunction) {
   return {{ShapeFunction::ugimp, "ugimp", "uniform generalised interpolation"},
-          {ShapeFunction::linear, "linear", "linear hat functions"},
+          {ShapeFunction::linear, "linear", "linear shape functions"},
           {ShapeFunction::quadratic, "quadratic", "quadratic B-splines"}};
 }
 inline std::vector<Choice<Transfer>> choices(Transfer) {

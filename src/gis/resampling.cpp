@@ -16,8 +16,8 @@ struct Weights {
   std::vector<double> weights;  // of old points first, first + 1, ...
 };
 
-// Integral from minus infinity to t of the hat that is 1 at 0 and falls to 0 at -1 and 1.
-double hat_integral(double t) {
+// Integral from minus infinity to t of the linear shape function, which is 1 at 0 and falls to 0 at -1 and 1.
+double linear_integral(double t) {
   const double s = std::clamp(t, -1.0, 1.0);
   return s < 0.0 ? 0.5 * (1.0 + s) * (1.0 + s) : 1.0 - 0.5 * (1.0 - s) * (1.0 - s);
 }
@@ -43,7 +43,7 @@ Weights mean(double place, double width, int count) {
   const int last = std::clamp(static_cast<int>(std::ceil(high)), 0, count - 1);
   Weights result{first, {}};
   for (int k = first; k <= last; ++k) {
-    result.weights.push_back((hat_integral(high - k) - hat_integral(low - k)) / width);
+    result.weights.push_back((linear_integral(high - k) - linear_integral(low - k)) / width);
   }
   return result;
 }

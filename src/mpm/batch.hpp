@@ -17,7 +17,7 @@ struct Batch {
 
   std::array<std::uint32_t, most> particle;  // by lane; lanes from `count` on repeat the last one
   std::size_t count;
-  bool whole;  // the particles fill `most` places in memory from a multiple of `most` on
+  bool contiguous;  // the particles fill `most` places in memory from a multiple of `most` on
 
   // Adds up a quantity lane after lane.
   THAWSLIDE_ALWAYS_INLINE void add_to(Real& sum, const Lanes<Real>& quantity) const {
@@ -35,7 +35,7 @@ template <class Real>
 THAWSLIDE_ALWAYS_INLINE Batch<Real> batch_in_memory(std::size_t first, std::size_t size) {
   Batch<Real> batch;
   batch.count = std::min(Batch<Real>::most, size - first);
-  batch.whole = batch.count == Batch<Real>::most;
+  batch.contiguous = batch.count == Batch<Real>::most;
   const auto from = static_cast<std::uint32_t>(first), last = static_cast<std::uint32_t>(first + batch.count - 1);
   for (std::uint32_t lane = 0; lane < Batch<Real>::most; ++lane) {
     batch.particle[lane] = std::min(from + lane, last);

@@ -69,10 +69,10 @@ struct CornerStencil : BatchStencil<Dim, Real, 2> {
   std::array<std::int32_t, lane_count<Real>> first_in_cell;  // of the lowest one, by lane
 };
 
-// The linear hats of a batch's cells: at their corners, to which particles add, and at all nodes about their nearest
-// ones, of which they read, since neighbours share these more often than corners.
+// The linear shape functions of a batch's cells: at their corners, to which particles add, and at all nodes about their
+// nearest ones, of which they read, since neighbours share these more often than corners.
 template <int Dim, class Real>
-struct HatStencil {
+struct LinearStencil {
   Vector<Lanes<Real>, Dim> offset;  // from the nearest node, in cells
   const BatchNodes<Real>& nodes;
   Real inverse_cell;
@@ -104,9 +104,9 @@ struct HatStencil {
 };
 
 template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE HatStencil<Dim, Real> hat_stencil(const SparseGrid<Dim, Real>& grid,
-                                                          const Particles<Dim, Real>& particles,
-                                                          const TileBatch<Dim, Real>& batch) {
+THAWSLIDE_ALWAYS_INLINE LinearStencil<Dim, Real> linear_stencil(const SparseGrid<Dim, Real>& grid,
+                                                                const Particles<Dim, Real>& particles,
+                                                                const TileBatch<Dim, Real>& batch) {
   return {place_of(grid, particles, batch).offset, batch.nodes, grid.inverse_cell()};
 }
 
@@ -196,14 +196,14 @@ THAWSLIDE_ALWAYS_INLINE Reading<Dim, Lanes<Real>, Count> read_nodes(const BatchS
   });
 }
 template <std::size_t Count, int Dim, class Real, int Components>
-THAWSLIDE_ALWAYS_INLINE Reading<Dim, Lanes<Real>, Count> read_nodes(const HatStencil<Dim, Real>& hats,
+THAWSLIDE_ALWAYS_INLINE Reading<Dim, Lanes<Real>, Count> read_nodes(const LinearStencil<Dim, Real>& linear,
                                                                     const Patch<Dim, Real, Components>& patch,
                                                                     std::size_t first_component = 0) {
-  if (hats.nodes.runs == BatchNodes<Real>::many_runs) {
-    const auto corners = hats.corners();
+  if (linear.nodes.runs == BatchNodes<Real>::many_runs) {
+    const auto corners = linear.corners();
     return read_along_axes<Count>(corners.axis, OwnNodes<Dim, Real, Components>(patch, corners.nodes), first_component);
   }
-  return read_nodes<Count>(hats.about(), patch, first_component);
+  return read_nodes<Count>(linear.about(), patch, first_component);
 }
 
 // One particle's weights, each in all lanes of a record's register.

@@ -137,25 +137,25 @@ class LinearCellSums {
   void skip() { is_open_ = false; }
 
   // The next `count` particles in canonical order.
-  THAWSLIDE_ALWAYS_INLINE void add(const HatStencil<Dim, Real>& hats, std::size_t count, const Added& carried) {
+  THAWSLIDE_ALWAYS_INLINE void add(const LinearStencil<Dim, Real>& linear, std::size_t count, const Added& carried) {
     Register value[lanes], flux[Dim][lanes];
     by_particle(carried.value, value);
     if constexpr (HasFlux) {
       unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
                                                   THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
     }
-    const auto corners = hats.corners();
-    const auto& cells = hats.nodes.first;
+    const auto corners = linear.corners();
+    const auto& cells = linear.nodes.first;
     for (std::size_t lane = 0; lane < count; ++lane) {
       if (lane > 0 ? cells[lane] != cells[lane - 1] : !is_open_) {
         sums_.fill(Register(Real(0)));
       }
       add_particle(corners, lane, value[lane], flux, &sums_[static_cast<std::size_t>(corners.first_in_cell[lane])]);
-      if (lane + 1 < count ? cells[lane] != cells[lane + 1] : !hats.nodes.goes_on) {
+      if (lane + 1 < count ? cells[lane] != cells[lane + 1] : !linear.nodes.goes_on) {
         end_cell(static_cast<std::size_t>(cells[lane]));
       }
     }
-    is_open_ = hats.nodes.goes_on;
+    is_open_ = linear.nodes.goes_on;
   }
 
  private:

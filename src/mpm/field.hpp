@@ -105,7 +105,7 @@ class Field final : public FieldBase {
 
   // The values of a batch, lane by lane.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<T> load(const Batch<T>& batch, int component = 0) const {
-    if (batch.whole) {
+    if (batch.contiguous) {
       const T* numbers = &(*this)(batch.particle[0], component);
       prefetch(numbers, prefetched_blocks * lanes * Components * sizeof(T));
       return Lanes<T>::load(numbers);
@@ -113,7 +113,7 @@ class Field final : public FieldBase {
     return Lanes<T>::gather(&data_[position(0, component)], places(batch));
   }
   THAWSLIDE_ALWAYS_INLINE void store(const Batch<T>& batch, const Lanes<T>& values, int component = 0) {
-    if (batch.whole) {
+    if (batch.contiguous) {
       values.store(&(*this)(batch.particle[0], component));
       return;
     }
@@ -122,14 +122,14 @@ class Field final : public FieldBase {
   // Whole numbers, from and to lanes of a real type.
   template <class Real>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<Real> load_whole(const Batch<Real>& batch) const {
-    if (batch.whole) {
+    if (batch.contiguous) {
       return Lanes<Real>::load_whole(&(*this)(batch.particle[0]));
     }
     return Lanes<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
   }
   template <class Real>
   THAWSLIDE_ALWAYS_INLINE void store_whole(const Batch<Real>& batch, const Lanes<Real>& values) {
-    if (batch.whole) {
+    if (batch.contiguous) {
       values.store_whole(&(*this)(batch.particle[0]));
       return;
     }

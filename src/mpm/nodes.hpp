@@ -24,8 +24,9 @@ struct MotionLayout {
   static constexpr int size = 2 * Dim;
 };
 
-// Sums over particles with the linear hats, weighted by volume: temperature, pore pressure (Eq. 21, normalised).
-struct HatLayout {
+// Sums over particles with the linear shape functions, weighted by volume: temperature, pore pressure (Eq. 21,
+// normalised).
+struct LinearLayout {
   static constexpr std::size_t volume = 0;  // sum S V [m3]
   static constexpr std::size_t temperature = 1;
   static constexpr std::size_t pore_pressure = 2;
@@ -33,8 +34,9 @@ struct HatLayout {
 };
 
 // What the particles near the ground tell its candidate nodes: sums S m X with the momentum shape functions, for nodes
-// without hat weight and for the slip; sums S V X with the hats; the smallest distance left to the ground.
-struct NearBaseLayout {
+// without linear weight and for the slip; sums S V X with the linear shape functions; the smallest distance left to the
+// ground.
+struct NearGroundLayout {
   static constexpr std::size_t temperature = 0;
   static constexpr std::size_t pore_pressure = 1;
   static constexpr std::size_t saturation = 2;
@@ -42,8 +44,8 @@ struct NearBaseLayout {
   static constexpr std::size_t slip = 4;            // [kg m]
   static constexpr std::size_t by_mass = 5;         // those above
 
-  static constexpr std::size_t saturation_by_hats = 5;
-  static constexpr std::size_t solid_fraction_by_hats = 6;
+  static constexpr std::size_t saturation_by_linear = 5;
+  static constexpr std::size_t solid_fraction_by_linear = 6;
   static constexpr std::size_t clearance = 7;  // [m], beyond all bounds where there is none
   static constexpr int size = 8;
 };
@@ -69,10 +71,10 @@ struct Nodes {
   NodeRecords<Dim, Real, MomentumLayout<Dim>::size> momentum{room};
   NodeRecords<Dim, Real, MotionLayout<Dim>::size> motion;
   NodeRecords<Dim, Real, Dim> velocity{room};  // mapped back from the moved particles (MUSL) [m/s]
-  NodeRecords<Dim, Real, HatLayout::size> hats{room};
+  NodeRecords<Dim, Real, LinearLayout::size> linear{room};
   NodeRecords<Dim, Real, BaseLayout::size> base;
   NodeRecords<Dim, Real, ContactLayout::size> contact;
-  NodeRecords<Dim, Real, NearBaseLayout::size> near_base{room};  // of candidate nodes alone
+  NodeRecords<Dim, Real, NearGroundLayout::size> near_ground{room};  // of candidate nodes alone
 };
 
 // Position [m, relative to the domain's lower corner] of a node of a block.

@@ -50,7 +50,7 @@ class Particles {
   Scalar pore_pressure{fields, {"pore_pressure", "Pa", FieldShape::scalar, true}};
   Scalar flow_depth{fields, {"flow_depth", "m"}};               // H of P_I = rho_I g H
   Scalar thermal_scaling{fields, {"thermal_scaling", "1"}};     // xi in force
-  Scalar reach{fields, {"reach", "m"}};  // distance from the ground at which it touches
+  Scalar contact_offset{fields, {"contact_offset", "m"}};  // distance from the ground at which it touches
   Scalar slip{fields, {"slip", "m", FieldShape::scalar, true}};
   Field<std::int32_t, 1> in_band{fields, {"in_band", "1", FieldShape::scalar, true}};
   // Within a step only: the displacement to come, its volumetric strain, the temperature before it, the capacity along

@@ -1,5 +1,5 @@
-// Shape functions: those of momentum act on the 3 nodes of each axis about the node nearest to the particle, the hats
-// of heat and pore pressure on the 2 nodes of the particle's cell.
+// Shape functions: those of momentum act on the 3 nodes of each axis about the node nearest to the particle, the linear
+// ones of heat and pore pressure on the 2 nodes of the particle's cell.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct AxisWeights {
   Value slope[Width];
 };
 
-// Linear hat functions. offset: particle minus nearest node, in cells, within [-1/2, 1/2].
+// Linear shape functions. offset: particle minus nearest node, in cells, within [-1/2, 1/2].
 template <class Value, class Real>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> linear_weights(Value offset, Real inverse_cell) {
   const auto right = offset >= Real(0);
@@ -40,7 +40,7 @@ struct HalfSize {
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE HalfSize(Value size, Value inverse_size) : half(size), inverse(inverse_size) {}
 };
 
-// uGIMP (Bardenhagen and Kober 2004): the hat averaged over the undeformed particle. size: in cells.
+// uGIMP (Bardenhagen and Kober 2004): the linear shape function averaged over the undeformed particle. size: in cells.
 template <class Value, class Real>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> ugimp_weights(Value offset,
                                                                       const std::type_identity_t<HalfSize<Value>>& size,
@@ -75,9 +75,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value second_moment(const AxisWeights<Value
   return axis.weight[0] + axis.weight[2] - offset * offset;
 }
 
-// The weights with which node velocities make the affine velocity of APIC, in place of the slopes:
-// w_k (x_k - x_p)/D with the second moment D. Linear hats have no such weights: their D is 0 at nodes, and a node
-// without weight, and without mass, would have a full say.
+// The weights with which node velocities make the affine velocity of APIC, in place of the slopes: w_k (x_k - x_p)/D
+// with the second moment D. Linear shape functions have no such weights: their D is 0 at nodes, and a node without
+// weight, and without mass, would have a full say.
 template <class Value, class Real>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> by_second_moment(const AxisWeights<Value>& axis, Value offset,
                                                                          Real inverse_cell) {
@@ -103,8 +103,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value, Width> select(const Cond
   return chosen;
 }
 
-// The shape functions a run may use for momentum; heat and pore pressure always use the hats. size: of the particle, in
-// cells. at_side: the nearest node lies on a side of the domain that prescribes velocity.
+// The shape functions a run may use for momentum; heat and pore pressure always use the linear ones. size: of the
+// particle, in cells. at_side: the nearest node lies on a side of the domain that prescribes velocity.
 enum class ShapeKind { ugimp, linear, quadratic };
 
 template <class Real>
@@ -132,7 +132,7 @@ struct Linear {
 };
 
 // In the half cell at a side the spline would need a node beyond it. What the two nodes within say of that one, going
-// on in a straight line, leaves the hats, which join the spline with one slope.
+// on in a straight line, leaves the linear shape functions, which join the spline with one slope.
 template <class Real>
 struct Quadratic {
   template <class Value, class Condition>
@@ -140,7 +140,7 @@ struct Quadratic {
       Value offset, const std::type_identity_t<HalfSize<Value>>& /*size*/, Condition at_side, Real inverse_cell) {
     return select(at_side, linear_weights(offset, inverse_cell), quadratic_weights(offset, inverse_cell));
   }
-  // D is 1/4; by hats, w_k (x_k - x_p)/D is the slope.
+  // D is 1/4; by linear shape functions, w_k (x_k - x_p)/D is the slope.
   template <class Value, class Condition>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> affine(const AxisWeights<Value>& axis, Value offset,
                                                                         Condition at_side, Real inverse_cell) {

@@ -79,8 +79,8 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
   note_order(sorts);
 }
 
-// How much the order in memory costs: batches that are not whole, beyond those that never are, over the steps since
-// the last sorting.
+// How much the order in memory costs: batches that are not contiguous, beyond those that never are, over the steps
+// since the last sorting.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::note_order(bool sorted) {
   const std::size_t broken = std::accumulate(broken_.begin(), broken_.end(), std::size_t{0});
@@ -89,8 +89,8 @@ void SparseGrid<Dim, Real>::note_order(bool sorted) {
     scattered_ = 0;
     fewest_broken_ = broken;
   } else if (broken > fewest_broken_) {
-    const std::size_t whole = order_.size() / Batch<Real>::most + 1;
-    scattered_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(whole);
+    const std::size_t contiguous = order_.size() / Batch<Real>::most + 1;
+    scattered_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(contiguous);
   }
 }
 
@@ -305,11 +305,11 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   broken_[t] = 0;
   for (std::uint32_t k = tile.first; k < tile.last;) {
     TileBatch<Dim, Real> batch;
-    batch.whole = side_by_side(k);
+    batch.contiguous = side_by_side(k);
     batch.count = 0;
     const std::int32_t of_one = material(k);
     while (batch.count < most && k < tile.last && material(k) == of_one &&
-           (batch.whole || batch.count == 0 || !side_by_side(k))) {
+           (batch.contiguous || batch.count == 0 || !side_by_side(k))) {
       batch.particle[batch.count++] = order_[k++];
     }
     for (std::size_t lane = batch.count; lane < most; ++lane) {
@@ -318,10 +318,10 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
     Vector<Lanes<Real>, Dim> before_nearest;
     for (int a = 0; a < Dim; ++a) {
       auto& nearest = batch.nearest[static_cast<std::size_t>(a)];
-      if (batch.whole) {
+      if (batch.contiguous) {
         std::copy_n(&nearest_[in_nearest(batch.particle[0], static_cast<std::size_t>(a))], most, nearest.begin());
       }
-      for (std::size_t lane = 0; !batch.whole && lane < most; ++lane) {
+      for (std::size_t lane = 0; !batch.contiguous && lane < most; ++lane) {
         nearest[lane] = nearest_[in_nearest(batch.particle[lane], static_cast<std::size_t>(a))];
       }
       before_nearest[a] = Lanes<Real>::load_whole(nearest.data()) - Real(1);
@@ -333,7 +333,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
       batches.back().nodes.goes_on = before.nodes.first[before.count - 1] == batch.nodes.first[0];
     }
     batches.push_back(batch);
-    broken_[t] += batch.whole ? 0 : 1;
+    broken_[t] += batch.contiguous ? 0 : 1;
   }
 }
 

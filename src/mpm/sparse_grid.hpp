@@ -124,7 +124,7 @@ class SparseGrid {
   std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;
   bool blocks_changed_ = true;
   int calls_ = 0;                      // since particles were sorted in memory
-  std::vector<std::uint32_t> broken_;  // by tile: batches that are not whole
+  std::vector<std::uint32_t> broken_;  // by tile: batches that are not contiguous
   std::size_t fewest_broken_ = 0;      // right after the last sorting
   double scattered_ = 0;               // what the order has cost since: see note_order
 };

@@ -35,19 +35,19 @@ struct HeatContent {
 
   // Whether a change of temperature [K] is too small to show in the content's digits.
   template <class Value>
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto drowns_in_round_off(Value change) const {
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_negligible(Value change) const {
     using std::abs;
     constexpr Real smallest_change = by_precision<Real>(1e-7, 1e-3);
     return abs(change) < smallest_change;
   }
 
-  // (H(T + change) - H(T)) / change [J/m3/K]; the apparent capacity where the change drowns in round-off.
+  // (H(T + change) - H(T)) / change [J/m3/K]; the apparent capacity where the change is negligible.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value secant_capacity(Value temperature, Value change,
                                                                            Value porosity) const {
-    const auto drowns = drowns_in_round_off(change);
+    const auto negligible = is_negligible(change);
     const Value rise = content(temperature + change, porosity) - content(temperature, porosity);
-    return select(drowns, apparent_capacity(temperature, porosity), rise / select(drowns, Value(1), change));
+    return select(negligible, apparent_capacity(temperature, porosity), rise / select(negligible, Value(1), change));
   }
 
   // The temperature [C] at which the content is H, from a guess near it: closed above Tref, Newton's iteration below,

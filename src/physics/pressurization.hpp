@@ -39,12 +39,12 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases<Re
   return phases.water_bulk_modulus * hydraulic_conductivity / (porosity * saturation * phases.water_unit_weight);
 }
 
-// Share of the difference between a particle's pressure and the one nodes see at its place that diffusion levels out
-// within a step: 1 - exp(-dt D sum_a 2/h_a^2), h the mesh size that D is meant for (Gerya and Yuen 2003, Eq. 23).
+// Share of the difference between a particle's pressure and the one nodes see at its place that subgrid diffusion takes
+// away within a step: 1 - exp(-dt D sum_a 2/h_a^2), h the mesh size that D is meant for (Gerya and Yuen 2003, Eq. 23).
 // inverse_mesh_size: 1/h [1/m]. Nodes do not see differences within a cell, and diffusion between nodes would leave
 // them standing for ever.
 template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_levelled_within_cell(Value diffusivity, Value inverse_mesh_size,
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_of_subgrid_diffusion(Value diffusivity, Value inverse_mesh_size,
                                                                       int dimension, Real dt) {
   return -exponential_minus_one((-dt * Real(2 * dimension)) * (inverse_mesh_size * inverse_mesh_size) * diffusivity);
 }

@@ -39,22 +39,22 @@ class Path {
   std::vector<double> length_;
 };
 
-// A vertical column of the body: what the train is made of.
-struct Carriage {
+// A vertical slice of the body.
+struct Slice {
   double path;  // along the ground at t = 0 [m]
   double mass;  // [kg per m of width]
   double base;  // length of ground under it [m]
 };
 
-struct Train {
-  std::vector<Carriage> carriages;
+struct Slices {
+  std::vector<Slice> all;
   double mass = 0, base = 0;
   double thickness = 0;  // mean, along the normal [m]
   double middle_x = 0;   // absolute
 };
 
-Train make_train(const config::Case& parameters, const Model<2, double>& model, const Path& path,
-                 const mpm::Particles<2, double>& particles) {
+Slices make_slices(const config::Case& parameters, const Model<2, double>& model, const Path& path,
+                   const mpm::Particles<2, double>& particles) {
   const double cell = parameters.grid.cell;
   std::map<long, std::pair<double, double>> columns;  // cell number: mass, volume
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -62,20 +62,20 @@ Train make_train(const config::Case& parameters, const Model<2, double>& model, 
     column.first += particles.mass(p);
     column.second += particles.volume(p);
   }
-  Train train;
+  Slices slices;
   double volume = 0.0;
   for (const auto& [number, column] : columns) {
     const double x = (static_cast<double>(number) + 0.5) * cell;
     const double base = cell / model.ground->slope_cosine(Vector<double, 1>(x), cell);
-    train.carriages.push_back({path.length_at(x), column.first, base});
-    train.mass += column.first;
-    train.base += base;
+    slices.all.push_back({path.length_at(x), column.first, base});
+    slices.mass += column.first;
+    slices.base += base;
     volume += column.second;
-    train.middle_x += x * column.first;
+    slices.middle_x += x * column.first;
   }
-  train.thickness = volume / train.base;
-  train.middle_x = train.middle_x / train.mass + model.origin[0];
-  return train;
+  slices.thickness = volume / slices.base;
+  slices.middle_x = slices.middle_x / slices.mass + model.origin[0];
+  return slices;
 }
 
 Vector<double, 2> normal_below(const Model<2, double>& model, double x) {
@@ -86,41 +86,41 @@ struct Forces {
   double along = 0, normal = 0;  // of gravity, downhill and into the ground [N per m of width]
 };
 
-Forces gravity_on_train(const Model<2, double>& model, const Path& path, const Train& train, double displacement) {
+Forces gravity_on_slices(const Model<2, double>& model, const Path& path, const Slices& slices, double displacement) {
   Forces forces;
-  for (const Carriage& carriage : train.carriages) {
-    const Vector<double, 2> normal = normal_below(model, path.x_at(carriage.path + displacement));
+  for (const Slice& slice : slices.all) {
+    const Vector<double, 2> normal = normal_below(model, path.x_at(slice.path + displacement));
     const Vector<double, 2> tangent(-normal[1], normal[0]);  // towards +x
-    forces.along += carriage.mass * model.motion.gravity.dot(tangent);
-    forces.normal += std::max(0.0, carriage.mass * model.motion.gravity.dot(normal));
+    forces.along += slice.mass * model.motion.gravity.dot(tangent);
+    forces.normal += std::max(0.0, slice.mass * model.motion.gravity.dot(normal));
   }
   return forces;
 }
 
-// The train on its column: one step after another.
+// The slices on their column: one step after another.
 class Block {
  public:
   Block(const config::Case& parameters, const Model<2, double>& model, const mpm::Particles<2, double>& particles)
       : parameters_(parameters),
         model_(model),
         path_(*model.profile),
-        train_(make_train(parameters, model, path_, particles)),
+        slices_(make_slices(parameters, model, path_, particles)),
         column_(model_.band, initial_column()) {
     const auto& start = parameters.bodies.begin()->second.velocity;
-    const Vector<double, 2> into = normal_below(model, train_.middle_x - model.origin[0]);
+    const Vector<double, 2> into = normal_below(model, slices_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
     evaluate_base();
   }
 
   void step(double dt) {
     const Forces gravity = evaluate_base();
-    const double trial = train_.mass * velocity_ + dt * gravity.along;
+    const double trial = slices_.mass * velocity_ + dt * gravity.along;
     const auto impulse =
-        physics::contact_impulse(dt * gravity.normal, std::abs(trial), train_.base, dt, basal_.strength[0]);
+        physics::contact_impulse(dt * gravity.normal, std::abs(trial), slices_.base, dt, basal_.strength[0]);
     const double old_velocity = velocity_;
-    velocity_ = (trial - std::copysign(impulse.tangential, trial)) / train_.mass;
+    velocity_ = (trial - std::copysign(impulse.tangential, trial)) / slices_.mass;
     const double middle = 0.5 * (old_velocity + velocity_);
-    const double work = impulse.slides ? impulse.tangential / train_.base * std::abs(middle) : 0.0;
+    const double work = impulse.slides ? impulse.tangential / slices_.base * std::abs(middle) : 0.0;
     const double heat = model_.contact.law.heat_fraction * work;
     friction_work_ += work;
     friction_heat_ += heat;
@@ -148,7 +148,7 @@ class Block {
         pressure += band.pore_pressure;
       }
     }
-    const double front = path_.x_at(train_.carriages.back().path + displacement_) + model_.origin[0];
+    const double front = path_.x_at(slices_.all.back().path + displacement_) + model_.origin[0];
     return {{"time_s", time_},
             {"velocity_m_s", velocity_},
             {"displacement_m", displacement_},
@@ -156,7 +156,7 @@ class Block {
             {"normal_pressure_Pa", basal_.normal_pressure[0]},
             {"pore_pressure_Pa", basal_.pore_pressure[0]},
             {"sliding_strength_Pa", basal_.strength[0]},
-            {"driving_traction_Pa", gravity.along / train_.base},
+            {"driving_traction_Pa", gravity.along / slices_.base},
             {"band_temperature_C", temperature / count},
             {"band_saturation", saturation / count},
             {"band_pore_pressure_Pa", pressure / count},
@@ -170,9 +170,9 @@ class Block {
   BlockColumn::Initial initial_column() const {
     const config::Body& body = parameters_.bodies.begin()->second;
     const auto seed_at = [this](double depth) {
-      return Seed<2>{0, Vector<double, 2>(train_.middle_x, 0.0), depth, 0.0};
+      return Seed<2>{0, Vector<double, 2>(slices_.middle_x, 0.0), depth, 0.0};
     };
-    return {train_.thickness,
+    return {slices_.thickness,
             parameters_.grid.cell,
             body.particles_per_axis,
             [&, seed_at](double depth) { return initial_temperature(model_, body, nullptr, seed_at(depth)); },
@@ -190,10 +190,10 @@ class Block {
 
   // The law's view of the base now; returns gravity's forces.
   Forces evaluate_base() {
-    const Forces gravity = gravity_on_train(model_, path_, train_, displacement_);
+    const Forces gravity = gravity_on_slices(model_, path_, slices_, displacement_);
     const BlockBase base = column_.base();
     basal_.count = 1;
-    basal_.normal_pressure[0] = gravity.normal / train_.base;
+    basal_.normal_pressure[0] = gravity.normal / slices_.base;
     basal_.pore_pressure[0] = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
     basal_.temperature[0] = base.temperature;
     basal_.saturation[0] = base.saturation;
@@ -207,7 +207,7 @@ class Block {
   const config::Case& parameters_;
   const Model<2, double>& model_;
   Path path_;
-  Train train_;
+  Slices slices_;
   BlockColumn column_;
   terrain::BasalNodes<double> basal_;
   double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;

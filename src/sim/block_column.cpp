@@ -97,7 +97,7 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
     const std::vector<double> pressure = averaged(&BlockRow::pore_pressure);
     std::vector<double> power(nodes_, 0.0);
     std::vector<double> tangent(nodes_, 0.0);
-    std::vector<double> levelled(nodes_, 0.0);
+    std::vector<double> subgrid(nodes_, 0.0);
     power[0] = flux;
     for (BlockRow& row : rows_) {
       const Place at = place(row);
@@ -113,7 +113,7 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
         if (model_->secant_capacity) {
           row.conduction_in_cell =
               (seen - row.temperature) *
-              physics::share_levelled_within_cell(conductivity / row.secant_capacity, scaling / cell_, 2, dt);
+              physics::share_of_subgrid_diffusion(conductivity / row.secant_capacity, scaling / cell_, 2, dt);
         }
       }
       double advection = 0.0;
@@ -125,8 +125,8 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
       const double capacity = row_height_ / scaling * row.secant_capacity;
       power[at.node] += -flow / cell_ + at.weight * advection;
       power[at.node + 1] += flow / cell_ + (1.0 - at.weight) * advection;
-      levelled[at.node] += at.weight * capacity * row.conduction_in_cell;
-      levelled[at.node + 1] += (1.0 - at.weight) * capacity * row.conduction_in_cell;
+      subgrid[at.node] += at.weight * capacity * row.conduction_in_cell;
+      subgrid[at.node + 1] += (1.0 - at.weight) * capacity * row.conduction_in_cell;
       tangent[at.node] += at.weight * capacity;
       tangent[at.node + 1] += (1.0 - at.weight) * capacity;
     }
@@ -137,9 +137,9 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
       }
       return left;
     };
-    const std::vector<double> predicted = nodal_rates(less(levelled), tangent);
+    const std::vector<double> predicted = nodal_rates(less(subgrid), tangent);
     std::vector<double> secant(nodes_, 0.0);
-    levelled.assign(nodes_, 0.0);
+    subgrid.assign(nodes_, 0.0);
     for (BlockRow& row : rows_) {
       const Place at = place(row);
       const double change =
@@ -150,10 +150,10 @@ void BlockColumn::conduct_heat(double flux, double scaling, double dt) {
       const double capacity = row_height_ / scaling * row.secant_capacity;
       secant[at.node] += at.weight * capacity;
       secant[at.node + 1] += (1.0 - at.weight) * capacity;
-      levelled[at.node] += at.weight * capacity * row.conduction_in_cell;
-      levelled[at.node + 1] += (1.0 - at.weight) * capacity * row.conduction_in_cell;
+      subgrid[at.node] += at.weight * capacity * row.conduction_in_cell;
+      subgrid[at.node + 1] += (1.0 - at.weight) * capacity * row.conduction_in_cell;
     }
-    const std::vector<double> rates = nodal_rates(less(levelled), secant);
+    const std::vector<double> rates = nodal_rates(less(subgrid), secant);
     for (BlockRow& row : rows_) {
       const Place at = place(row);
       row.previous_temperature = row.temperature;
@@ -191,7 +191,7 @@ std::vector<double> BlockColumn::seepage_between_nodes(double scaling, double dt
           scaling * pore_scaling *
           physics::hydraulic_diffusivity(model_->phases, row.porosity, 1.0, hydraulic_conductivity_);
       row.seepage_in_cell =
-          (seen - row.pore_pressure) * physics::share_levelled_within_cell(diffusivity, 1.0 / cell_, 2, dt);
+          (seen - row.pore_pressure) * physics::share_of_subgrid_diffusion(diffusivity, 1.0 / cell_, 2, dt);
     }
     const double pore_space = row_height_ / pore_scaling * row.porosity;
     inflow[at.node] += -dt * flow / cell_ - at.weight * pore_space * row.seepage_in_cell;

@@ -8,14 +8,14 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/bodies.hpp"
-#include "terrain/near_base.hpp"
+#include "terrain/near_ground.hpp"
 
 namespace thawslide::sim {
 
 // The discrete step, Section 2.3 of the paper; all stages use the shape functions at the positions the step begins
 // with.
 //   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
-//   P_i, S_i, n_i: averages with the linear hats                                               Eq. 21
+//   P_i, S_i, n_i: averages with the linear shape functions                                    Eq. 21
 //   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
 //   v_p += sum S a dt,  x_p += sum S (v_i + a_i dt/2) dt                                       Eqs. 13, 14
 //   stress and porosity from the mapped-back velocities                                        Eqs. 11, 6
@@ -72,7 +72,7 @@ void Simulation<Dim, Real>::momentum_to_grid() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::resolve_contact() {
   if (model_.ground) {
-    terrain::near_base_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
+    terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
   }
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_);
@@ -182,7 +182,7 @@ void Simulation<Dim, Real>::begin() {
   contact_ = {};
   find_particles_cells();
   if (model_.ground) {
-    terrain::set_reach(grid_, ground_, model_.band.sizes, particles_);
+    terrain::set_contact_offset(grid_, ground_, model_.band.sizes, particles_);
   }
   mark_band();
   band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);

@@ -15,10 +15,10 @@ namespace {
 
 using mpm::BaseLayout;
 using mpm::ContactLayout;
-using mpm::HatLayout;
+using mpm::LinearLayout;
 using mpm::MomentumLayout;
 using mpm::MotionLayout;
-using NearBase = mpm::NearBaseLayout;
+using NearGround = mpm::NearGroundLayout;
 
 // The smallest contact area, as a share of a cell's face: keeps N = p.n / (A dt) finite where no ground is near.
 constexpr double smallest_area = 1e-6;
@@ -45,8 +45,9 @@ void constrain(const mpm::BlockConstraints<Dim, Real>& constraints, std::size_t 
 template <int Dim, class Real>
 Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, bool distance_check, Real dt,
                  Real mass, Real inward_momentum) {
-  return std::max(Real(0), distance_check ? inward_momentum - mass * (nodes.near_base(b, k)[NearBase::clearance] / dt)
-                                          : inward_momentum);
+  return std::max(Real(0), distance_check
+                               ? inward_momentum - mass * (nodes.near_ground(b, k)[NearGround::clearance] / dt)
+                               : inward_momentum);
 }
 
 template <int Dim, class Real>
@@ -64,13 +65,14 @@ NodeState<Dim, Real> trial_state(
   return state;
 }
 
-// Average of a band quantity at a node: from its sum by the hats, or by mass with the momentum shape functions where
-// the node has GIMP mass but no hat weight.
+// Average of a band quantity at a node: from its sum by the linear shape functions, or by mass with the momentum shape
+// functions where the node has GIMP mass but no linear weight.
 template <int Dim, class Real>
-Real at_base(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real sum_by_hats, std::size_t by_mass) {
-  const Real volume = nodes.hats(b, k)[HatLayout::volume];
-  return volume > Real(0) ? sum_by_hats / volume
-                          : nodes.near_base(b, k)[by_mass] / nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
+Real at_base(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real sum_by_linear,
+             std::size_t by_mass) {
+  const Real volume = nodes.linear(b, k)[LinearLayout::volume];
+  return volume > Real(0) ? sum_by_linear / volume
+                          : nodes.near_ground(b, k)[by_mass] / nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
 }
 
 // The contact nodes of one block, with what the basal law needs of them.
@@ -89,11 +91,11 @@ template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
                       const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
-  using Layout = NearBase;
-  const auto& hats = nodes.hats(b, k);
-  const auto& near_base = nodes.near_base(b, k);
-  const auto average = [&](Real sum_by_hats, std::size_t by_mass) {
-    return at_base(nodes, b, k, sum_by_hats, by_mass);
+  using Layout = NearGround;
+  const auto& linear = nodes.linear(b, k);
+  const auto& near_ground = nodes.near_ground(b, k);
+  const auto average = [&](Real sum_by_linear, std::size_t by_mass) {
+    return at_base(nodes, b, k, sum_by_linear, by_mass);
   };
   BasalNodes<Real>& basal = contact.basal;
   const std::size_t c = basal.count++;
@@ -104,11 +106,11 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   contact.state[c] = state;
   basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
-      model.pore_pressure ? average(hats[HatLayout::pore_pressure], Layout::pore_pressure) : Real(0);
-  basal.saturation[c] = average(near_base[Layout::saturation_by_hats], Layout::saturation);
-  basal.solid_fraction[c] = average(near_base[Layout::solid_fraction_by_hats], Layout::solid_fraction);
-  basal.temperature[c] = average(hats[HatLayout::temperature], Layout::temperature);
-  basal.slip[c] = near_base[Layout::slip] / state.mass;
+      model.pore_pressure ? average(linear[LinearLayout::pore_pressure], Layout::pore_pressure) : Real(0);
+  basal.saturation[c] = average(near_ground[Layout::saturation_by_linear], Layout::saturation);
+  basal.solid_fraction[c] = average(near_ground[Layout::solid_fraction_by_linear], Layout::solid_fraction);
+  basal.temperature[c] = average(linear[LinearLayout::temperature], Layout::temperature);
+  basal.slip[c] = near_ground[Layout::slip] / state.mass;
   basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
 }
 
@@ -338,7 +340,7 @@ void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
         particles.in_band.store_whole(batch, zero);
         continue;
       }
-      const auto seen = mpm::read_nodes<3>(hat_stencil(grid, particles, batch), patch).value;
+      const auto seen = mpm::read_nodes<3>(linear_stencil(grid, particles, batch), patch).value;
       particles.in_band.store_whole(batch, select(seen[0] > Real(0), Lanes<Real>(Real(1)), zero));
       const auto touches = seen[1] > Real(0);
       if (any(touches)) {

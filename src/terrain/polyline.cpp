@@ -78,10 +78,10 @@ Polyline::Nearest Polyline::nearest(double x, double z) const {
 
 namespace {
 
-// A hat of half-width 1 about 0, and its integral from q upwards.
-double hat(double q) { return std::max(0.0, 1.0 - std::abs(q)); }
+// The linear shape function about 0 on cells of width 1, and its integral from q upwards.
+double linear_shape(double q) { return std::max(0.0, 1.0 - std::abs(q)); }
 
-double hat_above(double q) {
+double linear_shape_above(double q) {
   if (q >= 0.0) {
     return q < 1.0 ? 0.5 * (1.0 - q) * (1.0 - q) : 0.0;
   }
@@ -90,7 +90,7 @@ double hat_above(double q) {
 
 }  // namespace
 
-Polyline::HatShare Polyline::hat_share(double x, double z, double cell) const {
+Polyline::LinearShare Polyline::linear_share(double x, double z, double cell) const {
   // Between these abscissae the integrands are polynomials of at most third degree: Simpson's rule is exact.
   std::vector<double> breaks{x - cell, x, x + cell};
   for (std::size_t k = segment(x - cell); k + 1 < x_.size() && (k == 0 || x_[k] < x + cell); ++k) {
@@ -103,7 +103,7 @@ Polyline::HatShare Polyline::hat_share(double x, double z, double cell) const {
     }
   }
   std::sort(breaks.begin(), breaks.end());
-  HatShare share{0.0, 0.0};
+  LinearShare share{0.0, 0.0};
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const double from = std::max(breaks[k], x - cell);
     const double to = std::min(breaks[k + 1], x + cell);
@@ -112,10 +112,10 @@ Polyline::HatShare Polyline::hat_share(double x, double z, double cell) const {
     }
     const double stretch = std::hypot(1.0, gradient(0.5 * (from + to)));
     for (const auto& [u, weight] : {std::pair(from, 1.0), std::pair(0.5 * (from + to), 4.0), std::pair(to, 1.0)}) {
-      const double across = weight / 6.0 * (to - from) * hat((u - x) / cell);
+      const double across = weight / 6.0 * (to - from) * linear_shape((u - x) / cell);
       const double rise = (height(u) - z) / cell;
-      share.length += across * stretch * hat(rise);
-      share.above += across * cell * hat_above(rise);
+      share.length += across * stretch * linear_shape(rise);
+      share.above += across * cell * linear_shape_above(rise);
     }
   }
   return share;

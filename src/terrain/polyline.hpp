@@ -25,12 +25,13 @@ class Polyline {
   };
   [[nodiscard]] Nearest nearest(double x, double height) const;
 
-  // What the ground takes of a node's linear hat S of half-width `cell`, centred at (x, height): exact for a polyline.
-  struct HatShare {
+  // What the ground takes of a node's linear shape function S of half-width `cell`, centred at (x, height): exact for a
+  // polyline.
+  struct LinearShare {
     double length;  // integral of S along the ground [m]
     double above;   // integral of S over the space above the ground [m2]
   };
-  [[nodiscard]] HatShare hat_share(double x, double height, double cell) const;
+  [[nodiscard]] LinearShare linear_share(double x, double height, double cell) const;
 
   [[nodiscard]] const std::vector<double>& x() const { return x_; }
   [[nodiscard]] const std::vector<double>& heights() const { return height_; }

@@ -38,7 +38,7 @@ GroundAtNode<Dim, double> ProfileSurface<Dim>::at_node(const Vector<double, Dim>
     learn_from_points(x, z, cell, node);
     return node;
   }
-  const Polyline::HatShare share = line_.hat_share(x, z, cell);
+  const Polyline::LinearShare share = line_.linear_share(x, z, cell);
   const double across = Dim == 2 ? 1.0 : cell;  // the shape function's integral along y
   node.candidate = line_.highest(x - cell, x + cell) > z - cell + round_off * cell;
   node.normal[0] = nearest.normal[0];

@@ -13,7 +13,7 @@ class RigidPoints {
   RigidPoints(const Polyline& line, double spacing, int layers);
 
   struct AtNode {
-    double volume;             // V_b = sum v S_i with the linear hats [m2]
+    double volume;             // V_b = sum v S_i with the linear shape functions [m2]
     Vector<double, 2> normal;  // along minus sum v grad S_i: from the slide into the ground
   };
   // For the node at (x, height) of cells `cell`; volume 0 where no point is near.

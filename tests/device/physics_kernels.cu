@@ -105,7 +105,7 @@ __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results,
   const Real content = law.content(temperature, porosity);
   const Real warmer = law.temperature(content + row.take(), porosity, temperature);
   result.put(law.apparent_capacity(temperature, porosity));
-  result.put(law.drowns_in_round_off(change) ? Real(0) : law.secant_capacity(temperature, change, porosity));
+  result.put(law.is_negligible(change) ? Real(0) : law.secant_capacity(temperature, change, porosity));
   result.put(warmer);
   result.put(law.curve.saturation(warmer));
   result.put(law.curve.temperature(row.take()));
@@ -136,7 +136,7 @@ __global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign
   result.put(pore_stiffness(phases, porosity, saturation));
   const Real scaling = pore_space_scaling(row.take(), as_printed);
   const Real diffusivity = hydraulic_diffusivity(phases, porosity, saturation, scaling * row.take());
-  result.put(share_levelled_within_cell(diffusivity, row.take(), 3, dt));
+  result.put(share_of_subgrid_diffusion(diffusivity, row.take(), 3, dt));
 }
 
 __global__ void basal_contact(FrictionClamp clamp, bool cap_pressure, Real dt, Real* numbers, Real* results,

@@ -78,7 +78,7 @@ def test_freezing_reference_converges_to_neumann(slope: float) -> None:
     assert rms[1] < rms[0] / 8.0
 
 
-def test_hats_of_two_rows_a_cell_weigh_three_quarters_and_one() -> None:
+def test_linear_shape_functions_of_two_rows_a_cell_weigh_three_quarters_and_one() -> None:
     column = Column(3, 0.1)
     assert np.allclose(column.weights.sum(axis=0), 1.0)
     assert column.weights[0, :3].tolist() == [0.75, 0.25, 0.0]

@@ -1,8 +1,8 @@
 """The shear band as a small system of ordinary differential equations, solved apart from the simulator.
 
 A column of rows of particles over rigid ground, two rows to a cell of height e (the cell as heat and pore pressure see
-it), linear hats between them: weights 3/4 and 1/4. Unknowns are heat content and liquid pressure of each row. A slab of
-normal pressure N slides over it at a given speed v:
+it), linear shape functions between them: weights 3/4 and 1/4. Unknowns are heat content and liquid pressure of each
+row. A slab of normal pressure N slides over it at a given speed v:
 
     tau = mu max(0, N - P_base),   P_base = 3/4 P_1 + 1/4 P_2
     dH_p/dt = C_p sum_i w_ip Q_i / sum_q w_iq C_q V_q,     Q_0 = tau v + conduction, Q_i = conduction
@@ -23,7 +23,7 @@ Flags = NDArray[np.bool_]
 
 KELVIN = 273.15
 GRAVITY = 9.81
-DIMENSIONS = 2  # within-cell levelling counts both axes of the section
+DIMENSIONS = 2  # subgrid diffusion counts both axes of the section
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class BandHistory:
 
 
 class Column:
-    """Weights and gradients of the hats on a column of `cells` cells of height e, two rows a cell."""
+    """Weights and gradients of the linear shape functions on a column of `cells` cells of height e, two rows a cell."""
 
     def __init__(self, cells: int, height: float) -> None:
         """Build the matrices, shape (nodes, rows)."""
@@ -155,16 +155,16 @@ class _State:
         return np.where(melted, heat, 0.0)
 
     def _seepage(self, melted: Flags, node_pressure: Numbers, step: float) -> Numbers:
-        """Return the change of pressure by seepage in a step: between nodes, and levelling within the cells."""
+        """Return the change of pressure by seepage in a step: between nodes, and by subgrid diffusion."""
         column, drive = self.column, self.drive
         if drive.hydraulic_conductivity == 0.0:
             return np.zeros_like(self.pressure)
         diffusivity = self.mixture.hydraulic_diffusivity(drive.hydraulic_conductivity)
         share = -np.expm1(-step * diffusivity * 2.0 * DIMENSIONS / drive.thickness**2)
-        levelled = np.where(melted, (column.weights.T @ node_pressure - self.pressure) * share, 0.0)
+        subgrid = np.where(melted, (column.weights.T @ node_pressure - self.pressure) * share, 0.0)
         flux = np.where(melted, -diffusivity * (column.slopes.T @ node_pressure), 0.0)
-        between = (step * (column.slopes @ flux) - column.weights @ levelled) / column.sums
-        return levelled + column.weights.T @ between
+        between = (step * (column.slopes @ flux) - column.weights @ subgrid) / column.sums
+        return subgrid + column.weights.T @ between
 
     def _pressurize(self, melted: Flags, new: Numbers, seepage: Numbers) -> None:
         density_ratio = self.mixture.water_density / self.mixture.ice_density

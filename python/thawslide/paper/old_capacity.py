@@ -1,7 +1,7 @@
 """Sec. 3.1 in one dimension: what the capacity of the old state does, by how it is used.
 
-Two particles a cell with linear hats, as the bar has them along x, without levelling within cells. C_old is the slope
-of the heat content H(T) at the temperature the step begins with, on the frozen side at 0 C; dT is the change of
+Two particles a cell with linear shape functions, as the bar has them along x, without subgrid diffusion. C_old is the
+slope of the heat content H(T) at the temperature the step begins with, on the frozen side at 0 C; dT is the change of
 temperature that nodes give a particle. Ways to use them:
 
   "printed"   T += dT                        Eqs. 18 and 19 as the paper has them; heat is not kept

@@ -52,7 +52,7 @@ TEST(ResamplingTest, WeightsAreThoseOfTheFormulas) {
   EXPECT_EQ(layout.x, 1.0);
   const Raster coarse = resampled(raster, layout);
   EXPECT_EQ(coarse.columns, 2);
-  // Points at 1 and 3: the mean over 0 .. 2 of a hat at 2 is 1/4; so is that over 2 .. 4.
+  // Points at 1 and 3: the mean over 0 .. 2 of the linear shape function at 2 is 1/4; so is that over 2 .. 4.
   EXPECT_NEAR(coarse.at(0, 0), 4.0, 1e-12);
   EXPECT_NEAR(coarse.at(1, 1), 4.0, 1e-12);
 }

@@ -147,7 +147,7 @@ void expect_batches(const Particles<Dim, double>& particles, const SparseGrid<Di
           EXPECT_EQ(batch.nearest[static_cast<std::size_t>(a)][lane], nearest(a));
         }
         EXPECT_EQ(batch.nodes.first[lane], place_in_patch<Dim>(tile.key, [&](int a) { return nearest(a) - 1; }));
-        EXPECT_TRUE(!batch.whole || p == batch.particle[0] + lane);
+        EXPECT_TRUE(!batch.contiguous || p == batch.particle[0] + lane);
       }
       expect_runs(batch.nodes);
       const auto same_node = [&](std::uint32_t k) {

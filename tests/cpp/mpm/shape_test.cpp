@@ -28,7 +28,7 @@ void expect_sound_weights(double half) {
     EXPECT_NEAR(-w.weight[0] + w.weight[2], d, 1e-15) << "the weights' centre is the particle";
     EXPECT_NEAR(-w.slope[0] + w.slope[2], inverse_cell, 1e-15);
     if (std::abs(d) < 1e-5) {
-      continue;  // hats have a kink at their node
+      continue;  // the linear shape functions have a kink at their node
     }
     const auto ahead = Shape::weights(d + h, half, at_side, inverse_cell);
     const auto behind = Shape::weights(d - h, half, at_side, inverse_cell);
@@ -82,15 +82,15 @@ TEST(Shape, AffineWeightsFindALinearVelocity) {
   }
 }
 
-TEST(Ugimp, IsTheHatAveragedOverTheParticle) {
-  // Simpson's rule over the particle's width, with the hat's kinks as ends of its pieces.
+TEST(Ugimp, IsTheLinearShapeFunctionAveragedOverTheParticle) {
+  // Simpson's rule over the particle's width, with the linear shape function's kinks as ends of its pieces.
   const double half = 0.25, d = 0.1;
-  const auto hat = [](double x) { return std::max(0.0, 1.0 - std::abs(x)); };
+  const auto linear = [](double x) { return std::max(0.0, 1.0 - std::abs(x)); };
   for (int node = -1; node <= 1; ++node) {
     double sum = 0.0;
     const int parts = 20000;
     for (int k = 0; k < parts; ++k) {
-      sum += hat(d - half + 2.0 * half * (k + 0.5) / parts - node) / parts;
+      sum += linear(d - half + 2.0 * half * (k + 0.5) / parts - node) / parts;
     }
     EXPECT_NEAR(ugimp_weights(d, half, 1.0).weight[node + 1], sum, 1e-7) << node;
   }
@@ -110,7 +110,7 @@ void fill(Particles<Dim, double>& particles, std::size_t count) {
 }
 
 template <int Dim>
-void expect_hats_reproduce_a_linear_field() {
+void expect_linear_shape_reproduces_a_linear_field() {
   Particles<Dim, double> particles;
   fill<Dim>(particles, 500);
   SparseGrid<Dim, double> grid(5.0);
@@ -120,7 +120,7 @@ void expect_hats_reproduce_a_linear_field() {
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     const auto index = T::index(grid.tiles()[t].key);
     for (const auto& batch : grid.batches(t)) {
-      const auto stencil = hat_stencil(grid, particles, batch).corners();
+      const auto stencil = linear_stencil(grid, particles, batch).corners();
       for (std::size_t lane = 0; lane < batch.count; ++lane, ++seen) {
         double sum = 0.0, x = 0.0;
         Vector<double, Dim> gradient = Vector<double, Dim>::Zero();
@@ -165,20 +165,20 @@ void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNo
       const auto place = place_of(grid, particles, batch);
       const auto read = [&] {
         const auto stencil = make_stencil<Ugimp<double>>(grid, batch, place, {Lanes<double>(0.25)}, HeldSides<Dim>());
-        return std::tuple(read_nodes<3>(hat_stencil(grid, particles, batch), patch), read_nodes<3>(stencil, patch),
+        return std::tuple(read_nodes<3>(linear_stencil(grid, particles, batch), patch), read_nodes<3>(stencil, patch),
                           read_values(stencil, patch));
       };
       ++seen[batch.nodes.runs];
-      const auto [hats, nodes, values] = read();
+      const auto [linear, nodes, values] = read();
       batch.nodes.runs = BatchNodes<double>::many_runs;
-      const auto [hats_by_lane, nodes_by_lane, values_by_lane] = read();
+      const auto [linear_by_lane, nodes_by_lane, values_by_lane] = read();
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         for (std::size_t c = 0; c < 3; ++c) {
-          EXPECT_EQ(hats.value[c][lane], hats_by_lane.value[c][lane]);
+          EXPECT_EQ(linear.value[c][lane], linear_by_lane.value[c][lane]);
           EXPECT_EQ(nodes.value[c][lane], nodes_by_lane.value[c][lane]);
           EXPECT_EQ(values[c][lane], values_by_lane[c][lane]);
           for (std::size_t a = 0; a < Dim; ++a) {
-            EXPECT_EQ(hats.gradient[a][c][lane], hats_by_lane.gradient[a][c][lane]);
+            EXPECT_EQ(linear.gradient[a][c][lane], linear_by_lane.gradient[a][c][lane]);
             EXPECT_EQ(nodes.gradient[a][c][lane], nodes_by_lane.gradient[a][c][lane]);
           }
         }
@@ -199,8 +199,8 @@ void expect_the_same_readings_by_any_runs(std::size_t few, std::size_t many) {
 TEST(Transfer, ReadsTheSameByAnyRunsInThePlane) { expect_the_same_readings_by_any_runs<2>(400, 5000); }
 TEST(Transfer, ReadsTheSameByAnyRunsInSpace) { expect_the_same_readings_by_any_runs<3>(3000, 60000); }
 
-TEST(Hats, ReproduceALinearFieldInThePlane) { expect_hats_reproduce_a_linear_field<2>(); }
-TEST(Hats, ReproduceALinearFieldInSpace) { expect_hats_reproduce_a_linear_field<3>(); }
+TEST(LinearShape, ReproducesALinearFieldInThePlane) { expect_linear_shape_reproduces_a_linear_field<2>(); }
+TEST(LinearShape, ReproducesALinearFieldInSpace) { expect_linear_shape_reproduces_a_linear_field<3>(); }
 
 TEST(SparseGrid, OrderDoesNotDependOnWhereParticlesStand) {
   Particles<2, double> straight, shuffled;

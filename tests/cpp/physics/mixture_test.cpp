@@ -112,14 +112,14 @@ TEST(Pressurization, KeepsIceAndWaterOfAClosedVolume) {
   }
 }
 
-// The levelled share is what a step of pure decay takes: two half steps make a whole one, none a none.
+// The share of subgrid diffusion is what a step of pure decay takes: two half steps make a whole one, none a none.
 TEST(Seepage, WithinACellDecaysExponentially) {
   const double diffusivity = 5e-3, size = 0.05, dt = 0.01;
-  const double whole = share_levelled_within_cell(diffusivity, 1.0 / size, 2, dt);
-  const double half = share_levelled_within_cell(diffusivity, 1.0 / size, 2, 0.5 * dt);
+  const double whole = share_of_subgrid_diffusion(diffusivity, 1.0 / size, 2, dt);
+  const double half = share_of_subgrid_diffusion(diffusivity, 1.0 / size, 2, 0.5 * dt);
   EXPECT_NEAR(1.0 - whole, (1.0 - half) * (1.0 - half), 1e-15);
   EXPECT_NEAR(whole, 1.0 - std::exp(-0.08), 1e-15);
-  EXPECT_EQ(share_levelled_within_cell(0.0, 1.0 / size, 2, dt), 0.0);
+  EXPECT_EQ(share_of_subgrid_diffusion(0.0, 1.0 / size, 2, dt), 0.0);
 }
 
 TEST(Mixture, LogarithmOfARatioKeepsAllDigits) {

@@ -72,7 +72,7 @@ void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarSt
   };
   for (const auto& [node, clearance] : scalar.contact().clearance()) {
     const auto [b, k] = scalar.at(node);
-    compare("clearance", nodes.near_base(b, k)[mpm::NearBaseLayout::clearance], clearance);
+    compare("clearance", nodes.near_ground(b, k)[mpm::NearGroundLayout::clearance], clearance);
   }
   for (const auto& [node, motion] : scalar.contact().motion()) {
     const auto [b, k] = scalar.at(node);
@@ -121,11 +121,11 @@ void expect_the_scalar_step(const config::Case& parameters, bool yields, bool ho
   const auto now = points_of(simulation);
   const auto every_node = [](std::size_t /*block*/, std::size_t /*node*/) { return true; };
   expect_same_sums(simulation.nodes().momentum, scalar, scalar.momentum(), 0, every_node);
-  expect_same_sums(simulation.nodes().hats, scalar, scalar.hats(), 0, every_node);
+  expect_same_sums(simulation.nodes().linear, scalar, scalar.linear(), 0, every_node);
   const auto candidates = [&](std::size_t b, std::size_t k) { return simulation.ground()->block(b)[k].candidate; };
-  expect_same_sums(simulation.nodes().near_base, scalar, scalar.near_base_by_mass(), 0, candidates);
-  expect_same_sums(simulation.nodes().near_base, scalar, scalar.near_base_by_hats(),
-                   mpm::NearBaseLayout::saturation_by_hats, candidates);
+  expect_same_sums(simulation.nodes().near_ground, scalar, scalar.near_ground_by_mass(), 0, candidates);
+  expect_same_sums(simulation.nodes().near_ground, scalar, scalar.near_ground_by_linear(),
+                   mpm::NearGroundLayout::saturation_by_linear, candidates);
   expect_same_nodes(simulation, scalar, hovers);
   using P = Point<Dim>;
   const auto expect_same = [&](const char* name, const auto& of) {

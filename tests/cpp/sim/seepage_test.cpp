@@ -1,4 +1,5 @@
-// Seepage in a melted column: what nodes see diffuses, what they do not see is levelled, and nothing is made or lost.
+// Seepage in a melted column: what nodes see diffuses, what they do not see falls by subgrid diffusion, and nothing is
+// made or lost.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -22,7 +22,7 @@ struct NodeMotion {
 template <int Dim>
 struct ContactSums {
   using Sums = typename ScalarTransfer<Dim>::Sums;
-  const Sums &momentum, &hats, &near_base_by_mass, &near_base_by_hats;
+  const Sums &momentum, &linear, &near_ground_by_mass, &near_ground_by_linear;
 };
 
 template <int Dim>
@@ -66,9 +66,9 @@ class ScalarContact {
 
  private:
   using Momentum = mpm::MomentumLayout<Dim>;
-  using NearBase = mpm::NearBaseLayout;
-  static constexpr std::size_t solid_fraction_by_hats =
-      NearBase::solid_fraction_by_hats - NearBase::saturation_by_hats;  // in the oracle's own sums
+  using NearGround = mpm::NearGroundLayout;
+  static constexpr std::size_t solid_fraction_by_linear =
+      NearGround::solid_fraction_by_linear - NearGround::saturation_by_linear;  // in the oracle's own sums
   static constexpr double smallest_share = 1e-6;  // of a cell's face: keeps N finite over no ground
 
   static Place vector_of(const std::vector<double>& sum, std::size_t first) {
@@ -88,13 +88,13 @@ class ScalarContact {
   void find_clearance(const ScalarTransfer<Dim>& transfer, const std::vector<Point<Dim>>& points) {
     for (const Point<Dim>& p : points) {
       double distance = 0.0;
-      transfer.for_nodes(p, transfer.hats, [&](const Index& node, double weight, const Place& /*slope*/) {
+      transfer.for_nodes(p, transfer.linear, [&](const Index& node, double weight, const Place& /*slope*/) {
         distance += weight * ground_.at(node).distance;
       });
       transfer.for_nodes(p, transfer.ugimp, [&](const Index& node, double weight, const Place& /*slope*/) {
         if (weight > round_off<double> && ground_.at(node).candidate) {
           double& known = clearance_.emplace(node, HUGE_VAL).first->second;
-          known = std::min(known, std::max(0.0, distance - p.reach));
+          known = std::min(known, std::max(0.0, distance - p.contact_offset));
         }
       });
     }
@@ -148,18 +148,19 @@ class ScalarContact {
     return load / (dt_ * std::max(covered, smallest_share * std::pow(cell_, Dim - 1)));
   }
 
-  // An average at a node: by the hats, or by mass where it has no weight by these.
-  [[nodiscard]] double average(const Index& node, const typename ContactSums<Dim>::Sums& sums, std::size_t by_hats,
+  // An average at a node: by the linear shape functions, or by mass where it has no weight by these.
+  [[nodiscard]] double average(const Index& node, const typename ContactSums<Dim>::Sums& sums, std::size_t by_linear,
                                std::size_t by_mass) const {
-    const auto hats = sums_.hats.find(node);
-    const double volume = hats != sums_.hats.end() ? hats->second[mpm::HatLayout::volume] : 0.0;
-    return volume > 0.0 ? sums.at(node)[by_hats] / volume : sums_.near_base_by_mass.at(node)[by_mass] / mass(node);
+    const auto linear = sums_.linear.find(node);
+    const double volume = linear != sums_.linear.end() ? linear->second[mpm::LinearLayout::volume] : 0.0;
+    return volume > 0.0 ? sums.at(node)[by_linear] / volume : sums_.near_ground_by_mass.at(node)[by_mass] / mass(node);
   }
 
   [[nodiscard]] double strength(const Index& node, double normal_pressure) const {
     const auto& law = model_.law;
-    const double pore = average(node, sums_.hats, mpm::HatLayout::pore_pressure, NearBase::pore_pressure);
-    const double solid = average(node, sums_.near_base_by_hats, solid_fraction_by_hats, NearBase::solid_fraction);
+    const double pore = average(node, sums_.linear, mpm::LinearLayout::pore_pressure, NearGround::pore_pressure);
+    const double solid =
+        average(node, sums_.near_ground_by_linear, solid_fraction_by_linear, NearGround::solid_fraction);
     const double factor =
         physics::lubrication_factor(solid, law.min_solid_fraction, law.max_solid_fraction, law.lubrication_exponent);
     return physics::sliding_strength(factor * law.friction_coefficient, normal_pressure, pore, law.cohesion, law.clamp,

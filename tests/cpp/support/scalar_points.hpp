@@ -19,7 +19,7 @@ struct Point {
   SymmetricTensor<double> stress;
   double mass, volume, initial_volume, plastic_strain, temperature, heat_content, saturation, porosity,
       initial_porosity;
-  double liquid_pressure, pore_pressure, flow_depth, scaling, slip, path_length, reach, half;
+  double liquid_pressure, pore_pressure, flow_depth, scaling, slip, path_length, contact_offset, half;
   bool in_band;
   std::size_t material;
   double old_temperature = 0, capacity = 0, conduction_in_cell = 0;
@@ -52,7 +52,7 @@ std::vector<Point<Dim>> points_of(const sim::Simulation<Dim, double>& simulation
     point.scaling = particles.thermal_scaling(p);
     point.slip = particles.slip(p);
     point.path_length = particles.path_length(p);
-    point.reach = particles.reach(p);
+    point.contact_offset = particles.contact_offset(p);
     point.in_band = particles.in_band(p) != 0;
     point.half = simulation.model().motion.sizes.half(static_cast<std::size_t>(particles.body(p)));
     point.material = static_cast<std::size_t>(particles.material(p));
@@ -73,13 +73,13 @@ struct Carried {
   std::vector<Vector<double, Dim>> flux;
 };
 
-// Transfers by uGIMP and by the hats.
+// Transfers by uGIMP and by the linear shape functions.
 template <int Dim>
 struct ScalarTransfer {
   using Index = NodeIndex<Dim>;
   using Place = Vector<double, Dim>;
   using Sums = ByNode<Dim, std::vector<double>>;
-  enum Width { hats = 2, ugimp = 3 };
+  enum Width { linear = 2, ugimp = 3 };
 
   double inverse_cell;
 
@@ -91,7 +91,7 @@ struct ScalarTransfer {
     for (int a = 0; a < Dim; ++a) {
       const auto axis = static_cast<std::size_t>(a);
       const double s = p.position[a] * inverse_cell;
-      if (width == hats) {
+      if (width == linear) {
         lowest[axis] = static_cast<int>(std::floor(s));
         weight[axis] = {1.0 - (s - std::floor(s)), s - std::floor(s), 0.0};
         slope[axis] = {-inverse_cell, inverse_cell, 0.0};

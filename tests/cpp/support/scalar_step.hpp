@@ -27,15 +27,15 @@ class ScalarStep {
   ScalarStep(const sim::Simulation<Dim, double>& simulation, double dt, std::vector<Point<Dim>> points)
       : points_(std::move(points)), simulation_(simulation), dt_(dt), transfer_{1.0 / simulation.grid().cell()} {
     momentum_ = add_up(Transfer::ugimp, mpm::MomentumLayout<Dim>::size, [&](const auto& p) { return momentum_of(p); });
-    hats_ = add_up(Transfer::hats, mpm::HatLayout::size, [&](const Point<Dim>& p) {
+    linear_ = add_up(Transfer::linear, mpm::LinearLayout::size, [&](const Point<Dim>& p) {
       return Carried<Dim>{{p.volume, p.volume * p.temperature, p.volume * p.pore_pressure}, {}};
     });
-    near_base_by_mass_ = add_up(Transfer::ugimp, mpm::NearBaseLayout::by_mass, [&](const Point<Dim>& p) {
+    near_ground_by_mass_ = add_up(Transfer::ugimp, mpm::NearGroundLayout::by_mass, [&](const Point<Dim>& p) {
       return Carried<Dim>{{p.mass * p.temperature, p.mass * p.pore_pressure, p.mass * p.saturation,
                            p.mass * solid_fraction(p), p.mass * p.slip},
                           {}};
     });
-    near_base_by_hats_ = add_up(Transfer::hats, 2, [&](const Point<Dim>& p) {
+    near_ground_by_linear_ = add_up(Transfer::linear, 2, [&](const Point<Dim>& p) {
       return Carried<Dim>{{p.volume * p.saturation, p.volume * solid_fraction(p)}, {}};
     });
     ByNode<Dim, terrain::GroundAtNode<Dim, double>> ground;
@@ -48,7 +48,8 @@ class ScalarStep {
       }
     }
     contact_.emplace(simulation.model().contact, transfer_, points_,
-                     ContactSums<Dim>{momentum_, hats_, near_base_by_mass_, near_base_by_hats_}, std::move(ground), dt);
+                     ContactSums<Dim>{momentum_, linear_, near_ground_by_mass_, near_ground_by_linear_},
+                     std::move(ground), dt);
     mark_band_and_slip();
     move();
     deform();
@@ -60,11 +61,12 @@ class ScalarStep {
     }
   }
 
-  // By node: the sums of momentum_to_grid, of average_band_on_grid, of near_base_to_grid, and the mapped-back momentum.
+  // By node: the sums of momentum_to_grid, of average_band_on_grid, of near_ground_to_grid, and the mapped-back
+  // momentum.
   [[nodiscard]] const Sums& momentum() const { return momentum_; }
-  [[nodiscard]] const Sums& hats() const { return hats_; }
-  [[nodiscard]] const Sums& near_base_by_mass() const { return near_base_by_mass_; }
-  [[nodiscard]] const Sums& near_base_by_hats() const { return near_base_by_hats_; }
+  [[nodiscard]] const Sums& linear() const { return linear_; }
+  [[nodiscard]] const Sums& near_ground_by_mass() const { return near_ground_by_mass_; }
+  [[nodiscard]] const Sums& near_ground_by_linear() const { return near_ground_by_linear_; }
   [[nodiscard]] const Sums& mapped() const { return mapped_; }
   [[nodiscard]] const ScalarContact<Dim>& contact() const { return *contact_; }
   [[nodiscard]] std::pair<std::size_t, std::size_t> at(const Index& node) const { return place_.at(node); }
@@ -111,7 +113,7 @@ class ScalarStep {
     for (Point<Dim>& p : points_) {
       p.in_band = false;
       double touching = 0.0, slip_speed = 0.0;
-      for_nodes(p, Transfer::hats, [&](const Index& node, double weight, const Place& /*slope*/) {
+      for_nodes(p, Transfer::linear, [&](const Index& node, double weight, const Place& /*slope*/) {
         const auto [b, k] = place_.at(node);
         p.in_band = p.in_band || (weight > 0.0 && simulation_.ground()->block(b)[k].candidate);
         const auto motion = contact_->motion().find(node);
@@ -172,7 +174,7 @@ class ScalarStep {
     return motion != contact_->motion().end() ? motion->second.friction_heat : 0.0;
   }
 
-  // The rate of temperature of every node [K/s] from sums of heat flow, capacity and heat levelled in cells.
+  // The rate of temperature of every node [K/s] from sums of heat flow, capacity and subgrid heat.
   [[nodiscard]] ByNode<Dim, double> rates(const Sums& flows, const Sums& stored) const {
     ByNode<Dim, double> rate;
     for (const auto& [node, sum] : stored) {
@@ -182,7 +184,7 @@ class ScalarStep {
     return rate;
   }
 
-  // The friction heat of nodes without hat weight [J/m3], by the weight of the particle's momentum there.
+  // The friction heat of nodes without linear weight [J/m3], by the weight of the particle's momentum there.
   [[nodiscard]] double orphan_heat(const Point<Dim>& p, const Sums& stored) const {
     double power = 0.0;
     for_nodes(p, Transfer::ugimp, [&](const Index& node, double weight, const Place& /*gradient*/) {
@@ -196,22 +198,22 @@ class ScalarStep {
 
   [[nodiscard]] double change(const Point<Dim>& p, const ByNode<Dim, double>& rate) const {
     double sum = p.conduction_in_cell;
-    for_nodes(p, Transfer::hats, [&](const Index& node, double weight, const Place& /*gradient*/) {
+    for_nodes(p, Transfer::linear, [&](const Index& node, double weight, const Place& /*gradient*/) {
       sum += dt_ * weight * rate.at(node);
     });
     return sum;
   }
 
-  // A hat average of the step's start, at the particle's place, and its gradient.
+  // A linear average of the step's start, at the particle's place, and its gradient.
   struct Seen {
     double value = 0.0;
     Place gradient = Place::Zero();
   };
   [[nodiscard]] Seen seen(const Point<Dim>& p, std::size_t component) const {
     Seen seen;
-    for_nodes(p, Transfer::hats, [&](const Index& node, double weight, const Place& slope) {
-      const auto& hat = hats_.at(node);
-      const double average = hat[0] > 0.0 ? hat[component] / hat[0] : 0.0;
+    for_nodes(p, Transfer::linear, [&](const Index& node, double weight, const Place& slope) {
+      const auto& sums = linear_.at(node);
+      const double average = sums[0] > 0.0 ? sums[component] / sums[0] : 0.0;
       seen.value += weight * average;
       seen.gradient += average * slope;
     });
@@ -220,9 +222,9 @@ class ScalarStep {
 
   void conduct() {
     simulation_.model().band.with_heat_content([&](const auto& content) {
-      const Sums flows = add_up(Transfer::hats, 2, [&](const Point<Dim>& p) { return heat_flow(p); });
+      const Sums flows = add_up(Transfer::linear, 2, [&](const Point<Dim>& p) { return heat_flow(p); });
       const auto stored = [&] {
-        return add_up(Transfer::hats, 2, [&](const Point<Dim>& p) {
+        return add_up(Transfer::linear, 2, [&](const Point<Dim>& p) {
           const double capacity = p.initial_volume / p.scaling * p.capacity;
           return Carried<Dim>{{capacity, capacity * p.conduction_in_cell}, {}};
         });
@@ -230,8 +232,8 @@ class ScalarStep {
       for (Point<Dim>& p : points_) {
         p.capacity = content.apparent_capacity(p.temperature, p.initial_porosity);
         const double conductivity = physics::conductivity(phases(), p.porosity, p.saturation);
-        p.conduction_in_cell = (seen(p, mpm::HatLayout::temperature).value - p.temperature) *
-                               physics::share_levelled_within_cell(conductivity / p.capacity,
+        p.conduction_in_cell = (seen(p, mpm::LinearLayout::temperature).value - p.temperature) *
+                               physics::share_of_subgrid_diffusion(conductivity / p.capacity,
                                                                    transfer_.inverse_cell * p.scaling, Dim, dt_);
       }
       const auto first = rates(flows, stored());
@@ -254,8 +256,8 @@ class ScalarStep {
   }
 
   [[nodiscard]] Carried<Dim> heat_flow(const Point<Dim>& p) const {
-    const Place by_temperature = seen(p, mpm::HatLayout::temperature).gradient;
-    const Place by_pressure = seen(p, mpm::HatLayout::pore_pressure).gradient;
+    const Place by_temperature = seen(p, mpm::LinearLayout::temperature).gradient;
+    const Place by_pressure = seen(p, mpm::LinearLayout::pore_pressure).gradient;
     const double conductivity = physics::conductivity(phases(), p.porosity, p.saturation);
     const double mobility =
         p.scaling * simulation_.model().band.hydraulic_conductivity[p.material] / phases().water_unit_weight;
@@ -268,13 +270,13 @@ class ScalarStep {
   void drain() {
     const auto& band = simulation_.model().band;
     const auto conductivity = [&](const Point<Dim>& p) { return band.hydraulic_conductivity[p.material]; };
-    const Sums flows = add_up(Transfer::hats, 3, [&](Point<Dim> p) {
-      const Seen around = seen(p, mpm::HatLayout::pore_pressure);
+    const Sums flows = add_up(Transfer::linear, 3, [&](Point<Dim> p) {
+      const Seen around = seen(p, mpm::LinearLayout::pore_pressure);
       const bool flowing = p.old_temperature >= tref;
       const double space = p.volume / p.scaling * p.porosity;
       const double flow =
           p.volume * p.scaling * conductivity(p) / phases().water_unit_weight * phases().water_bulk_modulus;
-      return Carried<Dim>{{0.0, space, flowing ? space * levelled(p, around.value) : 0.0},
+      return Carried<Dim>{{0.0, space, flowing ? space * by_subgrid_diffusion(p, around.value) : 0.0},
                           {flowing ? Place(-flow * around.gradient) : Place(Place::Zero())}};
     });
     const ScalarColumns<Dim> columns(points_, 1.0 / transfer_.inverse_cell, [&](double x) {
@@ -291,9 +293,10 @@ class ScalarStep {
         continue;
       }
       const bool flowing = p.old_temperature >= tref;
-      double pressure = flowing ? p.liquid_pressure + levelled(p, seen(p, mpm::HatLayout::pore_pressure).value)
-                                : ice * phases().water_density / phases().ice_density;
-      for_nodes(p, Transfer::hats, [&](const Index& node, double weight, const Place& /*slope*/) {
+      double pressure =
+          flowing ? p.liquid_pressure + by_subgrid_diffusion(p, seen(p, mpm::LinearLayout::pore_pressure).value)
+                  : ice * phases().water_density / phases().ice_density;
+      for_nodes(p, Transfer::linear, [&](const Index& node, double weight, const Place& /*slope*/) {
         const auto& sum = flows.at(node);
         pressure += flowing && sum[1] > 0.0 ? weight * (dt_ * sum[0] - sum[2]) / sum[1] : 0.0;
       });
@@ -306,21 +309,21 @@ class ScalarStep {
     }
   }
 
-  // What levelling within the cell brings to the pressure.
-  [[nodiscard]] double levelled(const Point<Dim>& p, double level) const {
+  // What subgrid diffusion brings to the pressure.
+  [[nodiscard]] double by_subgrid_diffusion(const Point<Dim>& p, double level) const {
     const double diffusivity =
         p.scaling * p.scaling *
         physics::hydraulic_diffusivity(phases(), p.porosity, 1.0,
                                        simulation_.model().band.hydraulic_conductivity[p.material]);
     return (level - p.pore_pressure) *
-           physics::share_levelled_within_cell(diffusivity, transfer_.inverse_cell, Dim, dt_);
+           physics::share_of_subgrid_diffusion(diffusivity, transfer_.inverse_cell, Dim, dt_);
   }
 
   std::vector<Point<Dim>> points_;
   const sim::Simulation<Dim, double>& simulation_;
   double dt_;
   Transfer transfer_;
-  Sums momentum_, hats_, near_base_by_mass_, near_base_by_hats_, mapped_;
+  Sums momentum_, linear_, near_ground_by_mass_, near_ground_by_linear_, mapped_;
   ByNode<Dim, std::pair<std::size_t, std::size_t>> place_;
   std::optional<ScalarContact<Dim>> contact_;
 };

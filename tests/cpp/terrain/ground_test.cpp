@@ -36,15 +36,15 @@ TEST(Polyline, EndSegmentsGoOnBeyondTheirOwnEndsOnly) {
   EXPECT_NEAR(line.nearest(-10.0, 20.0).distance, 0.0, 1e-12);
 }
 
-// The hats of a grid sum to one, so nodal shares sum to the whole surface and the whole space: within the grid's last
-// columns and rows, where the sum of hats falls from 1 to 0.
-TEST(HatShare, SumsToTheSurfaceAndToTheSpaceAboveIt) {
+// The linear shape functions of a grid sum to one, so nodal shares sum to the whole surface and the whole space: within
+// the grid's last columns and rows, where their sum falls from 1 to 0.
+TEST(LinearShare, SumsToTheSurfaceAndToTheSpaceAboveIt) {
   constexpr double h = 2.0;
   constexpr int first = -3, last_column = 18, last_row = 20;
   double length = 0.0, above = 0.0;
   for (int i = first; i <= last_column; ++i) {
     for (int j = first; j <= last_row; ++j) {
-      const auto share = bent.hat_share(i * h, j * h, h);
+      const auto share = bent.linear_share(i * h, j * h, h);
       EXPECT_GE(share.length, 0.0);
       EXPECT_LE(share.above, h * h * (1.0 + 1e-12));
       length += share.length;
@@ -64,31 +64,31 @@ TEST(HatShare, SumsToTheSurfaceAndToTheSpaceAboveIt) {
   EXPECT_NEAR(above / expected_above, 1.0, 1e-6);
 }
 
-TEST(HatShare, OfANodeIsTheIntegralOfItsHat) {
+TEST(LinearShare, OfANodeIsTheIntegralOfItsShapeFunction) {
   constexpr double h = 2.0, x = 7.0, z = 15.0;
   constexpr int parts = 2000;
   double length = 0.0, above = 0.0;
-  const auto hat = [&](double q) { return std::max(0.0, 1.0 - std::abs(q) / h); };
+  const auto linear = [&](double q) { return std::max(0.0, 1.0 - std::abs(q) / h); };
   for (int i = 0; i < parts; ++i) {
     const double u = x - h + (i + 0.5) * 2.0 * h / parts;
-    length += 2.0 * h / parts * std::hypot(1.0, bent.gradient(u)) * hat(u - x) * hat(bent.height(u) - z);
+    length += 2.0 * h / parts * std::hypot(1.0, bent.gradient(u)) * linear(u - x) * linear(bent.height(u) - z);
     for (int j = 0; j < parts; ++j) {
       const double w = z - h + (j + 0.5) * 2.0 * h / parts;
-      above += w > bent.height(u) ? std::pow(2.0 * h / parts, 2) * hat(u - x) * hat(w - z) : 0.0;
+      above += w > bent.height(u) ? std::pow(2.0 * h / parts, 2) * linear(u - x) * linear(w - z) : 0.0;
     }
   }
-  const auto share = bent.hat_share(x, z, h);
+  const auto share = bent.linear_share(x, z, h);
   EXPECT_NEAR(share.length, length, 1e-5);
   EXPECT_NEAR(share.above, above, 1e-4);
 }
 
-TEST(HatShare, OnAGridLineIsTheCellsFace) {
+TEST(LinearShare, OnAGridLineIsTheCellsFace) {
   const Polyline flat({0.0, 100.0}, {4.0, 4.0});
-  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 4.0, 2.0).length, 2.0);
-  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 4.0, 2.0).above, 2.0);
-  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 6.0, 2.0).length, 0.0);
-  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 6.0, 2.0).above, 4.0);
-  EXPECT_DOUBLE_EQ(flat.hat_share(10.0, 2.0, 2.0).above, 0.0);
+  EXPECT_DOUBLE_EQ(flat.linear_share(10.0, 4.0, 2.0).length, 2.0);
+  EXPECT_DOUBLE_EQ(flat.linear_share(10.0, 4.0, 2.0).above, 2.0);
+  EXPECT_DOUBLE_EQ(flat.linear_share(10.0, 6.0, 2.0).length, 0.0);
+  EXPECT_DOUBLE_EQ(flat.linear_share(10.0, 6.0, 2.0).above, 4.0);
+  EXPECT_DOUBLE_EQ(flat.linear_share(10.0, 2.0, 2.0).above, 0.0);
 }
 
 TEST(RigidPoints, AlongAGridLineAreTheSignedDistance) {

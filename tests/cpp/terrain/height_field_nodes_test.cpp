@@ -83,7 +83,7 @@ TEST(HeightField, ThatDoesNotChangeAlongYIsThePolyline) {
     for (int k = 0; k < edge * edge * edge; ++k) {
       const Position place = lowest + h * Position(k % edge, k / edge % edge, k / edge / edge);
       const Node& node = nodes[static_cast<std::size_t>(k)];
-      const auto share = line.hat_share(place[0], place[2], h);
+      const auto share = line.linear_share(place[0], place[2], h);
       EXPECT_NEAR(node.area, h * share.length, 1e-11);
       EXPECT_NEAR(node.space, h * share.above, 1e-11);
       EXPECT_EQ(node.candidate, line.highest(place[0] - h, place[0] + h) > place[2] - h * (1.0 - 1e-9));
@@ -100,7 +100,7 @@ TEST(HeightField, ThatDoesNotChangeAlongYIsThePolyline) {
 Node by_quadrature(const Raster& points, const Position& position, double cell, int parts) {
   Node node;
   node.normal.setZero();
-  const auto hat = [](double q) { return std::max(0.0, 1.0 - std::abs(q)); };
+  const auto linear = [](double q) { return std::max(0.0, 1.0 - std::abs(q)); };
   const auto above = [](double q) {
     q = std::clamp(q, -1.0, 1.0);
     return q > 0.0 ? 0.5 * (1.0 - q) * (1.0 - q) : 1.0 - 0.5 * (1.0 + q) * (1.0 + q);
@@ -109,10 +109,10 @@ Node by_quadrature(const Raster& points, const Position& position, double cell, 
     const Position across = 0.5 * (b - a).cross(c - a) / (parts * parts);
     const auto add = [&](double i, double j) {
       const Position q = (a + i / parts * (b - a) + j / parts * (c - a) - position) / cell;
-      const double plan = hat(q[0]) * hat(q[1]);
-      node.area += across.norm() * plan * hat(q[2]);
+      const double plan = linear(q[0]) * linear(q[1]);
+      node.area += across.norm() * plan * linear(q[2]);
       node.space += across[2] * plan * cell * above(q[2]);
-      node.normal -= across * plan * hat(q[2]);
+      node.normal -= across * plan * linear(q[2]);
     };
     for (int j = 0; j < parts; ++j) {
       for (int i = 0; i + j < parts; ++i) {

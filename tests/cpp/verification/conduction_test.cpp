@@ -148,13 +148,14 @@ TEST(Conduction, TwoLayers) {
   }
   record.draw(curve);
   record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, 1.0, 0.15);
-  record.expect_order("cell [m]", finer, "apparent capacity, no levelling: rms error [K]", plain_all, 1.5, 0.15);
+  record.expect_order("cell [m]", finer, "apparent capacity, no subgrid diffusion: rms error [K]", plain_all, 1.5,
+                      0.15);
   record.expect_order("cell [m]", finer,
-                      "apparent capacity, no levelling: rms error 0.4 m and more from the interface [K]", plain_away,
-                      2.0, 0.1);
+                      "apparent capacity, no subgrid diffusion: rms error 0.4 m and more from the interface [K]",
+                      plain_away, 2.0, 0.1);
   record.explain(
       "The interface's node averages over a kink of the temperature, so the particles of two cells are off in first "
-      "order: 1.5 in the rms over all. Away from it conduction alone is of order 2. Levelling within cells takes the "
+      "order: 1.5 in the rms over all. Away from it conduction alone is of order 2. Subgrid diffusion takes the "
       "kink for a difference that nodes do not see, and moves heat across an interface of unequal capacities: order "
       "1.");
 }

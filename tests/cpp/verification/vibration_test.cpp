@@ -18,9 +18,9 @@ TEST(Vibration, ManufacturedWhereNothingCrossesCells) {
                         errors_of(choice, 1e-4, cells), 2.0, 0.15);
   }
   record.explain(
-      "All are of order 2. The spline hands over to hats at the rollers; with a node held at 0 beyond them, the order "
-      "was "
-      "1. APIC with hats is refused: their second moment vanishes at nodes.");
+      "All are of order 2. The spline hands over to linear shape functions at the rollers; with a node held at 0 "
+      "beyond them, the order was 1. APIC with linear shape functions is refused: their second moment vanishes at "
+      "nodes.");
 }
 
 TEST(Vibration, ManufacturedWithLargeDisplacements) {
@@ -37,10 +37,11 @@ TEST(Vibration, ManufacturedWithLargeDisplacements) {
   record.expect_order("cell [m]", sizes, "linear, FLIP: rms error of displacement over A",
                       errors_of(linear_flip, 0.02, cells), 0.0, 0.4);
   record.explain(
-      "Hats, whose slopes jump, make an error at each crossing that does not shrink with the cell, and do not converge "
-      "(Steffen, Kirby and Berzins 2008). uGIMP's undeformed squares overlap or leave gaps in proportion to the "
-      "stretch: order 1. Splines are of order 2 until the particles' uneven spacing, an error of quadrature in first "
-      "order (Steffen et al. 2010), is what is left. The next refinement, which ./test --full runs, is nearer to 1.");
+      "Linear shape functions, whose slopes jump, make an error at each crossing that does not shrink with the cell, "
+      "and do not converge (Steffen, Kirby and Berzins 2008). uGIMP's undeformed squares overlap or leave gaps in "
+      "proportion to the stretch: order 1. Splines are of order 2 until the particles' uneven spacing, an error of "
+      "quadrature in first order (Steffen et al. 2010), is what is left. The next refinement, which ./test --full "
+      "runs, is nearer to 1.");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "terrain/near_base.hpp"
+#include "terrain/near_ground.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -28,10 +28,10 @@ void load_distances(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<D
   });
 }
 
-// How far boxes of half size `half` [m] reach towards the ground if that lies along a grid axis; what they read of the
-// patch.
+// The contact offset of boxes of half size `half` [m], how far they stretch towards the ground if that lies along a
+// grid axis; seen: what they read of the patch.
 template <int Dim, class Real>
-Lanes<Real> reach_of_box(const mpm::Reading<Dim, Lanes<Real>, 1 + Dim>& seen, Lanes<Real> half) {
+Lanes<Real> contact_offset_of_box(const mpm::Reading<Dim, Lanes<Real>, 1 + Dim>& seen, Lanes<Real> half) {
   using std::max, std::abs;
   Lanes<Real> largest = Real(0);
   for (std::size_t a = 0; a < Dim; ++a) {
@@ -41,16 +41,16 @@ Lanes<Real> reach_of_box(const mpm::Reading<Dim, Lanes<Real>, 1 + Dim>& seen, La
 }
 
 template <int Dim, class Real>
-using NearBasePatch = mpm::Patch<Dim, Real, mpm::NearBaseLayout::size>;
+using NearGroundPatch = mpm::Patch<Dim, Real, mpm::NearGroundLayout::size>;
 
 // Lowers the clearance of the nodes that particles see.
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>& stencil, std::size_t count,
-                                             Lanes<Real> clearance, NearBasePatch<Dim, Real>& patch) {
+                                             Lanes<Real> clearance, NearGroundPatch<Dim, Real>& patch) {
   constexpr Real far = std::numeric_limits<Real>::max();
   const mpm::BatchNodes<Real>& nodes = stencil.nodes;
   const auto lower = [&](std::size_t lane, std::size_t offset, Real seen) THAWSLIDE_INLINE_LAMBDA {
-    Real& known = patch.records[static_cast<std::size_t>(nodes.first[lane]) + offset][mpm::NearBaseLayout::clearance];
+    Real& known = patch.records[static_cast<std::size_t>(nodes.first[lane]) + offset][mpm::NearGroundLayout::clearance];
     known = std::min(known, seen);
   };
   const auto in_first = lanes_before<Real>(nodes.runs == 1 ? lane_count<Real> : nodes.second_run);
@@ -71,26 +71,28 @@ THAWSLIDE_ALWAYS_INLINE void lower_clearance(const mpm::BatchStencil<Dim, Real>&
                           });
 }
 
-// Of the register that the sums by hats begin in; what else is in it gets 0.
-constexpr std::size_t first_by_hats = mpm::NearBaseLayout::saturation_by_hats / mpm::record_step * mpm::record_step;
+// Of the register that the sums by linear shape functions begin in; what else is in it gets 0.
+constexpr std::size_t first_by_linear =
+    mpm::NearGroundLayout::saturation_by_linear / mpm::record_step * mpm::record_step;
 
 template <int Dim, class Real>
-struct NearBaseSums {
-  using Layout = mpm::NearBaseLayout;
+struct NearGroundSums {
+  using Layout = mpm::NearGroundLayout;
   mpm::CellSums<mpm::no_flux, 0, Layout::by_mass, Dim, Real, Layout::size> by_mass;
-  mpm::LinearCellSums<false, first_by_hats, Layout::size - first_by_hats, Dim, Real, Layout::size> by_hats;
+  mpm::LinearCellSums<false, first_by_linear, Layout::size - first_by_linear, Dim, Real, Layout::size> by_linear;
 
-  explicit NearBaseSums(NearBasePatch<Dim, Real>& patch) : by_mass(patch), by_hats(patch) {}
+  explicit NearGroundSums(NearGroundPatch<Dim, Real>& patch) : by_mass(patch), by_linear(patch) {}
 };
 
-// What a batch adds to the sums of NearBaseLayout, by mass with the momentum shape functions and by volume with the
-// hats.
+// What a batch adds to the sums of NearGroundLayout, by mass with the momentum shape functions and by volume with the
+// linear ones.
 template <int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stencil,
-                                       const mpm::HatStencil<Dim, Real>& hats, const mpm::MotionModel<Dim, Real>& model,
+                                       const mpm::LinearStencil<Dim, Real>& linear,
+                                       const mpm::MotionModel<Dim, Real>& model,
                                        const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch,
-                                       NearBaseSums<Dim, Real>& sums) {
-  using Layout = mpm::NearBaseLayout;
+                                       NearGroundSums<Dim, Real>& sums) {
+  using Layout = mpm::NearGroundLayout;
   const Lanes<Real> mass = particles.mass.load(batch), volume = particles.volume.load(batch);
   const Lanes<Real> saturation = particles.liquid_saturation.load(batch);
   const Lanes<Real> solid_fraction = mpm::basal_solid_fraction(particles, model.phases, model.lubrication, batch);
@@ -101,37 +103,37 @@ THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stenc
   by_mass.value[Layout::solid_fraction] = mass * solid_fraction;
   by_mass.value[Layout::slip] = mass * particles.slip.load(batch);
   sums.by_mass.add(stencil, batch.count, by_mass);
-  mpm::Contribution<Dim, Real, Layout::size - first_by_hats> by_hats;
-  by_hats.value[Layout::saturation_by_hats - first_by_hats] = volume * saturation;
-  by_hats.value[Layout::solid_fraction_by_hats - first_by_hats] = volume * solid_fraction;
-  sums.by_hats.add(hats, batch.count, by_hats);
+  mpm::Contribution<Dim, Real, Layout::size - first_by_linear> by_linear;
+  by_linear.value[Layout::saturation_by_linear - first_by_linear] = volume * saturation;
+  by_linear.value[Layout::solid_fraction_by_linear - first_by_linear] = volume * solid_fraction;
+  sums.by_linear.add(linear, batch.count, by_linear);
 }
 
 }  // namespace
 
 template <int Dim, class Real>
-void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-               const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles) {
-  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's reach
+void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                        const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles) {
+  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's contact offset
   DistancePatch<Dim, Real> patch;
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     load_distances(grid, ground, t, patch);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-      const auto seen = mpm::read_nodes<1 + Dim>(hat_stencil(grid, particles, batch), patch);
-      const Lanes<Real> reach = reach_of_box(seen, sizes.of(particles, batch).half * grid.cell());
-      const auto lowest = seen.value[0] < within_lowest_layer * reach;
-      particles.reach.store(batch, select(lowest, seen.value[0], reach));
+      const auto seen = mpm::read_nodes<1 + Dim>(linear_stencil(grid, particles, batch), patch);
+      const Lanes<Real> contact_offset = contact_offset_of_box(seen, sizes.of(particles, batch).half * grid.cell());
+      const auto lowest = seen.value[0] < within_lowest_layer * contact_offset;
+      particles.contact_offset.store(batch, select(lowest, seen.value[0], contact_offset));
     }
   }
 }
 
 template <int Dim, class Real>
-void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                       const mpm::MotionModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
-                       mpm::Nodes<Dim, Real>& nodes) {
-  constexpr std::size_t clearance_at = mpm::NearBaseLayout::clearance;
+void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                         const mpm::MotionModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
+                         mpm::Nodes<Dim, Real>& nodes) {
+  constexpr std::size_t clearance_at = mpm::NearGroundLayout::clearance;
   constexpr Real far = std::numeric_limits<Real>::max();
-  const auto patches = nodes.near_base.patches(grid.tiles().size());
+  const auto patches = nodes.near_ground.patches(grid.tiles().size());
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     parallel_for(grid.tiles().size(), [&](std::size_t t) {
       if (!ground.any_candidate_about(grid, t)) {
@@ -147,29 +149,30 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
       }
       DistancePatch<Dim, Real> distances;
       load_distances(grid, ground, t, distances);
-      NearBaseSums<Dim, Real> sums(patch);
+      NearGroundSums<Dim, Real> sums(patch);
       for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
         if (!ground.any_near(t, batch)) {
           sums.by_mass.skip();
-          sums.by_hats.skip();
+          sums.by_linear.skip();
           continue;
         }
-        const auto hats = hat_stencil(grid, particles, batch);
-        const Lanes<Real> distance = mpm::read_nodes<1>(hats, distances).value[0];
+        const auto linear = linear_stencil(grid, particles, batch);
+        const Lanes<Real> distance = mpm::read_nodes<1>(linear, distances).value[0];
         const auto place = place_of(grid, particles, batch);
         const auto stencil =
             mpm::make_stencil<decltype(shape)>(grid, batch, place, model.sizes.of(particles, batch), model.sides);
-        add_state(stencil, hats, model, particles, batch, sums);
-        lower_clearance(stencil, batch.count, max(Lanes<Real>(Real(0)), distance - particles.reach.load(batch)), patch);
+        add_state(stencil, linear, model, particles, batch, sums);
+        lower_clearance(stencil, batch.count,
+                        max(Lanes<Real>(Real(0)), distance - particles.contact_offset.load(batch)), patch);
       }
     });
   });
-  nodes.near_base.resize(grid.blocks().size());
+  nodes.near_ground.resize(grid.blocks().size());
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (!ground.any_candidate(b)) {
       return;
     }
-    sum_patches_in_block(grid, b, patches, nodes.near_base);
+    sum_patches_in_block(grid, b, patches, nodes.near_ground);
     std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> clearance;
     clearance.fill(far);
     const std::int32_t* tiles = grid.tiles_about_block(b);
@@ -182,17 +185,17 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
       }
     });
     for (std::size_t k = 0; k < clearance.size(); ++k) {
-      nodes.near_base(b, k)[clearance_at] = clearance[k];
+      nodes.near_ground(b, k)[clearance_at] = clearance[k];
     }
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
-  template void set_reach<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,            \
-                                     const mpm::BodySizes<Real>&, mpm::Particles<Dim, Real>&);                     \
-  template void near_base_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,    \
-                                             const mpm::MotionModel<Dim, Real>&, const mpm::Particles<Dim, Real>&, \
-                                             mpm::Nodes<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                             \
+  template void set_contact_offset<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,     \
+                                              const mpm::BodySizes<Real>&, mpm::Particles<Dim, Real>&);              \
+  template void near_ground_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,    \
+                                               const mpm::MotionModel<Dim, Real>&, const mpm::Particles<Dim, Real>&, \
+                                               mpm::Nodes<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,0 +1,26 @@
+// What the particles near the ground tell the nodes that may touch it: the averages that the basal law takes, and how
+// far the slide still is from the ground by its particles' own edges. GIMP lets nodes feel the slide up to a cell
+// before it arrives, and without a check of that distance contact acts from then on.
+#pragma once
+
+#include "mpm/motion.hpp"
+#include "terrain/ground_on_grid.hpp"
+
+namespace thawslide::terrain {
+
+// Sets particles.contact_offset [m]: the distance from the ground at which a particle touches it. A body that stands on
+// the ground at the start touches with its lowest particles as they stand, which on a slope across the grid are not all
+// equally far from it; the others touch with the edge of their box, as the ground lies below them at the start. sizes:
+// in cells.
+template <int Dim, class Real>
+void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                        const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles);
+
+// Fills nodes.near_ground of candidate nodes (others of their blocks hold nothing meaningful): the sums, and the
+// clearance [m], the smallest distance left between the ground and the particles that a node sees, 0 where they touch.
+template <int Dim, class Real>
+void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                         const mpm::MotionModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
+                         mpm::Nodes<Dim, Real>& nodes);
+
+}  // namespace thawslide::terrain
