@@ -1,32 +1,11 @@
 #include "band/averages.hpp"
 
+#include "band/averages_kernel.hpp"
 #include "band/heat_nodes.hpp"
 #include "base/instances.hpp"
 #include "mpm/particle_pass.hpp"
 
 namespace thawslide::band {
-
-namespace {
-
-// The sums of Eq. 21.
-template <int Dim, class Real>
-struct AddAverages {
-  using Reads = mpm::RecordList<>;
-  using Adds = mpm::RecordList<mpm::Averages>;
-  using Account = mpm::NoAccount;
-
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& added,
-                                          Account& /*account*/) const {
-    const auto volume = particles.volume.load(at);
-    auto& averages = added.template of<mpm::Averages>();
-    averages.value[mpm::Averages::volume] = volume;
-    averages.value[mpm::Averages::temperature] = volume * particles.temperature.load(at);
-    averages.value[mpm::Averages::pore_pressure] = volume * particles.pore_pressure.load(at);
-  }
-};
-
-}  // namespace
 
 template <int Dim, class Real>
 void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,

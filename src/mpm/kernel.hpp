@@ -18,6 +18,8 @@ namespace thawslide::mpm {
 // The shape functions that tie a record to particles: those of momentum, which the run chooses, or the linear ones.
 struct MomentumFunctions {};
 struct LinearFunctions {};
+// Those of momentum with S (x_i - x_p)/D in place of their gradients (APIC).
+struct AffineFunctions {};
 
 // Of a record to which no kernel adds a flux.
 inline constexpr int no_flux = -1;

@@ -109,7 +109,7 @@ void split_total_stress(Particles<Dim, Real>& particles);
 
 // Particle mass, momentum, force (Eq. 12) and volume to the nodes.
 template <int Dim, class Real>
-void momentum_to_grid(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
+void momentum_to_grid(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes);
 
 // New velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with the sum sign it lost) from node motion;

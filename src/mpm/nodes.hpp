@@ -117,13 +117,51 @@ struct Seepage {
   static auto& in(auto& nodes) { return nodes.seepage; }
 };
 
-// Velocity mapped back from the moved particles (MUSL) [m/s].
+// The records of MomentumLayout and MotionLayout, and the velocity mapped back from the moved particles (MUSL) [m/s].
+struct Momentum {
+  using Functions = MomentumFunctions;
+  template <int Dim>
+  static constexpr int size = MomentumLayout<Dim>::size;
+  static constexpr int flux = 0;
+  static auto& in(auto& nodes) { return nodes.momentum; }
+};
+struct Motion {
+  using Functions = MomentumFunctions;
+  template <int Dim>
+  static constexpr int size = MotionLayout<Dim>::size;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.motion; }
+};
 struct Velocity {
   using Functions = MomentumFunctions;
   template <int Dim>
   static constexpr int size = Dim;
   static constexpr int flux = no_flux;
   static auto& in(auto& nodes) { return nodes.velocity; }
+};
+
+// The same records as APIC's weights see them. `place`: of the momentum in the register that these add to.
+struct AffineMomentum : Momentum {
+  using Functions = AffineFunctions;
+  using Owner = Momentum;
+  template <int Dim, class Real>
+  static constexpr std::size_t width = RecordRegister<Real, Dim>::count;
+  template <int Dim, class Real>
+  static constexpr std::size_t place = MomentumLayout<Dim>::momentum % width<Dim, Real>;
+  template <int Dim, class Real>
+  static constexpr std::size_t first = MomentumLayout<Dim>::momentum - place<Dim, Real>;
+};
+struct AffineMotion : Motion {
+  using Functions = AffineFunctions;
+};
+struct AffineVelocity : Velocity {
+  using Functions = AffineFunctions;
+  using Owner = Velocity;
+  static constexpr int flux = 0;
+  template <int Dim, class Real>
+  static constexpr std::size_t place = 0;
+  template <int Dim, class Real>
+  static constexpr std::size_t first = 0;
 };
 
 template <class Name, int Dim, class Real>
@@ -140,8 +178,8 @@ struct ActivityMarks {
 template <int Dim, class Real>
 struct Nodes {
   std::shared_ptr<PatchRoom> room = std::make_shared<PatchRoom>();
-  NodeRecords<Dim, Real, MomentumLayout<Dim>::size> momentum{room};
-  NodeRecords<Dim, Real, MotionLayout<Dim>::size> motion;
+  RecordsOf<Momentum, Dim, Real> momentum{room};
+  RecordsOf<Motion, Dim, Real> motion;
   RecordsOf<Velocity, Dim, Real> velocity{room};
   RecordsOf<Averages, Dim, Real> averages{room};
   NodeRecords<Dim, Real, BaseLayout::size> base;

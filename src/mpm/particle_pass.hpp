@@ -61,6 +61,31 @@ struct BatchWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real> {
         linear{place.offset, batch.nodes, grid.inverse_cell()} {}
 };
 
+// The same with the weights of APIC.
+template <class Shape, int Dim, class Real>
+struct AffineWeights : MomentumWeights<Shape, Dim, Real> {};
+template <class Shape, int Dim, class Real>
+struct BatchWeights<AffineWeights<Shape, Dim, Real>, Dim, Real>
+    : BatchWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real> {
+  using Base = BatchWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real>;
+  AffineBatch<Dim, Real> affine;
+
+  THAWSLIDE_ALWAYS_INLINE BatchWeights(const AffineWeights<Shape, Dim, Real>& weights,
+                                       const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
+                                       const TileBatch<Dim, Real>& batch)
+      : Base(weights, grid, particles, batch),
+        affine(make_affine<Shape>(grid, this->momentum, place_of(grid, particles, batch), weights.sides)) {}
+  template <class Functions>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& of() const {
+    if constexpr (std::is_same_v<Functions, AffineFunctions>) {
+      return affine.nodes;
+    } else {
+      return Base::template of<Functions>();
+    }
+  }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& second_moment() const { return affine.moment; }
+};
+
 // What a batch sees of the records about it.
 template <class Weights, class Patches>
 struct SeenByBatch {
@@ -79,12 +104,28 @@ struct SeenByBatch {
   }
 };
 
-// The sums of a tile for one record.
+// What particles add to a record, and a tile's sums of it. A record that has an owner is another way to add to the
+// owner's: with other weights, to one of its registers.
+template <class Name>
+concept OfAnOwner = requires {
+  typename Name::Owner;
+};
 template <class Name, int Dim, class Real>
-using SumsOf = std::conditional_t<
-    std::is_same_v<typename Name::Functions, LinearFunctions>,
-    LinearCellSums<Name::flux != no_flux, 0, components_of<Name, Dim>, Dim, Real, components_of<Name, Dim>>,
-    CellSums<Name::flux, 0, components_of<Name, Dim>, Dim, Real, components_of<Name, Dim>>>;
+struct Adding {
+  static constexpr std::size_t carried = components_of<Name, Dim>, first = 0;
+  static constexpr bool has_flux = Name::flux != no_flux;
+  using Sums = std::conditional_t<std::is_same_v<typename Name::Functions, LinearFunctions>,
+                                  LinearCellSums<has_flux, first, carried, Dim, Real, components_of<Name, Dim>>,
+                                  CellSums<Name::flux, first, carried, Dim, Real, components_of<Name, Dim>>>;
+};
+template <OfAnOwner Name, int Dim, class Real>
+struct Adding<Name, Dim, Real> {
+  static constexpr std::size_t carried = Dim, first = Name::template first<Dim, Real>;
+  static constexpr bool has_flux = true;
+  using Sums = CellSums<0, first, carried, Dim, Real, components_of<Name, Dim>>;
+};
+template <class Name, int Dim, class Real>
+using SumsOf = typename Adding<Name, Dim, Real>::Sums;
 
 // A tile at work: what its particles read and add to.
 template <class Reads, class Adds, int Dim, class Real>
@@ -97,7 +138,7 @@ class TileWork<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
   template <class Records>
   TileWork([[maybe_unused]] const SparseGrid<Dim, Real>& grid, [[maybe_unused]] std::size_t tile,
            [[maybe_unused]] Records& records)
-      : sums_{{SumsOf<Adds, Dim, Real>(cleared(records.template of<Adds>(), grid, tile))}...} {
+      : sums_{{SumsOf<Adds, Dim, Real>(cleared<Adds>(records, grid, tile))}...} {
     (load_patch(grid, tile, records.template of<Reads>(), patches_.template of<Reads>()), ...);
   }
 
@@ -106,7 +147,7 @@ class TileWork<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
     return {weights, patches_};
   }
 
-  using Added = ByName<Named<Adds, Contribution<Dim, Real, static_cast<std::size_t>(components_of<Adds, Dim>)>>...>;
+  using Added = ByName<Named<Adds, Contribution<Dim, Real, Adding<Adds, Dim, Real>::carried>>...>;
   template <class Weights>
   THAWSLIDE_ALWAYS_INLINE void add([[maybe_unused]] const Weights& weights, [[maybe_unused]] std::size_t count,
                                    [[maybe_unused]] const Added& added) {
@@ -115,10 +156,12 @@ class TileWork<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
   }
 
  private:
-  template <class NodeRecords>
-  static auto& cleared(NodeRecords& records, const SparseGrid<Dim, Real>& grid, std::size_t tile) {
-    auto& patch = records.patches(grid.tiles().size())[tile];
-    patch.clear();
+  template <class Name, class Records>
+  static auto& cleared(Records& records, const SparseGrid<Dim, Real>& grid, std::size_t tile) {
+    auto& patch = records.template of<Name>().patches(grid.tiles().size())[tile];
+    if constexpr (!OfAnOwner<Name>) {
+      patch.clear();
+    }
     return patch;
   }
 

@@ -126,23 +126,14 @@ class Particles {
   AlignedVector<std::byte> scratch_;
 };
 
-// The affine velocities C [1/s] of a batch as matrices.
-template <int Dim, class Real>
-Matrix<Lanes<Real>, Dim> affine_velocity(const Particles<Dim, Real>& particles, const Batch<Real>& batch) {
-  Matrix<Lanes<Real>, Dim> matrix;
-  for (int c = 0; c < Dim * Dim; ++c) {
-    matrix(c % Dim, c / Dim) = particles.affine_velocity.load(batch, c);
+// What all particles of a body have in common.
+template <class Real, int Dim, class At>
+THAWSLIDE_ALWAYS_INLINE typename At::Value of_body(const std::vector<Real>& by_body,
+                                                   const Particles<Dim, Real>& particles, const At& at) {
+  if (by_body.size() == 1) {
+    return by_body[0];
   }
-  return matrix;
-}
-
-// What all particles of a body have in common, by lane.
-template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE Lanes<Real> of_body(const std::vector<Real>& by_body, const Particles<Dim, Real>& particles,
-                                            const Batch<Real>& batch) {
-  return by_body.size() == 1 ? Lanes<Real>(by_body[0]) : Lanes<Real>::of([&](std::size_t lane) {
-    return by_body[static_cast<std::size_t>(particles.body(batch.particle[lane]))];
-  });
+  return at.each([&](std::uint32_t p) { return by_body[static_cast<std::size_t>(particles.body(p))]; });
 }
 
 // Half sizes of particles, body by body.
@@ -170,11 +161,10 @@ class BodySizes {
     return other;
   }
 
-  // Of a batch's particles, by lane.
-  template <int Dim>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE HalfSize<Lanes<Real>> of(const Particles<Dim, Real>& particles,
-                                                                 const Batch<Real>& batch) const {
-    return {of_body(half_, particles, batch), of_body(inverse_, particles, batch)};
+  template <int Dim, class At>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE HalfSize<typename At::Value> of(const Particles<Dim, Real>& particles,
+                                                                        const At& at) const {
+    return {of_body(half_, particles, at), of_body(inverse_, particles, at)};
   }
 
  private:

@@ -8,6 +8,8 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/bodies.hpp"
+#include "terrain/band_marks.hpp"
+#include "terrain/map_back.hpp"
 #include "terrain/near_ground.hpp"
 
 namespace thawslide::sim {

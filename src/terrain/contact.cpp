@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "base/instances.hpp"
-#include "mpm/batch_transfer.hpp"
 #include "physics/contact.hpp"
 #include "terrain/base_pressure.hpp"
 #include "terrain/main_axis.hpp"
@@ -39,15 +38,6 @@ void constrain(const mpm::BlockConstraints<Dim, Real>& constraints, std::size_t 
     state.in_frame = constraints.apply(k, state.mass, state.momentum);
     state.constraint_impulse += state.momentum - before;
   }
-}
-
-// Momentum with which a node runs into the ground in this step, less what closes the clearance before it.
-template <int Dim, class Real>
-Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, bool distance_check, Real dt,
-                 Real mass, Real inward_momentum) {
-  return std::max(Real(0), distance_check
-                               ? inward_momentum - mass * (nodes.near_ground(b, k)[NearGround::clearance] / dt)
-                               : inward_momentum);
 }
 
 template <int Dim, class Real>
@@ -281,86 +271,10 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
   });
 }
 
-template <int Dim, class Real>
-Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                           const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model,
-                           const Vector<Real, Dim>& gravity, Real time, Real dt, mpm::Nodes<Dim, Real>& nodes) {
-  using Layout = MomentumLayout<Dim>;
-  nodes.velocity.resize(grid.blocks().size());
-  const auto patches = nodes.velocity.patches(grid.tiles().size());
-  return parallel_sum<Real>(grid.blocks().size(), [&](std::size_t b, Real& work) {
-    sum_patches_in_block(grid, b, patches, nodes.velocity);
-    const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-      const auto& record = nodes.momentum(b, k);
-      const Real mass = record[Layout::mass];
-      if (!(mass > Real(0))) {
-        continue;
-      }
-      Vector<Real, Dim> momentum = mpm::vector_at<Dim, Real>(nodes.velocity(b, k), 0);
-      if (ground != nullptr && nodes.contact(b, k)[ContactLayout::touching] > Real(0)) {
-        const Vector<Real, Dim>& normal = ground->block(b)[k].normal;
-        momentum -= approach_of(nodes, b, k, model.distance_check, dt, mass, momentum.dot(normal)) * normal;
-      }
-      on_block.apply(k, mass, momentum);
-      const Vector<Real, Dim> velocity = momentum * (Real(1) / mass);
-      mpm::set_vector<Dim>(nodes.velocity(b, k), 0, velocity);
-      const Vector<Real, Dim> internal_force = mpm::vector_at<Dim, Real>(record, Layout::force) - mass * gravity;
-      const auto middle = mpm::vector_at<Dim, Real>(nodes.motion(b, k), MotionLayout<Dim>::middle_velocity);
-      work += dt * internal_force.dot(middle - velocity);
-    }
-  });
-}
-
-template <int Dim, class Real>
-void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
-                        const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
-  const Lanes<Real> zero = Real(0);
-  parallel_for(grid.tiles().size(), [&](std::size_t t) {
-    if (!ground.any_near(t)) {
-      for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-        particles.in_band.store_whole(batch, zero);
-      }
-      return;
-    }
-    const std::int32_t* blocks = grid.blocks_about_tile(t);
-    // [candidate, touching, slip speed where touching] of the nodes about the tile.
-    mpm::Patch<Dim, Real, 3> patch;
-    mpm::for_each_direction<Dim>([&](auto d) {
-      const auto b = static_cast<std::size_t>(blocks[d]);
-      mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
-        const auto& contact = nodes.contact(b, in_block);
-        patch.records[in_patch] = {ground.block(b)[in_block].candidate ? Real(1) : Real(0),
-                                   contact[ContactLayout::touching],
-                                   contact[ContactLayout::touching] * contact[ContactLayout::slip_speed]};
-      });
-    });
-    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-      if (!ground.any_near(t, batch)) {
-        particles.in_band.store_whole(batch, zero);
-        continue;
-      }
-      const auto seen = mpm::read_nodes<3>(linear_stencil(grid, particles, batch), patch).value;
-      particles.in_band.store_whole(batch, select(seen[0] > Real(0), Lanes<Real>(Real(1)), zero));
-      const auto touches = seen[1] > Real(0);
-      if (any(touches)) {
-        const Lanes<Real> slip_speed = seen[2] / select(touches, seen[1], Lanes<Real>(Real(1)));
-        const Lanes<Real> slip = particles.slip.load(batch);
-        particles.slip.store(batch, select(touches, slip + dt * slip_speed, slip));
-      }
-    }
-  });
-}
-
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
-  template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                          \
-      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&,           \
-      const ContactModel<Dim, Real>&, Real, Real, mpm::Nodes<Dim, Real>&);                                             \
-  template Real constrain_mapped_back<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,    \
-                                                 const mpm::Constraints<Dim, Real>&, const ContactModel<Dim, Real>&,   \
-                                                 const Vector<Real, Dim>&, Real, Real, mpm::Nodes<Dim, Real>&);        \
-  template void mark_band_and_slip<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, Real, \
-                                              const mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
+  template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                \
+      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&, \
+      const ContactModel<Dim, Real>&, Real, Real, mpm::Nodes<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -3,9 +3,10 @@
 // Eq. 15 reads, would count contact twice.
 #pragma once
 
+#include <algorithm>
+
 #include "mpm/constraints.hpp"
 #include "mpm/nodes.hpp"
-#include "mpm/particles.hpp"
 #include "terrain/basal_law.hpp"
 #include "terrain/ground_on_grid.hpp"
 
@@ -58,19 +59,13 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                        const ContactModel<Dim, Real>& model, Real time, Real dt,
                                        mpm::Nodes<Dim, Real>& nodes);
 
-// Sums the momenta that particles mapped back (MUSL) and makes them velocities: constraints again, and at contact nodes
-// the inward normal component is removed but for what closes the clearance (no friction, no heat). Returns sum
-// f_int.(v_mid - v_mapped) dt [J]: the work that internal forces did on the nodes, less the stress work that the
-// mapped-back velocities will book.
+// Momentum with which a node runs into the ground in this step, less what closes the clearance before it.
 template <int Dim, class Real>
-Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                           const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model,
-                           const Vector<Real, Dim>& gravity, Real time, Real dt, mpm::Nodes<Dim, Real>& nodes);
-
-// Marks particles in a cell with a candidate corner as band particles, and adds the slip of the contact nodes to
-// theirs.
-template <int Dim, class Real>
-void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
-                        const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);
+Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, bool distance_check, Real dt,
+                 Real mass, Real inward_momentum) {
+  return std::max(Real(0), distance_check ? inward_momentum -
+                                                mass * (nodes.near_ground(b, k)[mpm::NearGroundLayout::clearance] / dt)
+                                          : inward_momentum);
+}
 
 }  // namespace thawslide::terrain

@@ -12,7 +12,7 @@
 
 #include "mpm/cell_sums.hpp"
 #include "mpm/motion.hpp"
-#include "terrain/contact.hpp"
+#include "terrain/map_back.hpp"
 
 namespace thawslide::sim {
 

@@ -1,0 +1,163 @@
+// What a particle does to move: kernels (mpm/kernel.hpp).
+#pragma once
+
+#include <cmath>
+
+#include "mpm/kernel.hpp"
+#include "mpm/motion.hpp"
+
+namespace thawslide::mpm {
+
+// Mass, momentum, force (Eq. 12) and volume to the nodes.
+template <int Dim, class Real>
+struct AddMomentum {
+  using Reads = RecordList<>;
+  using Adds = RecordList<Momentum>;
+  using Account = NoAccount;
+
+  const MotionModel<Dim, Real>& model;
+  bool viscous = model.viscous();
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& added,
+                                          Account& /*account*/) const {
+    using Layout = MomentumLayout<Dim>;
+    using Value = typename At::Value;
+    constexpr int row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of a symmetric tensor
+    auto& momentum = added.template of<Momentum>();
+    const Value mass = particles.mass.load(at);
+    const SymmetricTensor<Value> stress = stress_on_nodes(particles, at);
+    unrolled<static_cast<std::size_t>(Dim)>([&](auto a) THAWSLIDE_INLINE_LAMBDA {
+      constexpr int axis = static_cast<int>(a());
+      momentum.value[Layout::momentum + a] = mass * particles.velocity.load(at, axis);
+      momentum.value[Layout::force + a] = mass * model.gravity[axis];
+      unrolled<static_cast<std::size_t>(Dim)>(
+          [&](auto b) THAWSLIDE_INLINE_LAMBDA { momentum.flux[b][Layout::force + a] = -stress[row[a()][b()]]; });
+    });
+    momentum.value[Layout::mass] = mass;
+    momentum.value[Layout::volume] = particles.volume.load(at);
+  }
+
+ private:
+  // V sigma [J] that Eq. 12 sees.
+  template <class Particles, class At>
+  THAWSLIDE_ALWAYS_INLINE SymmetricTensor<typename At::Value> stress_on_nodes(const Particles& particles,
+                                                                              const At& at) const {
+    using Value = typename At::Value;
+    SymmetricTensor<Value> stress = particles.stress.template load_vector<6>(at);
+    if (viscous) {
+      stress += particles.viscous_stress.template load_vector<6>(at);
+    }
+    if (model.effective_stress) {
+      const Value pressure = particles.pore_pressure.load(at);
+      for (int c = 0; c < 3; ++c) {
+        stress[c] -= pressure;
+      }
+    }
+    return particles.volume.load(at) * stress;
+  }
+};
+
+// The affine velocity C [1/s] of APIC, by columns.
+template <int Dim, class Particles, class At>
+THAWSLIDE_ALWAYS_INLINE Matrix<typename At::Value, Dim> affine_velocity(const Particles& particles, const At& at) {
+  Matrix<typename At::Value, Dim> matrix;
+  for (int c = 0; c < Dim * Dim; ++c) {
+    matrix(c % Dim, c / Dim) = particles.affine_velocity.load(at, c);
+  }
+  return matrix;
+}
+
+// S m C (x_i - x_p), the momentum of the velocity about the particles, to the momentum of To: of Momentum, or Velocity.
+template <class To, int Dim, class Particles, class At, class Seen, class Added>
+THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const Particles& particles, const At& at, const Seen& seen,
+                                                 Added& added) {
+  using Value = typename At::Value;
+  const Value mass = particles.mass.load(at);
+  const Matrix<Value, Dim> moment =
+      mass * affine_velocity<Dim>(particles, at) * seen.weights.second_moment().asDiagonal();
+  auto& carried = added.template of<To>();
+  unrolled<static_cast<std::size_t>(Dim * Dim)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+    carried.flux[k / Dim][To::template place<Dim, typename NumberOf<Value>::Type> + k % Dim] =
+        moment(static_cast<int>(k) % Dim, static_cast<int>(k) / Dim);
+  });
+}
+
+template <int Dim, class Real>
+struct AddAffineMomentum {
+  using Reads = RecordList<>;
+  using Adds = RecordList<AffineMomentum>;
+  using Account = NoAccount;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen, Added& added,
+                                          Account& /*account*/) const {
+    add_affine_momentum<AffineMomentum, Dim>(particles, at, seen, added);
+  }
+};
+
+// New velocities (Eq. 13, or another transfer) and the displacements to come (Eq. 14, with the sum sign it lost); then
+// the moved particles' momentum back to the nodes (MUSL). Sums the kinetic energy of MoveWork.
+template <int Dim, class Real>
+struct Move {
+  using Reads = RecordList<Motion>;
+  using Adds = RecordList<Velocity>;
+  using Account = Real;
+
+  Real pic_share, dt;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+                                          Account& kinetic) const {
+    using Layout = MotionLayout<Dim>;
+    using Value = typename At::Value;
+    using VectorOfValues = Vector<Value, Dim>;
+    const auto motion = seen.template values<Motion>();
+    VectorOfValues acceleration, middle;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      acceleration[static_cast<int>(a)] = motion[Layout::acceleration + a];
+      middle[static_cast<int>(a)] = motion[Layout::middle_velocity + a];
+    }
+    particles.step_displacement.store_vector(at, VectorOfValues(Value(dt) * middle));
+    const VectorOfValues old = particles.velocity.template load_vector<Dim>(at);
+    const VectorOfValues change = Value(dt) * acceleration;
+    const VectorOfValues flip = old + change;
+    const VectorOfValues pic = middle + Value(Real(0.5)) * change;
+    const VectorOfValues towards_pic = Value(pic_share) * (pic - flip);
+    const VectorOfValues velocity = flip + towards_pic;
+    const Value mass = particles.mass.load(at);
+    particles.velocity.store_vector(at, velocity);
+    at.add_to(kinetic, mass * (Real(0.5) * (change + towards_pic).squaredNorm() + old.dot(towards_pic)));
+    auto& mapped_back = added.template of<Velocity>();
+    for (std::size_t a = 0; a < Dim; ++a) {
+      mapped_back.value[a] = mass * velocity[static_cast<int>(a)];
+    }
+  }
+};
+
+// The new affine velocities of APIC, after Move; of the kinetic energy the part that was the old ones' goes.
+template <int Dim, class Real>
+struct MoveAffine {
+  using Reads = RecordList<AffineMotion>;
+  using Adds = RecordList<AffineVelocity>;
+  using Account = Real;
+
+  Real dt;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+                                          Account& kinetic) const {
+    using Layout = MotionLayout<Dim>;
+    using Value = typename At::Value;
+    using Square = Matrix<Value, Dim>;
+    const Square change = Value(dt) * gradient_of(seen.template read<AffineMotion, Dim>(Layout::acceleration));
+    const Square middle = gradient_of(seen.template read<AffineMotion, Dim>(Layout::middle_velocity));
+    const Square moment = affine_velocity<Dim>(particles, at) * seen.weights.second_moment().asDiagonal();
+    const Square velocity = middle + Value(Real(0.5)) * change;
+    particles.affine_velocity.store_vector(at, velocity.reshaped());
+    at.add_to(kinetic, -particles.mass.load(at) * moment.cwiseProduct(change).sum());
+    add_affine_momentum<AffineVelocity, Dim>(particles, at, seen, added);
+  }
+};
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,195 @@
+// Kernels as a device runs them, a group of threads a tile in phases between barriers (mpm/group_pass.hpp), against the
+// lanes of the processor: the same bits whatever the order of the threads, and others where a barrier is left out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <random>
+#include <string>
+
+#include "../support/fields.hpp"
+#include "../support/two_bodies.hpp"
+#include "band/averages_kernel.hpp"
+#include "band/heat_kernels.hpp"
+#include "band/pressure_kernels.hpp"
+#include "mpm/group_pass.hpp"
+#include "mpm/motion_kernels.hpp"
+#include "mpm/stress_kernel.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+using mpm::HostGroup, mpm::ThreadOrder;
+
+// Particles of a run of two bodies, copied, on a grid of their own, with nodes that hold any numbers.
+template <int Dim>
+class Scene {
+ public:
+  explicit Scene(const Simulation<Dim, double>& simulation)
+      : model(simulation.model()), grid(simulation.grid().cell()) {
+    copy(simulation.particles(), particles);
+    grid.update(particles, 64);
+    particles.affine_velocity.keep(true);
+    particles.viscous_stress.keep(true);
+    std::mt19937 random(7);
+    fill<mpm::NodalState>({1.0, 1e5, 0.1, 1e3}, random);
+    fill<mpm::Velocity>({1.0, 2.0, 0.5}, random);
+    fill<mpm::Motion>({10.0, 5.0, 8.0, 1.0, 2.0, 3.0}, random);
+    fill<mpm::OrphanHeat>({2.0}, random);
+  }
+
+  static void copy(const mpm::Particles<Dim, double>& from, mpm::Particles<Dim, double>& to) {
+    to.resize(from.size());
+    for (std::size_t f = 0; f < from.fields.all().size(); ++f) {
+      to.fields.all()[f]->set_bytes(from.fields.all()[f]->bytes());
+    }
+  }
+
+  template <class Name>
+  void fill(const std::vector<double>& sizes, std::mt19937& random) {
+    auto& records = nodes.template of<Name>();
+    records.resize(grid.blocks().size());
+    for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+        records(b, k).fill(0.0);
+        for (std::size_t c = 0; c < static_cast<std::size_t>(mpm::components_of<Name, Dim>); ++c) {
+          records(b, k)[c] = std::uniform_real_distribution<double>(-sizes[c], sizes[c])(random);
+        }
+      }
+    }
+  }
+
+  Model<Dim, double> model;
+  mpm::SparseGrid<Dim, double> grid;
+  mpm::Particles<Dim, double> particles;
+  mpm::Nodes<Dim, double> nodes;
+};
+
+// Every bit that a pass leaves: in fields, in the patches that it adds to, and its sums.
+using Bits = std::map<std::string, std::vector<double>>;
+
+template <class Name, int Dim>
+void take_patches_of(Scene<Dim>& scene, Bits& bits) {
+  auto& of_name = bits[typeid(Name).name()];
+  for (const auto& patch : scene.nodes.template of<Name>().patches(scene.grid.tiles().size())) {
+    for (const auto& record : patch.records) {
+      of_name.insert(of_name.end(), record.begin(), record.end());
+    }
+  }
+}
+
+bool are_same(const Bits& a, const Bits& b) {
+  return a.size() == b.size() && std::all_of(a.begin(), a.end(), [&](const auto& item) {
+           const auto& other = b.at(item.first);
+           return item.second.size() == other.size() &&
+                  std::memcmp(item.second.data(), other.data(), other.size() * sizeof(double)) == 0;
+         });
+}
+
+template <class Adds>
+struct PatchesOf;
+template <class... Names>
+struct PatchesOf<mpm::RecordList<Names...>> {
+  template <int Dim>
+  static void take(Scene<Dim>& scene, Bits& bits) {
+    (take_patches_of<Names>(scene, bits), ...);
+  }
+};
+
+// Runs a pass by run(particles) on a copy of the scene's particles.
+template <class Adds, int Dim, class Run>
+Bits bits_of(Scene<Dim>& scene, const Run& run) {
+  mpm::Particles<Dim, double> particles;
+  particles.affine_velocity.keep(true);
+  particles.viscous_stress.keep(true);
+  Scene<Dim>::copy(scene.particles, particles);
+  run(particles);
+  Bits bits = fields_by_id(particles);
+  PatchesOf<Adds>::take(scene, bits);
+  return bits;
+}
+
+// The pass of some kernels by lanes and by groups.
+template <int Dim, class Weights, class... Kernels>
+void expect_the_bits_of_lanes(const std::string& name, Scene<Dim>& scene, const Weights& weights,
+                              const Kernels&... kernels) {
+  using Adds = mpm::AllOf<typename Kernels::Adds...>;
+  using Reads = mpm::AllOf<typename Kernels::Reads...>;
+  const auto unchanged = fields_by_id(scene.particles);
+  const Bits by_lanes = bits_of<Adds>(scene, [&](auto& particles) {
+    mpm::particle_pass(scene.grid, weights, particles, scene.nodes, mpm::every_tile, kernels...);
+  });
+  const auto by_group = [&](HostGroup group) {
+    return bits_of<Adds>(scene, [&](auto& particles) {
+      mpm::group_pass(group, scene.grid, weights, particles, scene.nodes, mpm::every_tile, kernels...);
+    });
+  };
+  EXPECT_FALSE(are_same(by_lanes, unchanged)) << name;
+  for (const auto& [field, numbers] : by_lanes) {
+    EXPECT_TRUE(std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
+        << name << field;
+  }
+  for (const ThreadOrder order : {ThreadOrder::forward, ThreadOrder::backward, ThreadOrder::shuffled}) {
+    for (const std::size_t threads : {std::size_t{32}, std::size_t{7}}) {
+      const Bits found = by_group({threads, order});
+      for (const auto& [field, numbers] : by_lanes) {
+        EXPECT_EQ(std::memcmp(found.at(field).data(), numbers.data(), numbers.size() * sizeof(double)), 0)
+            << name << ": " << field << ", " << threads << " threads, order " << static_cast<int>(order);
+      }
+    }
+  }
+  constexpr bool reads = !std::is_same_v<Reads, mpm::RecordList<>>, adds = !std::is_same_v<Adds, mpm::RecordList<>>;
+  const int first = reads ? 0 : 1, last = adds ? 2 : 0;
+  for (int barrier = first; barrier <= last; ++barrier) {
+    EXPECT_FALSE(are_same(by_lanes, by_group({7, ThreadOrder::shuffled, barrier}))) << name << ", barrier " << barrier;
+  }
+}
+
+template <int Dim>
+void expect_all_kernels_agree() {
+  Simulation<Dim, double> simulation(two_bodies<Dim>(2e4, 3.0, 3.0));
+  for (int k = 0; k < 60; ++k) {
+    simulation.step(0.002);
+  }
+  Scene<Dim> scene(simulation);
+  constexpr double dt = 0.002;
+  auto& motion = scene.model.motion;
+  const auto& band = scene.model.band;
+  const mpm::MomentumWeights<mpm::Ugimp<double>, Dim, double> ugimp{motion.sizes, motion.sides};
+  const mpm::MomentumWeights<mpm::Quadratic<double>, Dim, double> quadratic{motion.sizes, motion.sides};
+  const mpm::MomentumWeights<mpm::Linear<double>, Dim, double> linear{motion.sizes, motion.sides};
+  const mpm::AffineWeights<mpm::Ugimp<double>, Dim, double> affine{{motion.sizes, motion.sides}};
+  const mpm::LinearWeights by_linear;
+  expect_the_bits_of_lanes("averages", scene, by_linear, band::AddAverages<Dim, double>{});
+  expect_the_bits_of_lanes("momentum", scene, ugimp, mpm::AddMomentum<Dim, double>{motion});
+  expect_the_bits_of_lanes("momentum, quadratic", scene, quadratic, mpm::AddMomentum<Dim, double>{motion});
+  expect_the_bits_of_lanes("momentum, affine", scene, affine, mpm::AddMomentum<Dim, double>{motion},
+                           mpm::AddAffineMomentum<Dim, double>{});
+  expect_the_bits_of_lanes("move", scene, ugimp, mpm::Move<Dim, double>{0.1, dt});
+  expect_the_bits_of_lanes("move, linear", scene, linear, mpm::Move<Dim, double>{0.1, dt});
+  expect_the_bits_of_lanes("move, affine", scene, affine, mpm::Move<Dim, double>{1.0, dt},
+                           mpm::MoveAffine<Dim, double>{dt});
+  expect_the_bits_of_lanes("stress", scene, ugimp, mpm::UpdateStress<Dim, double>{motion, dt});
+  expect_the_bits_of_lanes("seepage", scene, by_linear,
+                           band::SeepageFlows<Dim, double>{band, dt, scene.grid.inverse_cell()});
+  expect_the_bits_of_lanes("orphan heat", scene, ugimp, band::TakeOrphanHeat<Dim, double>{dt});
+  band::with_particle_heat(band, [&](const auto& law) {
+    using Law = std::decay_t<decltype(law)>;
+    const band::HeatFlows<Dim, double, Law> flows{band, law, dt, scene.grid.inverse_cell(), true};
+    expect_the_bits_of_lanes("heat flows", scene, by_linear, flows);
+    expect_the_bits_of_lanes("secant capacity", scene, by_linear, band::SecantCapacity<Dim, double, Law>{law, dt});
+    expect_the_bits_of_lanes("heat", scene, by_linear, band::TakeHeat<Dim, double, Law>{band, law, dt});
+    expect_the_bits_of_lanes("heat as printed", scene, by_linear,
+                             band::TakeHeatAsPrinted<Dim, double, Law>{band, law, dt});
+  });
+}
+
+TEST(Group, RunsTheKernelsOfTheStepWithTheBitsOfLanesInThePlane) { expect_all_kernels_agree<2>(); }
+
+TEST(Group, RunsTheKernelsOfTheStepWithTheBitsOfLanesInSpace) { expect_all_kernels_agree<3>(); }
+
+}  // namespace
+}  // namespace thawslide::sim
