@@ -105,11 +105,12 @@ void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarSt
 
 template <int Dim>
 void expect_the_scalar_step(const config::Case& parameters, bool yields, bool hovers) {
-  constexpr double tolerance = 1e-12, dt = 0.002;
+  constexpr double tolerance = 1e-12;
   Simulation<Dim, double> simulation(parameters);
   for (int k = 0; k < 60; ++k) {
-    simulation.step(dt);
+    simulation.step(simulation.next_step(10.0));
   }
+  const double dt = simulation.next_step(10.0);
   const auto before = points_of(simulation);
   simulation.step(dt);
   const ScalarStep<Dim> scalar(simulation, dt, before);
@@ -182,6 +183,19 @@ void expect_the_scalar_step_on_a_plane(double cohesion, bool yields) {
 }
 TEST(ScalarStep, IsThatOfTheBatchesOnAPlane) { expect_the_scalar_step_on_a_plane<2>(elastic, false); }
 TEST(ScalarStep, IsThatOfTheBatchesInSpaceOnAPlane) { expect_the_scalar_step_on_a_plane<3>(yielding, true); }
+
+// Every choice that the step particle by particle knows, too.
+TEST(ScalarStep, IsThatOfTheBatchesWithOtherChoices) {
+  const auto of = [](const std::vector<std::string>& sets) {
+    SCOPED_TRACE(sets[0]);
+    const auto flat = "type = \"flat\"\nelevation = 0.0";
+    expect_the_scalar_step<2>(two_bodies<2>(yielding, 7.0, 5.0, 0.0, flat, sets), true, false);
+    expect_the_scalar_step<3>(two_bodies<3>(yielding, 7.0, 5.0, 0.0, flat, sets), true, false);
+  };
+  of({"time.stepping=adaptive"});
+  of({"band.region=first_layer"});
+  of({"terrain.representation=rigid_points"});
+}
 
 }  // namespace
 }  // namespace thawslide::sim
