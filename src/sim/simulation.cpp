@@ -161,7 +161,7 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
       grid_(static_cast<Real>(parameters.grid.cell)) {
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
-    const StepLimit limit = largest_stable_step(parameters_, model_, smallest_thickness(parameters_), particles_);
+    const StepLimit limit = sim::step_limit(parameters_, model_, smallest_thickness(parameters_), particles_);
     if (parameters_.time.step > limit.step) {
       throw UserError(
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step, or "
@@ -290,7 +290,7 @@ double Simulation<Dim, Real>::band_thickness() const {
 
 template <int Dim, class Real>
 StepLimit Simulation<Dim, Real>::step_limit() const {
-  return largest_stable_step(parameters_, model_, band_thickness(), particles_);
+  return sim::step_limit(parameters_, model_, band_thickness(), particles_);
 }
 
 template <int Dim, class Real>
@@ -299,7 +299,7 @@ double Simulation<Dim, Real>::next_step(double until) const {
     const double left = parameters_.time.end - time_;  // the last step may be shorter
     return left > (1.0 - 1e-9) * parameters_.time.step ? parameters_.time.step : left;
   }
-  double dt = parameters_.time.safety * step_limit().step;
+  double dt = parameters_.time.safety * largest_stable_step(parameters_, model_, band_thickness(), particles_);
   if (parameters_.time.step > 0.0) {
     dt = std::min(dt, parameters_.time.step);
   }

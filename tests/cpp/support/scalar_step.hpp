@@ -1,7 +1,7 @@
 // One step particle by particle, node by node, number by number, by the plain functions: what the batches of the step
 // must give. Of the simulation it takes the ground at nodes. For uGIMP, FLIP, the heat content form, lubricated
-// friction and constant cohesion, the band everywhere or in the first layer; without conditions for heat on the domain's
-// faces, walls, frames and a band that changes. Energies are not in it: the ledgers have tests of their own.
+// friction and constant cohesion, the band everywhere or in the first layer; without conditions for heat on the
+// domain's faces, walls, frames and a band that changes. Energies are not in it: the ledgers have tests of their own.
 #pragma once
 
 #include <optional>
