@@ -111,7 +111,7 @@ THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stenc
 
 template <int Dim, class Real>
 void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-               const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles) {
+               const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles, std::size_t first) {
   constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's reach
   DistancePatch<Dim, Real> patch;
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
@@ -120,7 +120,12 @@ void set_reach(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, R
       const auto seen = mpm::read_nodes<1 + Dim>(hat_stencil(grid, particles, batch), patch);
       const Lanes<Real> reach = reach_of_box(seen, sizes.of(particles, batch).half * grid.cell());
       const auto lowest = seen.value[0] < within_lowest_layer * reach;
-      particles.reach.store(batch, select(lowest, seen.value[0], reach));
+      const Lanes<Real> found = select(lowest, seen.value[0], reach);
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        if (batch.particle[lane] >= first) {
+          particles.reach(batch.particle[lane]) = found[lane];
+        }
+      }
     }
   }
 }
@@ -189,7 +194,7 @@ void near_base_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGri
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
   template void set_reach<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,            \
-                                     const mpm::BodySizes<Real>&, mpm::Particles<Dim, Real>&);                     \
+                                     const mpm::BodySizes<Real>&, mpm::Particles<Dim, Real>&, std::size_t);        \
   template void near_base_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,    \
                                              const mpm::MotionModel<Dim, Real>&, const mpm::Particles<Dim, Real>&, \
                                              mpm::Nodes<Dim, Real>&);
