@@ -15,6 +15,7 @@
 #include <fstream>
 #include <map>
 #include <numeric>
+#include <unordered_map>
 
 #include "base/parallel.hpp"
 #include "base/thread_choice.hpp"
@@ -133,23 +134,24 @@ double median(std::vector<double> numbers) {
 
 // Plastic strains by id.
 template <int Dim, class Real>
-std::vector<Real> plastic_strains(const mpm::Particles<Dim, Real>& particles) {
-  std::vector<Real> strains(particles.size());
+std::unordered_map<std::int64_t, Real> plastic_strains(const mpm::Particles<Dim, Real>& particles) {
+  std::unordered_map<std::int64_t, Real> strains(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    strains[static_cast<std::size_t>(particles.id(p))] = particles.plastic_strain(p);
+    strains.emplace(particles.id(p), particles.plastic_strain(p));
   }
   return strains;
 }
 
-// Share of particles that yield in one more step.
+// Share of particles that yield in one more step; those that leave in it do not.
 template <int Dim, class Real, class Step>
 double yielding_share(const mpm::Particles<Dim, Real>& particles, const Step& step) {
   const auto before = plastic_strains(particles);
   step();
   const auto after = plastic_strains(particles);
   std::size_t yielded = 0;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    yielded += after[k] > before[k] ? 1 : 0;
+  for (const auto& [id, strain] : after) {
+    const auto known = before.find(id);
+    yielded += known != before.end() && strain > known->second ? 1 : 0;
   }
   return static_cast<double>(yielded) / static_cast<double>(before.size());
 }

@@ -63,7 +63,7 @@ io::Provenance start_provenance(const sim::Simulation<Dim, double>& simulation) 
   io::Provenance provenance = io::provenance_of_this_program();
   const auto& model = simulation.model();
   provenance.threads = thread_count();
-  provenance.particles = simulation.particles().size();
+  provenance.particles = simulation.particles_at_start();
   provenance.crs = simulation.site().crs_name;
   for (int a = 0; a < Dim; ++a) {
     provenance.origin.push_back(model.origin[a]);
@@ -219,7 +219,8 @@ void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
     if constexpr (Dim == 3) {
       blocks[fronts_block] = numbers_of(fronts_);
     }
-    io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(), simulation.scalars(), blocks);
+    io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(),
+                                      simulation.particles_at_start(), simulation.scalars(), blocks);
   });
   write_maps(simulation);
 }

@@ -34,16 +34,17 @@ template <int Dim, class Real>
 HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                             bool first_step, mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);
 
-// Sets heat content and saturation from temperature and porosity (at t = 0).
+// Sets heat content and saturation from temperature and porosity, of particles that begin: of those that stand in
+// memory from `first` on.
 template <int Dim, class Real>
-void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles);
+void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
 
 // Gives each particle the scaling xi = layer / thickness now in force (1 outside the region); returns the heat [J] the
 // change adds at constant temperature and pressure. thickness 0: no band, xi = 1. layer_thickness(x), the thickness of
-// the cells that make up the band, may be empty: one cell.
+// the cells that make up the band, may be empty: one cell. Only of the particles that stand in memory from `first` on.
 template <int Dim, class Real>
 Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
                   const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
-                  mpm::Particles<Dim, Real>& particles);
+                  mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
 
 }  // namespace thawslide::band

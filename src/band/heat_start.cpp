@@ -6,9 +6,9 @@
 namespace thawslide::band {
 
 template <int Dim, class Real>
-void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t first) {
   model.with_heat_content([&](const auto& content) {
-    for (std::size_t p = 0; p < particles.size(); ++p) {
+    for (std::size_t p = first; p < particles.size(); ++p) {
       particles.heat_content(p) = content.content(particles.temperature(p), particles.initial_porosity(p));
       particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
       particles.initial_saturation(p) = particles.liquid_saturation(p);
@@ -20,7 +20,7 @@ void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Rea
 template <int Dim, class Real>
 Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
                   const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
-                  mpm::Particles<Dim, Real>& particles) {
+                  mpm::Particles<Dim, Real>& particles, std::size_t first) {
   const bool by_place = thickness > Real(0) && layer_thickness;
   const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
   const auto scaling_at = [&](std::uint32_t p) {
@@ -34,7 +34,7 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
     for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
       const std::uint32_t p = grid.order()[k];
       const Real scaling = scaling_at(p), old = particles.thermal_scaling(p);
-      if (scaling != old) {
+      if (p >= first && scaling != old) {
         added += particles.initial_volume(p) * particles.heat_content(p) * (Real(1) / scaling - Real(1) / old);
         particles.thermal_scaling(p) = scaling;
       }
@@ -51,11 +51,11 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
   return added;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                      \
-  template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);         \
-  template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real, \
-                                        const std::function<Real(const Vector<Real, Dim - 1>&)>&,             \
-                                        mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
+  template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&, std::size_t); \
+  template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real,      \
+                                        const std::function<Real(const Vector<Real, Dim - 1>&)>&,                  \
+                                        mpm::Particles<Dim, Real>&, std::size_t);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -72,8 +72,8 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
 }
 
 template <int Dim, class Real>
-void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
-  for (std::size_t p = 0; p < particles.size(); ++p) {
+void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t first) {
+  for (std::size_t p = first; p < particles.size(); ++p) {
     if (!model.pressure) {
       particles.pore_pressure(p) = Real(0);
       continue;
@@ -95,7 +95,7 @@ void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Re
   template void drain_pore_pressure<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, \
                                                const FlowDepth<Dim, Real>&, Real, mpm::Nodes<Dim, Real>&,      \
                                                mpm::Particles<Dim, Real>&);                                    \
-  template void set_pore_pressure<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&);
+  template void set_pore_pressure<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&, std::size_t);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

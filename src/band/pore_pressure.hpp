@@ -15,8 +15,9 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
                          const FlowDepth<Dim, Real>& depth, Real dt, mpm::Nodes<Dim, Real>& nodes,
                          mpm::Particles<Dim, Real>& particles);
 
-// Pressures at t = 0, from temperature and flow depth. A melted particle starts from P_L = P_I / r.
+// Pressures of particles that begin, from temperature and flow depth; of those that stand in memory from `first` on. A
+// melted particle starts from P_L = P_I / r.
 template <int Dim, class Real>
-void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles);
+void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
 
 }  // namespace thawslide::band

@@ -12,7 +12,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" in bytes
-constexpr std::uint64_t format_version = 2;
+constexpr std::uint64_t format_version = 3;
 
 class Writer {
  public:
@@ -74,10 +74,10 @@ class Reader {
 
 template <int Dim, class Real>
 void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Dim, Real>& particles,
-                      const std::vector<double>& scalars, const NamedNumbers& blocks) {
+                      std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks) {
   Writer writer;
-  for (const std::uint64_t number :
-       {magic, format_version, std::uint64_t{Dim}, std::uint64_t{sizeof(Real)}, std::uint64_t{particles.size()}}) {
+  for (const std::uint64_t number : {magic, format_version, std::uint64_t{Dim}, std::uint64_t{sizeof(Real)},
+                                     std::uint64_t{at_start}, std::uint64_t{particles.size()}}) {
     writer.put(number);
   }
   writer.put(scalars);
@@ -123,7 +123,8 @@ NamedNumbers read_checkpoint(const std::filesystem::path& file, mpm::Particles<D
   reader.expect(format_version, "format");
   reader.expect(Dim, "dimension");
   reader.expect(sizeof(Real), "number size");
-  reader.expect(particles.size(), "particles:");
+  reader.expect(particles.size(), "particles at t = 0:");
+  particles.resize(reader.number());  // some have left since, or joined
   scalars = reader.numbers();
   for (mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_checkpoint) {
@@ -149,7 +150,7 @@ NamedNumbers read_checkpoint(const std::filesystem::path& file, mpm::Particles<D
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
   template void write_checkpoint<Dim, Real>(const std::filesystem::path&, const mpm::Particles<Dim, Real>&,  \
-                                            const std::vector<double>&, const NamedNumbers&);                \
+                                            std::size_t, const std::vector<double>&, const NamedNumbers&);   \
   template NamedNumbers read_checkpoint<Dim, Real>(const std::filesystem::path&, mpm::Particles<Dim, Real>&, \
                                                    std::vector<double>&);
 THAWSLIDE_INSTANTIATE(2, double)

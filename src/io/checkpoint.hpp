@@ -10,13 +10,14 @@
 
 namespace thawslide::io {
 
-// Rows by id, so that the bytes do not depend on storage order. blocks: what else the run needs to go on.
+// Rows by id, so that the bytes do not depend on storage order. at_start: how many particles there were at t = 0;
+// blocks: what else the run needs to go on.
 template <int Dim, class Real>
 void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Dim, Real>& particles,
-                      const std::vector<double>& scalars, const NamedNumbers& blocks = {});
+                      std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks = {});
 
-// Returns the blocks. Throws UserError for a file that is damaged, cut short, or of another kind of run (dimension,
-// number type, fields).
+// particles: those at t = 0, which the ones of the checkpoint replace. Returns the blocks. Throws UserError for a file
+// that is damaged, cut short, or of another kind of run (dimension, number type, fields, particles at t = 0).
 template <int Dim, class Real>
 NamedNumbers read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real>& particles,
                              std::vector<double>& scalars);

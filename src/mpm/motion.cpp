@@ -38,8 +38,8 @@ inline constexpr bool is_affine<AffineWeights<Shape, Dim, Real>> = true;
 }  // namespace
 
 template <int Dim, class Real>
-void split_total_stress(Particles<Dim, Real>& particles) {
-  for (std::size_t p = 0; p < particles.size(); ++p) {
+void split_total_stress(Particles<Dim, Real>& particles, std::size_t first) {
+  for (std::size_t p = first; p < particles.size(); ++p) {
     for (int c = 0; c < 3; ++c) {
       particles.stress(p, c) += particles.pore_pressure(p);
     }
@@ -131,7 +131,7 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
-  template void split_total_stress<Dim, Real>(Particles<Dim, Real>&);                                        \
+  template void split_total_stress<Dim, Real>(Particles<Dim, Real>&, std::size_t);                           \
   template void momentum_to_grid<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,             \
                                             const MotionModel<Dim, Real>&, Nodes<Dim, Real>&);               \
   template MoveWork<Real> move_particles<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,     \

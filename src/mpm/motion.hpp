@@ -103,9 +103,9 @@ THAWSLIDE_ALWAYS_INLINE Lanes<Real> basal_solid_fraction(const Particles<Dim, Re
   return physics::effective_solid_fraction(phases, porosity.load(batch), saturation.load(batch));
 }
 
-// From total stress to effective stress, sigma + P I.
+// From total stress to effective stress, sigma + P I, of the particles that stand in memory from `first` on.
 template <int Dim, class Real>
-void split_total_stress(Particles<Dim, Real>& particles);
+void split_total_stress(Particles<Dim, Real>& particles, std::size_t first = 0);
 
 // Particle mass, momentum, force (Eq. 12) and volume to the nodes.
 template <int Dim, class Real>

@@ -71,20 +71,21 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("porosity_heat_J", ledger.porosity_heat);
   add("numerical_J", ledger.numerical);
   add("mechanical_residual_J", stored + dissipated + ledger.pore_work - ledger.frame_work - ledger.numerical +
-                                   ledger.left_mechanical - ledger.initial_mechanical);
+                                   ledger.left_mechanical - ledger.joined_mechanical - ledger.initial_mechanical);
   add("thermal_residual_J", sums.sensible + sums.latent - ledger.initial_thermal - ledger.friction_heat -
                                 ledger.boundary_heat - ledger.band_rescale - ledger.advection - ledger.capacity_heat -
-                                ledger.porosity_heat + ledger.left_thermal);
+                                ledger.porosity_heat + ledger.left_thermal - ledger.joined_thermal);
   add("mass_kg", sums.mass);
   add("rock_kg", sums.rock);
   add("ice_kg", sums.ice);
   add("water_kg", sums.water);
-  add("mass_residual_kg", sums.mass + ledger.left_mass - ledger.initial_mass);
+  add("mass_residual_kg", sums.mass + ledger.left_mass - ledger.joined_mass - ledger.initial_mass);
   add("left_mass_kg", ledger.left_mass);
   add("left_mechanical_J", ledger.left_mechanical);
   add("left_heat_J", ledger.left_thermal);
-  const Vector<Real, Dim> residual = sums.momentum + ledger.left_momentum - ledger.initial_momentum -
-                                     ledger.gravity_impulse - ledger.ground_impulse - ledger.constraint_impulse;
+  const Vector<Real, Dim> residual = sums.momentum + ledger.left_momentum - ledger.joined_momentum -
+                                     ledger.initial_momentum - ledger.gravity_impulse - ledger.ground_impulse -
+                                     ledger.constraint_impulse;
   const auto add_vector = [&](const char* name, const char* unit, const Vector<Real, Dim>& value) {
     for (int a = 0; a < Dim; ++a) {
       row.emplace_back(fmt::format("{}_{}_{}", name, Dim == 2 ? "xy"[a] : "xyz"[a], unit),

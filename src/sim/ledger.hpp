@@ -24,6 +24,9 @@ struct Ledger {
   // At t = 0; mass [kg], momentum [kg m/s].
   Real initial_mechanical = 0, initial_thermal = 0, initial_mass = 0;
   Vector<Real, Dim> initial_momentum = Vector<Real, Dim>::Zero();
+  // Brought in by particles that were appended.
+  Real joined_mechanical = 0, joined_thermal = 0, joined_mass = 0;
+  Vector<Real, Dim> joined_momentum = Vector<Real, Dim>::Zero();
   // Carried away by particles that left and were removed.
   Real left_mechanical = 0, left_thermal = 0, left_mass = 0;
   Vector<Real, Dim> left_momentum = Vector<Real, Dim>::Zero();
@@ -35,11 +38,12 @@ struct Ledger {
          {&stress_work,  &plastic,         &viscous,       &damping,       &friction_work,      &contact_loss,
           &frame_work,   &numerical,       &pore_work,     &friction_heat, &converted,          &boundary_heat,
           &band_rescale, &advection,       &capacity_heat, &porosity_heat, &initial_mechanical, &initial_thermal,
-          &initial_mass, &left_mechanical, &left_thermal,  &left_mass}) {
+          &initial_mass, &left_mechanical, &left_thermal,  &left_mass,     &joined_mechanical,  &joined_thermal,
+          &joined_mass}) {
       visit(*account);
     }
-    for (Vector<Real, Dim>* impulse :
-         {&gravity_impulse, &ground_impulse, &constraint_impulse, &initial_momentum, &left_momentum}) {
+    for (Vector<Real, Dim>* impulse : {&gravity_impulse, &ground_impulse, &constraint_impulse, &initial_momentum,
+                                       &left_momentum, &joined_momentum}) {
       for (int a = 0; a < Dim; ++a) {
         visit((*impulse)[a]);
       }

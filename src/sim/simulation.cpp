@@ -83,7 +83,8 @@ void Simulation<Dim, Real>::resolve_contact() {
   ledger_.contact_loss += contact_.loss;
   ledger_.frame_work += contact_.frame_work;
   ledger_.damping += contact_.damping;
-  ledger_.gravity_impulse += dt_ * (ledger_.initial_mass - ledger_.left_mass) * model_.motion.gravity;
+  ledger_.gravity_impulse +=
+      dt_ * (ledger_.initial_mass + ledger_.joined_mass - ledger_.left_mass) * model_.motion.gravity;
   ledger_.ground_impulse -= dt_ * contact_.force;
   ledger_.constraint_impulse += contact_.constraint_impulse;
   if (model_.ground) {
@@ -163,7 +164,7 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
       grid_(static_cast<Real>(parameters.grid.cell)) {
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
-    const StepLimit limit = largest_stable_step(parameters_, model_, smallest_thickness(parameters_), particles_);
+    const StepLimit limit = sim::step_limit(parameters_, model_, smallest_thickness(parameters_), particles_);
     if (parameters_.time.step > limit.step) {
       throw UserError(
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step, or "
@@ -204,6 +205,8 @@ void Simulation<Dim, Real>::settle() {
   if (!needs_settling()) {
     return;
   }
+  THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
+                   static_cast<std::size_t>(next_id_) - particles_at_start_);
   const Model<Dim, Real> model = model_;
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
@@ -240,6 +243,8 @@ void Simulation<Dim, Real>::seed() {
   particles_.gap.keep(
       std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.gaps_close_first; }));
   fill_bodies(parameters_, site_, model_, particles_);
+  particles_at_start_ = particles_.size();
+  next_id_ = static_cast<std::int64_t>(particles_at_start_);
   band::set_heat_content(model_.band, particles_);
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
 }
@@ -292,7 +297,7 @@ double Simulation<Dim, Real>::band_thickness() const {
 
 template <int Dim, class Real>
 StepLimit Simulation<Dim, Real>::step_limit() const {
-  return largest_stable_step(parameters_, model_, band_thickness(), particles_);
+  return sim::step_limit(parameters_, model_, band_thickness(), particles_);
 }
 
 template <int Dim, class Real>
@@ -301,7 +306,7 @@ double Simulation<Dim, Real>::next_step(double until) const {
     const double left = parameters_.time.end - time_;  // the last step may be shorter
     return left > (1.0 - 1e-9) * parameters_.time.step ? parameters_.time.step : left;
   }
-  double dt = parameters_.time.safety * step_limit().step;
+  double dt = parameters_.time.safety * largest_stable_step(parameters_, model_, band_thickness(), particles_);
   if (parameters_.time.step > 0.0) {
     dt = std::min(dt, parameters_.time.step);
   }
@@ -312,7 +317,8 @@ double Simulation<Dim, Real>::next_step(double until) const {
 
 template <int Dim, class Real>
 std::vector<double> Simulation<Dim, Real>::scalars() const {
-  std::vector<double> numbers{time_, last_step_, rear_at_start_, static_cast<double>(step_number_)};
+  std::vector<double> numbers{time_, last_step_, rear_at_start_, static_cast<double>(step_number_),
+                              static_cast<double>(next_id_)};
   Ledger<Dim, Real> ledger = ledger_;
   ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
   return numbers;
@@ -327,6 +333,7 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   last_step_ = scalars[k++];
   rear_at_start_ = scalars[k++];
   step_number_ = static_cast<std::int64_t>(scalars[k++]);
+  next_id_ = static_cast<std::int64_t>(scalars[k++]);
   ledger_.for_each([&](Real& account) { account = static_cast<Real>(scalars[k++]); });
   // Rows came back in order of id: nothing of the former order may be trusted.
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));

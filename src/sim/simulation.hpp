@@ -17,6 +17,18 @@
 
 namespace thawslide::sim {
 
+// A particle that joins a run; what is not told of it is as for one at t = 0.
+template <int Dim, class Real>
+struct NewParticle {
+  std::int32_t body = 0, material = 0;                     // numbers, as in Model
+  Vector<Real, Dim> position = Vector<Real, Dim>::Zero();  // relative to the domain's lower corner [m]
+  Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();  // [m/s]
+  Real volume = 0;                                         // [m3], per metre of width in 2D
+  Real temperature = 0, porosity = 0;                      // [C], [1]
+  Real flow_depth = 0;                                     // below the surface across the ground [m]: what ice bears
+  SymmetricTensor<Real> stress = SymmetricTensor<Real>::Zero();  // total [Pa]
+};
+
 template <int Dim, class Real>
 class Simulation {
  public:
@@ -32,6 +44,9 @@ class Simulation {
 
   // One time step of dt [s]. Throws RunError when a particle goes bad; the state then is that of the failed step.
   void step(double dt);
+
+  // Particles join between two steps, with ids that none has had. They are in no band until the next step.
+  void append(const std::vector<NewParticle<Dim, Real>>& joining);
 
   // The step to take next [s]: the fixed one, or the largest adaptive one, shortened to end at `until`.
   [[nodiscard]] double next_step(double until) const;
@@ -52,6 +67,7 @@ class Simulation {
   [[nodiscard]] const terrain::ContactWork<Dim, Real>& contact() const { return contact_; }
   [[nodiscard]] const Stopwatch& stopwatch() const { return stopwatch_; }
   [[nodiscard]] double rear_at_start() const { return rear_at_start_; }
+  [[nodiscard]] std::size_t particles_at_start() const { return particles_at_start_; }
   [[nodiscard]] StepLimit step_limit() const;
 
   // How many steps particles keep their place in memory; results do not depend on it.
@@ -101,7 +117,8 @@ class Simulation {
   std::vector<std::uint8_t> left_;  // by particle, while those that have left are removed
   Stopwatch stopwatch_;
   double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, thickness_in_force_ = -1.0;
-  std::int64_t step_number_ = 0;
+  std::int64_t step_number_ = 0, next_id_ = 0;
+  std::size_t particles_at_start_ = 0;
   int sorting_interval_ = 64;
   Real dt_ = 0;
 };

@@ -25,18 +25,11 @@ double wave_limit(double cell, double speed, double viscosity_time) {
   return (std::sqrt(1.0 + damping * damping / 4.0) - damping / 2.0) / frequency;
 }
 
-}  // namespace
-
-template <int Dim, class Real>
-StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
-                              const mpm::Particles<Dim, Real>& particles) {
+// Calls take(step [s], text) for every limit; text() says what sets it.
+template <int Dim, class Real, class Take>
+void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+                const mpm::Particles<Dim, Real>& particles, const Take& take) {
   const double cell = parameters.grid.cell;
-  StepLimit limit{HUGE_VAL, "no limit"};
-  const auto take = [&](double step, const std::string& what) {
-    if (step < limit.step) {
-      limit = {step, what};
-    }
-  };
   double smallest_density = HUGE_VAL;
   double largest_speed = 0.0;
   double largest_diffusivity = 0.0;
@@ -69,16 +62,18 @@ StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, R
       const auto& material = model.motion.materials[m];
       const double modulus = static_cast<double>(material.elastic.p_wave_modulus()) + pore_stiffness;
       const double speed = std::sqrt(modulus / smallest_density);
-      take(wave_share * wave_limit(cell, speed, static_cast<double>(material.viscosity_time)),
-           fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", model.material_names[m],
-                       speed,
-                       material.viscosity_time > Real(0)
-                           ? fmt::format(", viscosity {} s", static_cast<double>(material.viscosity_time))
-                           : std::string(),
-                       cell));
+      take(wave_share * wave_limit(cell, speed, static_cast<double>(material.viscosity_time)), [&] {
+        return fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", model.material_names[m],
+                           speed,
+                           material.viscosity_time > Real(0)
+                               ? fmt::format(", viscosity {} s", static_cast<double>(material.viscosity_time))
+                               : std::string(),
+                           cell);
+      });
     }
     if (largest_speed > 0.0) {
-      take(particle_share * cell / largest_speed, fmt::format("the particle speed of {:.4g} m/s", largest_speed));
+      take(particle_share * cell / largest_speed,
+           [&] { return fmt::format("the particle speed of {:.4g} m/s", largest_speed); });
     }
   }
   // Heat and pore pressure see the finer grid of the band.
@@ -86,19 +81,43 @@ StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, R
   const double length = thickness > 0.0 ? std::min(cell, scaled) : cell;
   if (parameters.heat.enabled && parameters.heat.conduction && largest_diffusivity > 0.0) {
     take(diffusion_share * length * length / (2.0 * Dim * largest_diffusivity),
-         fmt::format("heat conduction over {:.4g} m", length));
+         [&] { return fmt::format("heat conduction over {:.4g} m", length); });
   }
   if (parameters.pressure.enabled && parameters.pressure.seepage && largest_seepage > 0.0) {
     const double pore_length = model.band.seepage_as_printed ? std::sqrt(cell * length) : length;
     take(diffusion_share * pore_length * pore_length / (2.0 * Dim * largest_seepage),
-         fmt::format("seepage over {:.4g} m", pore_length));
+         [&] { return fmt::format("seepage over {:.4g} m", pore_length); });
   }
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+double largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+                           const mpm::Particles<Dim, Real>& particles) {
+  double smallest = HUGE_VAL;
+  for_limits(parameters, model, thickness, particles,
+             [&](double step, const auto& /*text*/) { smallest = std::min(smallest, step); });
+  return smallest;
+}
+
+template <int Dim, class Real>
+StepLimit step_limit(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+                     const mpm::Particles<Dim, Real>& particles) {
+  StepLimit limit{HUGE_VAL, "no limit"};
+  for_limits(parameters, model, thickness, particles, [&](double step, const auto& text) {
+    if (step < limit.step) {
+      limit = {step, text()};
+    }
+  });
   return limit;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                  \
-  template StepLimit largest_stable_step<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double, \
-                                                    const mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                               \
+  template double largest_stable_step<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double, \
+                                                 const mpm::Particles<Dim, Real>&);                    \
+  template StepLimit step_limit<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double,       \
+                                           const mpm::Particles<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -22,9 +22,15 @@ inline double smallest_thickness(const config::Case& parameters) {
   return thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
 }
 
-// The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage.
+// The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage [s]. It
+// allocates nothing: adaptive steps ask for it every time.
 template <int Dim, class Real>
-StepLimit largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
-                              const mpm::Particles<Dim, Real>& particles);
+double largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+                           const mpm::Particles<Dim, Real>& particles);
+
+// The same, and what sets it.
+template <int Dim, class Real>
+StepLimit step_limit(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+                     const mpm::Particles<Dim, Real>& particles);
 
 }  // namespace thawslide::sim

@@ -113,7 +113,7 @@ THAWSLIDE_ALWAYS_INLINE void add_state(const mpm::BatchStencil<Dim, Real>& stenc
 
 template <int Dim, class Real>
 void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                        const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles) {
+                        const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles, std::size_t first) {
   constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's contact offset
   DistancePatch<Dim, Real> patch;
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
@@ -122,7 +122,12 @@ void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
       const auto seen = mpm::read_nodes<1 + Dim>(linear_stencil(grid, particles, batch), patch);
       const Lanes<Real> contact_offset = contact_offset_of_box(seen, sizes.of(particles, batch).half * grid.cell());
       const auto lowest = seen.value[0] < within_lowest_layer * contact_offset;
-      particles.contact_offset.store(batch, select(lowest, seen.value[0], contact_offset));
+      const Lanes<Real> found = select(lowest, seen.value[0], contact_offset);
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        if (batch.particle[lane] >= first) {
+          particles.contact_offset(batch.particle[lane]) = found[lane];
+        }
+      }
     }
   }
 }
@@ -192,7 +197,7 @@ void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnG
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                             \
   template void set_contact_offset<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,     \
-                                              const mpm::BodySizes<Real>&, mpm::Particles<Dim, Real>&);              \
+                                              const mpm::BodySizes<Real>&, mpm::Particles<Dim, Real>&, std::size_t); \
   template void near_ground_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,    \
                                                const mpm::MotionModel<Dim, Real>&, const mpm::Particles<Dim, Real>&, \
                                                mpm::Nodes<Dim, Real>&);

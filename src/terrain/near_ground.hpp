@@ -11,10 +11,10 @@ namespace thawslide::terrain {
 // Sets particles.contact_offset [m]: the distance from the ground at which a particle touches it. A body that stands on
 // the ground at the start touches with its lowest particles as they stand, which on a slope across the grid are not all
 // equally far from it; the others touch with the edge of their box, as the ground lies below them at the start. sizes:
-// in cells.
+// in cells. Only of the particles that stand in memory from `first` on.
 template <int Dim, class Real>
 void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                        const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles);
+                        const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
 
 // Fills nodes.near_ground of candidate nodes (others of their blocks hold nothing meaningful): the sums, and the
 // clearance [m], the smallest distance left between the ground and the particles that a node sees, 0 where they touch.

@@ -90,6 +90,24 @@ def test_a_finished_run_goes_on_when_its_end_is_moved(thawslide: Program, small_
     assert_same_bits(whole, longer)
 
 
+def test_a_run_that_particles_have_left_goes_on(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    words = sets(grid__leaving="remove", grid__max=[15.0, 10.0], body__block__velocity=[20.0, 0.0])
+    whole, longer = tmp_path / "whole", tmp_path / "longer"
+    assert thawslide("run", small_case, "--output", whole, *words).returncode == 0
+    assert thawslide("run", small_case, "--output", longer, *sets(time__end=0.1), *words).returncode == 0
+    left = history(longer)["left_mass_kg"][-1]
+    assert 0 < left < history(whole)["left_mass_kg"][-1]
+    file = longer / "case.toml"
+    text = file.read_text()
+    assert text.count("\nend = 0.1 ") == 1
+    file.write_text(text.replace("\nend = 0.1 ", "\nend = 0.2 "))
+    outcome = thawslide("resume", longer)
+    assert outcome.returncode == 0, outcome.stderr
+    assert_same_bits(whole, longer)
+    assert (longer / "checkpoint.bin").read_bytes() == (whole / "checkpoint.bin").read_bytes()
+    assert run_facts(longer)["particles"] == run_facts(whole)["particles"]
+
+
 def test_a_finished_run_is_left_as_it_is(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0

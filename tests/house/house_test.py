@@ -46,7 +46,8 @@ def own_files() -> list[Path]:
 
 def documents() -> list[Path]:
     """Return the documents people read, without the generated reference."""
-    found = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "cases").rglob("*.md")]
+    inside = [path for folder in ["docs", "cases", "benchmarks"] for path in (ROOT / folder).rglob("*.md")]
+    found = [*ROOT.glob("*.md"), *inside]
     return sorted(path for path in found if path.name != "reference.md")
 
 

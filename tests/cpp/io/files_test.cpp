@@ -133,7 +133,7 @@ TEST_F(Files, CheckpointComesBackWhateverTheStorageOrder) {
   loaded.resize(particles.size());
   const std::vector<double> scalars{1.5, -2.0, 1e300};
   const NamedNumbers blocks{{"maps", {1.0, 2.0, 3.0}}, {"none", {}}};
-  write_checkpoint<2, double>(folder_ / "a.bin", particles, scalars, blocks);
+  write_checkpoint<2, double>(folder_ / "a.bin", particles, particles.size(), scalars, blocks);
   std::vector<double> back;
   const NamedNumbers blocks_back = read_checkpoint<2, double>(folder_ / "a.bin", loaded, back);
   EXPECT_EQ(back, scalars);
@@ -143,7 +143,7 @@ TEST_F(Files, CheckpointComesBackWhateverTheStorageOrder) {
         << particles.fields.all()[f]->info().name;
   }
   particles.reorder(another_order(particles.size()));
-  write_checkpoint<2, double>(folder_ / "b.bin", particles, scalars, blocks);
+  write_checkpoint<2, double>(folder_ / "b.bin", particles, particles.size(), scalars, blocks);
   EXPECT_EQ(read_file(folder_ / "a.bin"), read_file(folder_ / "b.bin"));
 }
 
@@ -151,7 +151,8 @@ TEST_F(Files, DamagedCheckpointsAreRefused) {
   mpm::Particles<2, double> particles, loaded;
   fill(particles);
   loaded.resize(particles.size());
-  write_checkpoint<2, double>(folder_ / "good.bin", particles, {1.0}, {{"maps", std::vector<double>(2000, 1.5)}});
+  write_checkpoint<2, double>(folder_ / "good.bin", particles, particles.size(), {1.0},
+                              {{"maps", std::vector<double>(2000, 1.5)}});
   const std::string good = read_file(folder_ / "good.bin");
   std::vector<double> scalars;
   std::mt19937 random(5);
@@ -167,7 +168,7 @@ TEST_F(Files, DamagedCheckpointsAreRefused) {
             std::string::npos);
   loaded.resize(36);
   const std::string message = failure_of([&] { read_checkpoint<2, double>(folder_ / "good.bin", loaded, scalars); });
-  EXPECT_NE(message.find("has particles: 37; this run needs 36"), std::string::npos) << message;
+  EXPECT_NE(message.find("has particles at t = 0: 37; this run needs 36"), std::string::npos) << message;
 }
 
 TEST_F(Files, SnapshotsStandByIdAndGiveTheSameBytes) {

@@ -38,23 +38,24 @@ void operator delete(void* place, std::size_t /*bytes*/, std::align_val_t /*boun
 namespace thawslide::sim {
 namespace {
 
-// Of bodies large enough that loops over tiles are shared among threads.
+// Of bodies large enough that loops over tiles are shared among threads; sets: of the case.
 template <int Dim>
-long allocations_of_steps() {
+long allocations_of_steps(const std::vector<std::string>& sets = {}) {
   const int threads_before = thread_count();
   set_thread_count(2);
-  Simulation<Dim, double> simulation(testing_support::two_bodies<Dim>(5e3, 30.0));
+  Simulation<Dim, double> simulation(
+      testing_support::two_bodies<Dim>(5e3, 30.0, 5.0, 0.0, "type = \"flat\"\nelevation = 0.0", sets));
   EXPECT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
   simulation.set_sorting_interval(5);
   RunRecords<Dim> records(simulation, {});
   records.start(simulation);
   for (int k = 0; k < 20; ++k) {
-    simulation.step(0.002);
+    simulation.step(simulation.next_step(1.0));
     records.after_step(simulation);
   }
   const long before = allocations;
   for (int k = 0; k < 20; ++k) {
-    simulation.step(0.002);
+    simulation.step(simulation.next_step(1.0));
     records.after_step(simulation);
   }
   const long during = allocations - before;
@@ -67,6 +68,12 @@ TEST(Step, AllocatesNothingInThePlane) {
   EXPECT_EQ(allocations_of_steps<2>(), 0);
 }
 TEST(Step, AllocatesNothingInSpace) { EXPECT_EQ(allocations_of_steps<3>(), 0); }
+TEST(Step, AllocatesNothingThoughItsLengthIsFoundAnew) {
+  for (const std::string band : {"band.thickness=0.1", "band.thickness={time=[0.0,1.0],value=[0.1,0.2]}"}) {
+    EXPECT_EQ(allocations_of_steps<2>({"time.stepping=adaptive", band}), 0) << band;
+    EXPECT_EQ(allocations_of_steps<3>({"time.stepping=adaptive", band}), 0) << band;
+  }
+}
 
 }  // namespace
 }  // namespace thawslide::sim

@@ -214,7 +214,8 @@ TEST(RunRecords, AreTheSameBitsAfterAStopAndAResume) {
   of_whole.start(whole);
   steps(whole, of_whole, 40);
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "records_of_a_stop.bin";
-  io::write_checkpoint<3, double>(file, whole.particles(), whole.scalars(), of_whole.state());
+  io::write_checkpoint<3, double>(file, whole.particles(), whole.particles_at_start(), whole.scalars(),
+                                  of_whole.state());
   const HistoryRow probes_then = of_whole.probe_row(whole);
   steps(whole, of_whole, 60);
 

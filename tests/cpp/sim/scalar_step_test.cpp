@@ -1,19 +1,14 @@
-// The step in batches against the same step particle by particle (tests/cpp/support/scalar_step.hpp), and the bits of
-// the full model whatever the threads and the order in memory.
+// The step in batches against the same step particle by particle (tests/cpp/support/scalar_step.hpp).
 #include "../support/scalar_step.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <string>
 
-#include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
-#include "base/parallel.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -110,11 +105,12 @@ void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarSt
 
 template <int Dim>
 void expect_the_scalar_step(const config::Case& parameters, bool yields, bool hovers) {
-  constexpr double tolerance = 1e-12, dt = 0.002;
+  constexpr double tolerance = 1e-12;
   Simulation<Dim, double> simulation(parameters);
   for (int k = 0; k < 60; ++k) {
-    simulation.step(dt);
+    simulation.step(simulation.next_step(10.0));
   }
+  const double dt = simulation.next_step(10.0);
   const auto before = points_of(simulation);
   simulation.step(dt);
   const ScalarStep<Dim> scalar(simulation, dt, before);
@@ -188,56 +184,18 @@ void expect_the_scalar_step_on_a_plane(double cohesion, bool yields) {
 TEST(ScalarStep, IsThatOfTheBatchesOnAPlane) { expect_the_scalar_step_on_a_plane<2>(elastic, false); }
 TEST(ScalarStep, IsThatOfTheBatchesInSpaceOnAPlane) { expect_the_scalar_step_on_a_plane<3>(yielding, true); }
 
-// Every field of every particle, by name and in order of id, and the numbers of the run.
-template <int Dim, class Real>
-std::map<std::string, std::vector<double>> state_of(const Simulation<Dim, Real>& simulation) {
-  auto state = fields_by_id(simulation.particles());
-  state["scalars"] = simulation.scalars();
-  return state;
+// Every choice that the step particle by particle knows, too.
+TEST(ScalarStep, IsThatOfTheBatchesWithOtherChoices) {
+  const auto of = [](const std::vector<std::string>& sets) {
+    SCOPED_TRACE(sets[0]);
+    const auto flat = "type = \"flat\"\nelevation = 0.0";
+    expect_the_scalar_step<2>(two_bodies<2>(yielding, 7.0, 5.0, 0.0, flat, sets), true, false);
+    expect_the_scalar_step<3>(two_bodies<3>(yielding, 7.0, 5.0, 0.0, flat, sets), true, false);
+  };
+  of({"time.stepping=adaptive"});
+  of({"band.region=first_layer"});
+  of({"terrain.representation=rigid_points"});
 }
-
-// To the last bit: == would take 0 for -0, and no number for another than itself.
-void expect_the_same_state(const std::map<std::string, std::vector<double>>& a,
-                           const std::map<std::string, std::vector<double>>& b, const std::string& when) {
-  for (const auto& [name, numbers] : a) {
-    ASSERT_EQ(b.at(name).size(), numbers.size());
-    EXPECT_EQ(std::memcmp(b.at(name).data(), numbers.data(), numbers.size() * sizeof(double)), 0)
-        << name << ", " << when;
-  }
-}
-
-// Bodies that run into new tiles, large enough that every loop of the step is shared among threads.
-template <int Dim>
-void expect_the_same_bits(double length, double height, int steps) {
-  constexpr std::size_t particles_of_shared_loops = 1024 * fewest_shared_calls;  // some go by so many at a time
-  const int threads_before = thread_count();
-  const auto case_of_bodies = two_bodies<Dim>(5e3, length, height, 20.0);
-  std::map<std::string, std::vector<double>> first;
-  for (const auto& [threads, interval] :
-       {std::pair(1, 0), std::pair(1, 1), std::pair(2, 7), std::pair(3, 20), std::pair(4, 3)}) {
-    set_thread_count(threads);
-    Simulation<Dim, double> simulation(case_of_bodies);
-    simulation.set_sorting_interval(interval);
-    ASSERT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
-    ASSERT_GT(simulation.particles().size(), particles_of_shared_loops);
-    int changes = 0;
-    for (int k = 0; k < steps; ++k) {
-      simulation.step(0.002);
-      changes += simulation.grid().blocks_changed() ? 1 : 0;
-    }
-    EXPECT_GT(changes, 0);
-    if (first.empty()) {
-      first = state_of(simulation);
-    } else {
-      expect_the_same_state(first, state_of(simulation),
-                            fmt::format("{} threads, sorted every {} steps", threads, interval));
-    }
-  }
-  set_thread_count(threads_before);
-}
-
-TEST(Bits, DependNeitherOnThreadsNorOnSortingInThePlane) { expect_the_same_bits<2>(119.2, 20.0, 60); }
-TEST(Bits, DependNeitherOnThreadsNorOnSortingInSpace) { expect_the_same_bits<3>(70.8, 5.0, 30); }
 
 }  // namespace
 }  // namespace thawslide::sim

@@ -1,7 +1,10 @@
-// Every field of every particle, by name and in order of id.
+// Every field of every particle, by name and in order of id; the state of a run, to the last bit.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <numeric>
 #include <string>
@@ -22,6 +25,24 @@ std::map<std::string, std::vector<double>> fields_by_id(const mpm::Particles<Dim
     field->append_values(by_id, field->components(), fields[field->info().name]);
   }
   return fields;
+}
+
+// With the numbers of the run.
+template <class Simulation>
+std::map<std::string, std::vector<double>> state_of(const Simulation& simulation) {
+  auto state = fields_by_id(simulation.particles());
+  state["scalars"] = simulation.scalars();
+  return state;
+}
+
+// == would take 0 for -0, and no number for another than itself.
+inline void expect_the_same_state(const std::map<std::string, std::vector<double>>& a,
+                                  const std::map<std::string, std::vector<double>>& b, const std::string& when) {
+  for (const auto& [name, numbers] : a) {
+    ASSERT_EQ(b.at(name).size(), numbers.size()) << name << ", " << when;
+    EXPECT_EQ(std::memcmp(b.at(name).data(), numbers.data(), numbers.size() * sizeof(double)), 0)
+        << name << ", " << when;
+  }
 }
 
 }  // namespace thawslide::testing_support

@@ -1,7 +1,7 @@
 // One step particle by particle, node by node, number by number, by the plain functions: what the batches of the step
 // must give. Of the simulation it takes the ground at nodes. For uGIMP, FLIP, the heat content form, lubricated
-// friction and constant cohesion; without conditions for heat on the domain's faces, walls, frames and a band that
-// changes. Energies are not in it: the ledgers have tests of their own.
+// friction and constant cohesion, the band everywhere or in the first layer; without conditions for heat on the
+// domain's faces, walls, frames and a band that changes. Energies are not in it: the ledgers have tests of their own.
 #pragma once
 
 #include <optional>
@@ -123,6 +123,9 @@ class ScalarStep {
         }
       });
       p.slip += touching > 0.0 ? dt_ * slip_speed / touching : 0.0;
+      if (simulation_.model().band.region == band::ScaledRegion::first_layer) {
+        p.scaling = p.in_band ? 1.0 / (transfer_.inverse_cell * simulation_.parameters().band.thickness.at(0.0)) : 1.0;
+      }
     }
   }
 

@@ -11,10 +11,11 @@ namespace thawslide::testing_support {
 
 // Two bodies on a slope, one frozen and one melted, with every mechanism; every body has its own particle size and its
 // own count of particles a cell, so that batches fall out of step with nodes. length, height: of the left body [m];
-// speed: of both down the slope [m/s]; terrain: its table.
+// speed: of both down the slope [m/s]; terrain: its table; sets: what else the case has.
 template <int Dim>
 config::Case two_bodies(double cohesion, double length = 7.0, double height = 5.0, double speed = 0.0,
-                        const std::string& terrain = "type = \"flat\"\nelevation = 0.0") {
+                        const std::string& terrain = "type = \"flat\"\nelevation = 0.0",
+                        const std::vector<std::string>& sets = {}) {
   const auto at = [](double x, double z) {
     return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, z > 0.0 ? 3.0 : 0.0, z);
   };
@@ -73,7 +74,8 @@ thickness = 0.1
                                     Dim == 2 ? fmt::format("[{}, {}]", std::ceil(length) + 33.0, height + 15.0)
                                              : fmt::format("[{}, 10.0, {}]", std::ceil(length) + 33.0, height + 15.0),
                                     terrain, cohesion, cohesion, 0.5 * cohesion, at(0.0, 0.0), at(length, height),
-                                    along_slope, at(length, 0.0), at(length + 4.3, 4.1), along_slope));
+                                    along_slope, at(length, 0.0), at(length + 4.3, 4.1), along_slope),
+                        sets);
 }
 
 }  // namespace thawslide::testing_support

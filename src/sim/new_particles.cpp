@@ -1,0 +1,74 @@
+// Particles that join a run between two steps.
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "sim/simulation.hpp"
+#include "terrain/near_ground.hpp"
+
+namespace thawslide::sim {
+
+// Fills the particles from `first` on, as many as there are new ones; ids count from `next_id` on.
+template <int Dim, class Real>
+void fill_new(const std::vector<NewParticle<Dim, Real>>& joining, std::size_t first, std::int64_t& next_id,
+              const Model<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+  for (std::size_t k = 0; k < joining.size(); ++k) {
+    const NewParticle<Dim, Real>& one = joining[k];
+    const std::size_t p = first + k;
+    THAWSLIDE_ASSERT(static_cast<std::size_t>(one.body) < model.body_names.size() &&
+                         static_cast<std::size_t>(one.material) < model.material_names.size() && one.volume > Real(0),
+                     "a particle of body {}, material {} and {} m3 joins", one.body, one.material, one.volume);
+    particles.id(p) = next_id++;
+    particles.body(p) = one.body;
+    particles.material(p) = one.material;
+    particles.position.set(p, one.position);
+    particles.velocity.set(p, one.velocity);
+    particles.volume(p) = particles.initial_volume(p) = one.volume;
+    particles.temperature(p) = one.temperature;
+    particles.porosity(p) = particles.initial_porosity(p) = one.porosity;
+    particles.flow_depth(p) = one.flow_depth;
+    particles.thermal_scaling(p) = Real(1);
+    for (int c = 0; c < mpm::Particles<Dim, Real>::tensor_components; ++c) {
+      particles.stress(p, c) = one.stress[c];
+    }
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& joining) {
+  if (joining.empty()) {
+    return;
+  }
+  const std::size_t first = particles_.append(joining.size());
+  fill_new(joining, first, next_id_, model_, particles_);
+  band::set_heat_content(model_.band, particles_, first);
+  for (std::size_t p = first; p < particles_.size(); ++p) {
+    particles_.mass(p) = particles_.volume(p) * physics::mixture_density(model_.motion.phases, particles_.porosity(p),
+                                                                         particles_.liquid_saturation(p));
+  }
+  band::set_pore_pressure(model_.band, particles_, first);
+  if (model_.motion.effective_stress) {
+    mpm::split_total_stress(particles_, first);
+  }
+  grid_.update(particles_, 0);  // with no sorting: the new ones still stand last
+  update_ground();
+  if (model_.ground) {
+    terrain::set_contact_offset(grid_, ground_, model_.band.sizes, particles_, first);
+  }
+  band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_,
+                     first);
+  std::vector<std::uint8_t> is_new(particles_.size(), 0);
+  std::fill(is_new.begin() + static_cast<std::ptrdiff_t>(first), is_new.end(), std::uint8_t{1});
+  const BodySums<Dim, Real> sums = sum_over_body(*this, &is_new);
+  ledger_.joined_mass += sums.mass;
+  ledger_.joined_mechanical += sums.kinetic + sums.potential;
+  ledger_.joined_thermal += sums.sensible + sums.latent;
+  ledger_.joined_momentum += sums.momentum;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real) \
+  template void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,208 @@
+// Particles that join a run while others leave it: ids, rows, balances, and bits on any threads and after a stop.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "../support/fields.hpp"
+#include "../support/two_bodies.hpp"
+#include "base/parallel.hpp"
+#include "io/checkpoint.hpp"
+#include "io/snapshot.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+template <int Dim>
+constexpr double length = Dim == 2 ? 30.0 : 12.0;  // of the left body [m]
+template <int Dim>
+constexpr int steps = Dim == 2 ? 60 : 30;
+
+// Bodies that slide off the end of their domain.
+template <int Dim>
+config::Case leaving_bodies(std::vector<std::string> sets) {
+  const double end = length<Dim> + 5.0;
+  sets.insert(sets.end(),
+              {"grid.leaving=remove", Dim == 2 ? "body.right.velocity=[60,0]" : "body.right.velocity=[60,0,0]",
+               Dim == 2 ? fmt::format("grid.max=[{}, 20.0]", end) : fmt::format("grid.max=[{}, 10.0, 20.0]", end)});
+  return two_bodies<Dim>(5e3, length<Dim>, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets);
+}
+
+// Particles that slide along with the left body, from a place behind it or upon it on.
+template <int Dim>
+std::vector<NewParticle<Dim, double>> some_particles(const Simulation<Dim, double>& simulation, bool behind) {
+  std::vector<NewParticle<Dim, double>> some;
+  for (int k = 0; k < 12; ++k) {
+    NewParticle<Dim, double> one;
+    one.body = 0;
+    one.material = behind ? 0 : 1;
+    one.position[Dim - 1] = (behind ? 0.25 : 5.25) + 0.5 * (k % 2) - simulation.model().origin[Dim - 1];
+    one.position[0] = (behind ? -2.75 : 4.25) + 0.5 * (k / 2) - simulation.model().origin[0];
+    if (Dim == 3) {
+      one.position[1] = 1.25 - simulation.model().origin[1];
+    }
+    one.velocity[0] = 20.0;
+    one.volume = std::pow(0.5, Dim);
+    one.temperature = behind ? -0.5 : 1.5;
+    one.porosity = 0.3;
+    one.flow_depth = 0.5;
+    one.stress[Dim - 1] = -1e4;
+    some.push_back(one);
+  }
+  return some;
+}
+
+// The run as it ends, and what was noted on the way.
+struct Seen {
+  std::map<std::string, std::vector<double>> state;
+  HistoryRow row;
+  double mass = 0.0, momentum = 0.0, heat = 0.0;  // largest that the accounts leave over, as shares
+};
+
+template <int Dim>
+void note_accounts(const Simulation<Dim, double>& simulation, Seen& seen) {
+  const HistoryRow row = history_row(simulation);
+  const double mass = simulation.ledger().initial_mass;
+  const auto note = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
+  note(seen.mass, value_of(row, "mass_residual_kg") / mass);
+  note(seen.mass,
+       (value_of(row, "rock_kg") + value_of(row, "ice_kg") + value_of(row, "water_kg") - value_of(row, "mass_kg")) /
+           mass);
+  for (const std::string axis : Dim == 2 ? std::vector{"x", "y"} : std::vector{"x", "y", "z"}) {
+    note(seen.momentum, value_of(row, "momentum_residual_" + axis + "_N_s") / (mass * 20.0));
+  }
+  note(seen.heat,
+       value_of(row, "thermal_residual_J") / (std::abs(value_of(row, "sensible_J")) + value_of(row, "latent_J")));
+}
+
+// Ids that no two have had, and rows in their order.
+template <int Dim>
+void expect_ids_and_rows(const Simulation<Dim, double>& simulation, std::size_t joined, std::size_t left) {
+  const auto& particles = simulation.particles();
+  EXPECT_EQ(particles.size(), simulation.particles_at_start() + joined - left);
+  EXPECT_GT(left, 0U);
+  const io::Snapshot snapshot = io::take_snapshot<Dim, double>(particles, simulation.model().origin, 0.0, 0);
+  std::map<std::int64_t, std::size_t> by_id;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    EXPECT_TRUE(by_id.emplace(particles.id(p), p).second) << "id " << particles.id(p);
+  }
+  EXPECT_EQ(by_id.rbegin()->first + 1, static_cast<std::int64_t>(simulation.particles_at_start() + joined));
+  ASSERT_EQ(snapshot.particles(), particles.size());
+  ASSERT_EQ(snapshot.fields[0].name, "id");
+  std::size_t row = 0;
+  for (const auto& [id, p] : by_id) {
+    EXPECT_EQ(snapshot.fields[0].integers[row], id);
+    EXPECT_EQ(snapshot.points[3 * row], particles.position(p, 0) + simulation.model().origin[0]);
+    ++row;
+  }
+}
+
+// Twice on the way particles join. stop: the step before which the run stops and goes on from its checkpoint; -1: none.
+template <int Dim>
+Seen run(const std::vector<std::string>& sets, int threads, int interval, int stop) {
+  const int threads_before = thread_count();
+  set_thread_count(threads);
+  const config::Case parameters = leaving_bodies<Dim>(sets);
+  auto simulation = std::make_unique<Simulation<Dim, double>>(parameters);
+  simulation->set_sorting_interval(interval);
+  Seen seen;
+  std::size_t joined = 0, left = 0;
+  for (int k = 0; k < steps<Dim>; ++k) {
+    for (const bool behind : {true, false}) {
+      if (k == (behind ? steps<Dim> / 5 : 3 * steps<Dim> / 5)) {
+        const auto joining = some_particles(*simulation, behind);
+        simulation->append(joining);
+        joined += joining.size();
+        note_accounts(*simulation, seen);
+      }
+    }
+    if (k == stop) {
+      const auto file = folder_of_this_test() / "checkpoint.bin";
+      io::write_checkpoint<Dim, double>(file, simulation->particles(), simulation->particles_at_start(),
+                                        simulation->scalars());
+      simulation = std::make_unique<Simulation<Dim, double>>(parameters);
+      simulation->set_sorting_interval(interval);
+      std::vector<double> scalars;
+      io::read_checkpoint<Dim, double>(file, simulation->particles(), scalars);
+      simulation->restore(scalars);
+    }
+    const std::size_t before = simulation->particles().size();
+    simulation->step(simulation->next_step(1.0));
+    left += before - simulation->particles().size();
+    note_accounts(*simulation, seen);
+  }
+  expect_ids_and_rows(*simulation, joined, left);
+  seen.state = state_of(*simulation);
+  seen.row = history_row(*simulation);
+  set_thread_count(threads_before);
+  return seen;
+}
+
+template <int Dim>
+void expect_sound_runs(const std::vector<std::string>& sets) {
+  const Seen first = run<Dim>(sets, 1, 0, -1);
+  EXPECT_LT(first.mass, 1e-13);
+  EXPECT_LT(first.momentum, 1e-13);
+  EXPECT_LT(first.heat, 1e-13);
+  constexpr int joins = 3 * steps<Dim> / 5;
+  for (const auto& [threads, interval, stop] :
+       {std::tuple(2, 7, -1), std::tuple(1, 3, joins - 5), std::tuple(2, 1, joins)}) {
+    const Seen other = run<Dim>(sets, threads, interval, stop);
+    const auto when = fmt::format("{} threads, sorted every {} steps, stopped at {}", threads, interval, stop);
+    expect_the_same_state(first.state, other.state, when);
+    for (std::size_t k = 0; k < first.row.size(); ++k) {
+      EXPECT_EQ(std::memcmp(&first.row[k].second, &other.row[k].second, sizeof(double)), 0)
+          << first.row[k].first << ", " << when;
+    }
+  }
+}
+
+TEST(Append, BalancesCloseAndBitsStayInThePlane) { expect_sound_runs<2>({}); }
+TEST(Append, BalancesCloseAndBitsStayInSpace) { expect_sound_runs<3>({}); }
+TEST(Append, BalancesCloseAndBitsStayWithOtherChoices) {
+  expect_sound_runs<2>({"mechanics.transfer=apic", "time.stepping=adaptive"});
+  expect_sound_runs<2>({"band.region=first_layer", "band.thickness={time=[0.0,0.05],value=[0.1,0.2]}"});
+  expect_sound_runs<2>({"mechanics.effective_stress=true", "pressure.thickness_update=frozen", "time.step=0.001"});
+}
+
+// Those that join with the state of one at t = 0 are as that one was then.
+TEST(Append, NewParticlesAreAsThoseAtTheStart) {
+  const config::Case parameters = leaving_bodies<2>({"mechanics.initial_stress=none"});
+  const Simulation<2, double> start(parameters);
+  Simulation<2, double> simulation(parameters);
+  const auto& before = start.particles();
+  NewParticle<2, double> one;
+  for (std::size_t p = 0; p < before.size(); ++p) {
+    if (before.id(p) == 0) {  // the lowest one at the rear of the left body
+      one.body = before.body(p);
+      one.material = before.material(p);
+      one.position = before.position.get<Vector<double, 2>>(p);
+      one.velocity = before.velocity.get<Vector<double, 2>>(p);
+      one.volume = before.volume(p);
+      one.temperature = before.temperature(p);
+      one.porosity = before.porosity(p);
+      one.flow_depth = before.flow_depth(p);
+    }
+  }
+  simulation.append({one});
+  auto fields = fields_by_id(simulation.particles());
+  EXPECT_EQ(fields.at("id").back(), static_cast<double>(before.size()));
+  fields.erase("id");
+  fields.erase("in_band");  // known from the next step on
+  for (const auto& [name, numbers] : fields) {
+    const std::size_t components = numbers.size() / (before.size() + 1);
+    for (std::size_t c = 0; c < components; ++c) {
+      EXPECT_EQ(numbers[before.size() * components + c], numbers[c]) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,190 @@
+// The bits of a run depend neither on the threads nor on the order of particles in memory, whatever the case chooses.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "../support/fields.hpp"
+#include "../support/small_terrain.hpp"
+#include "../support/two_bodies.hpp"
+#include "base/parallel.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+using State = std::map<std::string, std::vector<double>>;
+
+// Bodies that run into new tiles, large enough that every loop of the step is shared among threads.
+template <int Dim>
+void expect_the_same_bits(double length, double height, int steps) {
+  constexpr std::size_t particles_of_shared_loops = 1024 * fewest_shared_calls;  // some go by so many at a time
+  const int threads_before = thread_count();
+  const auto case_of_bodies = two_bodies<Dim>(5e3, length, height, 20.0);
+  std::map<std::string, std::vector<double>> first;
+  for (const auto& [threads, interval] :
+       {std::pair(1, 0), std::pair(1, 1), std::pair(2, 7), std::pair(3, 20), std::pair(4, 3)}) {
+    set_thread_count(threads);
+    Simulation<Dim, double> simulation(case_of_bodies);
+    simulation.set_sorting_interval(interval);
+    ASSERT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
+    ASSERT_GT(simulation.particles().size(), particles_of_shared_loops);
+    int changes = 0;
+    for (int k = 0; k < steps; ++k) {
+      simulation.step(0.002);
+      changes += simulation.grid().blocks_changed() ? 1 : 0;
+    }
+    EXPECT_GT(changes, 0);
+    if (first.empty()) {
+      first = state_of(simulation);
+    } else {
+      expect_the_same_state(first, state_of(simulation),
+                            fmt::format("{} threads, sorted every {} steps", threads, interval));
+    }
+  }
+  set_thread_count(threads_before);
+}
+
+TEST(Bits, DependNeitherOnThreadsNorOnSortingInThePlane) { expect_the_same_bits<2>(119.2, 20.0, 60); }
+TEST(Bits, DependNeitherOnThreadsNorOnSortingInSpace) { expect_the_same_bits<3>(70.8, 5.0, 30); }
+
+template <int Dim>
+constexpr double length = Dim == 2 ? 30.0 : 12.0;  // of the left body [m]
+
+const std::string flat = "type = \"flat\"\nelevation = 0.0\n";
+const std::string plane = "type = \"plane\"\nslope = 0.5\nelevation = -0.01\n";
+const std::string dem = "type = \"dem\"\nfile = \"dem.tif\"\n";
+
+// What a case may choose, on top of two bodies that run down a slope. terrain: its table, and more tables; acts: how
+// the state shows that it came to bear, where another state alone does not.
+struct Choice {
+  std::string name;
+  std::vector<std::string> sets;
+  std::string terrain = flat;
+  bool (*acts)(const State&) = nullptr;
+};
+
+bool melts(const State& state) {
+  bool any = false;
+  for (std::size_t k = 0; k < state.at("body").size(); ++k) {
+    any = any || (state.at("body")[k] == 0.0 && state.at("temperature")[k] > 0.0);
+  }
+  return any;
+}
+
+bool lacks_particles(const State& state) {
+  const std::vector<double>& ids = state.at("id");
+  return ids.back() + 1.0 > static_cast<double>(ids.size());
+}
+
+// A box about the upper part of the left body, which drives it on.
+template <int Dim>
+std::string frame() {
+  return fmt::format("[frame.driver]\nmin = [-3.0, {}2.4]\nmax = [7.5, {}20.0]\naxis = \"x\"\nvelocity = 25.0\n",
+                     Dim == 2 ? "" : "-4.0, ", Dim == 2 ? "" : "10.0, ");
+}
+
+template <int Dim>
+std::vector<Choice> choices() {
+  const auto corner = [](const char* key, double x, double across, double height) {
+    return Dim == 2 ? fmt::format("grid.{}=[{}, {}]", key, x, height)
+                    : fmt::format("grid.{}=[{}, {}, {}]", key, x, across, height);
+  };
+  const std::string near_front = corner("max", length<Dim> + 5.0, 10.0, 20.0);
+  std::vector<Choice> all{
+      {"a plane that cuts through cells", {}, plane},
+      {"APIC", {"mechanics.transfer=apic"}},
+      {"APIC, quadratic", {"mechanics.transfer=apic", "mechanics.shape_function=quadratic"}},
+      {"FLIP and PIC", {"mechanics.transfer=blend", "mechanics.pic_share=0.1"}},
+      {"linear shape functions", {"mechanics.shape_function=linear"}},
+      {"quadratic shape functions", {"mechanics.shape_function=quadratic"}},
+      {"adaptive steps", {"time.stepping=adaptive"}},
+      {"viscosity, gaps", {"material.frozen.viscosity_time=2e-4", "material.melted.gaps_close_first=true"}},
+      {"mass damping", {"mechanics.mass_damping=2.0"}},
+      {"effective stress", {"mechanics.effective_stress=true", "pressure.volumetric_term=true", "time.step=0.0005"}},
+      {"noise", {"initial.noise=0.2"}},
+      {"a moving frame", {}, flat + frame<Dim>()},
+      {"sides", {"grid.boundary.x_max=roller", "grid.boundary.x_min=fixed", near_front}},
+      {"rigid points", {"terrain.representation=rigid_points"}},
+      {"rigid points of a plane", {"terrain.representation=rigid_points"}, plane},
+      {"distance unchecked", {"basal.distance_check=false"}, plane},
+      {"cohesion lost by slip",
+       {"basal.cohesion=1e4", "basal.cohesion_law=slip", "basal.slip_distance=2.0", "basal.clamp=joint"}},
+      {"the first layer", {"band.region=first_layer"}},
+      {"the first layer above a plane", {"band.region=first_layer"}, plane},
+      {"cut cells", {"band.cut_cells=equal_thickness", "body.right.particles_per_axis=2"}, plane},
+      {"a band that thickens", {"band.thickness={time=[0.0,0.05],value=[0.1,0.2]}"}},
+      {"melting", {"body.left.temperature=-1e-6"}, flat, melts},
+      {"freezing along a line", {"freezing.curve=linear", "freezing.slope=0.5"}},
+      {"apparent capacity", {"heat.update=apparent_capacity"}},
+      {"current masses", {"heat.masses=current"}},
+      {"heat through a side", {"heat.boundary.x_min={temperature=5.0}", corner("min", 0.0, -4.0, -4.0)}},
+      {"seepage", {"material.frozen.hydraulic_conductivity=1e-8", "material.melted.hydraulic_conductivity=1e-8"}},
+      {"seepage as printed", {"pressure.seepage_scaling=printed"}},
+      {"frozen thickness", {"pressure.thickness_update=frozen", "pressure.thickness_direction=vertical"}},
+      {"leaving",
+       {"grid.leaving=remove", near_front, Dim == 2 ? "body.right.velocity=[60,0]" : "body.right.velocity=[60,0,0]"},
+       flat,
+       lacks_particles},
+  };
+  if (Dim == 3) {
+    all.push_back({"a terrain model", {}, dem});
+    all.push_back({"a terrain model, the first layer, cut cells",
+                   {"band.region=first_layer", "band.cut_cells=equal_thickness", "body.right.particles_per_axis=2"},
+                   dem});
+  }
+  return all;
+}
+
+// Bumps below the bodies, all over their domain.
+config::Site bumpy_site() {
+  config::Site site;
+  site.ground = std::make_shared<const Raster>(raster(-10.0, -10.0, 2.0, 60, 16, [](double x, double y) {
+    return 0.1 * std::sin(0.7 * x) * std::cos(0.9 * y) - 0.11;
+  }));
+  return site;
+}
+
+// After some tens of steps.
+template <int Dim>
+State state_after(const Choice& choice, int threads, int interval) {
+  const int threads_before = thread_count();
+  set_thread_count(threads);
+  std::ofstream(folder_of_this_test() / "dem.tif");
+  Simulation<Dim, double> simulation(two_bodies<Dim>(5e3, length<Dim>, 5.0, 20.0, choice.terrain, choice.sets),
+                                     bumpy_site());
+  simulation.set_sorting_interval(interval);
+  EXPECT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
+  for (int k = 0; k < (Dim == 2 ? 40 : 16); ++k) {
+    simulation.step(simulation.next_step(1.0));
+  }
+  set_thread_count(threads_before);
+  return state_of(simulation);
+}
+
+template <int Dim>
+void expect_the_same_bits_with_every_choice() {
+  const State plain = state_after<Dim>({}, 1, 0);
+  for (const Choice& choice : choices<Dim>()) {
+    SCOPED_TRACE(choice.name);
+    const State first = state_after<Dim>(choice, 1, 0);
+    EXPECT_TRUE(first != plain && (choice.acts == nullptr || choice.acts(first))) << "it does not come to bear";
+    for (const auto& [threads, interval] : {std::pair(2, 7), std::pair(3, 1)}) {
+      expect_the_same_state(first, state_after<Dim>(choice, threads, interval),
+                            fmt::format("{} threads, sorted every {} steps", threads, interval));
+    }
+  }
+}
+
+TEST(Bits, AreTheSameWithEveryChoiceInThePlane) { expect_the_same_bits_with_every_choice<2>(); }
+TEST(Bits, AreTheSameWithEveryChoiceInSpace) { expect_the_same_bits_with_every_choice<3>(); }
+
+}  // namespace
+}  // namespace thawslide::sim
