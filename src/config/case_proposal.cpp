@@ -189,6 +189,23 @@ std::string thickness_text(const MapValue& thickness) {
   return fmt::format("{{ {} = \"{}\" }}", kind, thickness.source);
 }
 
+double degrees_of(double rise) { return std::atan(rise) / degree; }
+
+std::string taper_text(const EdgeTaper& taper) {
+  if (!(taper.width > 0.0) && !taper.is_cramped()) {
+    return "taper = 0.0  # m; the points of the DEM are so far apart that the edges of the cut are ramps already\n";
+  }
+  return fmt::format(
+      "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume stays: a slide "
+      "does\n"
+      "# not get out of a pit with walls. At their steepest they rise {:.1f} degrees against the DEM, which falls "
+      "{:.1f}\n"
+      "# degrees here{}.\ntaper = {}  # m\n",
+      degrees_of(taper.steepest), degrees_of(taper.slope),
+      taper.is_cramped() ? fmt::format("; {} m would be right, but there is no room", number_text(taper.wanted)) : "",
+      number_text(taper.width));
+}
+
 std::string point_text(const Point& point) {
   return fmt::format("[{}, {}, {}]", number_text(point[0]), number_text(point[1]), number_text(point[2]));
 }
@@ -223,7 +240,7 @@ shape = "release"
 {release}thickness = {given}  # m
 thickness_along = "vertical"  # "normal": across the slope
 placement = "{placement}"  # {placement_text}
-{confirmed}{state}
+{taper}{confirmed}{state}
 {physics}
 # Maps are gathered every step.
 [maps]
@@ -235,8 +252,8 @@ arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
                                 ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
                                 : std::string()),
       fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()),
-      fmt::arg("min", point_text(proposal.min)), fmt::arg("max", point_text(proposal.max)),
-      fmt::arg("dem", input.dem_file),
+      fmt::arg("taper", is_cut ? taper_text(input.taper) : std::string()), fmt::arg("min", point_text(proposal.min)),
+      fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", input.dem_file),
       fmt::arg("release",
                input.release_file.empty() ? std::string() : fmt::format("release = \"{}\"\n", input.release_file)),
       fmt::arg("given", thickness_text(input.thickness)), fmt::arg("placement", is_cut ? "cut" : "on_top"),

@@ -6,6 +6,7 @@
 
 #include "base/raster.hpp"
 #include "config/case.hpp"
+#include "config/taper_proposal.hpp"
 
 namespace thawslide::config {
 
@@ -15,6 +16,7 @@ struct ProposalInput {
   std::string dem_file, release_file;  // as the case is to name them; no release_file where a raster gives the release
   MapValue thickness;
   Placement placement = Placement::on_top;
+  EdgeTaper taper;              // of a release that is cut out
   double reach_angle = 8.0;     // degrees: how far the slide is given room to run
   double largest_volume = 0.0;  // m3, confirmed; 0: the default of the parameter holds
 };
