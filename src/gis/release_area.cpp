@@ -76,6 +76,32 @@ void check_taper(const config::Case& parameters, const std::string& body, const 
   check("the domain", domain_of(parameters), "widen grid.min and grid.max");
 }
 
+// The terrain model's points get their share of a release each: one that is smaller than a cell would become much
+// thinner.
+void check_size(const config::Case& parameters, const std::string& body, double size, const Raster& ground) {
+  const double cell = ground.cell_x * ground.cell_y;
+  if (size < cell * (1.0 - 1e-9)) {
+    const double finer = 0.25 * std::sqrt(size);
+    fail_at(
+        parameters, key_of(body, "release"),
+        fmt::format("{}: the release has {:.4g} m2, less than one cell of the terrain model, {:.4g} m2: it would be "
+                    "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model "
+                    "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
+                    parameters.bodies.at(body).release, size, cell, finer, finer, parameters.terrain.file));
+  }
+}
+
+void note_narrow(const std::string& body, const Raster& share, std::vector<std::string>& notes) {
+  const double most = *std::max_element(share.values.begin(), share.values.end());
+  if (most < 0.995) {
+    notes.push_back(fmt::format(
+        "the release of the body {} covers no cell of the terrain model, {:g} m x {:g} m, as a whole: it is "
+        "spread over cells that it covers in part, and gets up to {:.0f} % of the thickness given; the "
+        "volume stays. Draw it larger, or resample the terrain model",
+        body, share.cell_x, share.cell_y, 100.0 * most));
+  }
+}
+
 Rectangle extent_of_positive(const config::Body& body, const Raster& source, const std::string& crs) {
   const std::string& file = body.thickness.source;
   std::vector<double> x, y;
@@ -163,7 +189,9 @@ ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& 
   const Rectangle extent = extent_of(area.polygons);
   check_place(parameters, name, extent, ground);
   check_taper(parameters, name, extent, ground);
+  check_size(parameters, name, area_of(area.polygons), ground.raster);
   area.share = coverage_of(area.polygons, points_about(extent, body.taper, ground.raster));
+  note_narrow(name, area.share, notes);
   return area;
 }
 

@@ -68,6 +68,18 @@ TEST(ReleaseFaultsTest, TaperOverNodata) {
       "(gdal_fillnodata.py FOLDER/dem.tif filled.tif).");
 }
 
+TEST(ReleaseFaultsTest, SmallerThanACellOfTheTerrainModel) {
+  config::Case parameters = case_with_release({{"", box_at(300, 300, 303, 303)}}, 20.0);
+  EXPECT_EQ(
+      error_of_site(parameters),
+      std::string(at_release) +
+          "FOLDER/release.geojson: the release has 9 m2, less than one cell of the terrain model, 25 m2: it would "
+          "be spread over the cell and become as much thinner. Draw it larger, or resample the terrain model "
+          "(gdalwarp -tr 0.8 0.8 -r bilinear FOLDER/dem.tif finer.tif).");
+  parameters.terrain.resample = 0.5;
+  EXPECT_EQ(error_of_site(parameters), "no error");
+}
+
 TEST(ReleaseFaultsTest, OverNodata) {
   config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
   Raster dem = ground();
