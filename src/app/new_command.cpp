@@ -173,6 +173,11 @@ int make_new_case(const NewOptions& options) {
 
   fmt::print("{}: a release of {:.4g} m3, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
              (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
+  if (const std::string note =
+          config::resolution_note(body_name, proposal.thickness, proposal.cell, proposal.particles_per_axis);
+      !note.empty()) {
+    fmt::print("note: {}\n", note);
+  }
   if (proposal.particles > many_particles) {
     fmt::print("note: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
   }

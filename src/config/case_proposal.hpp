@@ -55,6 +55,14 @@ void propose_times(Proposal& proposal, double farthest);
 // The table [time], without an empty line after it.
 [[nodiscard]] std::string time_text(const Proposal& proposal);
 
+// Of a raster of thickness [m]: half of the volume is where it is thinner.
+[[nodiscard]] double median_thickness(const Raster& thickness);
+
+// What the user should know of cells that put too few particles across the median thickness of a body [m]; empty where
+// they are enough.
+[[nodiscard]] std::string resolution_note(const std::string& body, double thickness, double cell,
+                                          int particles_per_axis);
+
 // How many particles the cell puts across the thickness, for the comment at grid.cell.
 [[nodiscard]] std::string cell_comment(const Proposal& proposal);
 

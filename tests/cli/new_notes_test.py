@@ -1,0 +1,69 @@
+"""What `thawslide new` and `thawslide check` say of releases and terrain models that run, but hardly as meant."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import rasterio
+from conftest import Program
+from slope_files import (
+    SOUTH,
+    THICKNESS,
+    WEST,
+    Slope,
+    assert_refused,
+    made,
+    said,
+    write_release,
+)
+
+ACROSS = (
+    "note: the body slide has 1.6 particles across its median thickness of 24 m; fewer than 4 do not tell how it "
+    "shears and thins. A cell of 8 m has 6 and more\n"
+)
+
+
+def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """`check` tells them; where the user's cell makes them too few, `new` and `check` say so."""
+    outcome = made(thawslide, tmp_path / "fine", slope(), release, "--thickness", THICKNESS)
+    assert outcome.returncode == 0 and "note:" not in outcome.stdout, outcome.stderr
+    checked = thawslide("check", tmp_path / "fine")
+    assert (
+        "  release     slide: 2.88e+05 m3 over 1.2e+04 m2, 24 m thick in the median and 24 m at most (vertical)\n"
+        "              6 particles across in the median and 6 at most\n"
+        "  particles "
+    ) in checked.stdout
+    coarse = made(
+        thawslide,
+        tmp_path / "coarse",
+        slope(),
+        release,
+        "--thickness",
+        THICKNESS,
+        "--cell",
+        30,
+    )
+    assert ACROSS in coarse.stdout, coarse.stderr
+    assert (
+        f"1.6 particles across in the median and 1.6 at most\n{ACROSS}"
+        in thawslide("check", tmp_path / "coarse").stdout
+    )
+
+
+def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    tiny = write_release(tmp_path / "tiny.geojson", WEST + 203.0, SOUTH + 252.0, 3.0, 3.0)
+    assert_refused(
+        made(thawslide, tmp_path / "slide", slope(), tiny, "--thickness", 20),
+        tmp_path,
+        "--release: tiny.geojson: the release has 9 m2, less than one cell of the terrain model, 100 m2: it would be "
+        "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model (gdalwarp -tr "
+        "0.8 0.8 -r bilinear dem.tif finer.tif).",
+    )
+
+
+def test_thickness_of_the_order_of_the_width(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 300)
+    assert outcome.stdout.startswith(
+        "note: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the thickness in "
+        "metres?\n"
+    ), outcome.stdout + outcome.stderr
