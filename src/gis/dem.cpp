@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "gis/pits.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/resampling.hpp"
@@ -76,11 +77,14 @@ Rectangle area_to_read(const config::Case& parameters, const Raster& layout) {
 }
 
 Raster read_and_resample(const config::Case& parameters, const RasterFile& file, const Raster& layout,
-                         const Rectangle& area) {
+                         const Rectangle& area, std::vector<std::string>& notes) {
   const bool as_it_is = &layout == &file.layout();
   const Raster target = layout_of(layout, points_in(layout, area));
   Raster raster = told_at(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
   check_elevations(parameters, file, raster);
+  if (const std::string note = pits_note(file.file(), raster); !note.empty()) {
+    notes.push_back(note);
+  }
   if (as_it_is) {
     return raster;
   }
@@ -109,7 +113,8 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   const Rectangle area = area_to_read(parameters, layout);
   // The filter's reach, and the points that a window holds beyond its sides.
   const double reach = smoothing_reach * terrain.smooth + 2.0 * std::max(layout.cell_x, layout.cell_y);
-  dem.raster = read_and_resample(parameters, file, layout, terrain.smooth > 0.0 ? area.widened(reach, reach) : area);
+  dem.raster =
+      read_and_resample(parameters, file, layout, terrain.smooth > 0.0 ? area.widened(reach, reach) : area, notes);
   const std::string name = std::filesystem::path(file.file()).filename().string();
   if (terrain.resample > 0.0) {
     notes.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,

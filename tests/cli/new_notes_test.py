@@ -67,3 +67,25 @@ def test_thickness_of_the_order_of_the_width(thawslide: Program, tmp_path: Path,
         "note: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the thickness in "
         "metres?\n"
     ), outcome.stdout + outcome.stderr
+
+
+def test_hole_filled_with_zeros(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """A slide would fall into it: `new`, `check` and `run` tell of it."""
+    dem = slope()
+    with rasterio.open(dem, "r+") as file:
+        heights = file.read(1)
+        heights[27:30, 40:45] = 0.0
+        file.write(heights, 1)
+    outcome = made(thawslide, tmp_path / "slide", dem, release, "--thickness", THICKNESS)
+    note = (
+        "note: 15 points of dem.tif are exactly 0 m amid ground of 1000 to 1035 m, such as (412400, 5160300): a hole "
+        "without data? Then say so in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
+    )
+    assert said(outcome.stdout, tmp_path).startswith(note.format("")), outcome.stdout + outcome.stderr
+    for words in (
+        ("check",),
+        ("run", "--output", tmp_path / "run", "--set", "time.end=0.01"),
+    ):
+        done = thawslide(words[0], tmp_path / "slide", *words[1:])
+        assert done.returncode == 0, done.stderr
+        assert note.format("slide/") in said(done.stdout, tmp_path)
