@@ -21,6 +21,10 @@ std::string system_of(const config::Case& parameters, const RasterFile& file, st
   const std::string system = told_at(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
     return metric_system({file.file(), file.extent(), layout.cell_x, layout.cell_y}, layout.crs, given);
   });
+  if (const std::string note = place_note({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
+      !note.empty()) {
+    notes.push_back(note);
+  }
   if (!given.empty() && name_of(system) != name_of(layout.crs)) {
     notes.push_back(fmt::format("{} is taken to be in {}, as terrain.crs says; the file says {}",
                                 std::filesystem::path(file.file()).filename().string(), name_of(system),

@@ -89,3 +89,22 @@ def test_hole_filled_with_zeros(thawslide: Program, tmp_path: Path, slope: Slope
         done = thawslide(words[0], tmp_path / "slide", *words[1:])
         assert done.returncode == 0, done.stderr
         assert note.format("slide/") in said(done.stdout, tmp_path)
+
+
+def test_crs_by_a_bare_number(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    bare = slope("bare.tif", crs=None)
+    assert_refused(
+        made(
+            thawslide,
+            tmp_path / "slide",
+            bare,
+            release,
+            "--thickness",
+            THICKNESS,
+            "--crs",
+            32632,
+        ),
+        tmp_path,
+        "--crs: '32632' is no coordinate reference system that is known; did you mean \"EPSG:32632\"? Allowed: a "
+        'number of the EPSG registry such as "EPSG:31287" (epsg.io finds it), or a WKT.',
+    )
