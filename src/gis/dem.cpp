@@ -60,6 +60,21 @@ void check_elevations(const config::Case& parameters, const RasterFile& file, co
   }
 }
 
+// The domain less the cells of the grid that reach beyond; empty where none stay.
+std::string domain_within(const config::Case& parameters, const Rectangle& span) {
+  const config::Grid& grid = parameters.grid;
+  const auto cells_beyond = [&](double distance) { return std::max(0.0, std::ceil(distance / grid.cell - 1e-9)); };
+  const double west = grid.min[0] + cells_beyond(span.min_x - grid.min[0]) * grid.cell;
+  const double south = grid.min[1] + cells_beyond(span.min_y - grid.min[1]) * grid.cell;
+  const double east = grid.max[0] - cells_beyond(grid.max[0] - span.max_x) * grid.cell;
+  const double north = grid.max[1] - cells_beyond(grid.max[1] - span.max_y) * grid.cell;
+  if (!(west < east && south < north)) {
+    return "";
+  }
+  return fmt::format("grid.min = [{:.12g}, {:.12g}, {:.12g}] and grid.max = [{:.12g}, {:.12g}, {:.12g}]", west, south,
+                     grid.min[2], east, north, grid.max[2]);
+}
+
 void check_domain(const config::Case& parameters, const std::string& file, const Rectangle& span) {
   const Rectangle domain = domain_of(parameters);
   const std::string beyond = words_beyond(domain, span);
@@ -67,11 +82,13 @@ void check_domain(const config::Case& parameters, const std::string& file, const
     return;
   }
   const bool low = domain.min_x < span.min_x || domain.min_y < span.min_y;
+  const std::string within = domain_within(parameters, span);
+  const double resample = parameters.terrain.resample;
   fail_at(parameters, low ? "grid.min" : "grid.max",
-          fmt::format("the domain {} {}, by {}; allowed: {}. Set grid.min and grid.max so, or take a larger terrain "
-                      "model.",
-                      domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file, beyond,
-                      range_words(span)));
+          fmt::format("the domain {} {}{}, by {}; allowed: {}. Set {}, or take a larger terrain model.",
+                      domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file,
+                      resample > 0.0 ? fmt::format(", taken to points {:g} m apart", resample) : "", beyond,
+                      range_words(span), within.empty() ? "grid.min and grid.max so" : within));
 }
 
 // Room about the domain: nodes of the grid's cells about it see the ground, and gradients there need neighbours.

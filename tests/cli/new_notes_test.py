@@ -108,3 +108,26 @@ def test_crs_by_a_bare_number(thawslide: Program, tmp_path: Path, slope: Slope, 
         "--crs: '32632' is no coordinate reference system that is known; did you mean \"EPSG:32632\"? Allowed: a "
         'number of the EPSG registry such as "EPSG:31287" (epsg.io finds it), or a WKT.',
     )
+
+
+def test_resampling_a_made_case_tells_the_domain_that_fits(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    folder = tmp_path / "slide"
+    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    words = ("--set", "terrain.resample=40")
+    outcome = thawslide("check", folder, *words)
+    assert outcome.returncode == 2
+    told = outcome.stderr.partition("Set ")[2].partition(", or take a larger")[0]
+    low, _, high = told.partition(" and ")
+    assert low.startswith("grid.min = [") and high.startswith("grid.max = ["), outcome.stderr
+    done = thawslide(
+        "check",
+        folder,
+        *words,
+        "--set",
+        low.replace(" ", ""),
+        "--set",
+        high.replace(" ", ""),
+    )
+    assert done.returncode == 0, done.stderr
