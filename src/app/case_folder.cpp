@@ -1,5 +1,7 @@
 #include "app/case_folder.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -101,16 +103,40 @@ std::string in_words_of_options(std::string message) {
 
 }  // namespace
 
-config::Site look_at_files(const config::Case& trial) {
+namespace {
+
+gis::SiteAndNotes read_files(const config::Case& trial) {
   try {
-    gis::SiteAndNotes read = gis::load_site(trial);
-    for (const std::string& note : read.notes) {
-      fmt::print("note: {}\n", in_words_of_options(note));
-    }
-    return std::move(read.site);
+    return gis::load_site(trial);
   } catch (const UserError& error) {
     throw UserError(in_words_of_options(error.what()));
   }
+}
+
+}  // namespace
+
+config::Site look_at_files(const config::Case& trial) {
+  gis::SiteAndNotes read = read_files(trial);
+  for (const std::string& note : read.notes) {
+    fmt::print("note: {}\n", in_words_of_options(note));
+  }
+  return std::move(read.site);
+}
+
+config::Site look_again(const config::Case& trial) { return read_files(trial).site; }
+
+config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site) {
+  const config::EdgeTaper taper = config::propose_taper(*site.ground, site.releases.at(body_name).thickness);
+  if (taper.is_cramped()) {
+    const auto degrees = [](double rise) { return std::atan(rise) * 180.0 / std::numbers::pi; };
+    fmt::print(
+        "note: --cut: the edges of the cut should be ramps {:g} m wide, and there is room for {:g} m, as the release "
+        "is narrow or near the end of what the terrain model knows; they rise by up to {:.0f} degrees against the "
+        "terrain, which falls by {:.0f}, and may hold the slide back. --on-top has no such edges\n",
+        taper.wanted, taper.width, degrees(taper.steepest), degrees(taper.slope));
+  }
+  trial.bodies.at(body_name).taper = taper.width;
+  return taper;
 }
 
 #endif

@@ -18,6 +18,7 @@
 #include "app/setup_json.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "config/case_proposal.hpp"
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
 #include "io/snapshot.hpp"
@@ -75,7 +76,7 @@ double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
 }
 
 // What each release comes to.
-void print_releases(const config::Site& site) {
+void print_releases(const config::Case& parameters, const config::Site& site) {
   for (const auto& [name, release] : site.releases) {
     const double volume = volume_of(release.thickness);
     double covered = 0.0, thickest = 0.0;
@@ -85,9 +86,15 @@ void print_releases(const config::Site& site) {
     }
     covered *= release.thickness.cell_x * release.thickness.cell_y;
     const double area = release.area > 0.0 ? release.area : covered;  // a raster of thickness has no outline
+    const double median = config::median_thickness(release.thickness), cell = parameters.grid.cell;
+    const int per_axis = parameters.bodies.at(name).particles_per_axis;
     fmt::print(
-        "  release     {}: {:.4g} m3 over {:.4g} m2, {:.3g} m thick in the mean and {:.3g} m at most (vertical)\n",
-        name, volume, area, volume / area, thickest);
+        "  release     {}: {:.4g} m3 over {:.4g} m2, {:.3g} m thick in the median and {:.3g} m at most (vertical)\n"
+        "              {:.2g} particles across in the median and {:.2g} at most\n",
+        name, volume, area, median, thickest, median * per_axis / cell, thickest * per_axis / cell);
+    if (const std::string note = config::resolution_note(name, median, cell, per_axis); !note.empty()) {
+      fmt::print("note: {}\n", note);
+    }
   }
 }
 
@@ -144,7 +151,7 @@ int check_case(const CheckOptions& options) {
       cells *= (parameters.grid.max[a] - parameters.grid.min[a]) / parameters.grid.cell;
     }
     fmt::print("{}: the case is sound\n", parameters.file);
-    print_releases(simulation.site());
+    print_releases(parameters, simulation.site());
     fmt::print("  particles   {}\n", simulation.particles().size());
     fmt::print("  cells       {:.0f} in the domain; blocks of {} nodes held: {}\n", cells, mpm::Tile<Dim>::nodes,
                simulation.grid().blocks().size());

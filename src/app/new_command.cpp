@@ -138,14 +138,18 @@ void require_runnable(const fs::path& folder) {
 }  // namespace
 
 int make_new_case(const NewOptions& options) {
-  const config::Case trial = trial_case(options.folder, options.maps);
-  const config::Site site = look_at_files(trial);
+  config::Case trial = trial_case(options.folder, options.maps);
+  config::Site site = look_at_files(trial);
   require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
+  config::ProposalInput input;
+  if (options.maps.cut) {
+    input.taper = taper_edges(trial, site);
+    site = look_again(trial);
+  }
   const config::Proposal proposal =
       config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle, options.cell);
   require_resolvable(proposal);
   require_memory(proposal);
-  config::ProposalInput input;
   input.title = title_of(options.folder);
   const std::string release_name = fs::path(options.maps.release).filename().string();
   input.dem_file = release_name == "dem.tif" ? "terrain.tif" : "dem.tif";
@@ -169,6 +173,11 @@ int make_new_case(const NewOptions& options) {
 
   fmt::print("{}: a release of {:.4g} m3, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
              (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
+  if (const std::string note =
+          config::resolution_note(body_name, proposal.thickness, proposal.cell, proposal.particles_per_axis);
+      !note.empty()) {
+    fmt::print("note: {}\n", note);
+  }
   if (proposal.particles > many_particles) {
     fmt::print("note: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
   }

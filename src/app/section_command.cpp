@@ -64,7 +64,9 @@ Cut cut_along_line(const config::Site& site, const std::string& line_file) {
   return cut;
 }
 
-std::vector<std::string> comments_on(const SectionOptions& options, const config::Site& site, const Cut& cut) {
+// `taper`: of the edges of what is cut out [m].
+std::vector<std::string> comments_on(const SectionOptions& options, const config::Site& site, const Cut& cut,
+                                     double taper) {
   std::vector<std::string> comments{
       fmt::format("Cut by `thawslide section` out of {} along {}{}: its triangles below the line.",
                   name_of(options.maps.dem), name_of(options.line), cut.turned ? ", turned round to run downhill" : ""),
@@ -78,6 +80,12 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
                            : fmt::format("The terrain is that of the terrain model; the surface is higher by the "
                                          "vertical thickness of {}.",
                                          name_of(options.maps.release)));
+  }
+  if (taper > 0.0) {
+    comments.push_back(fmt::format(
+        "The edges of the cut are ramps {:g} m wide, half of it beyond the outline: a slide does not get out "
+        "of a pit with walls.",
+        taper));
   }
   return comments;
 }
@@ -103,16 +111,19 @@ int make_section(const SectionOptions& options) {
   config::Case trial = trial_case(options.folder, options.maps);
   trial.maps.path = options.line;
   trial.places["maps.path"] = line_option;
-  for (auto& [name, body] : trial.bodies) {
-    body.placement = options.maps.cut ? config::Placement::cut : config::Placement::on_top;
+  config::Site site = look_at_files(trial);
+  double taper = 0.0;
+  if (options.maps.cut && !options.maps.release.empty()) {
+    taper = taper_edges(trial, site).width;
+    trial.bodies.at(body_name).placement = config::Placement::cut;
+    site = look_again(trial);
   }
-  const config::Site site = look_at_files(trial);
   const Cut cut = cut_along_line(site, options.line);
   if (cut.turned) {
     fmt::print("note: {} runs uphill; the section begins at its end\n", name_of(options.line));
   }
   const fs::path folder = options.folder;
-  const std::vector<std::string> comments = comments_on(options, site, cut);
+  const std::vector<std::string> comments = comments_on(options, site, cut, taper);
   if (options.maps.release.empty()) {
     make_new_folder(folder);
     io::write_profile_csv(folder / profile_name, cut.profile, comments);

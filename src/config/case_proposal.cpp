@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -16,7 +17,7 @@ namespace thawslide::config {
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
-constexpr double particles_across = 6.0;
+constexpr double particles_across = 6.0, fewest_across = 4.0;
 constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
 constexpr double block_cells = 4.0;  // the domain is a multiple of, so that the cell may be doubled twice
@@ -50,8 +51,7 @@ Heights heights_about(const Raster& dem, double x, double y) {
   return heights;
 }
 
-// Half of the volume is where the release is thinner.
-double median_thickness(std::vector<double> thicknesses) {
+double median_of(std::vector<double> thicknesses) {
   std::sort(thicknesses.begin(), thicknesses.end());
   const double half = 0.5 * std::accumulate(thicknesses.begin(), thicknesses.end(), 0.0);
   double below = 0.0;
@@ -89,7 +89,7 @@ ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
       }
     }
   }
-  extent.thickness = median_thickness(std::move(thicknesses));
+  extent.thickness = median_of(std::move(thicknesses));
   return extent;
 }
 
@@ -133,6 +133,25 @@ double round_down(double x) {
     best = digit * power <= x * (1.0 + 1e-12) ? tidy(digit * power) : best;
   }
   return best;
+}
+
+double median_thickness(const Raster& thickness) {
+  std::vector<double> known;
+  std::copy_if(thickness.values.begin(), thickness.values.end(), std::back_inserter(known),
+               [](double value) { return value > 0.0; });
+  return median_of(std::move(known));
+}
+
+std::string resolution_note(const std::string& body, double thickness, double cell, int particles_per_axis) {
+  const double across = thickness * particles_per_axis / cell;
+  if (across >= fewest_across * (1.0 - 1e-9)) {
+    return "";
+  }
+  return fmt::format(
+      "the body {} has {:.2g} particles across its median thickness of {:.3g} m; fewer than {:g} do not tell how it "
+      "shears and thins. A cell of {:g} m has {:g} and more",
+      body, across, thickness, fewest_across, round_down(thickness * particles_per_axis / particles_across),
+      particles_across);
 }
 
 Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell) {
@@ -189,6 +208,23 @@ std::string thickness_text(const MapValue& thickness) {
   return fmt::format("{{ {} = \"{}\" }}", kind, thickness.source);
 }
 
+double degrees_of(double rise) { return std::atan(rise) / degree; }
+
+std::string taper_text(const EdgeTaper& taper) {
+  if (!(taper.width > 0.0) && !taper.is_cramped()) {
+    return "taper = 0.0  # m; the points of the DEM are so far apart that the edges of the cut are ramps already\n";
+  }
+  return fmt::format(
+      "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume stays: a slide "
+      "does\n"
+      "# not get out of a pit with walls. At their steepest they rise {:.1f} degrees against the DEM, which falls "
+      "{:.1f}\n"
+      "# degrees here{}.\ntaper = {}  # m\n",
+      degrees_of(taper.steepest), degrees_of(taper.slope),
+      taper.is_cramped() ? fmt::format("; {} m would be right, but there is no room", number_text(taper.wanted)) : "",
+      number_text(taper.width));
+}
+
 std::string point_text(const Point& point) {
   return fmt::format("[{}, {}, {}]", number_text(point[0]), number_text(point[1]), number_text(point[2]));
 }
@@ -223,7 +259,7 @@ shape = "release"
 {release}thickness = {given}  # m
 thickness_along = "vertical"  # "normal": across the slope
 placement = "{placement}"  # {placement_text}
-{confirmed}{state}
+{taper}{confirmed}{state}
 {physics}
 # Maps are gathered every step.
 [maps]
@@ -235,8 +271,8 @@ arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
                                 ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
                                 : std::string()),
       fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()),
-      fmt::arg("min", point_text(proposal.min)), fmt::arg("max", point_text(proposal.max)),
-      fmt::arg("dem", input.dem_file),
+      fmt::arg("taper", is_cut ? taper_text(input.taper) : std::string()), fmt::arg("min", point_text(proposal.min)),
+      fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", input.dem_file),
       fmt::arg("release",
                input.release_file.empty() ? std::string() : fmt::format("release = \"{}\"\n", input.release_file)),
       fmt::arg("given", thickness_text(input.thickness)), fmt::arg("placement", is_cut ? "cut" : "on_top"),

@@ -6,6 +6,7 @@
 
 #include "base/raster.hpp"
 #include "config/case.hpp"
+#include "config/taper_proposal.hpp"
 
 namespace thawslide::config {
 
@@ -15,6 +16,7 @@ struct ProposalInput {
   std::string dem_file, release_file;  // as the case is to name them; no release_file where a raster gives the release
   MapValue thickness;
   Placement placement = Placement::on_top;
+  EdgeTaper taper;              // of a release that is cut out
   double reach_angle = 8.0;     // degrees: how far the slide is given room to run
   double largest_volume = 0.0;  // m3, confirmed; 0: the default of the parameter holds
 };
@@ -52,6 +54,14 @@ void propose_times(Proposal& proposal, double farthest);
 
 // The table [time], without an empty line after it.
 [[nodiscard]] std::string time_text(const Proposal& proposal);
+
+// Of a raster of thickness [m]: half of the volume is where it is thinner.
+[[nodiscard]] double median_thickness(const Raster& thickness);
+
+// What the user should know of cells that put too few particles across the median thickness of a body [m]; empty where
+// they are enough.
+[[nodiscard]] std::string resolution_note(const std::string& body, double thickness, double cell,
+                                          int particles_per_axis);
 
 // How many particles the cell puts across the thickness, for the comment at grid.cell.
 [[nodiscard]] std::string cell_comment(const Proposal& proposal);

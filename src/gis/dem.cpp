@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "gis/pits.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/resampling.hpp"
@@ -20,6 +21,10 @@ std::string system_of(const config::Case& parameters, const RasterFile& file, st
   const std::string system = told_at(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
     return metric_system({file.file(), file.extent(), layout.cell_x, layout.cell_y}, layout.crs, given);
   });
+  if (const std::string note = place_note({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
+      !note.empty()) {
+    notes.push_back(note);
+  }
   if (!given.empty() && name_of(system) != name_of(layout.crs)) {
     notes.push_back(fmt::format("{} is taken to be in {}, as terrain.crs says; the file says {}",
                                 std::filesystem::path(file.file()).filename().string(), name_of(system),
@@ -55,6 +60,21 @@ void check_elevations(const config::Case& parameters, const RasterFile& file, co
   }
 }
 
+// The domain less the cells of the grid that reach beyond; empty where none stay.
+std::string domain_within(const config::Case& parameters, const Rectangle& span) {
+  const config::Grid& grid = parameters.grid;
+  const auto cells_beyond = [&](double distance) { return std::max(0.0, std::ceil(distance / grid.cell - 1e-9)); };
+  const double west = grid.min[0] + cells_beyond(span.min_x - grid.min[0]) * grid.cell;
+  const double south = grid.min[1] + cells_beyond(span.min_y - grid.min[1]) * grid.cell;
+  const double east = grid.max[0] - cells_beyond(grid.max[0] - span.max_x) * grid.cell;
+  const double north = grid.max[1] - cells_beyond(grid.max[1] - span.max_y) * grid.cell;
+  if (!(west < east && south < north)) {
+    return "";
+  }
+  return fmt::format("grid.min = [{:.12g}, {:.12g}, {:.12g}] and grid.max = [{:.12g}, {:.12g}, {:.12g}]", west, south,
+                     grid.min[2], east, north, grid.max[2]);
+}
+
 void check_domain(const config::Case& parameters, const std::string& file, const Rectangle& span) {
   const Rectangle domain = domain_of(parameters);
   const std::string beyond = words_beyond(domain, span);
@@ -62,11 +82,13 @@ void check_domain(const config::Case& parameters, const std::string& file, const
     return;
   }
   const bool low = domain.min_x < span.min_x || domain.min_y < span.min_y;
+  const std::string within = domain_within(parameters, span);
+  const double resample = parameters.terrain.resample;
   fail_at(parameters, low ? "grid.min" : "grid.max",
-          fmt::format("the domain {} {}, by {}; allowed: {}. Set grid.min and grid.max so, or take a larger terrain "
-                      "model.",
-                      domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file, beyond,
-                      range_words(span)));
+          fmt::format("the domain {} {}{}, by {}; allowed: {}. Set {}, or take a larger terrain model.",
+                      domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file,
+                      resample > 0.0 ? fmt::format(", taken to points {:g} m apart", resample) : "", beyond,
+                      range_words(span), within.empty() ? "grid.min and grid.max so" : within));
 }
 
 // Room about the domain: nodes of the grid's cells about it see the ground, and gradients there need neighbours.
@@ -76,11 +98,14 @@ Rectangle area_to_read(const config::Case& parameters, const Raster& layout) {
 }
 
 Raster read_and_resample(const config::Case& parameters, const RasterFile& file, const Raster& layout,
-                         const Rectangle& area) {
+                         const Rectangle& area, std::vector<std::string>& notes) {
   const bool as_it_is = &layout == &file.layout();
   const Raster target = layout_of(layout, points_in(layout, area));
   Raster raster = told_at(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
   check_elevations(parameters, file, raster);
+  if (const std::string note = pits_note(file.file(), raster); !note.empty()) {
+    notes.push_back(note);
+  }
   if (as_it_is) {
     return raster;
   }
@@ -109,7 +134,8 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   const Rectangle area = area_to_read(parameters, layout);
   // The filter's reach, and the points that a window holds beyond its sides.
   const double reach = smoothing_reach * terrain.smooth + 2.0 * std::max(layout.cell_x, layout.cell_y);
-  dem.raster = read_and_resample(parameters, file, layout, terrain.smooth > 0.0 ? area.widened(reach, reach) : area);
+  dem.raster =
+      read_and_resample(parameters, file, layout, terrain.smooth > 0.0 ? area.widened(reach, reach) : area, notes);
   const std::string name = std::filesystem::path(file.file()).filename().string();
   if (terrain.resample > 0.0) {
     notes.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,

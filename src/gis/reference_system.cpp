@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <numbers>
 
 #include "base/error.hpp"
 #include "gis/gdal_messages.hpp"
@@ -156,7 +158,7 @@ bool is_web_mercator(const OGRSpatialReference& reference) {
                     name_of(wkt)));
   }
   const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
-  const double stretch = 1.0 / std::cos(latitude * 3.14159265358979323846 / 180.0);
+  const double stretch = 1.0 / std::cos(latitude * std::numbers::pi / 180.0);
   throw UserError(fmt::format(
       "{}: the coordinates are in Web Mercator ({}), where lengths at latitude {:.4g} are {:.3g} times too "
       "long; allowed: a map projection that keeps lengths. Reproject: {}",
@@ -198,10 +200,13 @@ std::string reference_system_named(const std::string& text) {
       reference.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
           OGRERR_NONE) {
     require_projection_database();
-    throw UserError(
-        fmt::format("'{}' is no coordinate reference system that is known; allowed: a number of the EPSG registry such "
-                    "as \"EPSG:31287\" (epsg.io finds it), or a WKT.",
-                    text));
+    const std::string with_registry = "EPSG:" + text;
+    const bool lacks_registry =
+        is_sound_number(with_registry) && reference.SetFromUserInput(with_registry.c_str()) == OGRERR_NONE;
+    throw UserError(fmt::format(
+        "'{}' is no coordinate reference system that is known{} a number of the EPSG registry such as \"EPSG:31287\" "
+        "(epsg.io finds it), or a WKT.",
+        text, lacks_registry ? fmt::format("; did you mean \"{}\"? Allowed:", with_registry) : "; allowed:"));
   }
   return wkt_from_reference(&reference);
 }
@@ -266,6 +271,37 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   check_vertical_unit(raster, reference);
   reference.StripVertical();
   return wkt_from_reference(&reference);
+}
+
+std::string place_note(const Located& raster, const std::string& wkt) {
+  constexpr double far = 1000.0, kilometres_per_degree = 111.2;  // [km]; along a meridian
+  const GdalMessages messages;
+  const OGRSpatialReference given = reference_from_wkt(wkt);
+  const char* authority = given.GetAuthorityName(nullptr);
+  const char* code = given.GetAuthorityCode(nullptr);
+  OGRSpatialReference registered;
+  double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
+  const char* area = nullptr;
+  const bool has_area = authority != nullptr && code != nullptr && std::string(authority) == "EPSG" &&
+                        registered.importFromEPSG(std::atoi(code)) == OGRERR_NONE &&
+                        registered.GetAreaOfUse(&west, &south, &east, &north, &area);
+  if (!has_area || west > east) {
+    return "";  // none is told, or one across the date line
+  }
+  const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
+  const double beside = std::max({0.0, west - longitude, longitude - east});
+  const double along = std::max({0.0, south - latitude, latitude - north});
+  const double distance =
+      kilometres_per_degree * std::hypot(beside * std::cos(latitude * std::numbers::pi / 180.0), along);
+  if (distance <= far) {
+    return "";
+  }
+  return fmt::format(
+      "the middle of {} would be at longitude {:.4g}, latitude {:.4g} in {}, which is for longitudes {:.4g} to {:.4g} "
+      "and "
+      "latitudes {:.4g} to {:.4g}: is it the right system? If not, set terrain.crs to the one the numbers are in",
+      std::filesystem::path(raster.file).filename().string(), longitude, latitude, name_of(wkt), west, east, south,
+      north);
 }
 
 std::string feet_message(const std::string& file, const std::string& unit) {

@@ -58,6 +58,19 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   }
 }
 
+// A thickness in another unit makes a tower of a release.
+void note_tower(const std::string& name, const config::Release& release, std::vector<std::string>& notes) {
+  constexpr double share_of_width = 0.5;
+  const double width = std::sqrt(release.area);
+  const double most = *std::max_element(release.thickness.values.begin(), release.thickness.values.end());
+  if (most > share_of_width * width) {
+    notes.push_back(
+        fmt::format("the release of the body {} is up to {:.4g} m thick and, by its area, {:.4g} m wide: is the "
+                    "thickness in metres?",
+                    name, most, width));
+  }
+}
+
 }  // namespace
 
 LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
@@ -75,6 +88,7 @@ LoadedRelease load_release(const config::Case& parameters, const std::string& bo
   }
   loaded.polygons = area.is_raster() ? areas_of_mask(area.share) : std::move(area.polygons);
   release.area = area_of(loaded.polygons);
+  note_tower(body, release, notes);
   loaded.spread = tapered(area.share, parameters.bodies.at(body).taper);
   loaded.share = std::move(area.share);
   return loaded;

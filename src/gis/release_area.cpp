@@ -1,5 +1,6 @@
 #include "gis/release_area.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gis/coverage.hpp"
@@ -32,7 +33,7 @@ Raster points_about(const Rectangle& extent, double taper, const Raster& ground)
   return layout;
 }
 
-// `extent`: of all that has a thickness.
+// `extent`: of all that has a thickness before it is tapered.
 void check_place(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
   const auto check = [&](const char* what, const Rectangle& outer, const std::string& remedy) {
     const std::string beyond = words_beyond(extent, outer);
@@ -48,6 +49,57 @@ void check_place(const config::Case& parameters, const std::string& body, const 
                     "terrain model.",
                     name_of(ground.raster.crs)));
   check("the domain", domain_of(parameters), "Widen grid.min and grid.max.");
+}
+
+// The widest taper whose points lie within, beyond an extent that does.
+double widest_taper(const Rectangle& extent, const Rectangle& outer, const Raster& ground) {
+  const auto along = [](double room, double cell) { return 2.0 * (std::floor(room / cell + 1e-9) + 1.0) * cell; };
+  return std::min({along(extent.min_x - outer.min_x, ground.cell_x), along(outer.max_x - extent.max_x, ground.cell_x),
+                   along(extent.min_y - outer.min_y, ground.cell_y), along(outer.max_y - extent.max_y, ground.cell_y)});
+}
+
+void check_taper(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
+  const double taper = parameters.bodies.at(body).taper;
+  const Raster& points = ground.raster;
+  const Rectangle reached = extent.widened(taper_reach(taper, points.cell_x) * points.cell_x,
+                                           taper_reach(taper, points.cell_y) * points.cell_y);
+  const auto check = [&](const char* what, const Rectangle& outer, const char* remedy) {
+    const std::string beyond = words_beyond(reached, outer);
+    if (!beyond.empty()) {
+      fail_at(parameters, key_of(body, "taper"),
+              fmt::format("a taper of {:g} m spreads the release {:g} m beyond its outline, and outside {} by {}; "
+                          "allowed: up to {:g} m. Set a narrower one, or {}.",
+                          taper, 0.5 * taper, what, beyond, widest_taper(extent, outer, points), remedy));
+    }
+  };
+  check("the terrain model", ground.span, "take a larger terrain model");
+  check("the domain", domain_of(parameters), "widen grid.min and grid.max");
+}
+
+// The terrain model's points get their share of a release each: one that is smaller than a cell would become much
+// thinner.
+void check_size(const config::Case& parameters, const std::string& body, double size, const Raster& ground) {
+  const double cell = ground.cell_x * ground.cell_y;
+  if (size < cell * (1.0 - 1e-9)) {
+    const double finer = 0.25 * std::sqrt(size);
+    fail_at(
+        parameters, key_of(body, "release"),
+        fmt::format("{}: the release has {:.4g} m2, less than one cell of the terrain model, {:.4g} m2: it would be "
+                    "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model "
+                    "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
+                    parameters.bodies.at(body).release, size, cell, finer, finer, parameters.terrain.file));
+  }
+}
+
+void note_narrow(const std::string& body, const Raster& share, std::vector<std::string>& notes) {
+  const double most = *std::max_element(share.values.begin(), share.values.end());
+  if (most < 0.995) {
+    notes.push_back(fmt::format(
+        "the release of the body {} covers no cell of the terrain model, {:g} m x {:g} m, as a whole: it is "
+        "spread over cells that it covers in part, and gets up to {:.0f} % of the thickness given; the "
+        "volume stays. Draw it larger, or resample the terrain model",
+        body, share.cell_x, share.cell_y, 100.0 * most));
+  }
 }
 
 Rectangle extent_of_positive(const config::Body& body, const Raster& source, const std::string& crs) {
@@ -108,7 +160,8 @@ ReleaseArea area_of_raster(const config::Case& parameters, const std::string& na
   area.source = thickness_without_polygons(parameters, name, ground, notes);
   const Rectangle extent =
       told_at(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
-  check_place(parameters, name, extent.widened(0.5 * body.taper, 0.5 * body.taper), ground);
+  check_place(parameters, name, extent, ground);
+  check_taper(parameters, name, extent, ground);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
   area.share = told_at(parameters, key, [&] {
     return sampled(area.source, points_about(reached, body.taper, ground.raster), Missing::zero);
@@ -134,8 +187,11 @@ ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& 
   }
   area.polygons = union_of(all);
   const Rectangle extent = extent_of(area.polygons);
-  check_place(parameters, name, extent.widened(0.5 * body.taper, 0.5 * body.taper), ground);
+  check_place(parameters, name, extent, ground);
+  check_taper(parameters, name, extent, ground);
+  check_size(parameters, name, area_of(area.polygons), ground.raster);
   area.share = coverage_of(area.polygons, points_about(extent, body.taper, ground.raster));
+  note_narrow(name, area.share, notes);
   return area;
 }
 

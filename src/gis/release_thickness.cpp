@@ -30,12 +30,12 @@ class ThicknessMaker {
 
   Raster make() {
     Raster thickness = area_.is_raster() ? of_release_raster() : of_polygons();
-    check_ground(thickness);
+    check_ground(thickness, Spread::by_outline);
     if (body_.thickness_along == config::ThicknessAlong::normal) {
       to_vertical(thickness);
     }
     thickness = tapered(thickness, body_.taper);
-    check_ground(thickness);
+    check_ground(thickness, Spread::by_taper);
     if (body_.taper > 0.0 && taper_reach(body_.taper, ground_.cell_x) + taper_reach(body_.taper, ground_.cell_y) == 0) {
       notes_.push_back(
           fmt::format("the taper of the body {}, {:g} m, is no wider than two cells of the ground, {:g} m x "
@@ -46,6 +46,8 @@ class ThicknessMaker {
   }
 
  private:
+  enum class Spread { by_outline, by_taper };
+
   [[noreturn]] void fail(const char* key, const std::string& message) const {
     fail_at(case_, key_of(name_, key), message);
   }
@@ -71,7 +73,8 @@ class ThicknessMaker {
     }
   }
 
-  void check_ground(Raster& thickness) const {
+  // `spread`: what brought the release to its points.
+  void check_ground(Raster& thickness, Spread spread) const {
     int without = 0;
     std::string first;
     for_each_positive(thickness, [&](int column, int row, double) {
@@ -80,6 +83,12 @@ class ThicknessMaker {
         first = fmt::format("{:.10g}, {:.10g}", thickness.x_of(column), thickness.y_of(row));
       }
     });
+    if (without > 0 && spread == Spread::by_taper) {
+      fail("taper",
+           fmt::format("a taper of {:g} m spreads the release of {} over nodata of the terrain model at {} points, "
+                       "such as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
+                       body_.taper, file_of_place(case_, name_), without, first, case_.terrain.file));
+    }
     if (without > 0) {
       fail(body_.release.empty() ? "thickness" : "release",
            fmt::format("{}: the release lies over nodata of the terrain model at {} of its points, such as {}. "

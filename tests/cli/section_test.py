@@ -110,7 +110,11 @@ def test_cut_takes_the_body_out_of_the_ground(thawslide: Program, maps: Maps, tm
     (_, on_top), (comments, cut) = map(profile, folders)
     assert cut["surface_elevation_m"] == pytest.approx(on_top["terrain_elevation_m"], abs=1e-9)
     thickness = cut["surface_elevation_m"] - cut["terrain_elevation_m"]
-    assert thickness == pytest.approx(on_top["surface_elevation_m"] - on_top["terrain_elevation_m"], abs=1e-9)
+    upright = on_top["surface_elevation_m"] - on_top["terrain_elevation_m"]
+    distance = cut["distance_m"]
+    assert np.trapezoid(thickness, distance) == pytest.approx(np.trapezoid(upright, distance), rel=1e-9)
+    inside = (distance >= 90.0 + 30.0) & (distance <= 190.0 - 30.0)  # half a ramp of 50 m and half a cell of the DEM
+    assert thickness[inside] == pytest.approx(upright[inside], abs=1e-9)
     assert thickness.max() == pytest.approx(12.0)
     assert comments[2] == (
         "# The surface is that of the terrain model; the terrain is lower by the vertical thickness of release.geojson."

@@ -143,6 +143,26 @@ TEST(ReleaseTest, TaperKeepsTheVolume) {
                                "m: it changes nothing"});
 }
 
+TEST(ReleaseTest, NoteOnANarrowRelease) {
+  config::Case strip = case_with_release({{"", box_at(300, 300, 400, 303)}}, 2.0);
+  const SiteAndNotes loaded = load_site(strip);
+  EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), 600.0, 1e-6);
+  EXPECT_EQ(loaded.notes, std::vector<std::string>{
+                              "the release of the body rock covers no cell of the terrain model, 5 m x 5 m, as a "
+                              "whole: it is spread over cells that it covers in part, and gets up to 50 % of the "
+                              "thickness given; the volume stays. Draw it larger, or resample the terrain model"});
+}
+
+TEST(ReleaseTest, NoteOnATower) {
+  config::Case tower = case_with_release({{"", box_at(300, 300, 500, 500)}}, 600.0);
+  EXPECT_EQ(
+      load_site(tower).notes,
+      std::vector<std::string>{"the release of the body rock is up to 600 m thick and, by its area, 200 m wide: is "
+                               "the thickness in metres?"});
+  tower.bodies["rock"].thickness.number = 90.0;
+  EXPECT_EQ(load_site(tower).notes, std::vector<std::string>{});
+}
+
 TEST(ReleaseTest, RasterGivesTheThicknessWithinPolygons) {
   config::Case parameters = case_with_release({{"", box_at(302.5, 302.5, 402.5, 402.5)}});
   const auto wedge = [](double x, double) { return 0.1 * (x - west - 250.0); };

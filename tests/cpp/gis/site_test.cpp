@@ -83,8 +83,16 @@ TEST(SiteTest, DomainBeyondTheTerrainModel) {
   EXPECT_EQ(
       error_of_site(parameters),
       "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, by 12.5 m in the "
-      "west and 40 m in the north; allowed: x from 400000 to 401000, y from 300000 to 300800. Set grid.min and "
-      "grid.max so, or take a larger terrain model.");
+      "west and 40 m in the north; allowed: x from 400000 to 401000, y from 300000 to 300800. Set grid.min = "
+      "[400007.5, 300100, 0] and grid.max = [400900, 300800, 3000], or take a larger terrain model.");
+  parameters.terrain.resample = 20.0;
+  EXPECT_EQ(
+      error_of_site(parameters),
+      "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, taken to points 20 m "
+      "apart, by 22.5 m in the west and 50 m in the north; allowed: x from 400010 to 400990, y from 300010 to "
+      "300790. Set grid.min = [400017.5, 300100, 0] and grid.max = [400900, 300790, 3000], or take a larger terrain "
+      "model.");
+  parameters.terrain.resample = 0.0;
   parameters.grid.min = {0.0, 0.0, 0.0};
   parameters.grid.max = {100.0, 50.0, 3000.0};
   EXPECT_NE(error_of_site(parameters).find("the domain lies outside FOLDER/dem.tif, by 4e+05 m in the west"),

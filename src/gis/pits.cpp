@@ -1,0 +1,145 @@
+#include "gis/pits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace thawslide::gis {
+
+namespace {
+
+constexpr double least_step = 100.0;           // m
+constexpr double steep = 5.67128181961770953;  // tan(80 degrees)
+
+// Points of one value in patches that lie apart from the ground about them.
+struct Apart {
+  std::size_t points = 0;
+  double x = 0.0, y = 0.0;                        // of one of them [m]
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;  // of the ground beside them [m]
+};
+
+class Patches {
+ public:
+  explicit Patches(const Raster& ground) : ground_(ground), seen_(ground.values.size(), 0) {}
+
+  std::map<double, Apart> apart() {
+    for (int row = 0; row < ground_.rows; ++row) {
+      for (int column = 0; column < ground_.columns; ++column) {
+        if (begins_patch(column, row)) {
+          take_patch(column, row);
+        }
+      }
+    }
+    return std::move(found_);
+  }
+
+ private:
+  struct Place {
+    int column = 0, row = 0;
+  };
+
+  // Calls work(column, row, distance) for the points beside one that are known.
+  template <class Work>
+  void for_each_beside(const Place& place, const Work& work) const {
+    constexpr std::array<Place, 4> ways{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    for (const Place& way : ways) {
+      const int column = place.column + way.column, row = place.row + way.row;
+      const bool inside = column >= 0 && column < ground_.columns && row >= 0 && row < ground_.rows;
+      if (inside && !std::isnan(ground_.at(column, row))) {
+        work(column, row, way.row == 0 ? ground_.cell_x : ground_.cell_y);
+      }
+    }
+  }
+
+  [[nodiscard]] static bool is_cliff(double one, double other, double distance) {
+    return std::abs(one - other) > std::max(least_step, steep * distance);
+  }
+
+  // Only a point at a cliff can be one of a patch that has cliffs all about it.
+  [[nodiscard]] bool begins_patch(int column, int row) const {
+    const double height = ground_.at(column, row);
+    bool at_cliff = false;
+    if (seen_[ground_.index(column, row)] == 0 && !std::isnan(height)) {
+      for_each_beside({column, row}, [&](int i, int j, double distance) {
+        at_cliff = at_cliff || is_cliff(height, ground_.at(i, j), distance);
+      });
+    }
+    return at_cliff;
+  }
+
+  // All points of the same value that hang together with this one.
+  void take_patch(int first_column, int first_row) {
+    const double height = ground_.at(first_column, first_row);
+    Apart patch;
+    patch.x = ground_.x_of(first_column);
+    patch.y = ground_.y_of(first_row);
+    bool cliffs_about = true;
+    std::vector<Place> open{{first_column, first_row}};
+    seen_[ground_.index(first_column, first_row)] = 1;
+    while (!open.empty()) {
+      const Place place = open.back();
+      open.pop_back();
+      ++patch.points;
+      for_each_beside(place, [&](int column, int row, double distance) {
+        const double other = ground_.at(column, row);
+        if (other != height) {
+          cliffs_about = cliffs_about && is_cliff(height, other, distance);
+          patch.lowest = std::min(patch.lowest, other);
+          patch.highest = std::max(patch.highest, other);
+        } else if (seen_[ground_.index(column, row)] == 0) {
+          seen_[ground_.index(column, row)] = 1;
+          open.push_back({column, row});
+        }
+      });
+    }
+    if (cliffs_about) {
+      add(height, patch);
+    }
+  }
+
+  void add(double height, const Apart& patch) {
+    Apart& all = found_[height];
+    if (all.points == 0) {
+      all = patch;
+      return;
+    }
+    all.points += patch.points;
+    all.lowest = std::min(all.lowest, patch.lowest);
+    all.highest = std::max(all.highest, patch.highest);
+  }
+
+  const Raster& ground_;
+  std::vector<char> seen_;
+  std::map<double, Apart> found_;
+};
+
+}  // namespace
+
+std::string pits_note(const std::string& file, const Raster& ground) {
+  double value = 0.0;
+  Apart most;
+  for (const auto& [height, apart] : Patches(ground).apart()) {
+    if (apart.points > most.points && (apart.points > 1 || height == 0.0)) {
+      value = height;
+      most = apart;
+    }
+  }
+  if (most.points == 0) {
+    return "";
+  }
+  const std::string path = std::filesystem::path(file).filename().string();
+  return fmt::format(
+      "{} point{} of {} {} exactly {:.9g} m amid ground of {:.0f} to {:.0f} m, such as ({:.0f}, {:.0f}): a hole "
+      "without "
+      "data? Then say so in the file, gdal_edit.py -a_nodata {:.9g} {}, or fill it",
+      most.points, most.points == 1 ? "" : "s", path, most.points == 1 ? "is" : "are", value, most.lowest, most.highest,
+      most.x, most.y, value, file);
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,88 @@
+"""A release that `thawslide new --cut` and `thawslide section --cut` cut out of a terrain model gets out of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rasterio
+from conftest import Program, history, sets
+from slope_files import CELL, SOUTH, WEST, Slope, made, write_release
+from terrain_files import write_dem, write_line
+from terrain_files import write_release as write_outline
+
+SIDE, THICK = 200.0, 20.0  # of the release [m]
+VOLUME = SIDE * SIDE * THICK
+COARSE = sets(grid__cell=12, time__end=8, basal__friction="constant")
+
+
+def test_a_release_that_is_cut_out_gets_out(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """It goes nearly as it does on top; between walls it would come to rest."""
+    folder = tmp_path / "slide"
+    release = write_release(tmp_path / "wide.geojson", WEST + 150.0, SOUTH + 200.0, SIDE, SIDE)
+    outcome = made(thawslide, folder, slope(), release, "--thickness", THICK, "--cut")
+    assert outcome.returncode == 0, outcome.stderr
+    assert "note:" not in outcome.stdout
+    assert (
+        'placement = "cut"  # out of the DEM, which is the surface before the slide; "on_top": onto it\n'
+        "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume stays: a slide "
+        "does\n# not get out of a pit with walls. At their steepest they rise 29.7 degrees against the DEM, which "
+        "falls 30.0\n# degrees here.\ntaper = 70.0  # m\n"
+    ) in (folder / "case.toml").read_text()
+    walls = sets(body__slide__taper=0)
+    top = [*walls, *sets(body__slide__placement="on_top")]
+    speeds = {}
+    for name, words in (("ramps", []), ("walls", walls), ("top", top)):
+        done = thawslide("run", folder, "--output", tmp_path / name, *COARSE, *words)
+        assert done.returncode == 0, done.stderr
+        speeds[name] = history(tmp_path / name)["mean_velocity_m_s"][-1]
+        with rasterio.open(tmp_path / name / "maps" / "release.tif") as file:
+            assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(VOLUME, rel=1e-9), name
+    assert speeds["ramps"] > 0.6 * speeds["top"]
+    assert speeds["walls"] < 0.4 * speeds["top"]
+
+
+def test_a_cut_without_room_for_its_ramps(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """Near the end of the DEM they are as wide as it allows, and the case runs."""
+    folder = tmp_path / "slide"
+    release = write_release(tmp_path / "edge.geojson", WEST + 23.0, SOUTH + 200.0, SIDE, SIDE)
+    outcome = made(thawslide, folder, slope(), release, "--thickness", THICK, "--cut")
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith(
+        "note: --cut: the edges of the cut should be ramps 70 m wide, and there is room for 40 m, as the release is "
+        "narrow or near the end of what the terrain model knows; they rise by up to 45 degrees against the terrain, "
+        "which falls by 30, and may hold the slide back. --on-top has no such edges\n"
+    ), outcome.stdout
+    assert (
+        "they rise 45.0 degrees against the DEM, which falls 30.0\n"
+        "# degrees here; 70.0 m would be right, but there is no room.\ntaper = 40.0  # m\n"
+    ) in (folder / "case.toml").read_text()
+    done = thawslide("run", folder, "--output", tmp_path / "run", "--set", "time.end=0.01")
+    assert done.returncode == 0, done.stderr
+    with rasterio.open(tmp_path / "run" / "maps" / "release.tif") as file:
+        assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(VOLUME, rel=1e-9)
+
+
+def test_a_section_has_the_ramps_too(thawslide: Program, tmp_path: Path) -> None:
+    outline = [(155.0, 105.0), (355.0, 105.0), (355.0, 305.0), (155.0, 305.0)]
+    words = [
+        *("--dem", write_dem(tmp_path / "dem.tif", lambda x, y: 1000.0 - 0.5 * x)),
+        *("--release", write_outline(tmp_path / "release.geojson", outline)),
+        *(
+            "--line",
+            write_line(tmp_path / "line.geojson", [(15.0, 205.0), (775.0, 205.0)]),
+        ),
+    ]
+    outcome = thawslide("section", tmp_path / "case", *words, "--thickness", THICK, "--cut")
+    assert outcome.returncode == 0, outcome.stderr
+    lines = (tmp_path / "case" / "profile.csv").read_text().splitlines()
+    assert lines[3] == (
+        "# The edges of the cut are ramps 80 m wide, half of it beyond the outline: a slide does not get out of a pit "
+        "with walls."
+    )
+    distance, terrain, surface = np.array([line.split(",") for line in lines[5:]], dtype=float).T
+    assert np.trapezoid(surface - terrain, distance) == pytest.approx(SIDE * THICK, rel=1e-9)
+    assert (surface - terrain).max() == pytest.approx(THICK, abs=1e-9)
+    steepest = np.max(np.diff(terrain) / np.diff(distance))
+    assert -0.05 < steepest < 0.01, "the base falls, or is level, all the way"

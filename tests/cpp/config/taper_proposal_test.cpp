@@ -1,0 +1,105 @@
+// The taper that `thawslide new --cut` proposes: wide enough for the slide to get out, as far as there is room.
+#include "config/taper_proposal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace thawslide::config {
+namespace {
+
+constexpr double cell = 10.0;  // of the DEM [m]
+
+Raster points(int columns, int rows, double value = 0.0) {
+  Raster raster;
+  raster.cell_x = raster.cell_y = cell;
+  raster.columns = columns;
+  raster.rows = rows;
+  raster.values.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), value);
+  return raster;
+}
+
+// A plane that falls to the east.
+Raster plane(double slope) {
+  Raster dem = points(80, 60);
+  for (int row = 0; row < dem.rows; ++row) {
+    for (int column = 0; column < dem.columns; ++column) {
+      dem.values[dem.index(column, row)] = 500.0 - slope * cell * column;
+    }
+  }
+  return dem;
+}
+
+// As thick on `columns` x `rows` points from one on, and one point more on each side, as a release is read.
+Raster release(int first_column, int first_row, int columns, int rows, double thickness) {
+  Raster raster = points(columns + 2, rows + 2);
+  raster.x = (first_column - 1) * cell;
+  raster.y = (first_row - 1) * cell;
+  for (int row = 1; row <= rows; ++row) {
+    for (int column = 1; column <= columns; ++column) {
+      raster.values[raster.index(column, row)] = thickness;
+    }
+  }
+  return raster;
+}
+
+TEST(TaperProposal, FallsNoLessThanTheTerrainAndIsThreeThicknessesWide) {
+  const EdgeTaper gentle = propose_taper(plane(0.5), release(30, 20, 21, 21, 20.0));
+  EXPECT_EQ(gentle.width, 80.0) << "2 x 20 m / 0.5";
+  EXPECT_NEAR(gentle.slope, 0.5, 1e-12);
+  EXPECT_NEAR(gentle.steepest, 0.5, 1e-12);
+  EXPECT_FALSE(gentle.is_cramped());
+  EXPECT_EQ(propose_taper(plane(0.8), release(30, 20, 21, 21, 20.0)).width, 60.0) << "3 x 20 m";
+  EXPECT_EQ(propose_taper(plane(0.45), release(30, 20, 21, 21, 20.0)).width, 90.0) << "88.9 m in whole cells";
+  EXPECT_EQ(propose_taper(plane(0.0), release(30, 20, 25, 25, 20.0)).width, 200.0) << "10 x 20 m";
+}
+
+TEST(TaperProposal, NoneWhereTheCellsOfTheDemAreAsWide) {
+  const EdgeTaper taper = propose_taper(plane(0.8), release(30, 20, 21, 21, 6.0));
+  EXPECT_EQ(taper.width, 0.0);
+  EXPECT_FALSE(taper.is_cramped());
+  EXPECT_NEAR(taper.steepest, 0.6, 1e-12);
+}
+
+TEST(TaperProposal, StaysOnKnownGround) {
+  const Raster dem = plane(0.5);
+  for (const auto& [first_column, width] : {std::pair(3, 60.0), {2, 40.0}, {1, 0.0}, {4, 80.0}}) {
+    const EdgeTaper taper = propose_taper(dem, release(first_column, 20, 21, 21, 20.0));
+    EXPECT_EQ(taper.width, width) << first_column;
+    EXPECT_EQ(taper.is_cramped(), width < 80.0) << first_column;
+  }
+  // A hole off the corner counts along the axis where it is farther.
+  Raster holed = dem;
+  holed.values[holed.index(28, 16)] = std::nan("");
+  EXPECT_EQ(propose_taper(holed, release(30, 20, 21, 21, 20.0)).width, 60.0);
+  // One within the rectangle about the release, but away from its points.
+  Raster angled = release(30, 20, 31, 31, 20.0);
+  for (int row = 12; row <= 31; ++row) {
+    for (int column = 12; column <= 31; ++column) {
+      angled.values[angled.index(column, row)] = 0.0;
+    }
+  }
+  Raster far = dem;
+  far.values[far.index(55, 45)] = std::nan("");
+  EXPECT_EQ(propose_taper(far, angled).width, 80.0);
+}
+
+TEST(TaperProposal, LeavesTheMiddleAsThickAsItIs) {
+  const EdgeTaper taper = propose_taper(plane(0.5), release(30, 20, 21, 7, 20.0));
+  EXPECT_EQ(taper.width, 60.0);
+  EXPECT_EQ(taper.wanted, 80.0);
+  EXPECT_NEAR(taper.steepest, 2.0 / 3.0, 1e-12);
+}
+
+TEST(TaperProposal, AThicknessThatThinsOutByItselfNeedsNone) {
+  Raster cone = release(30, 20, 21, 21, 1.0);
+  for (int row = 1; row <= 21; ++row) {
+    for (int column = 1; column <= 21; ++column) {
+      cone.values[cone.index(column, row)] = 22.0 - 2.0 * std::max(std::abs(column - 11), std::abs(row - 11));
+    }
+  }
+  EXPECT_EQ(propose_taper(plane(0.5), cone).width, 0.0) << "4 m thick beside its edge";
+}
+
+}  // namespace
+}  // namespace thawslide::config
