@@ -13,70 +13,6 @@ constexpr std::int64_t column_origin = std::int64_t{1} << 31;
 
 namespace {
 
-// What boxes cover of the two cells, `lower` and the next one, that they may overlap along one horizontal axis.
-template <class Real>
-struct Overlap {
-  Lanes<Real> lower;     // number of the cell, from the tile's first one
-  Lanes<Real> from[2];   // [m]
-  Lanes<Real> to[2];     // [m]
-  Lanes<Real> share[2];  // of the box
-};
-
-template <class Real>
-THAWSLIDE_ALWAYS_INLINE Overlap<Real> overlap(Lanes<Real> middle, const mpm::HalfSize<Lanes<Real>>& size,
-                                              int first_cell, Real cell, Real inverse_cell) {
-  const Lanes<Real> begin = middle - size.half, end = middle + size.half, sliver = round_off<Real> * size.half;
-  const Lanes<Real> number = floor((begin + sliver) * inverse_cell);
-  const Lanes<Real> border = (number + Real(1)) * cell;
-  const auto crosses = end - sliver >= border;
-  Overlap<Real> over;
-  over.lower = number - static_cast<Real>(first_cell);
-  over.from[0] = max(begin, number * cell);
-  over.to[0] = min(end, border);
-  over.from[1] = border;
-  over.to[1] = select(crosses, end, border);
-  const Lanes<Real> inverse_width = static_cast<Real>(0.5) * size.inverse;
-  over.share[0] = (over.to[0] - over.from[0]) * inverse_width;
-  over.share[1] = (over.to[1] - over.from[1]) * inverse_width;
-  return over;
-}
-
-template <int Dim, class Real>
-using Overlaps = std::array<Overlap<Real>, static_cast<std::size_t>(Dim) - 1>;
-
-template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, Real> overlaps(const std::array<int, Dim - 1>& first_cell, Real cell,
-                                                     Real inverse_cell, const mpm::BodySizes<Real>& sizes,
-                                                     const mpm::Particles<Dim, Real>& particles,
-                                                     const mpm::Batch<Real>& batch) {
-  const auto size = sizes.of(particles, batch);
-  Overlaps<Dim, Real> along;
-  for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    along[a] = overlap(particles.position.load(batch, static_cast<int>(a)), size, first_cell[a], cell, inverse_cell);
-    const auto inside = (along[a].lower >= Real(0)) & (along[a].lower <= Real(mpm::Tile<Dim>::edge));
-    THAWSLIDE_ASSERT(!any(!inside), "of particles {} ... one lies outside its tile: cells {} ...",
-                     particles.id(batch.particle[0]), along[a].lower[0]);
-  }
-  return along;
-}
-
-// Calls visit(which of the two cells along each axis, places in the tile, shares) for every column that boxes may
-// overlap.
-template <int Dim, class Real, class Visit>
-THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Real>& along, const Visit& visit) {
-  constexpr auto per_axis = static_cast<Real>(ColumnsOfTile<Dim, Real>::per_axis);
-  unrolled<static_cast<std::size_t>(1) << (Dim - 1)>([&](auto corner) THAWSLIDE_INLINE_LAMBDA {
-    std::array<std::size_t, Dim - 1> side{};
-    Lanes<Real> place = Real(0), share = Real(1);
-    for (std::size_t a = Dim - 1; a-- > 0;) {
-      side[a] = corner >> a & 1;
-      place = place * per_axis + along[a].lower + static_cast<Real>(side[a]);
-      share = share * along[a].share[side[a]];
-    }
-    visit(side, place, share);
-  });
-}
-
 template <int Dim, class Real>
 std::array<int, Dim - 1> first_cells(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) {
   std::array<int, Dim - 1> first{};
@@ -87,42 +23,6 @@ std::array<int, Dim - 1> first_cells(const mpm::SparseGrid<Dim, Real>& grid, std
 }
 
 }  // namespace
-
-template <int Dim, class Real>
-Lanes<Real> ColumnsOfTile<Dim, Real>::flow_depth(const mpm::Particles<Dim, Real>& particles,
-                                                 const mpm::Batch<Real>& batch) const {
-  const Lanes<Real> height = particles.position.load(batch, Dim - 1);
-  const auto in_band = particles.in_band.load_whole(batch) > Real(0);
-  const bool any_in_band = any(in_band);
-  Lanes<Real> depth = Real(0);
-  for_columns<Dim>(overlaps<Dim>(first_cell_, cell_, inverse_cell_, *sizes_, particles, batch),
-                   [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) THAWSLIDE_INLINE_LAMBDA {
-                     if (!any(share > Real(0))) {
-                       return;
-                     }
-                     const auto places = place.whole();
-                     const auto at_place = [&](const std::array<Real, count>& known) THAWSLIDE_INLINE_LAMBDA {
-                       return Lanes<Real>::gather(known.data(), places);
-                     };
-                     Lanes<Real> here = max(at_place(top_) - height, Lanes<Real>(Real(0)));
-                     if (any_in_band) {
-                       here = select(in_band, at_place(thickness_), here);
-                     }
-                     depth += share * at_place(cosine_) * here;
-                   });
-  return depth;
-}
-
-template <int Dim, class Real>
-Lanes<Real> ColumnsOfTile<Dim, Real>::below_top(const mpm::Particles<Dim, Real>& particles,
-                                                const mpm::Batch<Real>& batch) const {
-  Lanes<Real> place = Real(0);
-  for (std::size_t a = Dim - 1; a-- > 0;) {
-    const Lanes<Real> number = floor(particles.position.load(batch, static_cast<int>(a)) * inverse_cell_);
-    place = place * Real(per_axis) + (number - static_cast<Real>(first_cell_[a]));
-  }
-  return Lanes<Real>::gather(top_.data(), place.whole()) - particles.position.load(batch, Dim - 1);
-}
 
 template <int Dim, class Real>
 std::uint64_t FlowDepth<Dim, Real>::column_key(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t,
@@ -361,9 +261,7 @@ void FlowDepth<Dim, Real>::depth_to_particles(const mpm::SparseGrid<Dim, Real>& 
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)   \
-  template class ColumnsOfTile<Dim, Real>; \
-  template class FlowDepth<Dim, Real>;
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template class FlowDepth<Dim, Real>;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -6,37 +6,13 @@
 #include <limits>
 #include <vector>
 
+#include "band/columns_of_tile.hpp"
 #include "band/model.hpp"
 #include "base/key_index.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::band {
-
-// What the particles of one tile see of the grid's columns, by place in the tile.
-template <int Dim, class Real>
-class ColumnsOfTile {
- public:
-  // A tile's particles reach from the cell below its first node to that above its last one; a box that ends there looks
-  // for its share of 0 in one more.
-  static constexpr int per_axis = mpm::Tile<Dim>::edge + 2;
-  static constexpr auto count = static_cast<std::size_t>(mpm::power(per_axis, Dim - 1));
-
-  // H [m] of particles: the columns' thickness in the band, elsewhere the depth below their tops; each column by the
-  // share of the box in it.
-  [[nodiscard]] Lanes<Real> flow_depth(const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) const;
-  // Depth below the top of the column that holds the particle's middle [m], vertical.
-  [[nodiscard]] Lanes<Real> below_top(const mpm::Particles<Dim, Real>& particles, const mpm::Batch<Real>& batch) const;
-
- private:
-  template <int, class>
-  friend class FlowDepth;
-
-  std::array<int, Dim - 1> first_cell_;  // number along each horizontal axis
-  Real cell_, inverse_cell_;             // [m], [1/m]
-  const mpm::BodySizes<Real>* sizes_;    // of particles [m]
-  std::array<Real, count> thickness_, top_, cosine_;
-};
 
 // H of P_I = rho_I g H [m]: band particles see the thickness of the whole grid column (volume over footprint), others
 // their depth below its top; both times the cosine of the terrain's slope there. A particle belongs to

@@ -126,7 +126,11 @@ class Field final : public FieldBase {
   THAWSLIDE_ALWAYS_INLINE void store(const One<T>& one, T value, int component = 0) {
     (*this)(one.particle[0], component) = value;
   }
-  // Whole numbers, from and to lanes of a real type.
+  // Whole numbers, from and to a real type.
+  template <class Real>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real load_whole(const One<Real>& one) const {
+    return static_cast<Real>((*this)(one.particle[0]));
+  }
   template <class Real>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<Real> load_whole(const Batch<Real>& batch) const {
     if (batch.contiguous) {

@@ -175,6 +175,12 @@ void expect_all_kernels_agree() {
   expect_the_bits_of_lanes("stress", scene, ugimp, mpm::UpdateStress<Dim, double>{motion, dt});
   expect_the_bits_of_lanes("seepage", scene, by_linear,
                            band::SeepageFlows<Dim, double>{band, dt, scene.grid.inverse_cell()});
+  band::FlowDepth<Dim, double> depth;
+  depth.update(scene.grid, band, {}, scene.particles);
+  expect_the_bits_of_lanes("pressure", scene, by_linear,
+                           band::PorePressure<Dim, double, true>{scene.grid, band, depth});
+  expect_the_bits_of_lanes("pressure without seepage", scene, by_linear,
+                           band::PorePressure<Dim, double, false>{scene.grid, band, depth});
   expect_the_bits_of_lanes("orphan heat", scene, ugimp, band::TakeOrphanHeat<Dim, double>{dt});
   band::with_particle_heat(band, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;

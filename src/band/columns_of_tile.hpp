@@ -1,0 +1,147 @@
+// The columns of the slide that the particles of one tile see, and the depth of particles in them.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "mpm/particles.hpp"
+#include "mpm/tile.hpp"
+
+namespace thawslide::band {
+
+// A tile's particles reach from the cell below its first node to that above its last one; a box that ends there looks
+// for its share of 0 in one more.
+template <int Dim>
+inline constexpr int columns_per_axis = mpm::Tile<Dim>::edge + 2;
+
+// The number of a table at a place, a whole number.
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE Real look_up(const Real* table, const Real& place) {
+  return table[static_cast<std::size_t>(place)];
+}
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE Lanes<Real> look_up(const Real* table, const Lanes<Real>& place) {
+  return Lanes<Real>::gather(table, place.whole());
+}
+
+// What boxes cover of the two cells, `lower` and the next one, that they may overlap along one horizontal axis.
+template <class Value>
+struct Overlap {
+  Value lower;     // number of the cell, from the tile's first one
+  Value from[2];   // [m]
+  Value to[2];     // [m]
+  Value share[2];  // of the box
+};
+
+template <class Value, class Real>
+THAWSLIDE_ALWAYS_INLINE Overlap<Value> overlap(Value middle, const mpm::HalfSize<Value>& size, int first_cell,
+                                               Real cell, Real inverse_cell) {
+  using std::floor;
+  const Value begin = middle - size.half, end = middle + size.half, sliver = Value(round_off<Real>) * size.half;
+  const Value number = floor((begin + sliver) * inverse_cell);
+  const Value border = (number + Real(1)) * cell;
+  const auto crosses = end - sliver >= border;
+  Overlap<Value> over;
+  over.lower = number - static_cast<Real>(first_cell);
+  over.from[0] = max(begin, number * cell);
+  over.to[0] = min(end, border);
+  over.from[1] = border;
+  over.to[1] = select(crosses, end, border);
+  const Value inverse_width = static_cast<Real>(0.5) * size.inverse;
+  over.share[0] = (over.to[0] - over.from[0]) * inverse_width;
+  over.share[1] = (over.to[1] - over.from[1]) * inverse_width;
+  return over;
+}
+
+template <int Dim, class Value>
+using Overlaps = std::array<Overlap<Value>, static_cast<std::size_t>(Dim) - 1>;
+
+template <int Dim, class Real, class At>
+THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(const std::array<int, Dim - 1>& first_cell,
+                                                                   Real cell, Real inverse_cell,
+                                                                   const mpm::BodySizes<Real>& sizes,
+                                                                   const mpm::Particles<Dim, Real>& particles,
+                                                                   const At& at) {
+  const auto size = sizes.of(particles, at);
+  Overlaps<Dim, typename At::Value> along;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    along[a] = overlap(particles.position.load(at, static_cast<int>(a)), size, first_cell[a], cell, inverse_cell);
+    const auto inside = (along[a].lower >= Real(0)) & (along[a].lower <= Real(mpm::Tile<Dim>::edge));
+    THAWSLIDE_ASSERT(!any(!inside), "of particles {} ... one lies outside its tile: cells {} ...",
+                     particles.id(at.particle[0]), in_lane(along[a].lower, 0));
+  }
+  return along;
+}
+
+// Calls visit(which of the two cells along each axis, places in the tile, shares) for every column that boxes may
+// overlap.
+template <int Dim, class Value, class Visit>
+THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>& along, const Visit& visit) {
+  using Real = typename NumberOf<Value>::Type;
+  constexpr auto per_axis = static_cast<Real>(columns_per_axis<Dim>);
+  unrolled<static_cast<std::size_t>(1) << (Dim - 1)>([&](auto corner) THAWSLIDE_INLINE_LAMBDA {
+    std::array<std::size_t, Dim - 1> side{};
+    Value place = Real(0), share = Real(1);
+    for (std::size_t a = Dim - 1; a-- > 0;) {
+      side[a] = corner >> a & 1;
+      place = place * per_axis + along[a].lower + static_cast<Real>(side[a]);
+      share = share * along[a].share[side[a]];
+    }
+    visit(side, place, share);
+  });
+}
+
+// What the particles of one tile see of the grid's columns, by place in the tile.
+template <int Dim, class Real>
+class ColumnsOfTile {
+ public:
+  static constexpr int per_axis = columns_per_axis<Dim>;
+  static constexpr auto count = static_cast<std::size_t>(mpm::power(per_axis, Dim - 1));
+
+  // H [m]: the columns' thickness in the band, elsewhere the depth below their tops; each column by the share of the
+  // box in it.
+  template <class At>
+  [[nodiscard]] typename At::Value flow_depth(const mpm::Particles<Dim, Real>& particles, const At& at) const {
+    using Value = typename At::Value;
+    const Value height = particles.position.load(at, Dim - 1);
+    const auto in_band = particles.in_band.template load_whole<Real>(at) > Real(0);
+    const bool any_in_band = any(in_band);
+    Value depth = Real(0);
+    for_columns<Dim>(overlaps<Dim>(first_cell_, cell_, inverse_cell_, *sizes_, particles, at),
+                     [&](const auto& /*side*/, Value place, Value share) THAWSLIDE_INLINE_LAMBDA {
+                       if (!any(share > Real(0))) {
+                         return;
+                       }
+                       Value here = max(look_up(top_.data(), place) - height, Value(Real(0)));
+                       if (any_in_band) {
+                         here = select(in_band, look_up(thickness_.data(), place), here);
+                       }
+                       depth += share * look_up(cosine_.data(), place) * here;
+                     });
+    return depth;
+  }
+  // Depth below the top of the column that holds the particle's middle [m], vertical.
+  template <class At>
+  [[nodiscard]] typename At::Value below_top(const mpm::Particles<Dim, Real>& particles, const At& at) const {
+    using Value = typename At::Value;
+    using std::floor;
+    Value place = Real(0);
+    for (std::size_t a = Dim - 1; a-- > 0;) {
+      const Value number = floor(particles.position.load(at, static_cast<int>(a)) * inverse_cell_);
+      place = place * Real(per_axis) + (number - static_cast<Real>(first_cell_[a]));
+    }
+    return look_up(top_.data(), place) - particles.position.load(at, Dim - 1);
+  }
+
+ private:
+  template <int, class>
+  friend class FlowDepth;
+
+  std::array<int, Dim - 1> first_cell_;  // number along each horizontal axis
+  Real cell_, inverse_cell_;             // [m], [1/m]
+  const mpm::BodySizes<Real>* sizes_;    // of particles [m]
+  std::array<Real, count> thickness_, top_, cosine_;
+};
+
+}  // namespace thawslide::band
