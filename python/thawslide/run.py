@@ -213,6 +213,33 @@ class Run:
             raise ReportError(f"{path}: expected a JSON object")
         return facts
 
+    @property
+    def ended(self) -> bool:
+        """Whether the run came to its end; one that no run.json tells of is taken to have."""
+        return bool(self.facts.get("status", "done") == "done")
+
+    @property
+    def last_time(self) -> float:
+        """The time [s] that the run has come to."""
+        told = self.facts.get("simulated_time_s")
+        running = self.facts.get("status") == "running"  # run.json is of its start
+        return float(self.history["time_s"][-1] if told is None or running else told)
+
+    @property
+    def last_state(self) -> str:
+        """When the last state of the run is, and how the run ended if not by itself, as "19.5 s (stopped)"."""
+        status = str(self.facts.get("status", "done")).replace("running", "still running")
+        return f"{self.last_time:.4g} s" + ("" if self.ended else f" ({status})")
+
+    @property
+    def end_note(self) -> str:
+        """A sentence for figures of a run that did not come to its end, "" for one that did."""
+        if self.ended:
+            return ""
+        verb = {"running": "was still running", "failed": "went bad"}.get(self.facts["status"], "was stopped")
+        wanted = self.section("time").get("end")
+        return f"The run {verb} at {self.last_time:.4g} s" + (f" of {wanted:g} s. " if wanted else ". ")
+
     @cached_property
     def snapshot_files(self) -> list[Path]:
         """The snapshot files in order of their numbers."""

@@ -99,13 +99,15 @@ void print_releases(const config::Case& parameters, const config::Site& site) {
 }
 
 // What maps take in memory, and what they would if the slide passed all of them.
-void print_maps(const sim::FlowMaps& maps) {
+void print_maps(const sim::FlowMaps& maps, const std::string& reason) {
   const sim::MapGrid& grid = maps.map_grid();
   const double cells = static_cast<double>(grid.columns) * grid.rows;
-  fmt::print("  maps        {} x {} cells of {:g} x {:g} m; memory {:.1f} MB for the release, at most {:.1f} MB\n",
-             grid.columns, grid.rows, grid.cell_x, grid.cell_y, static_cast<double>(maps.bytes()) / 1e6,
+  fmt::print("  maps        {} x {} cells of {:g} x {:g} m ({}); memory {:.1f} MB for the release, at most {:.1f} MB\n",
+             grid.columns, grid.rows, grid.cell_x, grid.cell_y, reason, static_cast<double>(maps.bytes()) / 1e6,
              cells * static_cast<double>(sim::FlowMaps::bytes_of_cell() + sizeof(double)) / 1e6);
 }
+
+constexpr double ground_map_count = 2;  // terrain and release, on the DEM's points
 
 // Bytes of the snapshots and of the maps, as if none of these could be compressed; the other files are small.
 template <int Dim>
@@ -120,8 +122,14 @@ void print_disk(const sim::Simulation<Dim, double>& simulation, const sim::FlowM
   if (maps != nullptr && can_write_maps()) {
     const auto kinds = static_cast<double>(sim::map_kinds().size());
     const double one = static_cast<double>(maps->map_grid().columns) * maps->map_grid().rows * sizeof(double);
-    map_bytes = kinds * one;
-    of_maps = fmt::format(", {:.0f} maps of {:.1f} MB before they are compressed", kinds, one / 1e6);
+    const Raster* ground = simulation.site().ground.get();
+    const double of_ground = ground == nullptr ? 0.0 : ground_map_count;
+    const double one_of_ground = ground == nullptr ? 0.0 : static_cast<double>(ground->values.size()) * sizeof(double);
+    map_bytes = kinds * one + of_ground * one_of_ground;
+    const std::string sizes = ground == nullptr ? fmt::format("of {:.1f} MB", one / 1e6)
+                                                : fmt::format("({:.0f} of {:.1f} MB, {:.0f} of {:.1f} MB)", kinds,
+                                                              one / 1e6, of_ground, one_of_ground / 1e6);
+    of_maps = fmt::format(", {:.0f} maps {} before they are compressed", kinds + of_ground, sizes);
   }
   fmt::print("  disk        {} {:.0f} MB: {:.0f} snapshots of {:.1f} MB{}\n", of_maps.empty() ? "about" : "at most",
              (count * bytes + map_bytes) / 1e6, count, bytes / 1e6, of_maps);
@@ -142,6 +150,7 @@ int check_case(const CheckOptions& options) {
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
     sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
     records.start(simulation);
+    print_map_note(parameters, simulation.site());
     const Json setup = options.draws ? setup_json<Dim>(simulation) : Json();
     const auto limit = simulation.step_limit();
     const double dt = simulation.next_step(parameters.time.end);
@@ -162,7 +171,7 @@ int check_case(const CheckOptions& options) {
     const double seconds = measured_step_seconds<Dim>(simulation);
     fmt::print("  memory      {:.0f} MB\n", peak_memory_megabytes());
     if (records.maps() != nullptr) {
-      print_maps(*records.maps());
+      print_maps(*records.maps(), sim::reason_for_map_cell(parameters, simulation.site()));
     }
     print_disk(simulation, records.maps());
     fmt::print("  time        about {} on {} thread{} (measured on the first steps)\n", duration_text(seconds * steps),

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "config/case_proposal.hpp"
+
 namespace thawslide::app {
 
 struct CaseOptions {
@@ -51,8 +53,8 @@ struct NewOptions {
   std::string program;  // as it was called
   std::string folder;
   MapOptions maps;
-  double reach_angle = 8.0;  // degrees
-  double cell = 0.0;         // m; 0: from the thickness
+  double reach_angle = config::usual_reach_angle;  // degrees
+  double cell = 0.0;                               // m; 0: from the thickness
 };
 int make_new_case(const NewOptions& options);
 

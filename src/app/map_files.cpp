@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "sim/map_grid.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/holes.hpp"
@@ -30,6 +31,12 @@ config::Site read_map_files(const config::Case& parameters) {
                   "GDAL. Install libgdal-dev and build again (`./run --setup`), or use a profile.",
                   config::place_of(parameters, "terrain.type")));
 #endif
+}
+
+void print_map_note(const config::Case& parameters, const config::Site& site) {
+  if (const std::string note = sim::note_on_map_cell(parameters, site); !note.empty()) {
+    fmt::print("note: {}\n", note);
+  }
 }
 
 }  // namespace thawslide::app

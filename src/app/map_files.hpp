@@ -10,4 +10,7 @@ namespace thawslide::app {
 // Throws UserError for a build without GDAL.
 config::Site read_map_files(const config::Case& parameters);
 
+// Prints what to know of the cells of the maps to come, if there is anything.
+void print_map_note(const config::Case& parameters, const config::Site& site);
+
 }  // namespace thawslide::app

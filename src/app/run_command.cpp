@@ -42,6 +42,7 @@ int run_case(const RunOptions& options) {
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
     const sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written
+    print_map_note(parameters, simulation.site());
     io::make_run_folder(folder, options.overwrite);
     fmt::print("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
                parameters.general.title.empty() ? parameters.name : parameters.general.title,

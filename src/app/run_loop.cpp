@@ -52,28 +52,29 @@ std::string front_text(double front, double runout) {
 }
 
 template <int Dim>
-void print_summary(const sim::Simulation<Dim, double>& simulation, const sim::HistoryRow& row,
-                   const std::vector<std::pair<std::string, double>>& figures, const Stopwatch::Seconds& stage_seconds,
-                   std::int64_t steps, double wall, const std::filesystem::path& folder) {
-  const double count = static_cast<double>(simulation.particles().size());
-  fmt::print("{} particles, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n",
-             simulation.particles().size(), steps, duration_text(wall), count * static_cast<double>(steps) / wall / 1e6,
-             thread_count() == 1 ? "" : "at most ", thread_count(), thread_count() == 1 ? "" : "s");
+void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
+                   double wall, const std::filesystem::path& folder) {
+  const std::size_t at_start = output.particles_at_start(), at_end = simulation.particles().size();
+  fmt::print("{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n", at_start,
+             at_end == at_start ? "" : fmt::format(", {} of them at the end", at_end), steps, duration_text(wall),
+             output.particle_steps() / wall / 1e6, thread_count() == 1 ? "" : "at most ", thread_count(),
+             thread_count() == 1 ? "" : "s");
   std::vector<std::pair<double, std::string>> stages;
-  for (const auto& [name, seconds] : stage_seconds) {
+  for (const auto& [name, seconds] : output.seconds_per_stage(simulation)) {
     stages.emplace_back(seconds, name);
   }
   std::sort(stages.rbegin(), stages.rend());
   for (const auto& [seconds, name] : stages) {
     fmt::print("  {:<28}{:8.2f} s {:5.1f} %\n", name, seconds, 100.0 * seconds / wall);
   }
+  const sim::HistoryRow row = output.history_row(simulation);
   const auto value = [&](const std::string& name) {
     return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
   };
   fmt::print("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", simulation.time(),
              value("mean_velocity_m_s"), value("mean_displacement_m"),
              front_text(value("front_position_m"), value("runout_m")));
-  for (const auto& [name, number] : figures) {
+  for (const auto& [name, number] : output.figures()) {
     if (std::isfinite(number)) {
       fmt::print("  {:<28}{:12.6g}\n", name, number);
     }
@@ -105,6 +106,7 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   double seconds_in_steps = 0.0;
   const auto step = [&](double until) {
     const double before = wall();
+    output.before_step(simulation);
     simulation.step(simulation.next_step(until));
     seconds_in_steps += wall() - before;
     set_thread_count(choice.after_step(seconds_in_steps));
@@ -112,10 +114,10 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   const auto close = [&](const std::string& status, const std::string& message) {
     set_thread_count(most_threads);
     output.write_index();
-    output.write_provenance(simulation, status, message, wall());
+    const double wall_seconds = wall();
+    output.write_provenance(simulation, status, message, wall_seconds);
     progress.finish();
-    print_summary(simulation, output.history_row(simulation), output.figures(), output.seconds_per_stage(simulation),
-                  simulation.step_number() - first_step, wall(), folder);
+    print_summary(simulation, output, simulation.step_number() - first_step, wall_seconds, folder);
   };
   // Of a run that ends before its time; nothing can go on from there.
   const auto write_state_at_end = [&] {

@@ -132,7 +132,7 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
   if (output.records_.has_probes()) {
     output.probes_.emplace(io::HistoryWriter::continue_after(folder / "probes.csv", simulation.time()));
   }
-  output.history_step_ = output.snapshot_step_ = output.provenance_.steps_before = simulation.step_number();
+  output.history_step_ = output.snapshot_step_ = simulation.step_number();
   return output;
 }
 
@@ -147,6 +147,11 @@ void RunOutput<Dim>::write_history(const Simulation& simulation) {
       }
     });
   }
+}
+
+template <int Dim>
+void RunOutput<Dim>::before_step(const Simulation& simulation) {
+  provenance_.particle_steps += static_cast<double>(simulation.particles().size());
 }
 
 template <int Dim>

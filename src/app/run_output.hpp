@@ -44,6 +44,8 @@ class RunOutput {
   static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation,
                           const NamedNumbers& blocks);
 
+  // Counts the work; before every step.
+  void before_step(const Simulation& simulation);
   // Gathers what maps and probes tell; after every step.
   void after_step(const Simulation& simulation);
   // In place of it, after a step that none of the slide stayed on (SlideLeft).
@@ -68,6 +70,9 @@ class RunOutput {
                         double wall_seconds);
   // What run.json tells the run came to, by name, in 3D.
   [[nodiscard]] const std::vector<std::pair<std::string, double>>& figures() const { return provenance_.figures; }
+  // What run.json tells of the work: particles at the start, and the sum over the steps of those that were there.
+  [[nodiscard]] std::size_t particles_at_start() const { return provenance_.particles; }
+  [[nodiscard]] double particle_steps() const { return provenance_.particle_steps; }
   // Wall-clock time [s] of the step's stages and of writing.
   [[nodiscard]] Stopwatch::Seconds seconds_per_stage(const Simulation& simulation) const;
 

@@ -225,7 +225,7 @@ struct Checkpoint {
 };
 
 struct Maps {
-  double cell = 0.0;               // m; 0: that of the DEM, of the grid without one
+  double cell = 0.0;               // m; 0: chosen by the DEM and grid.cell
   double arrival_thickness = 0.1;  // m, from which on the slide has arrived
   std::string path;                // line along which the front is measured; absolute once read; empty: none
 };

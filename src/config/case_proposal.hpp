@@ -10,15 +10,18 @@
 
 namespace thawslide::config {
 
+// How far a slide is given room to run where nothing else is asked for [degrees].
+constexpr double usual_reach_angle = 8.0;
+
 // What a user gives, and what a look at the files shows.
 struct ProposalInput {
   std::string title;
   std::string dem_file, release_file;  // as the case is to name them; no release_file where a raster gives the release
   MapValue thickness;
   Placement placement = Placement::on_top;
-  EdgeTaper taper;              // of a release that is cut out
-  double reach_angle = 8.0;     // degrees: how far the slide is given room to run
-  double largest_volume = 0.0;  // m3, confirmed; 0: the default of the parameter holds
+  EdgeTaper taper;                         // of a release that is cut out
+  double reach_angle = usual_reach_angle;  // degrees
+  double largest_volume = 0.0;             // m3, confirmed; 0: the default of the parameter holds
 };
 
 struct Proposal {

@@ -137,11 +137,13 @@ std::vector<Parameter<Checkpoint>> checkpoint_parameters() {
 
 std::vector<Parameter<Maps>> map_parameters() {
   return {
-      parameter(&Maps::cell, {.key = "cell",
-                              .unit = "m",
-                              .range = at_least(0),
-                              .text = "side of a map's cell; 0: that of the DEM, of the grid without a DEM",
-                              .dimension = 3}),
+      parameter(&Maps::cell,
+                {.key = "cell",
+                 .unit = "m",
+                 .range = at_least(0),
+                 .text = "side of a map's cell; 0: as many of the DEM's cells as it takes to be as wide as "
+                         "grid.cell and three particle distances; without a DEM grid.cell",
+                 .dimension = 3}),
       parameter(&Maps::arrival_thickness, {.key = "arrival_thickness",
                                            .unit = "m",
                                            .range = above(0),

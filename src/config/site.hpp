@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,10 @@ struct Release {
 };
 
 struct Site {
-  std::shared_ptr<const Raster> ground;     // what bodies slide on, less what is cut out of it; null: no raster
-  std::map<std::string, Release> releases;  // by name of the body
+  std::shared_ptr<const Raster> ground;  // what bodies slide on, less what is cut out of it; null: no raster
+  // Outermost points of the terrain model that the ground was cropped from [m]; empty: it was not cropped.
+  std::optional<std::array<std::array<double, 2>, 2>> terrain_model;  // south-west, north-east
+  std::map<std::string, Release> releases;                            // by name of the body
   ProfileTable profile;  // of a 2D case cut out of maps, instead of terrain.file; empty: there is the file
   Polyline2 path;        // along which the front is measured; empty: none given
   std::map<std::string, Polyline2> probes;  // by name: one point, or a line

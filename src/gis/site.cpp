@@ -106,6 +106,7 @@ SiteAndNotes load_site(const config::Case& parameters) {
     site.releases[name] = std::move(release.release);
   }
   if (!dem.raster.empty()) {
+    site.terrain_model = {{{dem.span.min_x, dem.span.min_y}, {dem.span.max_x, dem.span.max_y}}};
     site.ground = std::make_shared<const Raster>(less_what_is_cut(parameters, site.releases, std::move(dem.raster)));
   }
   if (!parameters.maps.path.empty()) {

@@ -85,10 +85,7 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["steps"] = p.steps;
   json["particles"] = p.particles;
   json["wall_s"] = p.wall_seconds;
-  json["particle_steps_per_second"] =
-      p.wall_seconds > 0.0
-          ? static_cast<double>(p.particles) * static_cast<double>(p.steps - p.steps_before) / p.wall_seconds
-          : 0.0;
+  json["particle_steps_per_second"] = p.wall_seconds > 0.0 ? p.particle_steps / p.wall_seconds : 0.0;
   json["seconds_per_stage"] = p.seconds_per_stage;
   json["seconds_beside"] = p.seconds_beside;
   json["origin_m"] = p.origin;

@@ -28,7 +28,7 @@ struct Provenance {
   std::string status, message;  // running, done, stopped, failed
   double simulated_time = 0.0, wall_seconds = 0.0;
   std::int64_t steps = 0;
-  std::int64_t steps_before = 0;  // of them, those before this process went on with the run: not in wall_seconds
+  double particle_steps = 0.0;  // particles that were there, over the steps this process made in wall_seconds
   Stopwatch::Seconds seconds_per_stage;
   std::vector<std::pair<std::string, double>> figures;  // what the run comes to, in 3D; NaN: not known
   std::string crs;                                      // name of the reference system; empty: none is known

@@ -4,7 +4,9 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "config/case_proposal.hpp"
 #include "physics/mixture.hpp"
+#include "sim/path_line.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -40,6 +42,50 @@ constexpr const char* anew =
     "`thawslide new` crops the DEM to the domain: make the case anew with a smaller --reach-angle, which takes more of "
     "the DEM, or from a larger DEM.";
 
+// Where a particle is heading over the horizontal plane, in words; x is east and y north.
+std::string heading(double x, double y) {
+  const double speed = std::hypot(x, y);
+  // A direction counts where it is more than 22.5 degrees off the other axis.
+  constexpr double share = 0.3826834323650898;
+  const std::string along = y > share * speed ? "north" : y < -share * speed ? "south" : "";
+  const std::string across = x > share * speed ? "east" : x < -share * speed ? "west" : "";
+  return along + (along.empty() || across.empty() ? "" : "-") + across;
+}
+
+// The axis along which a particle within the domain is the first to come to a side of it.
+template <int Dim, class Real>
+int axis_of_way_out(const Vector<Real, Dim>& place, const Vector<Real, Dim>& velocity,
+                    const Vector<Real, Dim>& extent) {
+  int first = 0;
+  double soonest = HUGE_VAL;
+  for (int a = 0; a < Dim; ++a) {
+    const double speed = static_cast<double>(velocity[a]);
+    const double ahead = static_cast<double>(speed > 0.0 ? extent[a] - place[a] : place[a]);
+    const double time = speed == 0.0 ? HUGE_VAL : ahead / std::abs(speed);
+    if (time < soonest) {
+      soonest = time;
+      first = a;
+    }
+  }
+  return first;
+}
+
+// How far the terrain model reaches from a place on, the way it moves over the plane [m].
+double room_on(const config::Site& site, const Place2& place, const Place2& velocity) {
+  const double speed = std::hypot(velocity[0], velocity[1]);
+  const Raster& ground = *site.ground;
+  const auto [low, high] = site.terrain_model.value_or(
+      std::array<Place2, 2>{Place2{ground.x, ground.y}, Place2{ground.x_end(), ground.y_end()}});
+  double room = HUGE_VAL;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double forward = velocity[a] / speed;
+    if (forward != 0.0) {
+      room = std::min(room, ((forward > 0.0 ? high[a] : low[a]) - place[a]) / forward);
+    }
+  }
+  return std::max(room, 0.0);
+}
+
 // The cause that lies in pores closed by heat, if some are: their water then has no room, and its pressure no bound.
 template <int Dim, class Real>
 std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
@@ -65,18 +111,29 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
 
 }  // namespace
 
-// Where a particle is heading over the horizontal plane.
+// How much further a particle would go the way it moves, and how far the terrain model reaches there.
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::way_ahead(std::size_t p) const {
-  const double x = static_cast<double>(particles_.velocity(p, 0));
-  const double y = Dim == 3 ? static_cast<double>(particles_.velocity(p, 1)) : 0.0;
-  const double speed = std::hypot(x, y);
-  // A direction counts where it is more than 22.5 degrees off the other axis.
-  constexpr double share = 0.3826834323650898;
-  std::string towards = y > share * speed ? "north" : y < -share * speed ? "south" : "";
-  const char* across = x > share * speed ? "east" : x < -share * speed ? "west" : "";
-  towards += !towards.empty() && *across != '\0' ? "-" : "";
-  return fmt::format("It moves towards the {}{} at {:.4g} m/s.", towards, across, speed);
+  const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<Real, Dim>>(p).template cast<double>();
+  const double gravity = static_cast<double>(model_.motion.gravity.norm());
+  constexpr double angle = config::usual_reach_angle, degree = 3.14159265358979323846 / 180.0, rounded_to = 10.0;
+  const double energy_height = velocity.squaredNorm() / (2.0 * gravity);
+  const double further = std::ceil(energy_height / std::tan(angle * degree) / rounded_to) * rounded_to;
+  const std::string level = fmt::format(
+      "With {:g} degrees of friction, the angle of reach that `thawslide new` starts from, it would go about {:.0f} m "
+      "further on level ground, and more where the ground falls. ",
+      angle, further);
+  if (Dim == 2 || site_.ground == nullptr || bad_.fault == mpm::Fault::left_map) {
+    return level;
+  }
+  const Place2 place{static_cast<double>(particles_.position(p, 0)) + model_.origin[0],
+                     static_cast<double>(particles_.position(p, 1)) + model_.origin[1]};
+  const double room = room_on(site_, place, {velocity[0], velocity[1]});
+  return level + (room <= further
+                      ? fmt::format("The DEM ends {:.0f} m ahead of it: it has to be larger, and [grid] with "
+                                    "it. {}",
+                                    room, anew)
+                      : fmt::format("The DEM ends {:.0f} m ahead of it: widen [grid] that way.", room));
 }
 
 template <int Dim, class Real>
@@ -89,9 +146,13 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
     const std::string closed = closed_pores(particles_);
     return closed.empty() ? too_long : closed;
   }
+  const auto velocity = particles_.velocity.template get<Vector<Real, Dim>>(p);
+  const double own = static_cast<double>(velocity.norm());
+  const std::string towards =
+      Dim == 2 ? "" : " towards the " + heading(static_cast<double>(velocity[0]), static_cast<double>(velocity[1]));
   if (bad_.fault == mpm::Fault::left_map) {
-    return way_ahead(p) +
-           " Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
+    return fmt::format("It moves at {:.4g} m/s{}. {}", own, towards, way_ahead(p)) +
+           "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
            "particles go. " +
            anew;
   }
@@ -100,19 +161,22 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   }
   const BodySums<Dim, Real> sums = sum_over_body(*this);
   const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
-  const double own = static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(p).norm());
-  const std::string speeds = fmt::format("It moves at {:.4g} m/s, the slide at {:.4g} m/s in the mean. ", own, mean);
+  const std::string speeds =
+      fmt::format("It moves at {:.4g} m/s{}, the slide at {:.4g} m/s in the mean. ", own, towards, mean);
   if (own > runaway * mean) {
     return speeds +
            "Likely cause: it came loose from the slide; try half of time.step, or viscosity_time in the material.";
   }
-  const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow; widen them";
-  const bool rises_or_falls = 2.0 * std::abs(static_cast<double>(particles_.velocity(p, Dim - 1))) > own;
-  if (Dim == 2 || rises_or_falls) {
-    return too_far + " in its direction.";
+  const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow";
+  const int way_out = axis_of_way_out<Dim, Real>(particles_.position.template get<Vector<Real, Dim>>(p), velocity,
+                                                 model_.constraints.extent);
+  if (Dim == 2) {
+    return too_far + "; widen them in its direction.";
   }
-  const bool on_dem = parameters_.terrain.kind == config::TerrainKind::dem;
-  return too_far + ". " + way_ahead(p) + (on_dem ? fmt::format(" If terrain.file ends there too: {}", anew) : "");
+  if (way_out == Dim - 1) {
+    return too_far + (velocity[way_out] > Real(0) ? "; widen them upwards." : "; widen them downwards.");
+  }
+  return too_far + ". " + way_ahead(p) + (site_.ground ? "" : "Widen [grid] that way.");
 }
 
 template <int Dim, class Real>

@@ -36,11 +36,18 @@ struct MapGrid {
 // So that a map that is written, a real for each cell, takes 2 GB of memory at most.
 constexpr double most_map_cells = 2.5e8;
 
-// The grid of the case's maps: on the points of the ground's raster, or on cells of maps.cell that begin at that
-// raster's corner; without a raster, on cells that begin at the corner of the domain, of maps.cell or of the size of
-// the background grid's. Whole cells are added on each side until the grid covers the domain, so that no part of a
-// slide lies beside it. Throws UserError for more than most_map_cells.
+// The grid of the case's maps. Cells of maps.cell, or else of as many of the ground raster's as it takes for none to be
+// narrower than the background grid's and three particle distances, begin at that raster's corner. Without a raster
+// cells begin at the corner of the domain, of maps.cell or of the size of the background grid's. Whole cells are added
+// on each side until the grid covers the domain, so that no part of a slide lies beside it. Throws UserError for more
+// than most_map_cells.
 [[nodiscard]] MapGrid map_grid_of(const config::Case& parameters, const config::Site& site);
+
+// Why the cells of these maps are as large as they are, in words that follow on their size.
+[[nodiscard]] std::string reason_for_map_cell(const config::Case& parameters, const config::Site& site);
+
+// What to know of a maps.cell that is given and narrower than the background grid's; empty where there is nothing.
+[[nodiscard]] std::string note_on_map_cell(const config::Case& parameters, const config::Site& site);
 
 // The cells along one axis that a box overlaps, and its shares in them, which sum to 1.
 struct CellRange {

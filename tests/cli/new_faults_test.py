@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
 import rasterio
-from conftest import Program, run_facts
+from conftest import Program, run_facts, sets
 from rasterio.transform import from_origin
 from slope_files import (
     CELL,
@@ -247,20 +249,29 @@ ANEW = (
     r"`thawslide new` crops the DEM to the domain: make the case anew with a smaller --reach-angle, which takes more "
     r"of the DEM, or from a larger DEM\."
 )
+FURTHER = (
+    r"With 8 degrees of friction, the angle of reach that `thawslide new` starts from, it would go about (\d+) m "
+    r"further on level ground, and more where the ground falls\. "
+)
 # What is said of a particle over ground that is not known.
 NO_GROUND = (
     r"error: the run went bad at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: the "
-    r"terrain below it is not known: the DEM ends or has a hole there\. It moves towards the east at (\S+) m/s\. "
-    r"Give a DEM that reaches further there, and \[grid\] with it, or set grid\.leaving = \"remove\" to let such "
-    rf"particles go\. {ANEW}\n"
+    r"terrain below it is not known: the DEM ends or has a hole there\. It moves at (\S+) m/s towards the east\. "
+    rf"{FURTHER}Give a DEM that reaches further there, and \[grid\] with it, or set grid\.leaving = \"remove\" to let "
+    rf"such particles go\. {ANEW}\n"
 )
 # And of one that reaches the domain's side.
 LEFT_DOMAIN = (
     r"error: the run went bad at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: "
-    r"it left the domain\. It moves at \S+ m/s, the slide at \S+ m/s in the mean\. Likely cause: the slide ran further "
-    r"than \[grid\] min and max allow; widen them\. It moves towards the east at (\S+) m/s\. "
-    rf"If terrain\.file ends there too: {ANEW}\n"
+    r"it left the domain\. It moves at (\S+) m/s towards the east, the slide at \S+ m/s in the mean\. Likely cause: "
+    rf"the slide ran further than \[grid\] min and max allow\. {FURTHER}"
 )
+DEM_ENDS = rf"The DEM ends (\d+) m ahead of it: it has to be larger, and \[grid\] with it\. {ANEW}\n"
+
+
+def at_rest_after(speed: str) -> float:
+    """Return how far [m] a slide of a speed [m/s] goes on level ground by 8 degrees of friction, in tens of metres."""
+    return 10.0 * math.ceil(float(speed) ** 2 / (2.0 * 9.81 * math.tan(math.radians(8.0))) / 10.0)
 
 
 @pytest.mark.parametrize("hole", [None, slice(60, 70)])
@@ -275,12 +286,53 @@ def test_a_slide_that_leaves_the_known_ground_stops_there(
     words = ["--set", "basal.friction_angle=1", "--set", "basal.friction=constant"]
     done = thawslide("run", folder, "--output", run, *words)
     assert done.returncode == 3, done.stderr
-    told = re.fullmatch(NO_GROUND, done.stderr) or (None if hole else re.fullmatch(LEFT_DOMAIN, done.stderr))
+    told = re.fullmatch(NO_GROUND, done.stderr)
+    if not hole:
+        told = told or re.fullmatch(LEFT_DOMAIN + DEM_ENDS, done.stderr)
     assert told, done.stderr
     east = WEST + CELL * ((hole.start if hole else COLUMNS) - 1)
     assert east - 3.0 * CELL < float(told[1]) < east + CELL
     assert SOUTH + 200.0 < float(told[2]) < SOUTH + 400.0
     assert float(told[3]) > 20.0
+    assert float(told[4]) == pytest.approx(at_rest_after(told[3]), abs=10.0)  # of a speed told in four digits
     assert run_facts(run)["status"] == "failed"
     with rasterio.open(run / "maps" / "max_speed.tif") as file:
         assert file.read(1, masked=True).max() > 40.0
+
+
+def test_a_slide_that_leaves_a_steep_dem_is_told_where_to_and_how_far(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    """On 38 degrees it falls nearly as fast as it goes: its way over the map counts, and the DEM ends there."""
+    folder = tmp_path / "slide"
+    dem = slope(degrees=38.0, foot=CELL * COLUMNS)
+    assert made(thawslide, folder, dem, release, "--thickness", THICKNESS).returncode == 0
+    case = folder / "case.toml"
+    case.write_text(case.read_text().replace("temperature = ", "velocity = [48.0, 0.0, -36.0]\ntemperature = ", 1))
+    words = sets(basal__friction_angle=5, basal__friction="constant")
+    done = thawslide("run", folder, "--output", tmp_path / "run", *words)
+    assert done.returncode == 3, done.stderr
+    told = re.fullmatch(LEFT_DOMAIN + DEM_ENDS, done.stderr)
+    assert told, done.stderr
+    assert float(told[3]) > 60.0
+    assert float(told[4]) == pytest.approx(at_rest_after(told[3]), abs=10.0)
+    assert float(told[5]) == pytest.approx(WEST + CELL * (COLUMNS - 1) - float(told[1]), abs=2.0)
+
+
+def test_a_domain_that_ends_before_its_dem_is_to_be_widened(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    """Where the DEM reaches as far as the slide may go, nothing is said against the DEM."""
+    folder = tmp_path / "slide"
+    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    grid = tomllib.loads((folder / "case.toml").read_text())["grid"]
+    # A cell or two ahead of the release, which ends at 320 m; the DEM of the case goes on.
+    grid["max"][0] = grid["min"][0] + math.ceil((WEST + 330.0 - grid["min"][0]) / grid["cell"]) * grid["cell"]
+    with rasterio.open(folder / "dem.tif") as file:
+        end = file.bounds.right - 0.5 * CELL
+    words = sets(basal__friction_angle=5, basal__friction="constant", grid__max=grid["max"])
+    done = thawslide("run", folder, "--output", tmp_path / "run", *words)
+    assert done.returncode == 3, done.stderr
+    told = re.fullmatch(LEFT_DOMAIN + r"The DEM ends (\d+) m ahead of it: widen \[grid\] that way\.\n", done.stderr)
+    assert told, done.stderr
+    assert float(told[4]) < float(told[5]) == pytest.approx(end - float(told[1]), abs=5.0)

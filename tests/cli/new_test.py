@@ -35,11 +35,12 @@ def test_two_commands_to_maps(thawslide: Program, tmp_path: Path, slope: Slope, 
         assert file.units == ("m",)
         assert file.block_shapes == [(256, 256)] and file.compression.value == "DEFLATE"
         thickness = file.read(1, masked=True)
-        assert (file.res[0], file.res[1]) == (CELL, CELL)
+        # Particles 4 m apart: three distances are wider than a cell of the DEM.
+        assert file.res == (2.0 * CELL, 2.0 * CELL)
     facts, columns = run_facts(run), history(run)
     assert facts["crs"] == "EPSG:32632"
     # Swelling and squeezing by elasticity in 1.5 s is far below one part in a hundred.
-    assert thickness.sum() * CELL**2 == pytest.approx(volume, rel=0.01)
+    assert thickness.sum() * 4.0 * CELL**2 == pytest.approx(volume, rel=0.01)
     assert abs(columns["mass_residual_kg"][-1]) <= 1e-13 * columns["mass_kg"][0]
     with rasterio.open(run / "maps" / "release.tif") as file:
         assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(volume, rel=1e-9)
@@ -79,7 +80,7 @@ def test_release_by_a_raster_of_its_thickness_alone(
     lines = [line for line in case.read_text().splitlines() if not line.startswith("release = ")]
     text = "\n".join(lines).replace("thickness = 24.0  # m\n", 'thickness = { raster = "thick.tif" }\n', 1)
     case.write_text(text)
-    done = thawslide("run", folder, "--output", run, "--set", "time.end=0.01")
+    done = thawslide("run", folder, "--output", run, *sets(time__end=0.01, maps__cell=CELL))
     assert done.returncode == 0, done.stderr
     with rasterio.open(run / "maps" / "final_thickness.tif") as file:
         found = file.read(1, masked=True).filled(0.0)
@@ -174,18 +175,31 @@ def test_release_by_a_raster(thawslide: Program, tmp_path: Path, slope: Slope) -
 
 
 def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """How large their cells are and why, how many files there will be, and what it means to ask for small cells."""
     folder = tmp_path / "slide"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
-    outcome = thawslide("check", folder, "--set", "maps.cell=5")
-    assert outcome.returncode == 0, outcome.stderr
-    said = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
-    words = re.fullmatch(
-        r"(\d+) x (\d+) cells of 5 x 5 m; memory (\d+\.\d) MB for the release, at most (\d+\.\d) MB", said["maps"]
+    with rasterio.open(folder / "dem.tif") as file:
+        of_ground = file.width * file.height * 8
+    usual = "2 x 2 of the DEM's, so as to be 12 m wide at least: three particle distances"
+    note = (
+        "note: maps.cell is 5 m, and grid.cell 8 m: a cell of the maps holds few particles or one, and the largest "
+        "speeds and pressures are those of single particles. Without maps.cell they take cells of 20 m.\n"
     )
-    assert words, said["maps"]
-    columns, rows = int(words[1]), int(words[2])
-    at_start, at_most = float(words[3]), float(words[4])
-    assert 0.0 < at_start < at_most
-    assert f"10 maps of {columns * rows * 8 / 1e6:.1f} MB before they are compressed" in said["disk"]
+    for words, cell, reason in (([], 20, usual), (["--set", "maps.cell=5"], 5, "as maps.cell asks")):
+        outcome = thawslide("check", folder, *words)
+        assert outcome.returncode == 0, outcome.stderr
+        assert (note in outcome.stdout) == (cell == 5)
+        said = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
+        told = re.fullmatch(
+            rf"(\d+) x (\d+) cells of {cell} x {cell} m \({re.escape(reason)}\); "
+            r"memory (\d+\.\d) MB for the release, at most (\d+\.\d) MB",
+            said["maps"],
+        )
+        assert told, said["maps"]
+        assert 0.0 < float(told[3]) < float(told[4])
+        one = int(told[1]) * int(told[2]) * 8
+        assert said["disk"].endswith(
+            f", 12 maps (10 of {one / 1e6:.1f} MB, 2 of {of_ground / 1e6:.1f} MB) before they are compressed"
+        )
     refusal = refused(thawslide("check", folder, "--set", "maps.cell=0.01"))
     assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal

@@ -23,13 +23,19 @@ WIDTH, DEPTH = 120.0, 100.0
 Slope = Callable[..., Path]
 
 
-def write_slope(path: Path, crs: str | None = "EPSG:32632", hole: slice | None = None) -> Path:
-    """Write a slope of 30 degrees towards the east, level from the middle on.
+def write_slope(
+    path: Path,
+    crs: str | None = "EPSG:32632",
+    hole: slice | None = None,
+    degrees: float = 30.0,
+    foot: float = 450.0,
+) -> Path:
+    """Write a slope towards the east, level from its foot on, as far from the west [m].
 
     `hole`: columns without data in ten rows across the way of the slide.
     """
     x = CELL * np.arange(COLUMNS)
-    heights = np.tile(1000.0 + np.tan(np.radians(30.0)) * np.maximum(0.0, 450.0 - x), (ROWS, 1))
+    heights = np.tile(1000.0 + np.tan(np.radians(degrees)) * np.maximum(0.0, foot - x), (ROWS, 1))
     if hole:
         heights[25:35, hole] = -9999.0
     corner = from_origin(WEST - CELL / 2, SOUTH + (ROWS - 0.5) * CELL, CELL, CELL)

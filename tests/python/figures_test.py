@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 from conftest import MakeRun, ground, history_columns, write_history
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import FillBetweenPolyCollection, PolyCollection
 from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, Run
 from thawslide.figures import FIGURES
 from thawslide.figures.bars import bars
-from thawslide.figures.colours import TEMPERATURE, colour_range, normalisation
+from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, normalisation
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.snapshots import Stretch, chosen_snapshots, velocity
 from thawslide.figures.style import prefixed
@@ -140,6 +141,14 @@ def test_six_even_times_where_the_case_names_none(make_run: MakeRun) -> None:
 def test_times_that_share_a_snapshot_get_one_panel(make_run: MakeRun) -> None:
     shots = chosen_snapshots(Run(make_run(times="[0.0, 8.9, 9.1, 500.0]")))
     assert [shot.time for shot in shots] == [0.0, 9.0, 10.0]
+
+
+def test_ticks_of_a_bar_with_two_scales_are_round() -> None:
+    figure = Figure()
+    norm, _ = normalisation(np.linspace(-9.45, 35.8, 1000), TEMPERATURE)
+    bar = figure.colorbar(ScalarMappable(norm), cax=figure.add_subplot(), orientation="horizontal")
+    label_bar(bar, norm)
+    assert [label.get_text() for label in bar.ax.get_xticklabels()] == ["−5", "0", "10", "20", "30"]
 
 
 def test_window_stretches_only_long_flat_sections() -> None:

@@ -7,16 +7,13 @@ from pathlib import Path
 import imageio_ffmpeg
 import numpy as np
 import pytest
-from map_runs import MIDDLE, SOUTH, SPEED, THICKNESS, WEST, centres, ground, write_map
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.image import AxesImage
+from map_figure_parts import drawn, field, labels, maps_of, notes
+from map_runs import SOUTH, SPEED, THICKNESS, WEST, centres, write_map
 
 from thawslide import NotInRunError, ReportError, Run
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
 from thawslide.figures.animation import MOST_FRAMES, Film
-from thawslide.figures.cross_sections import across, along, reaching
 from thawslide.figures.map_page import HIGHEST, WIDTH, layout
 from thawslide.figures.map_panel import (
     MOST_CELLS,
@@ -27,7 +24,7 @@ from thawslide.figures.map_panel import (
     page_box,
     quiet_corner,
 )
-from thawslide.figures.site import distances, make_site
+from thawslide.figures.site import make_site
 from thawslide.key_numbers import key_numbers
 from thawslide.maps import Grid, Map
 from thawslide.report import figures_of, make_report
@@ -36,31 +33,6 @@ ON_MAP = [
     "extent_maps", "animation", "slide_speed", "slide_thickness", "slide_temperature", "cross_sections", "impact_maps",
     "probes", "motion", "force", "band", "energy",
 ]  # fmt: skip
-
-
-def drawn(name: str, folder: Path) -> Figure:
-    figure = FIGURES[name].draw(Run(folder))
-    assert isinstance(figure, Figure)
-    return figure
-
-
-def maps_of(figure: Figure) -> list[Axes]:
-    return [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
-
-
-def field(axes: Axes) -> AxesImage:
-    """Return the field over the shaded terrain."""
-    shade, *fields = [image for image in axes.images if isinstance(image, AxesImage)]
-    assert shade.get_zorder() < fields[-1].get_zorder()
-    return fields[-1]
-
-
-def labels(figure: Figure) -> set[str]:
-    return {label for axes in figure.axes for label in (axes.get_xlabel(), axes.get_ylabel()) if label}
-
-
-def notes(figure: Figure) -> str:
-    return " ".join(text.get_text() for text in figure.texts)
 
 
 @pytest.mark.parametrize(
@@ -97,7 +69,7 @@ def test_extent_maps(map_run: Path) -> None:
         ("(a) largest thickness", "max 6 m"),
         ("(b) largest speed", "max 20 m/s"),
         ("(c) arrival time", "max 9.8 s"),
-        ("(d) thickness at the end", "max 6 m"),
+        ("(d) thickness at 10 s", "max 6 m"),
     ]
     assert {"m", "m/s", "s"} <= labels(figure)
     final = field(panels[3]).get_array()
@@ -112,7 +84,7 @@ def test_impact_maps_leave_out_what_never_happened(map_run: Path) -> None:
     titles = [axes.get_title(loc="left")[4:] for axes in maps_of(drawn("impact_maps", map_run))]
     assert titles == [
         "largest dynamic pressure", "largest momentum flux", "largest pore pressure", "highest temperature at the base",
-        "change of elevation",
+        "change of elevation at 10 s",
     ]  # fmt: skip
 
 
@@ -138,59 +110,6 @@ def test_remarks_stand_beside_all_titles_or_in_all_maps(map_run: Path, largest: 
     assert all(beside) == (largest == THICKNESS)
     assert any(beside) != any(inside)
     assert f"{largest:,.0f}" in (beside[1] or inside[1][0])
-
-
-def test_sections_along_and_across_the_path(map_run: Path) -> None:
-    figure = drawn("cross_sections", map_run)
-    panels = maps_of(figure)
-    assert panels[0].get_title(loc="left").startswith("(a) along the path, true scale")
-    assert [axes.get_title(loc="left").split(",")[0] for axes in panels[2:]] == [f"({c}) across" for c in "cdef"]
-    (surface,) = [line for line in panels[0].lines if line.get_color() == "#6B6459"]
-    x, z = (np.asarray(values, dtype=float) for values in surface.get_data())
-    np.testing.assert_allclose(z, ground(WEST + 20.0 + x, np.full(len(x), MIDDLE)), rtol=1e-9)
-    largest = panels[1].lines[0]
-    assert float(np.max(np.asarray(largest.get_ydata(), dtype=float))) == pytest.approx(THICKNESS)
-
-
-def test_a_section_along_a_steep_path_shows_no_more_than_the_path(map_run: Path) -> None:
-    x, _ = centres()
-    write_map(map_run / "maps" / "terrain.tif", 2000.0 - 2.0 * (x - WEST))
-    along_path, thickness, *_ = maps_of(drawn("cross_sections", map_run))
-    assert along_path.get_title(loc="left").startswith("(a) along the path, true scale")
-    for axes in (along_path, thickness):
-        assert axes.get_xlim() == pytest.approx((0.0, 560.0), abs=1e-6)
-    assert along_path.get_position().width == thickness.get_position().width
-
-
-def test_a_thin_slide_is_drawn_thicker_and_the_panel_says_so(map_run: Path) -> None:
-    y = centres()[1]
-    thin = np.where(np.abs(y - MIDDLE) < 30.0, 0.5, 0.0)
-    for name in ("release", "max_thickness", "final_thickness"):
-        write_map(map_run / "maps" / f"{name}.tif", thin)
-    panel = maps_of(drawn("cross_sections", map_run))[0]
-    title = panel.get_title(loc="left")
-    times = float(title.split("thickness ×")[1])
-    assert times > 5.0
-    (line,) = [line for line in panel.lines if line.get_color() == "#D55E00"]
-    distance, height = (np.asarray(values, dtype=float) for values in line.get_data())
-    above = height - ground(WEST + 20.0 + distance, np.full(len(distance), MIDDLE))
-    assert np.nanmax(above) == pytest.approx(0.5 * times)
-
-
-def test_the_way_of_a_centre_reaches_the_ends_of_the_slide() -> None:
-    line = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 100.0]])
-    touched = np.array([[-30.0, 5.0], [50.0, 0.0], [104.0, 160.0]])
-    np.testing.assert_allclose(reaching(line, touched), [[-30.0, 0.0], [100.0, 0.0], [100.0, 160.0]])
-
-
-def test_sections_run_from_left_to_right_across_the_path() -> None:
-    line = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 100.0]])
-    np.testing.assert_allclose(distances(line), [0.0, 100.0, 200.0])
-    np.testing.assert_allclose(across(line, 50.0, 10.0, 5.0), [[50.0, 10.0], [50.0, -10.0]])
-    np.testing.assert_allclose(across(line, 150.0, 10.0, 5.0), [[90.0, 50.0], [110.0, 50.0]])
-    points, distance = along(line, 5)
-    np.testing.assert_allclose(points[:, 0], [0.0, 50.0, 100.0, 100.0, 100.0])
-    np.testing.assert_allclose(distance, [0.0, 50.0, 100.0, 150.0, 200.0])
 
 
 def test_probes(map_run: Path) -> None:

@@ -102,7 +102,7 @@ class _Picture:
         self.site = site
         # The thickness is shown as well where that leaves the map of speeds no smaller.
         self.paintings = (SPEED, THICKNESS) if site.scene.aspect < _SLIM else (SPEED,)
-        note = f"Dashed: release. Brown: passed by the slide. {site.scene.note()}"
+        note = f"{run.end_note}Dashed: release. Brown: passed by the slide. {site.scene.note()}"
         title = f"{run.title}: {' and '.join(painting.words.split(',')[0] for painting in self.paintings)}"
         count = len(self.paintings)
         self.page = page = MapPage(title, site.scene, count, note=note, foot=_FOOT, bar=0.72, narrowest=WIDTH)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Normalize, SymLogNorm, TwoSlopeNorm
-from matplotlib.ticker import NullLocator
+from matplotlib.ticker import MaxNLocator, NullLocator
 
 from thawslide.run import Numbers, Snapshot
 
@@ -77,8 +77,11 @@ def label_bar(bar: Colorbar, norm: Normalize) -> None:
     """Give a bar ticks that its scale needs: both halves of a broken one; decades and ends of a logarithmic one."""
     low, high = float(norm.vmin or 0.0), float(norm.vmax or 0.0)
     if isinstance(norm, TwoSlopeNorm):
-        bar.set_ticks([low, 0.5 * low, *np.linspace(0.0, high, 5)])
-        bar.ax.xaxis.set_major_formatter("{x:.3g}")
+        # Each half has its own scale, and so its own round steps.
+        below, above = (MaxNLocator(count, steps=[1, 2, 2.5, 5, 10]) for count in (2, 4))
+        ticks = {float(tick) for tick in (*below.tick_values(low, 0.0), *above.tick_values(0.0, high))}
+        bar.set_ticks(sorted(tick for tick in ticks if low <= tick <= high))
+        bar.ax.xaxis.set_major_formatter(lambda value, _: f"{value:.10g}".replace("-", "−"))
     elif isinstance(norm, SymLogNorm):
         # The end has its own label; a decade less than half of one below it would stand in its way.
         decades = [10.0**power for power in range(1, 7) if 3.0 * 10.0**power < high]

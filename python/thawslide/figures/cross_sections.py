@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import textwrap
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,6 +20,8 @@ from thawslide.maps import Map
 from thawslide.relief import round_number
 from thawslide.run import Numbers, Run
 
+_MOST_STEPS = 500  # along what the slide covered beyond the path
+_MOST_STRETCHES = 4  # beside the slide, that a note tells
 _PLACES = 4  # sections across the path
 _POINTS = 600  # of a section
 _SEEN = 0.06  # of the height of a panel: thinner bodies are drawn thicker than they are
@@ -25,7 +29,8 @@ _RELEASE, _DEPOSIT, _LARGEST = SKY, ORANGE, RED
 _CHORD = 0.02  # of the path, to either side of a place: its direction there
 _MARGINS = (1.0, 1.3)
 _FIRST = (1.6, 5.5)  # inches, least and most height of the section along the path
-_WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH = 10.0, 0.75, 0.2, 0.7, 2.45, 1.75  # inches
+_WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH, _LINE = 10.0, 0.75, 0.2, 0.7, 2.45, 1.75, 0.15  # inches
+_NOTE_CHARACTERS = 17.0  # of a note in one inch
 
 
 @dataclass(frozen=True)
@@ -69,18 +74,32 @@ def across(line: Numbers, place: float, half_width: float, chord: float) -> Numb
     return np.stack([at + half_width * left, at - half_width * left])
 
 
-def reaching(line: Numbers, touched: Numbers) -> Numbers:
-    """Return a line that goes on straight at its ends as far as places of shape (n, 2) [m] lie ahead of them.
+def reaching(line: Numbers, touched: Numbers, step: float) -> Numbers:
+    """Return a line that goes on at both ends along the middle of places of shape (n, 2) [m], to the last of them.
 
-    The way of a centre of mass begins and ends in the middle of the slide.
+    The way of a centre of mass begins and ends in the middle of the slide. The places that lie from half a step [m] to
+    one and a half of it ahead, no more than 60 degrees off, have their middle where the next step leads.
     """
-    nearest = np.array([np.hypot(*(line - place).T).argmin() for place in touched])
-    ends = []
-    for end, inner in ((0, 1), (len(line) - 1, len(line) - 2)):
-        outward = (line[end] - line[inner]) / np.hypot(*(line[end] - line[inner]))
-        ahead = (touched[nearest == end] - line[end]) @ outward
-        ends.append(line[end] + max(0.0, float(ahead.max(initial=0.0))) * outward)
-    return np.concatenate([ends[:1], line[1:-1], ends[1:]])
+    front = _onward(line[-1], line[-1] - line[-2], touched, step)
+    rear = _onward(line[0], line[0] - line[1], touched, step)
+    return np.array([*rear[::-1], *line, *front])
+
+
+def _onward(end: Numbers, direction: Numbers, touched: Numbers, step: float) -> list[Numbers]:
+    corners: list[Numbers] = []
+    for _ in range(_MOST_STEPS):
+        direction = direction / np.hypot(*direction)
+        offset = touched - end
+        away, forward = np.hypot(*offset.T), offset @ direction
+        near = (forward > 0.5 * away) & (away < 1.5 * step)
+        ahead = near & (away > 0.5 * step)
+        if not ahead.any():
+            rest = float(forward[near].max(initial=0.0))
+            return [*corners, end + rest * direction] if rest > 0.0 else corners
+        direction = offset[ahead].mean(axis=0)
+        end = end + direction
+        corners.append(end)
+    return corners
 
 
 def section(fields: _Fields, line: Numbers, start: float = 0.0) -> Section:
@@ -109,23 +128,28 @@ def cross_sections(run: Run) -> Figure:
     fields = _whole(site)
     touched_rows, touched_columns = np.nonzero(fields.largest.values > site.threshold)
     touched = np.stack([fields.largest.grid.x[touched_columns], fields.largest.grid.y[touched_rows]], axis=1)
-    path = site.path if site.path_is_given else reaching(site.path, touched)
+    path = site.path if site.path_is_given else reaching(site.path, touched, _step(fields.largest, touched, site.path))
     profile = section(fields, path)
     if not np.isfinite(profile.ground).any():
         raise NotInRunError("the path line lies outside the terrain")
     places = _places(profile, site.threshold)
     full = _WIDTH - _LEFT - _RIGHT
     broad, first = _size(profile, full)
-    head = 0.7 + first + 0.35
+    about = run.end_note + ("" if site.path_is_given else _about_way(profile, site.threshold))
+    told = textwrap.wrap(about, int(_NOTE_CHARACTERS * full), break_on_hyphens=False)
+    top = 0.7 + _LINE * len(told)
+    head = top + first + 0.35
     rows = -(-len(places) // 2)
     height = head + 1.2 + 0.85 + rows * _ROW + 0.3
     figure = Figure(figsize=(_WIDTH, height))
     figure.suptitle(f"{run.title}: sections", x=_LEFT / _WIDTH, y=1 - 0.14 / height, ha="left", va="top", size=12)
 
+    figure.text(_LEFT / _WIDTH, 1 - 0.4 / height, "\n".join(told), size=7.5, color=NOTE, va="top", linespacing=1.3)
+
     def place(left: float, top: float, wide: float, high: float) -> Axes:
         return figure.add_axes((left / _WIDTH, 1 - (top + high) / height, wide / _WIDTH, high / height))
 
-    upper, lower = place(_LEFT, 0.7, broad, first), place(_LEFT, head, broad, 1.2)
+    upper, lower = place(_LEFT, top, broad, first), place(_LEFT, head, broad, 1.2)
     window = _window(profile, broad / first, _MARGINS)
     _draw_profile(upper, profile, window, "(a) along the path")
     upper.set_xlabel("")
@@ -160,6 +184,25 @@ def _places(profile: Section, threshold: float) -> list[float]:
         return []
     start, end = (float(profile.distance[index]) for index in (touched[0], touched[-1]))
     return [start + (number + 0.5) / _PLACES * (end - start) for number in range(_PLACES)]
+
+
+def _step(largest: Map, touched: Numbers, line: Numbers) -> float:
+    """Return about how wide the slide was [m], four cells at least: how far one looks ahead for where it went."""
+    width = len(touched) * largest.grid.cell_area / float(distances(line)[-1])
+    return max(width, 4.0 * max(largest.grid.cell_x, largest.grid.cell_y))
+
+
+def _about_way(profile: Section, threshold: float) -> str:
+    """Say what line the path is, and where it runs beside what the slide covered."""
+    told = "Path: the way of the centre of mass, at its ends on along the middle of what the slide covered."
+    covered = np.flatnonzero(profile.largest > threshold)
+    beside = [
+        f"{profile.distance[before]:,.0f} to {profile.distance[after]:,.0f} m"
+        for before, after in pairwise(covered)
+        if after - before > 1
+    ]
+    shown = ", ".join(beside[:_MOST_STRETCHES]) + (" and further on" if len(beside) > _MOST_STRETCHES else "")
+    return told + (f" It runs beside that at {shown}." if beside else "")
 
 
 def _size(profile: Section, full: float) -> tuple[float, float]:
@@ -230,7 +273,7 @@ def _draw_across(axes: Axes, fields: _Fields, path: Numbers, place: float, box: 
 
     whole = cut(0.25 * length)
     reach = np.abs(whole.distance[whole.largest > 0.0])
-    window = _window(cut(1.5 * float(reach.max())), box, _MARGINS)
+    window = _window(cut(1.5 * float(reach.max(initial=_CHORD * length))), box, _MARGINS)
     _draw_profile(axes, cut(0.5 * (window.right - window.left)), window, f"({letter}) across, at {place:,.0f} m")
     axes.set_xlabel(f"distance to the right of the path ({length_unit(window.right - window.left)[1]})")
 
@@ -239,6 +282,6 @@ def _legend(site: Site) -> list[Patch | Line2D]:
     handles: list[Patch | Line2D] = [Patch(facecolor=GROUND, edgecolor=GROUND_LINE, label="ground")]
     if site.release is not None:
         handles.append(Patch(color=_RELEASE, label="release"))
-    handles.append(Patch(color=_DEPOSIT, label="at the end"))
+    handles.append(Patch(color=_DEPOSIT, label=f"at {site.run.last_state}"))
     handles.append(Line2D([], [], color=_LARGEST, label="largest thickness"))
     return handles

@@ -24,20 +24,24 @@ from thawslide.run import Numbers, Run
 
 @dataclass(frozen=True)
 class MapKind:
-    """One map: the name of its file, words, unit, colours, and whether they begin at zero."""
+    """One map: the name of its file, words, unit, colours, whether these begin at zero, and whether it is of the end.
+
+    Other maps hold what was largest, or first, in the whole run.
+    """
 
     name: str
     words: str
     unit: str
     colours: str
     from_zero: bool = True
+    of_last_state: bool = False
 
 
 _EXTENT = (
     MapKind("max_thickness", "largest thickness", "m", "YlOrRd"),
     MapKind("max_speed", "largest speed", "m/s", "viridis"),
     MapKind("arrival_time", "arrival time", "s", "cividis"),
-    MapKind("final_thickness", "thickness at the end", "m", "YlOrRd"),
+    MapKind("final_thickness", "thickness", "m", "YlOrRd", of_last_state=True),
 )
 _IMPACT = (
     MapKind("max_pressure", "largest dynamic pressure", "Pa", "magma_r"),
@@ -45,7 +49,7 @@ _IMPACT = (
     MapKind("max_pore_pressure", "largest pore pressure", "Pa", "viridis"),
     MapKind("max_basal_temperature", "highest temperature at the base", "°C", "plasma", from_zero=False),
     MapKind("max_melt", "most melt water", "m", "YlGnBu"),
-    MapKind("elevation_change", "change of elevation", "m", "RdBu", from_zero=False),
+    MapKind("elevation_change", "change of elevation", "m", "RdBu", from_zero=False, of_last_state=True),
 )
 _FOOT = 0.25  # inches below the maps, for the legend
 
@@ -68,13 +72,14 @@ def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
     fields = [(kind, field) for kind, field in fields if np.isfinite(field.values).any()]
     if not fields:
         raise NotInRunError(f"{site.maps.folder}: none of the maps {', '.join(kind.name for kind in kinds)} has values")
-    note = f"Thin line: where the slide was thicker than {site.threshold:g} m. {site.scene.note()}"
+    note = f"{run.end_note}Thin line: where the slide was thicker than {site.threshold:g} m. {site.scene.note()}"
     page = MapPage(f"{run.title}: {words}", site.scene, len(fields), note=note, foot=_FOOT, bar=0.72)
     corner = quiet_corner(site.reached, site.scene.box)
     panels = []
     for number, (kind, field) in enumerate(fields):
         axes = page.panel(number, labels=number == 0)
-        panels.append((axes, kind.words, _paint(page, axes, kind, field)))
+        words = f"{kind.words} at {run.last_state}" if kind.of_last_state else kind.words
+        panels.append((axes, words, _paint(page, axes, kind, field)))
         site.draw_release(axes)
         outline(axes, site.reached, site.threshold, colors=BLACK, linewidths=0.6)
         if kind.name == "arrival_time":

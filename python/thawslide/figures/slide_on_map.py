@@ -69,7 +69,7 @@ def _draw(run: Run, painting: Painting, field_of: Callable[[Columns], Map]) -> F
         raise NotInRunError(f"no snapshot has a {painting.words} to show on the map")
     norm, extend = normalisation(values, painting)
     painter = ScalarMappable(norm, colour_map(painting.colours))
-    note = f"Dashed: release. Thinner than {site.threshold:g} m is not drawn. {site.scene.note()}"
+    note = f"{run.end_note}Dashed: release. Thinner than {site.threshold:g} m is not drawn. {site.scene.note()}"
     title = f"{run.title}: {painting.words.split(',')[0]}"
     page = MapPage(title, site.scene, len(fields), note=note, foot=_FOOT)
     corner = quiet_corner(site.reached, site.scene.box)

@@ -45,11 +45,15 @@ _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
 def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Snapshot]:
-    """Return the snapshots nearest to the report times of the case, or to six even times, each once."""
+    """Return the snapshots nearest to the report times of the case, or to six even times, each once.
+
+    The last state of a run that did not come to its end is one of them.
+    """
     if not len(run.times):
         raise NotInRunError(f"{run.folder}: no snapshots; set [time] output_interval and run again")
     wanted = run.report_times or list(np.linspace(run.times[0], run.times[-1], 6))
-    indices = sorted({int(np.argmin(np.abs(run.times - time))) for time in wanted})
+    found = {int(np.argmin(np.abs(run.times - time))) for time in wanted}
+    indices = sorted(found if run.ended else found | {len(run.times) - 1})
     return [run.snapshot(index, fields=fields) for index in indices[: len(_LETTERS)]]
 
 
@@ -92,9 +96,8 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
 
     page = _Page(run, shots)
     figure = page.figure
-    figure.suptitle(
-        f"{run.title}: {painting.words}", x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=12
-    )
+    title = f"{run.title}: {painting.words}" + (f". {run.end_note.rstrip()}" if run.end_note else "")
+    figure.suptitle(title, x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=12)
     windows = [_window(run, shot, page.panel_width / _PANEL_HEIGHT) for shot in shots]
     _draw_stretches(_draw_overview(page, run, shots, windows), stretches)
     highest = max(extent(heights)[1] for heights in (above_ground(run, shot) for shot in shots))

@@ -38,6 +38,56 @@ TEST(MapGrid, IsThatOfTheGroundAndCoversTheDomain) {
   EXPECT_EQ(asked.rows, 24);
 }
 
+// A DEM of 5 m and particles 5 m apart: cells of 5 m would each hold one column of them.
+TEST(MapGrid, CellsAreThreeParticleDistancesWideUnlessAskedFor) {
+  config::Case parameters;
+  parameters.grid.cell = 10.0;
+  parameters.grid.min = {0.0, 0.0, 0.0};
+  parameters.grid.max = {500.0, 300.0, 100.0};
+  parameters.bodies["fine"].particles_per_axis = 4;
+  parameters.bodies["slide"].particles_per_axis = 2;
+  config::Site site;
+  site.ground = std::make_shared<Raster>(Raster{2.5, 2.5, 5.0, 5.0, 100, 60, {}, ""});
+  const MapGrid grid = map_grid_of(parameters, site);
+  EXPECT_EQ(grid.cell_x, 15.0);
+  EXPECT_EQ(grid.cell_y, 15.0);
+  EXPECT_EQ(grid.x, 7.5);  // the cells begin at the corner of the DEM's, 0 m
+  EXPECT_EQ(grid.columns, 34);
+  EXPECT_EQ(grid.rows, 20);
+  EXPECT_EQ(reason_for_map_cell(parameters, site),
+            "3 x 3 of the DEM's, so as to be 15 m wide at least: three particle distances");
+  EXPECT_EQ(note_on_map_cell(parameters, site), "");
+  site.ground = std::make_shared<Raster>(Raster{10.0, 2.5, 20.0, 5.0, 25, 60, {}, ""});
+  EXPECT_EQ(map_grid_of(parameters, site).cell_x, 20.0);
+  EXPECT_EQ(map_grid_of(parameters, site).cell_y, 15.0);
+  parameters.maps.cell = 5.0;
+  EXPECT_EQ(map_grid_of(parameters, site).cell_x, 5.0);
+  EXPECT_EQ(reason_for_map_cell(parameters, site), "as maps.cell asks");
+  EXPECT_EQ(note_on_map_cell(parameters, site),
+            "maps.cell is 5 m, and grid.cell 10 m: a cell of the maps holds few particles or one, and the largest "
+            "speeds and pressures are those of single particles. Without maps.cell they take cells of 20 x 15 m.");
+  parameters.maps.cell = 10.0;
+  EXPECT_EQ(note_on_map_cell(parameters, site), "");
+}
+
+// Where four particles an axis lie in a cell of the grid, that is wider than three of their distances; and a DEM that
+// is coarser than both keeps its cells.
+TEST(MapGrid, CellsAreNoNarrowerThanTheGridsAndTheDems) {
+  config::Case parameters;
+  parameters.grid.cell = 10.0;
+  parameters.grid.max = {500.0, 300.0, 100.0};
+  parameters.bodies["fine"].particles_per_axis = 4;
+  config::Site site;
+  EXPECT_EQ(reason_for_map_cell(parameters, site), "as grid.cell");
+  EXPECT_EQ(map_grid_of(parameters, site).cell_x, 10.0);
+  site.ground = std::make_shared<Raster>(Raster{2.5, 2.5, 4.9977, 4.9977, 100, 60, {}, ""});
+  EXPECT_EQ(map_grid_of(parameters, site).cell_x, 3.0 * 4.9977);
+  EXPECT_EQ(reason_for_map_cell(parameters, site), "3 x 3 of the DEM's, so as to be 10 m wide at least: grid.cell");
+  site.ground = std::make_shared<Raster>(Raster{2.5, 2.5, 10.0, 10.0, 50, 30, {}, ""});
+  EXPECT_EQ(map_grid_of(parameters, site).cell_x, 10.0);
+  EXPECT_EQ(reason_for_map_cell(parameters, site), "the DEM's");
+}
+
 TEST(MapGrid, OfTooManyCellsIsRefused) {
   config::Case parameters;
   parameters.file = "case.toml";

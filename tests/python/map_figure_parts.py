@@ -1,0 +1,41 @@
+"""The parts of a figure on a map that tests look at."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+
+from thawslide import Run
+from thawslide.figures import FIGURES
+
+
+def drawn(name: str, folder: Path) -> Figure:
+    """Draw a figure of a run by its name."""
+    figure = FIGURES[name].draw(Run(folder))
+    assert isinstance(figure, Figure)
+    return figure
+
+
+def maps_of(figure: Figure) -> list[Axes]:
+    """Return the panels that have a letter."""
+    return [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
+
+
+def field(axes: Axes) -> AxesImage:
+    """Return the field over the shaded terrain."""
+    shade, *fields = [image for image in axes.images if isinstance(image, AxesImage)]
+    assert shade.get_zorder() < fields[-1].get_zorder()
+    return fields[-1]
+
+
+def labels(figure: Figure) -> set[str]:
+    """Return what the axes are labelled with."""
+    return {label for axes in figure.axes for label in (axes.get_xlabel(), axes.get_ylabel()) if label}
+
+
+def notes(figure: Figure) -> str:
+    """Return what stands beside the panels, in one line."""
+    return " ".join(text.get_text() for text in figure.texts)
