@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 #include "mpm/group.hpp"
@@ -21,6 +23,14 @@ struct OneContribution {
 
   Real value[size] = {};
   Real flux[Dim][width] = {};
+
+  // As shared memory is before anything is in it.
+  void fill(Real number) {
+    std::fill(std::begin(value), std::end(value), number);
+    for (auto& along : flux) {
+      std::fill(std::begin(along), std::end(along), number);
+    }
+  }
 };
 
 // The weights of one particle: by axis, and the place in the patch of the lowest node that it sees.
@@ -237,7 +247,11 @@ class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real,
         particles_(particles_of_tile(grid, tile)),
         carried_(particles_.size()),
         weights_(particles_.size()),
-        accounts_(particles_.size()) {}
+        accounts_(particles_.size()) {
+    for (Carried& carried : carried_) {
+      (carried.template of<Adds>().fill(std::numeric_limits<Real>::signaling_NaN()), ...);
+    }
+  }
 
   template <class Records>
   Accounts<Kernels...> run(const Weights& weights, Particles<Dim, Real>& particles, Records& records,

@@ -50,11 +50,9 @@ template <int Dim, class Real>
 void momentum_to_grid(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes) {
   with_weights(model, [&](const auto& weights) {
-    const AddMomentum<Dim, Real> add{model};
+    particle_pass(grid, weights, particles, nodes, every_tile, AddMomentum<Dim, Real>{model});
     if constexpr (is_affine<std::decay_t<decltype(weights)>>) {
-      particle_pass(grid, weights, particles, nodes, every_tile, add, AddAffineMomentum<Dim, Real>{});
-    } else {
-      particle_pass(grid, weights, particles, nodes, every_tile, add);
+      particle_pass(grid, weights, particles, nodes, every_tile, AddAffineMomentum<Dim, Real>{});
     }
   });
   sum_patches(grid, nodes.momentum);
@@ -65,13 +63,12 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
                               const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes) {
   MoveWork<Real> work;
   with_weights(model, [&](const auto& weights) {
+    const Real pic_share = is_affine<std::decay_t<decltype(weights)>> ? Real(1) : model.pic_share;
+    work.particle_kinetic =
+        std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, Move<Dim, Real>{pic_share, dt}));
     if constexpr (is_affine<std::decay_t<decltype(weights)>>) {
-      const auto kinetic = particle_pass(grid, weights, particles, nodes, every_tile, Move<Dim, Real>{Real(1), dt},
-                                         MoveAffine<Dim, Real>{dt});
-      work.particle_kinetic = std::get<0>(kinetic) + std::get<1>(kinetic);
-    } else {
-      work.particle_kinetic =
-          std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, Move<Dim, Real>{model.pic_share, dt}));
+      work.particle_kinetic +=
+          std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, MoveAffine<Dim, Real>{dt}));
     }
   });
   return work;

@@ -105,7 +105,8 @@ struct SeenByBatch {
 };
 
 // What particles add to a record, and a tile's sums of it. A record that has an owner is another way to add to the
-// owner's: with other weights, to one of its registers.
+// owner's: with other weights, to one of its registers. It takes a pass of its own after the owner's, since the order
+// in which the two would add in one pass depends on where batches begin.
 template <class Name>
 concept OfAnOwner = requires {
   typename Name::Owner;
@@ -124,6 +125,14 @@ struct Adding<Name, Dim, Real> {
   static constexpr bool has_flux = true;
   using Sums = CellSums<0, first, carried, Dim, Real, components_of<Name, Dim>>;
 };
+template <class List>
+inline constexpr bool has_owner = false;
+template <class... Names>
+inline constexpr bool has_owner<RecordList<Names...>> = (OfAnOwner<Names> || ...);
+template <class List>
+inline constexpr std::size_t count_of = 0;
+template <class... Names>
+inline constexpr std::size_t count_of<RecordList<Names...>> = sizeof...(Names);
 template <class Name, int Dim, class Real>
 using SumsOf = typename Adding<Name, Dim, Real>::Sums;
 
@@ -206,6 +215,7 @@ Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weig
                                    const Kernels&... kernels) {
   using Reads = AllOf<typename Kernels::Reads...>;
   using Adds = AllOf<typename Kernels::Adds...>;
+  static_assert(!(has_owner<Adds> && count_of<Adds> > 1), "a record with an owner takes a pass of its own");
   static_assert(are_disjoint<Reads, Adds>, "no record is read in the pass that adds to it: it has no sums yet");
   take_patches(Adds{}, grid.tiles().size(), records);
   return parallel_sum<Accounts<Kernels...>>(grid.tiles().size(), [&](std::size_t t, Accounts<Kernels...>& accounts) {

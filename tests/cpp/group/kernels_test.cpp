@@ -1,5 +1,15 @@
 // Kernels as a device runs them, a group of threads a tile in phases between barriers (mpm/group_pass.hpp), against the
 // lanes of the processor: the same bits whatever the order of the threads, and others where a barrier is left out.
+
+// Eigen adds up small vectors of numbers in registers of its own, with contracted products: not here, while its types
+// keep the alignment that they have elsewhere.
+#define EIGEN_DONT_VECTORIZE
+#ifdef __AVX512F__
+#define EIGEN_MAX_STATIC_ALIGN_BYTES 64
+#else
+#define EIGEN_MAX_STATIC_ALIGN_BYTES 32
+#endif
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,6 +45,13 @@ class Scene {
     particles.affine_velocity.keep(true);
     particles.viscous_stress.keep(true);
     std::mt19937 random(7);
+    particles.affine_velocity.resize(particles.size());
+    particles.viscous_stress.resize(particles.size());
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      for (int c = 0; c < Dim * Dim; ++c) {
+        particles.affine_velocity(p, c) = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+      }
+    }
     fill<mpm::NodalState>({1.0, 1e5, 0.1, 1e3}, random);
     fill<mpm::Velocity>({1.0, 2.0, 0.5}, random);
     fill<mpm::Motion>({10.0, 5.0, 8.0, 1.0, 2.0, 3.0}, random);
@@ -94,7 +111,16 @@ struct PatchesOf;
 template <class... Names>
 struct PatchesOf<mpm::RecordList<Names...>> {
   template <int Dim>
-  static void take(Scene<Dim>& scene, Bits& bits) {
+  static void clear([[maybe_unused]] Scene<Dim>& scene) {
+    [[maybe_unused]] const auto clear_one = [&](auto patches) {
+      for (auto& patch : patches) {
+        patch.clear();
+      }
+    };
+    (clear_one(scene.nodes.template of<Names>().patches(scene.grid.tiles().size())), ...);
+  }
+  template <int Dim>
+  static void take([[maybe_unused]] Scene<Dim>& scene, [[maybe_unused]] Bits& bits) {
     (take_patches_of<Names>(scene, bits), ...);
   }
 };
@@ -106,6 +132,7 @@ Bits bits_of(Scene<Dim>& scene, const Run& run) {
   particles.affine_velocity.keep(true);
   particles.viscous_stress.keep(true);
   Scene<Dim>::copy(scene.particles, particles);
+  PatchesOf<Adds>::clear(scene);
   run(particles);
   Bits bits = fields_by_id(particles);
   PatchesOf<Adds>::take(scene, bits);
@@ -166,12 +193,10 @@ void expect_all_kernels_agree() {
   expect_the_bits_of_lanes("averages", scene, by_linear, band::AddAverages<Dim, double>{});
   expect_the_bits_of_lanes("momentum", scene, ugimp, mpm::AddMomentum<Dim, double>{motion});
   expect_the_bits_of_lanes("momentum, quadratic", scene, quadratic, mpm::AddMomentum<Dim, double>{motion});
-  expect_the_bits_of_lanes("momentum, affine", scene, affine, mpm::AddMomentum<Dim, double>{motion},
-                           mpm::AddAffineMomentum<Dim, double>{});
+  expect_the_bits_of_lanes("momentum, affine", scene, affine, mpm::AddAffineMomentum<Dim, double>{});
   expect_the_bits_of_lanes("move", scene, ugimp, mpm::Move<Dim, double>{0.1, dt});
   expect_the_bits_of_lanes("move, linear", scene, linear, mpm::Move<Dim, double>{0.1, dt});
-  expect_the_bits_of_lanes("move, affine", scene, affine, mpm::Move<Dim, double>{1.0, dt},
-                           mpm::MoveAffine<Dim, double>{dt});
+  expect_the_bits_of_lanes("move, affine", scene, affine, mpm::MoveAffine<Dim, double>{dt});
   expect_the_bits_of_lanes("stress", scene, ugimp, mpm::UpdateStress<Dim, double>{motion, dt});
   expect_the_bits_of_lanes("seepage", scene, by_linear,
                            band::SeepageFlows<Dim, double>{band, dt, scene.grid.inverse_cell()});
