@@ -1,3 +1,4 @@
+// Strain, rotation, stress, volume and porosity of particles (Eqs. 6, 11).
 #include "base/instances.hpp"
 #include "mpm/motion.hpp"
 #include "mpm/particle_pass.hpp"
