@@ -99,7 +99,6 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
     const auto pass = [&](const auto& takes_tile, const auto& kernel) {
       return std::get<0>(mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, takes_tile, kernel));
     };
-    HeatGain<Real> gain;
     const Real from_porosity = model.current_masses ? pass(every_tile, CountMassesAnew<Dim, Real, Law>{law}) : Real(0);
     const bool subgrid = model.secant_capacity && !first_step;
     pass(every_tile, HeatFlows<Dim, Real, Law>{model, law, dt, grid.inverse_cell(), subgrid});
@@ -110,7 +109,7 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
       pass(changes, SecantCapacity<Dim, Real, Law>{law, dt});
       solved = solve_with_secant(grid, model, dt, first_step, nodes);
     }
-    gain = solved.gain;
+    HeatGain<Real> gain = solved.gain;
     if (solved.any_orphan) {
       take_orphan_heat(grid, model, dt, nodes, particles);
     }

@@ -41,7 +41,8 @@ struct OneStencil {
   std::array<std::size_t, static_cast<std::size_t>(Dim)> in_cell{};  // of that node among the 3 an axis of its cell
 };
 
-template <class Weights, int Dim, class Real>
+// The weights of one particle; those of momentum and of APIC where the pass has them.
+template <int Dim, class Real>
 struct OneWeights {
   OneStencil<Real, Dim, 2> linear;
   OneStencil<Real, Dim, 3> momentum, affine;
@@ -113,51 +114,43 @@ OneStencil<Real, Dim, 2> linear_stencil(const SparseGrid<Dim, Real>& grid, const
   return stencil;
 }
 
-template <class Shape, int Dim, class Real>
-void set_momentum_weights(const MomentumWeights<Shape, Dim, Real>& weights, const SparseGrid<Dim, Real>& grid,
-                          const Particles<Dim, Real>& particles, const TileParticle<Dim>& one,
-                          const Vector<Real, Dim>& offset, OneStencil<Real, Dim, 3>& stencil) {
-  const HalfSize<Real> size = weights.sizes.of(particles, One<Real>{{one.particle}});
-  stencil.first = one.first_node;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const bool at_side = one.nearest[a] == weights.sides.lower[a] || one.nearest[a] == weights.sides.upper[a];
-    stencil.axis[a] = Shape::weights(offset[static_cast<int>(a)], size, at_side, grid.inverse_cell());
-  }
+template <int Dim>
+bool at_side(const HeldSides<Dim>& sides, const TileParticle<Dim>& one, std::size_t axis) {
+  return one.nearest[axis] == sides.lower[axis] || one.nearest[axis] == sides.upper[axis];
 }
 
 template <int Dim, class Real>
-OneWeights<LinearWeights, Dim, Real> weights_of(const LinearWeights& /*weights*/, const SparseGrid<Dim, Real>& grid,
-                                                const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
-  OneWeights<LinearWeights, Dim, Real> of_one;
+OneWeights<Dim, Real> weights_of(const LinearWeights& /*weights*/, const SparseGrid<Dim, Real>& grid,
+                                 const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
+  OneWeights<Dim, Real> of_one;
   of_one.linear = linear_stencil(grid, offset_of(grid, particles, one), one.first_node);
   return of_one;
 }
 template <class Shape, int Dim, class Real>
-OneWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real> weights_of(const MomentumWeights<Shape, Dim, Real>& weights,
-                                                                    const SparseGrid<Dim, Real>& grid,
-                                                                    const Particles<Dim, Real>& particles,
-                                                                    const TileParticle<Dim>& one) {
-  OneWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real> of_one;
+OneWeights<Dim, Real> weights_of(const MomentumWeights<Shape, Dim, Real>& weights, const SparseGrid<Dim, Real>& grid,
+                                 const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
+  OneWeights<Dim, Real> of_one = weights_of(LinearWeights{}, grid, particles, one);
   const Vector<Real, Dim> offset = offset_of(grid, particles, one);
-  of_one.linear = linear_stencil(grid, offset, one.first_node);
-  set_momentum_weights(weights, grid, particles, one, offset, of_one.momentum);
+  const HalfSize<Real> size = weights.sizes.of(particles, One<Real>{{one.particle}});
+  of_one.momentum.first = one.first_node;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    of_one.momentum.axis[a] =
+        Shape::weights(offset[static_cast<int>(a)], size, at_side(weights.sides, one, a), grid.inverse_cell());
+  }
   return of_one;
 }
 template <class Shape, int Dim, class Real>
-OneWeights<AffineWeights<Shape, Dim, Real>, Dim, Real> weights_of(const AffineWeights<Shape, Dim, Real>& weights,
-                                                                  const SparseGrid<Dim, Real>& grid,
-                                                                  const Particles<Dim, Real>& particles,
-                                                                  const TileParticle<Dim>& one) {
-  OneWeights<AffineWeights<Shape, Dim, Real>, Dim, Real> of_one;
+OneWeights<Dim, Real> weights_of(const AffineWeights<Shape, Dim, Real>& weights, const SparseGrid<Dim, Real>& grid,
+                                 const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
+  const MomentumWeights<Shape, Dim, Real>& of_momentum = weights;
+  OneWeights<Dim, Real> of_one = weights_of(of_momentum, grid, particles, one);
   const Vector<Real, Dim> offset = offset_of(grid, particles, one);
-  of_one.linear = linear_stencil(grid, offset, one.first_node);
-  set_momentum_weights<Shape, Dim, Real>(weights, grid, particles, one, offset, of_one.momentum);
   of_one.affine = of_one.momentum;
   for (std::size_t a = 0; a < Dim; ++a) {
-    const bool at_side = one.nearest[a] == weights.sides.lower[a] || one.nearest[a] == weights.sides.upper[a];
     const Real along = offset[static_cast<int>(a)];
-    of_one.affine.axis[a] = Shape::affine(of_one.momentum.axis[a], along, at_side, grid.inverse_cell());
-    of_one.moment[static_cast<int>(a)] = second_moment(of_one.momentum.axis[a], along) * (grid.cell() * grid.cell());
+    const auto& axis = of_one.momentum.axis[a];
+    of_one.affine.axis[a] = Shape::affine(axis, along, at_side(weights.sides, one, a), grid.inverse_cell());
+    of_one.moment[static_cast<int>(a)] = second_moment(axis, along) * (grid.cell() * grid.cell());
   }
   return of_one;
 }
@@ -284,7 +277,7 @@ class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real,
   // A thread a particle.
   void visit(std::size_t k, const Weights& weights, Particles<Dim, Real>& particles, const Kernels&... kernels) {
     weights_[k] = weights_of(weights, grid_, particles, particles_[k]);
-    const SeenByOne<OneWeights<Weights, Dim, Real>, Patches, Dim, Real> seen{weights_[k], patches_};
+    const SeenByOne<OneWeights<Dim, Real>, Patches, Dim, Real> seen{weights_[k], patches_};
     const One<Real> at{{particles_[k].particle}};
     carried_[k] = {};
     accounts_[k] = {};
@@ -372,7 +365,7 @@ class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real,
   Patches patches_;
   ByName<Named<Adds, SharedMemory<Real>>...> cell_sums_;
   std::vector<Carried> carried_;
-  std::vector<OneWeights<Weights, Dim, Real>> weights_;
+  std::vector<OneWeights<Dim, Real>> weights_;
   std::vector<Accounts<Kernels...>> accounts_;
 };
 

@@ -37,11 +37,23 @@ inline constexpr bool holds = false;
 template <class Name, class... Names>
 inline constexpr bool holds<Name, RecordList<Names...>> = (std::is_same_v<Name, Names> || ...);
 
-// Whether two lists have no record in common.
+// A name may be another way to see the record of its owner.
+template <class Name>
+struct OwnerOf {
+  using Type = Name;
+};
+template <class Name>
+requires requires { typename Name::Owner; }
+struct OwnerOf<Name> {
+  using Type = typename Name::Owner;
+};
+
+// Whether two lists have no record in common, whatever it is called.
 template <class First, class Second>
 inline constexpr bool are_disjoint = false;
-template <class... Names, class Second>
-inline constexpr bool are_disjoint<RecordList<Names...>, Second> = (!holds<Names, Second> && ...);
+template <class... Names, class... Others>
+inline constexpr bool are_disjoint<RecordList<Names...>, RecordList<Others...>> =
+    (!holds<typename OwnerOf<Names>::Type, RecordList<typename OwnerOf<Others>::Type...>> && ...);
 
 // All records of some lists, each once.
 template <class List, class... Lists>

@@ -153,6 +153,7 @@ struct AffineMomentum : Momentum {
 };
 struct AffineMotion : Motion {
   using Functions = AffineFunctions;
+  using Owner = Motion;
 };
 struct AffineVelocity : Velocity {
   using Functions = AffineFunctions;

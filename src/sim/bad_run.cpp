@@ -111,12 +111,13 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
 
 }  // namespace
 
-// How much further a particle would go the way it moves, and how far the terrain model reaches there.
+// How much further a particle would go the way it moves, until friction has taken its energy, v2/(2 g tan(angle)), and
+// how far the terrain model reaches there.
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::way_ahead(std::size_t p) const {
   const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<Real, Dim>>(p).template cast<double>();
   const double gravity = static_cast<double>(model_.motion.gravity.norm());
-  constexpr double angle = config::usual_reach_angle, degree = 3.14159265358979323846 / 180.0, rounded_to = 10.0;
+  constexpr double angle = config::usual_reach_angle, degree = pi<double> / 180.0, rounded_to = 10.0;
   const double energy_height = velocity.squaredNorm() / (2.0 * gravity);
   const double further = std::ceil(energy_height / std::tan(angle * degree) / rounded_to) * rounded_to;
   const std::string level = fmt::format(
