@@ -1,8 +1,8 @@
 // What a particle does in average_on_grid: a kernel (mpm/kernel.hpp).
 #pragma once
 
-#include "mpm/kernel.hpp"
-#include "mpm/nodes.hpp"
+#include "base/portability.hpp"
+#include "mpm/records.hpp"
 
 namespace thawslide::band {
 
@@ -14,8 +14,8 @@ struct AddAverages {
   using Account = mpm::NoAccount;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& added,
-                                          Account& /*account*/) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
+                                                       Added& added, Account& /*account*/) const {
     const auto volume = particles.volume.load(at);
     auto& averages = added.template of<mpm::Averages>();
     averages.value[mpm::Averages::volume] = volume;

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "mpm/particles.hpp"
+#include "base/select.hpp"
+#include "mpm/body_sizes.hpp"
 #include "mpm/tile.hpp"
 
 namespace thawslide::band {
@@ -14,16 +15,6 @@ namespace thawslide::band {
 // for its share of 0 in one more.
 template <int Dim>
 inline constexpr int columns_per_axis = mpm::Tile<Dim>::edge + 2;
-
-// The number of a table at a place, a whole number.
-template <class Real>
-THAWSLIDE_ALWAYS_INLINE Real look_up(const Real* table, const Real& place) {
-  return table[static_cast<std::size_t>(place)];
-}
-template <class Real>
-THAWSLIDE_ALWAYS_INLINE Lanes<Real> look_up(const Real* table, const Lanes<Real>& place) {
-  return Lanes<Real>::gather(table, place.whole());
-}
 
 // What boxes cover of the two cells, `lower` and the next one, that they may overlap along one horizontal axis.
 template <class Value>
@@ -35,8 +26,8 @@ struct Overlap {
 };
 
 template <class Value, class Real>
-THAWSLIDE_ALWAYS_INLINE Overlap<Value> overlap(Value middle, const mpm::HalfSize<Value>& size, int first_cell,
-                                               Real cell, Real inverse_cell) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlap<Value> overlap(Value middle, const mpm::HalfSize<Value>& size,
+                                                            int first_cell, Real cell, Real inverse_cell) {
   using std::floor;
   const Value begin = middle - size.half, end = middle + size.half, sliver = Value(round_off<Real>) * size.half;
   const Value number = floor((begin + sliver) * inverse_cell);
@@ -57,12 +48,10 @@ THAWSLIDE_ALWAYS_INLINE Overlap<Value> overlap(Value middle, const mpm::HalfSize
 template <int Dim, class Value>
 using Overlaps = std::array<Overlap<Value>, static_cast<std::size_t>(Dim) - 1>;
 
-template <int Dim, class Real, class At>
-THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(const std::array<int, Dim - 1>& first_cell,
-                                                                   Real cell, Real inverse_cell,
-                                                                   const mpm::BodySizes<Real>& sizes,
-                                                                   const mpm::Particles<Dim, Real>& particles,
-                                                                   const At& at) {
+template <int Dim, class Real, class Particles, class At>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(
+    const std::array<int, Dim - 1>& first_cell, Real cell, Real inverse_cell, const mpm::SizesOfBodies<Real>& sizes,
+    const Particles& particles, const At& at) {
   const auto size = sizes.of(particles, at);
   Overlaps<Dim, typename At::Value> along;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
@@ -77,7 +66,7 @@ THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(const std::ar
 // Calls visit(which of the two cells along each axis, places in the tile, shares) for every column that boxes may
 // overlap.
 template <int Dim, class Value, class Visit>
-THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>& along, const Visit& visit) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>& along, const Visit& visit) {
   using Real = typename NumberOf<Value>::Type;
   constexpr auto per_axis = static_cast<Real>(columns_per_axis<Dim>);
   unrolled<static_cast<std::size_t>(1) << (Dim - 1)>([&](auto corner) THAWSLIDE_INLINE_LAMBDA {
@@ -101,14 +90,14 @@ class ColumnsOfTile {
 
   // H [m]: the columns' thickness in the band, elsewhere the depth below their tops; each column by the share of the
   // box in it.
-  template <class At>
-  [[nodiscard]] typename At::Value flow_depth(const mpm::Particles<Dim, Real>& particles, const At& at) const {
+  template <class Particles, class At>
+  [[nodiscard]] THAWSLIDE_HD typename At::Value flow_depth(const Particles& particles, const At& at) const {
     using Value = typename At::Value;
     const Value height = particles.position.load(at, Dim - 1);
     const auto in_band = particles.in_band.template load_whole<Real>(at) > Real(0);
     const bool any_in_band = any(in_band);
     Value depth = Real(0);
-    for_columns<Dim>(overlaps<Dim>(first_cell_, cell_, inverse_cell_, *sizes_, particles, at),
+    for_columns<Dim>(overlaps<Dim>(first_cell_, cell_, inverse_cell_, sizes_, particles, at),
                      [&](const auto& /*side*/, Value place, Value share) THAWSLIDE_INLINE_LAMBDA {
                        if (!any(share > Real(0))) {
                          return;
@@ -122,8 +111,8 @@ class ColumnsOfTile {
     return depth;
   }
   // Depth below the top of the column that holds the particle's middle [m], vertical.
-  template <class At>
-  [[nodiscard]] typename At::Value below_top(const mpm::Particles<Dim, Real>& particles, const At& at) const {
+  template <class Particles, class At>
+  [[nodiscard]] THAWSLIDE_HD typename At::Value below_top(const Particles& particles, const At& at) const {
     using Value = typename At::Value;
     using std::floor;
     Value place = Real(0);
@@ -140,7 +129,7 @@ class ColumnsOfTile {
 
   std::array<int, Dim - 1> first_cell_;  // number along each horizontal axis
   Real cell_, inverse_cell_;             // [m], [1/m]
-  const mpm::BodySizes<Real>* sizes_;    // of particles [m]
+  mpm::SizesOfBodies<Real> sizes_;       // of particles [m]
   std::array<Real, count> thickness_, top_, cosine_;
 };
 

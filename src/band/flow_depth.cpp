@@ -118,7 +118,7 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
   for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
     const Lanes<Real> top = particles.position.load(batch, Dim - 1) + sizes_.of(particles, batch).half;
     const Lanes<Real> volume = particles.volume.load(batch);
-    const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_, particles, batch);
+    const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
     std::array<std::array<std::int32_t, mpm::Batch<Real>::most>, corners> places;
     std::array<Lanes<Real>, corners> volumes;
     std::size_t seen = 0;
@@ -147,7 +147,7 @@ void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
   part.extent.fill({});
   const auto first_cell = first_cells(grid, t);
   for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-    const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_, particles, batch);
+    const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
     for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) {
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         if (share[lane] > Real(0)) {
@@ -240,7 +240,7 @@ ColumnsOfTile<Dim, Real> FlowDepth<Dim, Real>::of_tile(const mpm::SparseGrid<Dim
   columns.first_cell_ = first_cells(grid, t);
   columns.cell_ = grid.cell();
   columns.inverse_cell_ = grid.inverse_cell();
-  columns.sizes_ = &sizes_;
+  columns.sizes_ = sizes_.view();
   for (std::size_t place = 0; place < OfTile::count; ++place) {
     const Column& here = columns_[static_cast<std::size_t>(tiles_[t].number[place])];
     columns.thickness_[place] = here.volume > Real(0) ? here.volume / here.footprint : Real(0);

@@ -101,7 +101,7 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
     };
     const Real from_porosity = model.current_masses ? pass(every_tile, CountMassesAnew<Dim, Real, Law>{law}) : Real(0);
     const bool subgrid = model.secant_capacity && !first_step;
-    pass(every_tile, HeatFlows<Dim, Real, Law>{model, law, dt, grid.inverse_cell(), subgrid});
+    pass(every_tile, HeatFlows<Dim, Real, Law>{model, model.hydraulic(), law, dt, grid.inverse_cell(), subgrid});
     NodalHeat<Real> solved = solve_with_tangent(grid, model, dt, first_step, nodes);
     if (model.secant_capacity) {
       find_changes(grid, law, dt, particles, nodes);

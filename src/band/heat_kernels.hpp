@@ -3,8 +3,11 @@
 #pragma once
 
 #include "band/particle_heat.hpp"
-#include "mpm/kernel.hpp"
-#include "mpm/nodes.hpp"
+#include "band/physics.hpp"
+#include "base/linear.hpp"
+#include "base/select.hpp"
+#include "mpm/reading.hpp"
+#include "mpm/records.hpp"
 #include "physics/pressurization.hpp"
 
 namespace thawslide::band {
@@ -18,14 +21,15 @@ struct HeatFlows {
   using Adds = mpm::RecordList<mpm::HeatRates>;
   using Account = mpm::NoAccount;
 
-  const BandModel<Dim, Real>& model;
+  const BandPhysics<Real>& model;
+  HydraulicConductivity<Real> hydraulic;
   const Law& law;
   Real dt, inverse_cell;
   bool subgrid;  // false where prescribed temperatures jump, since nodes then are ahead of particles, and as printed
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
-                                          Account& /*account*/) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature);
     const auto gradient = gradient_of(state, 0);
@@ -59,12 +63,13 @@ struct HeatFlows {
  private:
   // Water seeps where it is melted; the heat it carries [W].
   template <class Particles, class At, class Seen, class Gradient>
-  THAWSLIDE_ALWAYS_INLINE typename At::Value advection(const Particles& particles, const At& at, const Seen& seen,
-                                                       const Gradient& temperature_gradient) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value advection(const Particles& particles, const At& at,
+                                                                    const Seen& seen,
+                                                                    const Gradient& temperature_gradient) const {
     const auto pressure_gradient =
         gradient_of(seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure), 0);
     const auto mobility =
-        particles.thermal_scaling.load(at) * model.hydraulic(particles, at) / model.phases.water_unit_weight;
+        particles.thermal_scaling.load(at) * hydraulic(particles, at) / model.phases.water_unit_weight;
     const Real capacity = model.phases.water_density * model.phases.water_heat_capacity;
     return particles.volume.load(at) * capacity * mobility * pressure_gradient.dot(temperature_gradient);
   }
@@ -72,8 +77,8 @@ struct HeatFlows {
 
 // The change of temperature [K] of a step, at the particle's place and within its cell.
 template <class Real, class Particles, class At, class Seen>
-THAWSLIDE_ALWAYS_INLINE typename At::Value change_of_temperature(const Particles& particles, const At& at,
-                                                                 const Seen& seen, Real dt) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value change_of_temperature(const Particles& particles, const At& at,
+                                                                              const Seen& seen, Real dt) {
   return particles.conduction_in_cell.load(at) +
          dt * seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature_rate).value[0];
 }
@@ -90,8 +95,8 @@ struct SecantCapacity {
   Real dt;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
-                                          Account& /*account*/) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value change = change_of_temperature(particles, at, seen, dt);
     Value secant = particles.secant_capacity.load(at);  // still the tangent
@@ -118,8 +123,8 @@ struct TakeOrphanHeat {
   Real dt;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& /*added*/,
-                                          Account& /*account*/) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& /*added*/, Account& /*account*/) const {
     const auto specific = seen.template read<mpm::OrphanHeat, 1>().value[0];
     const auto gain = dt * specific * particles.mass.load(at) * particles.thermal_scaling.load(at) /
                       particles.initial_volume.load(at);  // [J/m3]
@@ -131,8 +136,8 @@ struct TakeOrphanHeat {
 
 // Saturation and porosity follow a change of temperature where there was one.
 template <class Phases, class Law, class Particles, class At, class Mask, class Value>
-THAWSLIDE_ALWAYS_INLINE void follow_temperature(const Phases& phases, const Law& law, Particles& particles,
-                                                const At& at, const Mask& changed, const Value& before) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void follow_temperature(const Phases& phases, const Law& law, Particles& particles,
+                                                             const At& at, const Mask& changed, const Value& before) {
   using Real = typename NumberOf<Value>::Type;
   const Value temperature = particles.temperature.load(at), porosity = particles.porosity.load(at);
   const Value saturation = law.content.curve.saturation(temperature);
@@ -148,13 +153,13 @@ struct TakeHeat {
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
-  const BandModel<Dim, Real>& model;
+  const BandPhysics<Real>& model;
   const Law& law;
   Real dt;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& /*added*/,
-                                          Account& /*account*/) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& /*added*/, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value secant = particles.secant_capacity.load(at);
     const Value gain = secant * change_of_temperature(particles, at, seen, dt);
@@ -179,13 +184,13 @@ struct TakeHeatAsPrinted {
   using Adds = mpm::RecordList<>;
   using Account = Real;
 
-  const BandModel<Dim, Real>& model;
+  const BandPhysics<Real>& model;
   const Law& law;
   Real dt;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& /*added*/,
-                                          Account& made) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& /*added*/, Account& made) const {
     using Value = typename At::Value;
     const Value tangent = particles.secant_capacity.load(at);
     const Value gain = tangent * change_of_temperature(particles, at, seen, dt);
@@ -213,8 +218,8 @@ struct CountMassesAnew {
   const Law& law;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
-                                          Account& made) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
+                                                       Added& /*added*/, Account& made) const {
     const auto before = particles.heat_content.load(at), anew = law.heat(particles, at);
     particles.heat_content.store(at, anew);
     at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (anew - before));

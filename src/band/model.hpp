@@ -1,14 +1,17 @@
 // What heat and pore pressure need to know, the same for every step.
 #pragma once
 
+#include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "band/particle_heat.hpp"
+#include "band/physics.hpp"
 #include "base/linear.hpp"
+#include "mpm/body_sizes.hpp"
 #include "mpm/transfer.hpp"
 #include "physics/freezing.hpp"
 #include "physics/heat_content.hpp"
-#include "physics/mixture.hpp"
 
 namespace thawslide::band {
 
@@ -27,15 +30,9 @@ using AnyHeatContent = std::variant<physics::HeatContent<Real, physics::PowerLaw
                                     physics::HeatContent<Real, physics::LinearCurve<Real>>>;
 
 template <int Dim, class Real>
-struct BandModel {
-  physics::Phases<Real> phases;
+struct BandModel : BandPhysics<Real> {
   AnyHeatContent<Real> heat_content;
-  Real reference_temperature = 0;  // Tref [C]
-  Real clapeyron_sign = 1;         // +1 as usual, -1 as Eq. 4 prints it
-  Real gravity = 0;                // magnitude [m/s2]
   bool heat = true;
-  bool conduction = true;
-  bool advection = true;
   HeatFace<Real> faces[2 * Dim] = {};
   Vector<Real, Dim> extent;  // upper corner of the domain [m]
   ScaledRegion region = ScaledRegion::all;
@@ -44,25 +41,14 @@ struct BandModel {
   bool lubrication = true;      // off: Eq. 25 sees the initial porosity and saturation (Sec. 3.3)
 
   bool pressure = true;
-  bool thermal_pressurization = true;
-  bool volumetric_term = false;  // Eq. 8's -div v, which Eq. 23 drops
-  bool seepage = true;
-  bool seepage_as_printed = false;  // Eq. 23 with one xi over the whole pore space
   bool normal_thickness = true;
-  bool thickness_each_step = true;
   std::vector<Real> hydraulic_conductivity;      // by material [m/s]
   mpm::BodySizes<Real> sizes;                    // of particles, in cells
   mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
   mpm::HeldSides<Dim> sides;
 
-  // Hydraulic conductivities [m/s].
-  template <class Particles, class At>
-  [[nodiscard]] typename At::Value hydraulic(const Particles& particles, const At& at) const {
-    if (hydraulic_conductivity.size() == 1) {
-      return hydraulic_conductivity[0];
-    }
-    return at.each(
-        [&](std::uint32_t p) { return hydraulic_conductivity[static_cast<std::size_t>(particles.material(p))]; });
+  [[nodiscard]] HydraulicConductivity<Real> hydraulic() const {
+    return {hydraulic_conductivity.data(), hydraulic_conductivity.size() == 1};
   }
 
   // Calls work(content) with the heat content law of the run.
@@ -71,5 +57,17 @@ struct BandModel {
     return std::visit(work, heat_content);
   }
 };
+
+// Calls work(law) with the ParticleHeat of the run.
+template <int Dim, class Real, class Work>
+decltype(auto) with_particle_heat(const BandModel<Dim, Real>& model, const Work& work) {
+  return model.with_heat_content([&](const auto& content) {
+    using Content = std::decay_t<decltype(content)>;
+    if (model.current_masses) {
+      return work(ParticleHeat<Content, CurrentMasses>{content});
+    }
+    return work(ParticleHeat<Content, InitialMasses>{content});
+  });
+}
 
 }  // namespace thawslide::band

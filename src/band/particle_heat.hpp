@@ -2,19 +2,19 @@
 // masses it counts. What a particle's volume is worth to heat, V0/xi, stays outside.
 #pragma once
 
-#include "band/model.hpp"
-#include "mpm/particles.hpp"
+#include "base/portability.hpp"
 
 namespace thawslide::band {
 
 // Rock, ice and water of t = 0.
 struct InitialMasses {
   template <class Particles, class At>
-  static auto porosity(const Particles& particles, const At& at) {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static auto porosity(const Particles& particles, const At& at) {
     return particles.initial_porosity.load(at);
   }
   template <class Particles, class At>
-  static typename At::Value volume_ratio(const Particles& /*particles*/, const At& /*at*/) {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static typename At::Value volume_ratio(const Particles& /*particles*/,
+                                                                              const At& /*at*/) {
     return typename At::Value(1);
   }
 };
@@ -22,11 +22,11 @@ struct InitialMasses {
 // All from the current porosity and volume, as printed.
 struct CurrentMasses {
   template <class Particles, class At>
-  static auto porosity(const Particles& particles, const At& at) {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static auto porosity(const Particles& particles, const At& at) {
     return particles.porosity.load(at);
   }
   template <class Particles, class At>
-  static auto volume_ratio(const Particles& particles, const At& at) {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static auto volume_ratio(const Particles& particles, const At& at) {
     return particles.volume.load(at) / particles.initial_volume.load(at);
   }
 };
@@ -37,41 +37,29 @@ struct ParticleHeat {
 
   // H [J/m3] at the particle's temperature.
   template <class Particles, class At>
-  [[nodiscard]] auto heat(const Particles& particles, const At& at) const {
+  [[nodiscard]] THAWSLIDE_HD auto heat(const Particles& particles, const At& at) const {
     return Masses::volume_ratio(particles, at) *
            content.content(particles.temperature.load(at), Masses::porosity(particles, at));
   }
   // dH/dT [J/m3/K] there.
   template <class Particles, class At>
-  [[nodiscard]] auto tangent(const Particles& particles, const At& at) const {
+  [[nodiscard]] THAWSLIDE_HD auto tangent(const Particles& particles, const At& at) const {
     return Masses::volume_ratio(particles, at) *
            content.apparent_capacity(particles.temperature.load(at), Masses::porosity(particles, at));
   }
   // (H(T + change) - H(T))/change [J/m3/K].
   template <class Particles, class At, class Value>
-  [[nodiscard]] Value secant(const Particles& particles, const At& at, const Value& change) const {
+  [[nodiscard]] THAWSLIDE_HD Value secant(const Particles& particles, const At& at, const Value& change) const {
     return Masses::volume_ratio(particles, at) *
            content.secant_capacity(particles.temperature.load(at), change, Masses::porosity(particles, at));
   }
   // Temperature [C] at which the particle holds `heat` [J/m3], from a guess near it.
   template <class Particles, class At, class Value>
-  [[nodiscard]] Value temperature(const Particles& particles, const At& at, const Value& heat,
-                                  const Value& guess) const {
+  [[nodiscard]] THAWSLIDE_HD Value temperature(const Particles& particles, const At& at, const Value& heat,
+                                               const Value& guess) const {
     return content.temperature(Value(heat / Masses::volume_ratio(particles, at)),
                                Value(Masses::porosity(particles, at)), guess);
   }
 };
-
-// Calls work(law) with the ParticleHeat of the run.
-template <int Dim, class Real, class Work>
-decltype(auto) with_particle_heat(const BandModel<Dim, Real>& model, const Work& work) {
-  return model.with_heat_content([&](const auto& content) {
-    using Content = std::decay_t<decltype(content)>;
-    if (model.current_masses) {
-      return work(ParticleHeat<Content, CurrentMasses>{content});
-    }
-    return work(ParticleHeat<Content, InitialMasses>{content});
-  });
-}
 
 }  // namespace thawslide::band

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "band/pressure_kernels.hpp"
+#include "band/pore_pressure_of_tile.hpp"
 #include "base/instances.hpp"
 #include "mpm/node_pass.hpp"
 #include "mpm/particle_pass.hpp"
@@ -20,7 +20,7 @@ bool find_seepage(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
     const auto& batches = grid.batches(t);
     const auto seeps = [&](const mpm::Batch<Real>& batch) {
       const auto melted = melted_before(model, particles, batch);
-      return any(melted) && any(melted & (model.hydraulic(particles, batch) > Real(0)));
+      return any(melted) && any(melted & (model.hydraulic()(particles, batch) > Real(0)));
     };
     marks.seeping_tiles[t] = std::any_of(batches.begin(), batches.end(), seeps) ? 1 : 0;
   });
@@ -36,7 +36,7 @@ void seep(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& mo
   const auto& blocks = nodes.marks.seeping_blocks;
   mpm::particle_pass(
       grid, mpm::LinearWeights{}, particles, nodes, [&](std::size_t t) { return grid.any_about_tile(t, blocks); },
-      SeepageFlows<Dim, Real>{model, dt, grid.inverse_cell()});
+      SeepageFlows<Dim, Real>{model, model.hydraulic(), dt, grid.inverse_cell()});
   nodes.seepage.resize(grid.blocks().size());
   mpm::node_pass<mpm::NoAccount>(
       grid,
@@ -65,9 +65,9 @@ void drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel
   };
   if (model.seepage && model.thermal_pressurization && find_seepage(grid, model, particles, nodes.marks)) {
     seep(grid, model, dt, particles, nodes);
-    update(PorePressure<Dim, Real, true>{grid, model, depth});
+    update(UpdatePorePressure<Dim, Real, true>{grid, model, depth});
   } else {
-    update(PorePressure<Dim, Real, false>{grid, model, depth});
+    update(UpdatePorePressure<Dim, Real, false>{grid, model, depth});
   }
 }
 

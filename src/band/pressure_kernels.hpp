@@ -1,18 +1,19 @@
 // What a particle does in drain_pore_pressure: kernels (mpm/kernel.hpp).
 #pragma once
 
-#include "band/flow_depth.hpp"
-#include "band/model.hpp"
-#include "mpm/kernel.hpp"
-#include "mpm/nodes.hpp"
+#include "band/physics.hpp"
+#include "base/linear.hpp"
+#include "base/select.hpp"
+#include "mpm/reading.hpp"
+#include "mpm/records.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/pressurization.hpp"
 
 namespace thawslide::band {
 
-template <int Dim, class Real, class Particles, class At>
-THAWSLIDE_ALWAYS_INLINE auto melted_before(const BandModel<Dim, Real>& model, const Particles& particles,
-                                           const At& at) {
+template <class Real, class Particles, class At>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto melted_before(const BandPhysics<Real>& model, const Particles& particles,
+                                                        const At& at) {
   return particles.previous_temperature.load(at) >= model.reference_temperature;
 }
 
@@ -23,17 +24,17 @@ struct Pressures {
 };
 
 // Frozen or partly frozen: the liquid follows the ice (Eq. 4).
-template <int Dim, class Real, class Value>
-Pressures<Value> frozen_pressures(const BandModel<Dim, Real>& model, Value ice_pressure, Value temperature,
-                                  Value saturation) {
+template <class Real, class Value>
+THAWSLIDE_HD Pressures<Value> frozen_pressures(const BandPhysics<Real>& model, Value ice_pressure, Value temperature,
+                                               Value saturation) {
   const Value liquid = physics::liquid_pressure_clapeyron(model.phases, ice_pressure, temperature,
                                                           model.reference_temperature, model.clapeyron_sign);
   return {liquid, physics::pore_pressure(saturation, liquid, ice_pressure)};
 }
 
 // Pressure at which the liquid starts when the last ice melts, continuous with Eq. 4 at Tref.
-template <int Dim, class Real, class Value>
-Value melting_pressure(const BandModel<Dim, Real>& model, Value ice_pressure) {
+template <class Real, class Value>
+THAWSLIDE_HD Value melting_pressure(const BandPhysics<Real>& model, Value ice_pressure) {
   return ice_pressure * model.phases.water_density / model.phases.ice_density;
 }
 
@@ -49,15 +50,16 @@ struct SeepageFlows {
   using Adds = mpm::RecordList<mpm::Seepage>;
   using Account = mpm::NoAccount;
 
-  const BandModel<Dim, Real>& model;
+  const BandPhysics<Real>& model;
+  HydraulicConductivity<Real> hydraulic_conductivity;
   Real dt, inverse_cell;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
-                                          Account& /*account*/) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value zero = Real(0);
-    const Value hydraulic = model.hydraulic(particles, at);
+    const Value hydraulic = hydraulic_conductivity(particles, at);
     const Value scaling = particles.thermal_scaling.load(at);
     const Value pore_scaling = physics::pore_space_scaling(scaling, model.seepage_as_printed);
     const Value porosity = particles.porosity.load(at), volume = particles.volume.load(at);
@@ -84,23 +86,22 @@ struct SeepageFlows {
 };
 
 // Depth, ice pressure, and the pressures of liquid and pore: Clapeyron while ice and water coexist, then thermal
-// pressurization and seepage. Seeps: somewhere water seeps.
-template <int Dim, class Real, bool Seeps>
+// pressurization and seepage. Columns: of the slide, with the flow depth of a particle and its depth below the top.
+// Seeps: somewhere water seeps.
+template <class Real, class Columns, bool Seeps>
 struct PorePressure {
   using Reads = std::conditional_t<Seeps, mpm::RecordList<mpm::NodalState>, mpm::RecordList<>>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
-  const mpm::SparseGrid<Dim, Real>& grid;
-  const BandModel<Dim, Real>& model;
-  const FlowDepth<Dim, Real>& depth;
-  ColumnsOfTile<Dim, Real> columns = {};  // of the tile at hand
-
-  [[nodiscard]] PorePressure in_tile(std::size_t tile) const { return {grid, model, depth, depth.of_tile(grid, tile)}; }
+  const BandPhysics<Real>& model;
+  HydraulicConductivity<Real> hydraulic_conductivity;
+  Real drained_depth;  // below the top, where the pressure of a permeable body is 0 [m]
+  Columns columns;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& /*added*/,
-                                          Account& /*account*/) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& /*added*/, Account& /*account*/) const {
     using Value = typename At::Value;
     if (model.thickness_each_step) {
       particles.flow_depth.store(at, columns.flow_depth(particles, at));
@@ -124,13 +125,13 @@ struct PorePressure {
  private:
   // Undrained heating and seepage; 0 near the free surface of a drained body.
   template <class Particles, class At, class Seen>
-  typename At::Value melted_pressure(const Particles& particles, const At& at,
-                                     [[maybe_unused]] const Seen& seen) const {
+  THAWSLIDE_HD typename At::Value melted_pressure(const Particles& particles, const At& at,
+                                                  [[maybe_unused]] const Seen& seen) const {
     using Value = typename At::Value;
     const Value zero = Real(0);
     const bool seepage = model.seepage && model.thermal_pressurization;
     const auto was_melted = melted_before(model, particles, at);
-    const auto permeable = model.hydraulic(particles, at) > zero;
+    const auto permeable = hydraulic_conductivity(particles, at) > zero;
     Value seeped = zero;
     if constexpr (Seeps) {
       if (any(was_melted & permeable)) {
@@ -140,7 +141,7 @@ struct PorePressure {
     }
     const Value pressure = pressurized(particles, at, was_melted, seeped);
     if (seepage && any(permeable)) {
-      const auto at_surface = columns.below_top(particles, at) < Real(0.5) * grid.cell();
+      const auto at_surface = columns.below_top(particles, at) < drained_depth;
       return select(at_surface & permeable, zero, pressure);
     }
     return pressure;
@@ -148,8 +149,8 @@ struct PorePressure {
 
   // `seeped`: what seepage changes [Pa].
   template <class Particles, class At, class Mask>
-  typename At::Value pressurized(const Particles& particles, const At& at, const Mask& was_melted,
-                                 const typename At::Value& seeped) const {
+  THAWSLIDE_HD typename At::Value pressurized(const Particles& particles, const At& at, const Mask& was_melted,
+                                              const typename At::Value& seeped) const {
     using Value = typename At::Value;
     const Value start = melting_pressure(model, particles.ice_pressure.load(at));
     if (!model.thermal_pressurization) {

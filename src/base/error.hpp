@@ -2,7 +2,11 @@
 // mistakes.
 #pragma once
 
+#ifdef __CUDACC__
+#include <cassert>
+#else
 #include <fmt/format.h>
+#endif
 
 #include <stdexcept>
 #include <string>
@@ -35,10 +39,15 @@ class InternalError : public std::logic_error {
 
 }  // namespace thawslide
 
-// Checks an invariant of the program; the further arguments (a fmt format and values) go into the message.
+// Checks an invariant of the program; the further arguments (a fmt format and values) go into the message. Devices tell
+// the condition alone.
+#ifdef __CUDACC__
+#define THAWSLIDE_ASSERT(condition, ...) assert(condition)
+#else
 #define THAWSLIDE_ASSERT(condition, ...)                                                       \
   do {                                                                                         \
     if (!(condition)) {                                                                        \
       ::thawslide::fail_assertion(#condition, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__)); \
     }                                                                                          \
   } while (false)
+#endif

@@ -267,6 +267,11 @@ THAWSLIDE_ALWAYS_INLINE Lanes<Real, sizeof...(K)> joined(const Lanes<Real, Count
   return Lanes<Real, sizeof...(K)>(__builtin_shufflevector(a.native(), b.native(), K...));
 }
 
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE Lanes<Real> look_up(const Real* table, const Lanes<Real>& place) {
+  return Lanes<Real>::gather(table, place.whole());
+}
+
 // The smallest of all lanes.
 template <class Real, std::size_t Count>
 THAWSLIDE_ALWAYS_INLINE Real smallest(const Lanes<Real, Count>& lanes) {

@@ -56,6 +56,12 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void set_lane(Real& number, std::size_t /*l
   number = other;
 }
 
+// The number of a table at a place, a whole number.
+template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real look_up(const Real* table, const Real& place) {
+  return table[static_cast<std::size_t>(place)];
+}
+
 // function(number), number by number and out of line: where that is the rare way.
 template <class Value, class Function>
 THAWSLIDE_HD [[gnu::noinline, gnu::cold]] Value rarely(Value x, const Function& function) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "base/lanes.hpp"
+#include "mpm/one.hpp"
 
 namespace thawslide::mpm {
 
@@ -38,24 +39,6 @@ struct Batch {
     for (std::size_t lane = 0; lane < count; ++lane) {
       body(particle[lane]);
     }
-  }
-};
-
-// One particle, in a batch's place.
-template <class Real>
-struct One {
-  using Value = Real;
-
-  std::array<std::uint32_t, 1> particle;
-
-  THAWSLIDE_ALWAYS_INLINE void add_to(Real& sum, Real quantity) const { sum += quantity; }
-  template <class Of>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Value each(const Of& of) const {
-    return of(particle[0]);
-  }
-  template <class Body>
-  void for_each(const Body& body) const {
-    body(particle[0]);
   }
 };
 

@@ -16,6 +16,7 @@
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 #include "mpm/batch.hpp"
+#include "mpm/field_view.hpp"
 
 namespace thawslide::mpm {
 
@@ -69,11 +70,10 @@ class FieldList {
   std::vector<FieldBase*> fields_;
 };
 
-// Storage in blocks of 8 particles: the 8 values of one component lie in one cache line, components follow one another.
 template <class T, int Components>
 class Field final : public FieldBase {
  public:
-  static constexpr std::size_t lanes = 8;
+  static constexpr std::size_t lanes = particles_of_block;
   // Reading a batch asks the memory for the block this many further on, which a loop will read some batches later.
   static constexpr std::size_t prefetched_blocks = 4;
   static constexpr std::size_t most_numbers = std::numeric_limits<std::int32_t>::max();  // as far as places() count
@@ -85,6 +85,9 @@ class Field final : public FieldBase {
   [[nodiscard]] const T& operator()(std::size_t particle, int component = 0) const {
     return data_[position(particle, component)];
   }
+
+  // As kernels see it on a device. Holds until there are more or fewer particles.
+  [[nodiscard]] FieldView<T, Components> view() { return {data_.data()}; }
 
   // The first components, as many as the vector has.
   template <class Vector>
@@ -248,7 +251,7 @@ class Field final : public FieldBase {
                      info().name, particles, Components);
   }
   static std::size_t position(std::size_t particle, int component) {
-    return (particle / lanes * Components + static_cast<std::size_t>(component)) * lanes + particle % lanes;
+    return place_in_field<Components>(particle, component);
   }
   // position(particle, 0), by lane.
   THAWSLIDE_ALWAYS_INLINE static typename Lanes<T>::Whole places(const Batch<T>& batch) {

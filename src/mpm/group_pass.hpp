@@ -6,60 +6,15 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
 #include <vector>
 
 #include "mpm/group.hpp"
+#include "mpm/one_particle.hpp"
 #include "mpm/particle_pass.hpp"
+#include "mpm/particle_view.hpp"
 
 namespace thawslide::mpm {
-
-// What one particle carries to a record: see Contribution.
-template <class Real, int Dim, std::size_t Components>
-struct OneContribution {
-  static constexpr std::size_t width = Contribution<Dim, Real, Components>::width;
-  static constexpr std::size_t size = record_size(static_cast<int>(Components));
-
-  Real value[size] = {};
-  Real flux[Dim][width] = {};
-
-  // As shared memory is before anything is in it.
-  void fill(Real number) {
-    std::fill(std::begin(value), std::end(value), number);
-    for (auto& along : flux) {
-      std::fill(std::begin(along), std::end(along), number);
-    }
-  }
-};
-
-// The weights of one particle: by axis, and the place in the patch of the lowest node that it sees.
-template <class Real, int Dim, std::size_t Width>
-struct OneStencil {
-  std::array<AxisWeights<Real, Width>, static_cast<std::size_t>(Dim)> axis;
-  std::size_t first = 0;
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> in_cell{};  // of that node among the 3 an axis of its cell
-};
-
-// The weights of one particle; those of momentum and of APIC where the pass has them.
-template <int Dim, class Real>
-struct OneWeights {
-  OneStencil<Real, Dim, 2> linear;
-  OneStencil<Real, Dim, 3> momentum, affine;
-  Vector<Real, Dim> moment;
-
-  template <class Functions>
-  [[nodiscard]] const auto& of() const {
-    if constexpr (std::is_same_v<Functions, LinearFunctions>) {
-      return linear;
-    } else if constexpr (std::is_same_v<Functions, AffineFunctions>) {
-      return affine;
-    } else {
-      return momentum;
-    }
-  }
-  [[nodiscard]] const Vector<Real, Dim>& second_moment() const { return moment; }
-};
 
 // A particle of a tile: itself, its nearest node and its cell.
 template <int Dim>
@@ -87,56 +42,33 @@ std::vector<TileParticle<Dim>> particles_of_tile(const SparseGrid<Dim, Real>& gr
 }
 
 template <int Dim, class Real>
-Vector<Real, Dim> offset_of(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                            const TileParticle<Dim>& one) {
-  Vector<Real, Dim> offset;
-  for (int a = 0; a < Dim; ++a) {
-    const auto nearest = static_cast<Real>(one.nearest[static_cast<std::size_t>(a)]);
-    offset[a] = particles.position(one.particle, a) * grid.inverse_cell() - nearest;
-  }
-  return offset;
-}
-
-// The corners of the cell of nodes in which the particle lies.
-template <int Dim, class Real>
-OneStencil<Real, Dim, 2> linear_stencil(const SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& offset,
-                                        std::size_t first_node) {
-  OneStencil<Real, Dim, 2> stencil;
-  stencil.first = first_node;
+OnePlace<Dim, Real> place_of(const SparseGrid<Dim, Real>& grid, const HeldSides<Dim>& sides,
+                             const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
+  OnePlace<Dim, Real> place{{}, one.first_node, {}};
   for (std::size_t a = 0; a < Dim; ++a) {
-    const Real along = offset[static_cast<int>(a)];
-    const bool right = along >= Real(0);
-    stencil.in_cell[a] = right ? 1 : 0;
-    stencil.first += right ? static_cast<std::size_t>(power(Tile<Dim>::patch_edge, static_cast<int>(a))) : 0;
-    stencil.axis[a] = {{right ? Real(1) - along : -along, right ? along : Real(1) + along},
-                       {-grid.inverse_cell(), grid.inverse_cell()}};
+    const int axis = static_cast<int>(a);
+    place.offset[axis] =
+        particles.position(one.particle, axis) * grid.inverse_cell() - static_cast<Real>(one.nearest[a]);
+    place.at_side[a] = one.nearest[a] == sides.lower[a] || one.nearest[a] == sides.upper[a];
   }
-  return stencil;
-}
-
-template <int Dim>
-bool at_side(const HeldSides<Dim>& sides, const TileParticle<Dim>& one, std::size_t axis) {
-  return one.nearest[axis] == sides.lower[axis] || one.nearest[axis] == sides.upper[axis];
+  return place;
 }
 
 template <int Dim, class Real>
 OneWeights<Dim, Real> weights_of(const LinearWeights& /*weights*/, const SparseGrid<Dim, Real>& grid,
                                  const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
   OneWeights<Dim, Real> of_one;
-  of_one.linear = linear_stencil(grid, offset_of(grid, particles, one), one.first_node);
+  of_one.set_linear(place_of(grid, HeldSides<Dim>{}, particles, one), grid.inverse_cell());
   return of_one;
 }
 template <class Shape, int Dim, class Real>
 OneWeights<Dim, Real> weights_of(const MomentumWeights<Shape, Dim, Real>& weights, const SparseGrid<Dim, Real>& grid,
                                  const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
-  OneWeights<Dim, Real> of_one = weights_of(LinearWeights{}, grid, particles, one);
-  const Vector<Real, Dim> offset = offset_of(grid, particles, one);
+  OneWeights<Dim, Real> of_one;
+  const OnePlace<Dim, Real> place = place_of(grid, weights.sides, particles, one);
+  of_one.set_linear(place, grid.inverse_cell());
   const HalfSize<Real> size = weights.sizes.of(particles, One<Real>{{one.particle}});
-  of_one.momentum.first = one.first_node;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    of_one.momentum.axis[a] =
-        Shape::weights(offset[static_cast<int>(a)], size, at_side(weights.sides, one, a), grid.inverse_cell());
-  }
+  of_one.template set_momentum<Shape>(place, size, grid.inverse_cell());
   return of_one;
 }
 template <class Shape, int Dim, class Real>
@@ -144,14 +76,7 @@ OneWeights<Dim, Real> weights_of(const AffineWeights<Shape, Dim, Real>& weights,
                                  const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
   const MomentumWeights<Shape, Dim, Real>& of_momentum = weights;
   OneWeights<Dim, Real> of_one = weights_of(of_momentum, grid, particles, one);
-  const Vector<Real, Dim> offset = offset_of(grid, particles, one);
-  of_one.affine = of_one.momentum;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const Real along = offset[static_cast<int>(a)];
-    const auto& axis = of_one.momentum.axis[a];
-    of_one.affine.axis[a] = Shape::affine(axis, along, at_side(weights.sides, one, a), grid.inverse_cell());
-    of_one.moment[static_cast<int>(a)] = second_moment(axis, along) * (grid.cell() * grid.cell());
-  }
+  of_one.template set_affine<Shape>(place_of(grid, weights.sides, particles, one), grid.cell(), grid.inverse_cell());
   return of_one;
 }
 
@@ -161,64 +86,6 @@ struct SharedPatch {
   static constexpr std::size_t size = record_size(components_of<Name, Dim>);
   SharedMemory<Real> numbers{static_cast<std::size_t>(Tile<Dim>::patch_nodes) * size};
 };
-
-// What one particle sees of the records about it.
-template <class Weights, class Patches, int Dim, class Real>
-struct SeenByOne {
-  const Weights& weights;
-  const Patches& patches;
-
-  template <class Name, std::size_t Count>
-  [[nodiscard]] auto read(std::size_t first = 0) const {
-    const auto& stencil = weights.template of<typename Name::Functions>();
-    const auto& patch = patches.template of<Name>();
-    return read_along_axes<Count>(
-        stencil.axis,
-        [&](std::size_t place, std::size_t component) {
-          return patch.numbers[(stencil.first + place) * patch.size + component];
-        },
-        first);
-  }
-  template <class Name>
-  [[nodiscard]] auto values() const {
-    return read<Name, static_cast<std::size_t>(components_of<Name, Dim>)>().value;
-  }
-};
-
-// What a particle adds to component c of a node of its cell, numbered along each axis; from `sum` on.
-template <int Dim, class Real, std::size_t Width, std::size_t Components>
-Real add_particle(const OneStencil<Real, Dim, Width>& stencil, const std::array<std::size_t, 3>& node,
-                  const OneContribution<Real, Dim, Components>& carried, bool has_flux, std::size_t c, Real sum) {
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> k{};
-  for (std::size_t a = 0; a < Dim; ++a) {
-    if (node[a] < stencil.in_cell[a] || node[a] >= stencil.in_cell[a] + Width) {
-      return sum;
-    }
-    k[a] = node[a] - stencil.in_cell[a];
-  }
-  const auto& axis = stencil.axis;
-  const bool with_flux = has_flux && c < OneContribution<Real, Dim, Components>::width;
-  Real in_layer = carried.value[c];
-  Real along_0 = with_flux ? carried.flux[0][c] : Real(0), along_1 = with_flux ? carried.flux[1][c] : Real(0);
-  if constexpr (Dim == 3) {
-    in_layer *= axis[2].weight[k[2]];
-    if (with_flux) {
-      in_layer += axis[2].slope[k[2]] * carried.flux[2][c];
-      along_0 *= axis[2].weight[k[2]];
-      along_1 *= axis[2].weight[k[2]];
-    }
-  }
-  Real in_row = axis[1].weight[k[1]] * in_layer;
-  if (with_flux) {
-    in_row += axis[1].slope[k[1]] * along_1;
-  }
-  const Real along = axis[1].weight[k[1]] * along_0;
-  sum += axis[0].weight[k[0]] * in_row;
-  if (with_flux) {
-    sum += axis[0].slope[k[0]] * along;
-  }
-  return sum;
-}
 
 // A tile on the device: what its threads share. One record after the other is added to, each with room of its own.
 template <class Weights, class Reads, class Adds, int Dim, class Real, class... Kernels>
@@ -277,12 +144,13 @@ class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real,
   // A thread a particle.
   void visit(std::size_t k, const Weights& weights, Particles<Dim, Real>& particles, const Kernels&... kernels) {
     weights_[k] = weights_of(weights, grid_, particles, particles_[k]);
-    const SeenByOne<OneWeights<Dim, Real>, Patches, Dim, Real> seen{weights_[k], patches_};
+    const SeenByOne<OneWeights<Dim, Real>, Patches> seen{weights_[k], patches_};
+    ParticleView<Dim, Real> view = view_of(particles);
     const One<Real> at{{particles_[k].particle}};
     carried_[k] = {};
     accounts_[k] = {};
     [&]<std::size_t... K>(std::index_sequence<K...>) {
-      (in_tile(kernels, tile_)(particles, at, seen, carried_[k], std::get<K>(accounts_[k])), ...);
+      (in_tile(kernels, tile_)(view, at, seen, carried_[k], std::get<K>(accounts_[k])), ...);
     }
     (std::index_sequence_for<Kernels...>());
   }

@@ -26,7 +26,7 @@ inline constexpr int no_flux = -1;
 
 // Of a kernel that sums nothing over particles.
 struct NoAccount {
-  NoAccount& operator+=(const NoAccount& /*part*/) { return *this; }
+  THAWSLIDE_HD NoAccount& operator+=(const NoAccount& /*part*/) { return *this; }
 };
 
 template <class... Names>

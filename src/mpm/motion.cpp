@@ -50,7 +50,8 @@ template <int Dim, class Real>
 void momentum_to_grid(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes) {
   with_weights(model, [&](const auto& weights) {
-    particle_pass(grid, weights, particles, nodes, every_tile, AddMomentum<Dim, Real>{model});
+    const AddMomentum<Dim, Real> add{model.gravity, model.effective_stress, model.viscous()};
+    particle_pass(grid, weights, particles, nodes, every_tile, add);
     if constexpr (is_affine<std::decay_t<decltype(weights)>>) {
       particle_pass(grid, weights, particles, nodes, every_tile, AddAffineMomentum<Dim, Real>{});
     }

@@ -2,31 +2,21 @@
 #pragma once
 
 #include <algorithm>
-#include <variant>
 #include <vector>
 
+#include "mpm/accounts.hpp"
+#include "mpm/body_sizes.hpp"
 #include "mpm/constraints.hpp"
+#include "mpm/material.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/particles.hpp"
-#include "physics/elasticity.hpp"
 #include "physics/mixture.hpp"
-#include "physics/mohr_coulomb.hpp"
 
 namespace thawslide::mpm {
 
 // How particles take their velocity from the nodes: by their changes (FLIP, Eq. 13) with a share of their velocities
 // (PIC), or their velocities with the affine velocity about the particle (APIC; Jiang et al. 2015).
 enum class TransferKind { flip_pic, apic };
-
-// What a material's particles share.
-template <class Real>
-struct MaterialModel {
-  physics::ConstitutiveLaw<Real> law;
-  physics::Elastic<Real> elastic;
-  bool gaps_close_first = false;    // physics/tension_gap.hpp
-  Real viscosity_time = 0;          // Kelvin-Voigt [s]
-  Real hydraulic_conductivity = 0;  // [m/s]
-};
 
 template <int Dim, class Real>
 struct MotionModel {
@@ -48,49 +38,12 @@ struct MotionModel {
   bool lubrication = true;        // off: Eq. 25 sees the initial porosity and saturation (Sec. 3.3)
 };
 
-// Energies of one step [J].
-template <class Real>
-struct StressWork {
-  Real total = 0;    // of the constitutive stress on the strain
-  Real plastic = 0;  // dissipated in plastic strain
-  Real viscous = 0;  // dissipated by viscosity
-  Real pore = 0;     // of the pore pressure on the volume, where it acts inside the body
-
-  StressWork& operator+=(const StressWork& part) {
-    total += part.total;
-    plastic += part.plastic;
-    viscous += part.viscous;
-    pore += part.pore;
-    return *this;
-  }
-};
-
 // What moving the particles cost.
 template <class Real>
 struct MoveWork {
   // Kinetic energy that particles gained, less sum p_i.dv_i over the nodes [J]: sum m |dv_p|^2/2 in FLIP. Less
   // sum m_i |dv_i|^2/2 it is what the transfers between particles and nodes made.
   Real particle_kinetic = 0;
-};
-
-// What can be wrong with a particle.
-enum class Fault { none, volume_not_finite, volume_not_positive, state_not_finite, left_domain, left_map };
-
-// A particle found in a bad state, the one of smallest id; id < 0 if all are well.
-struct BadParticle {
-  std::int64_t id = -1;
-  Fault fault = Fault::none;
-
-  void note(std::int64_t other, Fault found) {
-    if (other >= 0 && (id < 0 || other < id)) {
-      id = other;
-      fault = found;
-    }
-  }
-  BadParticle& operator+=(const BadParticle& part) {
-    note(part.id, part.fault);
-    return *this;
-  }
 };
 
 // n_e of Eq. 2 as the basal law sees it: of the particles' current or, without lubrication, initial state.

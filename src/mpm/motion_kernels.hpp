@@ -1,10 +1,10 @@
 // What a particle does to move: kernels (mpm/kernel.hpp).
 #pragma once
 
-#include <cmath>
-
-#include "mpm/kernel.hpp"
-#include "mpm/motion.hpp"
+#include "base/linear.hpp"
+#include "base/select.hpp"
+#include "mpm/reading.hpp"
+#include "mpm/records.hpp"
 
 namespace thawslide::mpm {
 
@@ -15,12 +15,13 @@ struct AddMomentum {
   using Adds = RecordList<Momentum>;
   using Account = NoAccount;
 
-  const MotionModel<Dim, Real>& model;
-  bool viscous = model.viscous();
+  Vector<Real, Dim> gravity;  // [m/s2]
+  bool effective_stress;      // the pore pressure acts inside the body too
+  bool viscous;               // some material is
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& added,
-                                          Account& /*account*/) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
+                                                       Added& added, Account& /*account*/) const {
     using Layout = MomentumLayout<Dim>;
     using Value = typename At::Value;
     constexpr int row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of a symmetric tensor
@@ -30,7 +31,7 @@ struct AddMomentum {
     unrolled<static_cast<std::size_t>(Dim)>([&](auto a) THAWSLIDE_INLINE_LAMBDA {
       constexpr int axis = static_cast<int>(a());
       momentum.value[Layout::momentum + a] = mass * particles.velocity.load(at, axis);
-      momentum.value[Layout::force + a] = mass * model.gravity[axis];
+      momentum.value[Layout::force + a] = mass * gravity[axis];
       unrolled<static_cast<std::size_t>(Dim)>(
           [&](auto b) THAWSLIDE_INLINE_LAMBDA { momentum.flux[b][Layout::force + a] = -stress[row[a()][b()]]; });
     });
@@ -41,14 +42,14 @@ struct AddMomentum {
  private:
   // V sigma [J] that Eq. 12 sees.
   template <class Particles, class At>
-  THAWSLIDE_ALWAYS_INLINE SymmetricTensor<typename At::Value> stress_on_nodes(const Particles& particles,
-                                                                              const At& at) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<typename At::Value> stress_on_nodes(const Particles& particles,
+                                                                                           const At& at) const {
     using Value = typename At::Value;
     SymmetricTensor<Value> stress = particles.stress.template load_vector<6>(at);
     if (viscous) {
       stress += particles.viscous_stress.template load_vector<6>(at);
     }
-    if (model.effective_stress) {
+    if (effective_stress) {
       const Value pressure = particles.pore_pressure.load(at);
       for (int c = 0; c < 3; ++c) {
         stress[c] -= pressure;
@@ -60,7 +61,8 @@ struct AddMomentum {
 
 // The affine velocity C [1/s] of APIC, by columns.
 template <int Dim, class Particles, class At>
-THAWSLIDE_ALWAYS_INLINE Matrix<typename At::Value, Dim> affine_velocity(const Particles& particles, const At& at) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Matrix<typename At::Value, Dim> affine_velocity(const Particles& particles,
+                                                                                     const At& at) {
   Matrix<typename At::Value, Dim> matrix;
   for (int c = 0; c < Dim * Dim; ++c) {
     matrix(c % Dim, c / Dim) = particles.affine_velocity.load(at, c);
@@ -70,15 +72,15 @@ THAWSLIDE_ALWAYS_INLINE Matrix<typename At::Value, Dim> affine_velocity(const Pa
 
 // S m C (x_i - x_p), the momentum of the velocity about the particles, to the momentum of To: of Momentum, or Velocity.
 template <class To, int Dim, class Particles, class At, class Seen, class Added>
-THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const Particles& particles, const At& at, const Seen& seen,
-                                                 Added& added) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const Particles& particles, const At& at,
+                                                              const Seen& seen, Added& added) {
   using Value = typename At::Value;
   const Value mass = particles.mass.load(at);
   const Matrix<Value, Dim> moment =
       mass * affine_velocity<Dim>(particles, at) * seen.weights.second_moment().asDiagonal();
   auto& carried = added.template of<To>();
   unrolled<static_cast<std::size_t>(Dim * Dim)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-    carried.flux[k / Dim][To::template place<Dim, typename NumberOf<Value>::Type> + k % Dim] =
+    carried.flux[k / Dim][To::template place<Dim> + k % Dim] =
         moment(static_cast<int>(k) % Dim, static_cast<int>(k) / Dim);
   });
 }
@@ -90,8 +92,8 @@ struct AddAffineMomentum {
   using Account = NoAccount;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen, Added& added,
-                                          Account& /*account*/) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& /*account*/) const {
     add_affine_momentum<AffineMomentum, Dim>(particles, at, seen, added);
   }
 };
@@ -107,8 +109,8 @@ struct Move {
   Real pic_share, dt;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
-                                          Account& kinetic) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& kinetic) const {
     using Layout = MotionLayout<Dim>;
     using Value = typename At::Value;
     using VectorOfValues = Vector<Value, Dim>;
@@ -145,8 +147,8 @@ struct MoveAffine {
   Real dt;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
-                                          Account& kinetic) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& kinetic) const {
     using Layout = MotionLayout<Dim>;
     using Value = typename At::Value;
     using Square = Matrix<Value, Dim>;

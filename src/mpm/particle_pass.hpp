@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "mpm/body_sizes.hpp"
 #include "mpm/cell_sums.hpp"
 #include "mpm/kernel.hpp"
 #include "mpm/nodes.hpp"
@@ -121,7 +122,7 @@ struct Adding {
 };
 template <OfAnOwner Name, int Dim, class Real>
 struct Adding<Name, Dim, Real> {
-  static constexpr std::size_t carried = Dim, first = Name::template first<Dim, Real>;
+  static constexpr std::size_t carried = Dim, first = Name::template first<Dim>;
   static constexpr bool has_flux = true;
   using Sums = CellSums<0, first, carried, Dim, Real, components_of<Name, Dim>>;
 };

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <numeric>
 #include <vector>
 
 #include "base/linear.hpp"
 #include "mpm/field.hpp"
-#include "mpm/shape.hpp"
 
 namespace thawslide::mpm {
 
@@ -124,51 +122,6 @@ class Particles {
 
   std::size_t size_ = 0;
   AlignedVector<std::byte> scratch_;
-};
-
-// What all particles of a body have in common.
-template <class Real, int Dim, class At>
-THAWSLIDE_ALWAYS_INLINE typename At::Value of_body(const std::vector<Real>& by_body,
-                                                   const Particles<Dim, Real>& particles, const At& at) {
-  if (by_body.size() == 1) {
-    return by_body[0];
-  }
-  return at.each([&](std::uint32_t p) { return by_body[static_cast<std::size_t>(particles.body(p))]; });
-}
-
-// Half sizes of particles, body by body.
-template <class Real>
-class BodySizes {
- public:
-  BodySizes() = default;
-  BodySizes(std::initializer_list<Real> halves) {
-    for (const Real half : halves) {
-      add(half);
-    }
-  }
-
-  void add(Real half) {
-    half_.push_back(half);
-    inverse_.push_back(Real(1) / half);
-  }
-  [[nodiscard]] Real half(std::size_t body) const { return half_[body]; }
-  // The same in another unit.
-  [[nodiscard]] BodySizes times(Real factor) const {
-    BodySizes other;
-    for (const Real half : half_) {
-      other.add(factor * half);
-    }
-    return other;
-  }
-
-  template <int Dim, class At>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE HalfSize<typename At::Value> of(const Particles<Dim, Real>& particles,
-                                                                        const At& at) const {
-    return {of_body(half_, particles, at), of_body(inverse_, particles, at)};
-  }
-
- private:
-  std::vector<Real> half_, inverse_;
 };
 
 // A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "base/lanes.hpp"
 #include "base/linear.hpp"
 #include "base/portability.hpp"
+#include "base/select.hpp"
 
 namespace thawslide::mpm {
 

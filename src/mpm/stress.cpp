@@ -13,8 +13,8 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
   StressWork<Real> work;
   with_shape<Real>(model.shape, [&](auto shape) {
     const MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
-    const Deformed<Real> deformed =
-        std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, UpdateStress<Dim, Real>{model, dt}));
+    const UpdateStress<Dim, Real> update{model.materials.data(), model.phases, model.effective_stress, dt};
+    const Deformed<Real> deformed = std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, update));
     work = deformed.work;
     bad += deformed.bad;
   });

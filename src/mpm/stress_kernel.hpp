@@ -1,17 +1,24 @@
-// What a particle does in update_stress_and_porosity: a kernel (mpm/kernel.hpp).
+// What a particle does in update_stress_and_porosity: kernels (mpm/kernel.hpp).
 #pragma once
 
 #include <cmath>
+#include <variant>
 
-#include "mpm/kernel.hpp"
-#include "mpm/motion.hpp"
+#include "base/linear.hpp"
+#include "base/select.hpp"
+#include "mpm/accounts.hpp"
+#include "mpm/material.hpp"
+#include "mpm/reading.hpp"
+#include "mpm/records.hpp"
 #include "physics/kinematics.hpp"
+#include "physics/mixture.hpp"
 #include "physics/tension_gap.hpp"
 
 namespace thawslide::mpm {
 
 template <class Value>
-THAWSLIDE_ALWAYS_INLINE Value double_contraction(const SymmetricTensor<Value>& a, const SymmetricTensor<Value>& b) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value double_contraction(const SymmetricTensor<Value>& a,
+                                                              const SymmetricTensor<Value>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + Value(2) * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
@@ -21,39 +28,75 @@ struct Deformed {
   StressWork<Real> work;
   BadParticle bad;
 
-  Deformed& operator+=(const Deformed& part) {
+  THAWSLIDE_HD Deformed& operator+=(const Deformed& part) {
     work += part.work;
     bad += part.bad;
     return *this;
   }
 };
 
-// Strain, rotation, stress, volume and porosity (Eqs. 6, 11) from the mapped-back velocities.
-template <int Dim, class Real>
-struct UpdateStress {
+// Strain, rotation, stress, volume and porosity (Eqs. 6, 11) from the mapped-back velocities, of particles of one
+// material with the constitutive law Law.
+template <int Dim, class Real, class Law>
+struct Deform {
   using Reads = RecordList<Velocity>;
   using Adds = RecordList<>;
   using Account = Deformed<Real>;
 
-  const MotionModel<Dim, Real>& model;
+  const Law& law;
+  const physics::Elastic<Real>& elastic;
+  const physics::Phases<Real>& phases;
+  bool gaps_close_first;  // physics/tension_gap.hpp
+  Real viscosity_time;    // Kelvin-Voigt [s]
+  bool effective_stress;  // the pore pressure acts inside the body too
   Real dt;
 
   template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& /*added*/,
-                                          Account& account) const {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& /*added*/, Account& account) const {
     using Value = typename At::Value;
+    using Tensor = SymmetricTensor<Value>;
     const Matrix<Value, Dim> gradient = Value(dt) * gradient_of(seen.template read<Velocity, Dim>());
-    // A batch is of one material.
-    const MaterialModel<Real>& material = model.materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
-    std::visit([&](const auto& law) { deform(law, material, gradient, particles, at, account.work); }, material.law);
+    const auto increment = physics::strain_increment<Value, Dim>(gradient);
+    const Tensor old_stress = particles.stress.template load_vector<6>(at);
+    const Value volume_strain = increment.strain[0] + increment.strain[1] + increment.strain[2];
+    const Value closing =
+        gaps_close_first ? physics::closing_strain(particles.gap.load(at), volume_strain) : Value(Real(0));
+    const Tensor change = physics::stress_increment(elastic, physics::borne_strain(increment.strain, closing));
+    Tensor stress = physics::rotate<Value, Dim>(old_stress, increment.rotation) + change;
+    Value plastic_work_density, opening;
+    admit(particles, at, stress, plastic_work_density, opening);
+    StressWork<Real>& work = account.work;
+    const Value volume = particles.volume.load(at);
+    at.add_to(work.total, volume * Real(0.5) * double_contraction<Value>(old_stress + stress, increment.strain));
+    particles.stress.store_vector(at, stress);
+    if (Law::yields) {
+      const Value pressure = (stress[0] + stress[1] + stress[2]) * (Real(1) / Real(3));
+      at.add_to(work.plastic, volume * (plastic_work_density - closing * pressure));
+    }
+    if (viscosity_time > Real(0)) {
+      const Tensor viscous = Value(viscosity_time / dt) * change;
+      at.add_to(work.viscous, volume * double_contraction<Value>(viscous, increment.strain));
+      particles.viscous_stress.store_vector(at, viscous);
+    }
+    if (gaps_close_first) {
+      particles.gap.store(at, particles.gap.load(at) + (opening - closing));
+    }
+    if (effective_stress) {
+      at.add_to(work.pore, -volume * particles.pore_pressure.load(at) * volume_strain);
+    }
+    particles.volume.store(at, volume * increment.volume_ratio);
+    particles.volume_strain.store(at, volume_strain);
+    particles.porosity.store(
+        at, physics::updated_porosity(phases, particles.porosity.load(at), volume_strain, Value(Real(0))));
     note_bad_volumes(particles, at, account.bad);
   }
 
  private:
   // The stress that follows from an elastic trial stress.
-  template <class Law, class Particles, class At, class Tensor, class Value>
-  THAWSLIDE_ALWAYS_INLINE static void admit(const Law& law, Particles& particles, const At& at, Tensor& stress,
-                                            Value& plastic_work_density, Value& opening) {
+  template <class Particles, class At, class Tensor, class Value>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void admit(Particles& particles, const At& at, Tensor& stress,
+                                                  Value& plastic_work_density, Value& opening) const {
     plastic_work_density = opening = Real(0);
     if constexpr (Law::yields) {
       const Value plastic_strain = particles.plastic_strain.load(at);
@@ -67,47 +110,9 @@ struct UpdateStress {
     }
   }
 
-  template <class Law, class Gradient, class Particles, class At>
-  THAWSLIDE_ALWAYS_INLINE void deform(const Law& law, const MaterialModel<Real>& material, const Gradient& gradient,
-                                      Particles& particles, const At& at, StressWork<Real>& work) const {
-    using Value = typename At::Value;
-    using Tensor = SymmetricTensor<Value>;
-    const auto increment = physics::strain_increment<Value, Dim>(gradient);
-    const Tensor old_stress = particles.stress.template load_vector<6>(at);
-    const Value volume_strain = increment.strain[0] + increment.strain[1] + increment.strain[2];
-    const Value closing =
-        material.gaps_close_first ? physics::closing_strain(particles.gap.load(at), volume_strain) : Value(Real(0));
-    const Tensor elastic =
-        physics::stress_increment(material.elastic, physics::borne_strain(increment.strain, closing));
-    Tensor stress = physics::rotate<Value, Dim>(old_stress, increment.rotation) + elastic;
-    Value plastic_work_density, opening;
-    admit(law, particles, at, stress, plastic_work_density, opening);
-    const Value volume = particles.volume.load(at);
-    at.add_to(work.total, volume * Real(0.5) * double_contraction<Value>(old_stress + stress, increment.strain));
-    particles.stress.store_vector(at, stress);
-    if (Law::yields) {
-      const Value pressure = (stress[0] + stress[1] + stress[2]) * (Real(1) / Real(3));
-      at.add_to(work.plastic, volume * (plastic_work_density - closing * pressure));
-    }
-    if (material.viscosity_time > Real(0)) {
-      const Tensor viscous = Value(material.viscosity_time / dt) * elastic;
-      at.add_to(work.viscous, volume * double_contraction<Value>(viscous, increment.strain));
-      particles.viscous_stress.store_vector(at, viscous);
-    }
-    if (material.gaps_close_first) {
-      particles.gap.store(at, particles.gap.load(at) + (opening - closing));
-    }
-    if (model.effective_stress) {
-      at.add_to(work.pore, -volume * particles.pore_pressure.load(at) * volume_strain);
-    }
-    particles.volume.store(at, volume * increment.volume_ratio);
-    particles.volume_strain.store(at, volume_strain);
-    particles.porosity.store(
-        at, physics::updated_porosity(model.phases, particles.porosity.load(at), volume_strain, Value(Real(0))));
-  }
-
   template <class Particles, class At>
-  THAWSLIDE_ALWAYS_INLINE static void note_bad_volumes(const Particles& particles, const At& at, BadParticle& bad) {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static void note_bad_volumes(const Particles& particles, const At& at,
+                                                                    BadParticle& bad) {
     if (!any(!(particles.volume.load(at) > Real(0)))) {
       return;
     }
@@ -117,6 +122,32 @@ struct UpdateStress {
                  std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
       }
     });
+  }
+};
+
+// The same for particles of any material: the processor chooses the law, batch by batch, since a batch is of one
+// material.
+template <int Dim, class Real>
+struct UpdateStress {
+  using Reads = RecordList<Velocity>;
+  using Adds = RecordList<>;
+  using Account = Deformed<Real>;
+
+  const MaterialModel<Real>* materials;
+  const physics::Phases<Real>& phases;
+  bool effective_stress;
+  Real dt;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+                                          Account& account) const {
+    const MaterialModel<Real>& material = materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
+    const auto deform = [&]<class Law>(const Law& law) {
+      const Deform<Dim, Real, Law> with_law{
+          law, material.elastic, phases, material.gaps_close_first, material.viscosity_time, effective_stress, dt};
+      with_law(particles, at, seen, added, account);
+    };
+    std::visit(deform, material.law);
   }
 };
 

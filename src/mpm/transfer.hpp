@@ -16,17 +16,13 @@
 #include "base/error.hpp"
 #include "base/lanes.hpp"
 #include "base/parallel.hpp"
-#include "mpm/shape.hpp"
+#include "mpm/reading.hpp"
+#include "mpm/records.hpp"
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::mpm {
 
-// A record is filled up to a multiple of `record_step` numbers, and goes by the widest registers that it fills.
-inline constexpr std::size_t record_step = 4;
-constexpr std::size_t record_size(int components) {
-  return (static_cast<std::size_t>(components) + record_step - 1) / record_step * record_step;
-}
-
+// The widest register that records fill.
 template <class Real, int Components>
 using RecordRegister = Lanes<Real, record_size(Components) % lane_count<Real> == 0 ? lane_count<Real> : record_step>;
 
@@ -240,75 +236,6 @@ THAWSLIDE_ALWAYS_INLINE void for_each_node(
       }
     }
   }
-}
-
-// What a particle reads of `Count` numbers of the records about it: their values at its place and their gradients
-// [per m]. Axis by axis, rows first: fewer products than node by node.
-template <int Dim, class Value, std::size_t Count>
-struct Reading {
-  std::array<Value, Count> value;
-  std::array<std::array<Value, Count>, Dim> gradient;
-};
-
-// fetch(place, component): the number at a place relative to the lowest node.
-template <std::size_t Count, std::size_t Dim, class Value, std::size_t Width, class Fetch>
-THAWSLIDE_ALWAYS_INLINE Reading<static_cast<int>(Dim), Value, Count> read_along_axes(
-    const std::array<AxisWeights<Value, Width>, Dim>& axis, const Fetch& fetch, std::size_t first_component) {
-  constexpr auto edge = static_cast<std::size_t>(Tile<static_cast<int>(Dim)>::patch_edge);
-  constexpr std::size_t layers = Dim == 3 ? Width : 1;
-  Reading<static_cast<int>(Dim), Value, Count> reading;
-  unrolled<Count>([&](auto c) THAWSLIDE_INLINE_LAMBDA {
-    Value value = 0, slopes[3] = {0, 0, 0};
-    for (std::size_t k = 0; k < layers; ++k) {
-      Value in_layer = 0, slope_0 = 0, slope_1 = 0;
-      for (std::size_t j = 0; j < Width; ++j) {
-        Value along = 0, slope = 0;
-        for (std::size_t i = 0; i < Width; ++i) {
-          const Value number = fetch((k * edge + j) * edge + i, first_component + c);
-          along += axis[0].weight[i] * number;
-          slope += axis[0].slope[i] * number;
-        }
-        in_layer += axis[1].weight[j] * along;
-        slope_0 += axis[1].weight[j] * slope;
-        slope_1 += axis[1].slope[j] * along;
-      }
-      if constexpr (Dim == 2) {
-        value = in_layer;
-        slopes[0] = slope_0;
-        slopes[1] = slope_1;
-      } else {
-        value += axis[2].weight[k] * in_layer;
-        slopes[0] += axis[2].weight[k] * slope_0;
-        slopes[1] += axis[2].weight[k] * slope_1;
-        slopes[2] += axis[2].slope[k] * in_layer;
-      }
-    }
-    reading.value[c] = value;
-    for (std::size_t b = 0; b < Dim; ++b) {
-      reading.gradient[b][c] = slopes[b];
-    }
-  });
-  return reading;
-}
-
-// The gradient of component c, and that of the vector of the first Dim components: d v_a / d x_b.
-template <int Dim, class Real, std::size_t Count>
-THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> gradient_of(const Reading<Dim, Real, Count>& reading, std::size_t c) {
-  Vector<Real, Dim> gradient;
-  for (int b = 0; b < Dim; ++b) {
-    gradient[b] = reading.gradient[static_cast<std::size_t>(b)][c];
-  }
-  return gradient;
-}
-template <int Dim, class Real, std::size_t Count>
-THAWSLIDE_ALWAYS_INLINE Matrix<Real, Dim> gradient_of(const Reading<Dim, Real, Count>& reading) {
-  Matrix<Real, Dim> gradient;
-  for (int a = 0; a < Dim; ++a) {
-    for (int b = 0; b < Dim; ++b) {
-      gradient(a, b) = reading.gradient[static_cast<std::size_t>(b)][static_cast<std::size_t>(a)];
-    }
-  }
-  return gradient;
 }
 
 // Node numbers along each axis of the sides of the domain that prescribe velocity.

@@ -9,6 +9,7 @@
 
 #include "base/key_index.hpp"
 #include "base/raster.hpp"
+#include "mpm/body_sizes.hpp"
 #include "mpm/sparse_grid.hpp"
 #include "sim/map_cell.hpp"
 #include "sim/map_grid.hpp"

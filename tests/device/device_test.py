@@ -1,4 +1,4 @@
-"""Physics in device code: it compiles wherever nvcc is found, and its kernels keep to their registers."""
+"""Physics and the step in device code: they compile wherever nvcc is found, and keep to their registers."""
 
 from __future__ import annotations
 
@@ -11,13 +11,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-KERNELS = Path(__file__).with_name("physics_kernels.cu")
+PHYSICS = Path(__file__).with_name("physics_kernels.cu")
+STEP = Path(__file__).with_name("step_kernels.cu")
 OLDEST = 12  # version of nvcc: the first with C++20
 LIMIT = 300.0  # s; it takes about 10 alone
 
 # Registers that a kernel may use: what nvcc 13.0 gives it, and a tenth or so for other versions. A multiprocessor of
 # sm_90 has 65,536, so that 80 leave it 24 groups of 32 threads, 96 leave it 20.
-REGISTERS = {
+REGISTERS_OF_PHYSICS = {
     "strain_and_stress<LinearElastic<double>, 2>": 52,  # 46
     "strain_and_stress<LinearElastic<double>, 3>": 80,  # 72
     "strain_and_stress<MohrCoulomb<double>, 2>": 68,  # 60
@@ -29,6 +30,30 @@ REGISTERS = {
     "mixture": 40,  # 32
     "pore_water": 44,  # 38
     "basal_contact": 40,  # 32
+}
+
+# Of the kernels of the step, which make their weights and read their nodes too; in the plane and in space.
+REGISTERS_OF_STEP = {
+    "averages": (24, 24),  # 16, 16
+    "momentum": (40, 40),  # 32, 32
+    "affine_momentum": (40, 44),  # 32, 38
+    "move": (48, 152),  # 42, 138
+    "move_affine": (80, 144),  # 72, 130
+    "deform, LinearElastic<double>": (74, 104),  # 66, 95
+    "deform, MohrCoulomb<double>": (140, 164),  # 128, 148
+    "heat_flows, PowerLawCurve<double>": (66, 76),  # 59, 68
+    "heat_flows, LinearCurve<double>": (62, 76),  # 56, 68
+    "secant_capacity, PowerLawCurve<double>": (52, 54),  # 46, 48
+    "secant_capacity, LinearCurve<double>": (42, 44),  # 36, 38
+    "take_heat, PowerLawCurve<double>": (58, 60),  # 52, 53
+    "take_heat, LinearCurve<double>": (52, 52),  # 46, 46
+    "take_heat_as_printed, PowerLawCurve<double>": (54, 54),  # 47, 47
+    "masses_anew, PowerLawCurve<double>": (44, 44),  # 38, 38
+    "orphan_heat": (40, 40),  # 32, 32
+    "seepage": (50, 46),  # 43, 40
+    "pore_pressure": (56, 56),  # 50, 50
+    "sum_in_cell, Momentum": (40, 40),  # 32, 32
+    "sum_in_cell, HeatRates": (40, 40),  # 34, 34
 }
 
 
@@ -63,8 +88,8 @@ def compiled(nvcc: str, source: Path, folder: Path) -> str:
 
 def short_name(demangled: str) -> str:
     """Return a kernel's name and template arguments, without result, parameters and namespaces."""
-    name = demangled.removeprefix("void ").replace("thawslide::physics::", "").replace("> >", ">>")
-    return name.split("(")[0]
+    name = re.sub(r"thawslide::(?:physics::|mpm::|band::)?", "", demangled.removeprefix("void "))
+    return name.replace("> >", ">>").split("(")[0]
 
 
 def resources(told: str) -> dict[str, tuple[int, int]]:
@@ -78,11 +103,26 @@ def resources(told: str) -> dict[str, tuple[int, int]]:
     return found
 
 
-def test_kernels_of_physics_compile_without_spills_within_their_registers(tmp_path: Path) -> None:
-    used = resources(compiled(find_nvcc(), KERNELS, tmp_path))
-    assert set(used) == set(REGISTERS)
+def expect_within(limits: dict[str, int], used: dict[str, tuple[int, int]]) -> None:
+    """Check that the kernels are these, that none spills, and that none needs more registers."""
+    assert set(used) == set(limits)
     assert {kernel: spilled for kernel, (_, spilled) in used.items() if spilled > 0} == {}
-    assert {kernel: number for kernel, (number, _) in used.items() if number > REGISTERS[kernel]} == {}
+    assert {kernel: number for kernel, (number, _) in used.items() if number > limits[kernel]} == {}
+
+
+def test_kernels_of_physics_compile_without_spills_within_their_registers(tmp_path: Path) -> None:
+    expect_within(REGISTERS_OF_PHYSICS, resources(compiled(find_nvcc(), PHYSICS, tmp_path)))
+
+
+def test_kernels_of_the_step_compile_without_spills_within_their_registers(tmp_path: Path) -> None:
+    limits = {}
+    for kernel, registers in REGISTERS_OF_STEP.items():
+        name, _, parameter = kernel.partition(", ")
+        for dimensions, limit in zip((2, 3), registers, strict=True):
+            parameters = f"{dimensions}, {parameter}" if parameter else f"{dimensions}"
+            parameters = f"{parameter}, {dimensions}" if name == "sum_in_cell" else parameters
+            limits[f"{name}<{parameters}>"] = limit
+    expect_within(limits, resources(compiled(find_nvcc(), STEP, tmp_path)))
 
 
 def test_spills_and_unmarked_functions_are_found(tmp_path: Path) -> None:
@@ -112,7 +152,18 @@ def test_every_function_marked_for_devices_is_called_by_a_kernel() -> None:
     headers = re.sub(r"//.*", "", headers)
     marked = re.findall(r"THAWSLIDE_HD [^;{}(]*?\b(\w+)\(", headers)
     assert len(marked) == headers.count("THAWSLIDE_HD") > 60
-    code = headers + re.sub(r"//.*", "", KERNELS.read_text())
+    code = headers + re.sub(r"//.*", "", PHYSICS.read_text())
     for name in sorted(set(marked)):
         called = len(re.findall(rf"\b{name}(?:<[^;()]*>)?(?: \w+)?\(", code)) - marked.count(name)
-        assert called > 0, f"neither {KERNELS.name} nor another function of src/physics calls {name}"
+        assert called > 0, f"neither {PHYSICS.name} nor another function of src/physics calls {name}"
+
+
+def test_every_kernel_of_the_step_is_compiled() -> None:
+    kernels = set()
+    for path in sorted((ROOT / "src").glob("*/*kernel*.hpp")):
+        for found in re.finditer(r"struct (\w+) \{(?:\n(?!\};).*)*?\n  using Account = ", path.read_text()):
+            kernels.add(found.group(1))
+    assert len(kernels) > 12
+    code = STEP.read_text()
+    by_law = {"UpdateStress"}  # chooses among the laws of Deform, on the processor
+    assert {kernel for kernel in kernels - by_law if not re.search(rf"\b{kernel}<", code)} == set()

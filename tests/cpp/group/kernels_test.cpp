@@ -23,7 +23,7 @@
 #include "../support/two_bodies.hpp"
 #include "band/averages_kernel.hpp"
 #include "band/heat_kernels.hpp"
-#include "band/pressure_kernels.hpp"
+#include "band/pore_pressure_of_tile.hpp"
 #include "mpm/group_pass.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/stress_kernel.hpp"
@@ -201,26 +201,28 @@ void expect_all_kernels_agree() {
   const mpm::MomentumWeights<mpm::Linear<double>, Dim, double> linear{motion.sizes, motion.sides};
   const mpm::AffineWeights<mpm::Ugimp<double>, Dim, double> affine{{motion.sizes, motion.sides}};
   const mpm::LinearWeights by_linear;
+  const mpm::AddMomentum<Dim, double> momentum{motion.gravity, motion.effective_stress, motion.viscous()};
+  const mpm::UpdateStress<Dim, double> stress{motion.materials.data(), motion.phases, motion.effective_stress, dt};
   expect_the_bits_of_lanes("averages", scene, by_linear, band::AddAverages<Dim, double>{});
-  expect_the_bits_of_lanes("momentum", scene, ugimp, mpm::AddMomentum<Dim, double>{motion});
-  expect_the_bits_of_lanes("momentum, quadratic", scene, quadratic, mpm::AddMomentum<Dim, double>{motion});
+  expect_the_bits_of_lanes("momentum", scene, ugimp, momentum);
+  expect_the_bits_of_lanes("momentum, quadratic", scene, quadratic, momentum);
   expect_the_bits_of_lanes("momentum, affine", scene, affine, mpm::AddAffineMomentum<Dim, double>{});
   expect_the_bits_of_lanes("move", scene, ugimp, mpm::Move<Dim, double>{0.1, dt});
   expect_the_bits_of_lanes("move, linear", scene, linear, mpm::Move<Dim, double>{0.1, dt});
   expect_the_bits_of_lanes("move, affine", scene, affine, mpm::MoveAffine<Dim, double>{dt});
-  expect_the_bits_of_lanes("stress", scene, ugimp, mpm::UpdateStress<Dim, double>{motion, dt});
+  expect_the_bits_of_lanes("stress", scene, ugimp, stress);
   expect_the_bits_of_lanes("seepage", scene, by_linear,
-                           band::SeepageFlows<Dim, double>{band, dt, scene.grid.inverse_cell()});
+                           band::SeepageFlows<Dim, double>{band, band.hydraulic(), dt, scene.grid.inverse_cell()});
   band::FlowDepth<Dim, double> depth;
   depth.update(scene.grid, band, {}, scene.particles);
   expect_the_bits_of_lanes("pressure", scene, by_linear,
-                           band::PorePressure<Dim, double, true>{scene.grid, band, depth});
+                           band::UpdatePorePressure<Dim, double, true>{scene.grid, band, depth});
   expect_the_bits_of_lanes("pressure without seepage", scene, by_linear,
-                           band::PorePressure<Dim, double, false>{scene.grid, band, depth});
+                           band::UpdatePorePressure<Dim, double, false>{scene.grid, band, depth});
   expect_the_bits_of_lanes("orphan heat", scene, ugimp, band::TakeOrphanHeat<Dim, double>{dt});
   band::with_particle_heat(band, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
-    const band::HeatFlows<Dim, double, Law> flows{band, law, dt, scene.grid.inverse_cell(), true};
+    const band::HeatFlows<Dim, double, Law> flows{band, band.hydraulic(), law, dt, scene.grid.inverse_cell(), true};
     expect_the_bits_of_lanes("heat flows", scene, by_linear, flows);
     expect_the_bits_of_lanes("secant capacity", scene, by_linear, band::SecantCapacity<Dim, double, Law>{law, dt});
     expect_the_bits_of_lanes("heat", scene, by_linear, band::TakeHeat<Dim, double, Law>{band, law, dt});

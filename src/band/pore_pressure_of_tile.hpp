@@ -1,0 +1,26 @@
+// PorePressure (band/pressure_kernels.hpp) tile by tile, each with the columns of the slide that its particles see.
+#pragma once
+
+#include "band/flow_depth.hpp"
+#include "band/model.hpp"
+#include "band/pressure_kernels.hpp"
+
+namespace thawslide::band {
+
+template <int Dim, class Real, bool Seeps>
+struct UpdatePorePressure {
+  using OfTile = PorePressure<Real, ColumnsOfTile<Dim, Real>, Seeps>;
+  using Reads = typename OfTile::Reads;
+  using Adds = typename OfTile::Adds;
+  using Account = typename OfTile::Account;
+
+  const mpm::SparseGrid<Dim, Real>& grid;
+  const BandModel<Dim, Real>& model;
+  const FlowDepth<Dim, Real>& depth;
+
+  [[nodiscard]] OfTile in_tile(std::size_t tile) const {
+    return {model, model.hydraulic(), Real(0.5) * grid.cell(), depth.of_tile(grid, tile)};
+  }
+};
+
+}  // namespace thawslide::band

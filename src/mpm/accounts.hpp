@@ -1,0 +1,47 @@
+// What kernels sum over particles: energies, and the particle that is in a bad state.
+#pragma once
+
+#include <cstdint>
+
+#include "base/portability.hpp"
+
+namespace thawslide::mpm {
+
+// Energies of one step [J].
+template <class Real>
+struct StressWork {
+  Real total = 0;    // of the constitutive stress on the strain
+  Real plastic = 0;  // dissipated in plastic strain
+  Real viscous = 0;  // dissipated by viscosity
+  Real pore = 0;     // of the pore pressure on the volume, where it acts inside the body
+
+  THAWSLIDE_HD StressWork& operator+=(const StressWork& part) {
+    total += part.total;
+    plastic += part.plastic;
+    viscous += part.viscous;
+    pore += part.pore;
+    return *this;
+  }
+};
+
+// What can be wrong with a particle.
+enum class Fault { none, volume_not_finite, volume_not_positive, state_not_finite, left_domain, left_map };
+
+// A particle found in a bad state, the one of smallest id; id < 0 if all are well.
+struct BadParticle {
+  std::int64_t id = -1;
+  Fault fault = Fault::none;
+
+  THAWSLIDE_HD void note(std::int64_t other, Fault found) {
+    if (other >= 0 && (id < 0 || other < id)) {
+      id = other;
+      fault = found;
+    }
+  }
+  THAWSLIDE_HD BadParticle& operator+=(const BadParticle& part) {
+    note(part.id, part.fault);
+    return *this;
+  }
+};
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,68 @@
+// Half sizes of particles, which those of a body have in common.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+#include "base/portability.hpp"
+#include "mpm/shape.hpp"
+
+namespace thawslide::mpm {
+
+// Body by body, as kernels see them.
+template <class Real>
+struct SizesOfBodies {
+  const Real *half, *inverse;
+  bool is_uniform;  // there is one body
+
+  template <class Particles, class At>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE HalfSize<typename At::Value> of(const Particles& particles,
+                                                                                     const At& at) const {
+    if (is_uniform) {
+      return {half[0], inverse[0]};
+    }
+    const auto of_body = [&](const Real* by_body) {
+      return at.each([&](std::uint32_t p) { return by_body[static_cast<std::size_t>(particles.body(p))]; });
+    };
+    return {of_body(half), of_body(inverse)};
+  }
+};
+
+template <class Real>
+class BodySizes {
+ public:
+  BodySizes() = default;
+  BodySizes(std::initializer_list<Real> halves) {
+    for (const Real half : halves) {
+      add(half);
+    }
+  }
+
+  void add(Real half) {
+    half_.push_back(half);
+    inverse_.push_back(Real(1) / half);
+  }
+  [[nodiscard]] Real half(std::size_t body) const { return half_[body]; }
+  // The same in another unit.
+  [[nodiscard]] BodySizes times(Real factor) const {
+    BodySizes other;
+    for (const Real half : half_) {
+      other.add(factor * half);
+    }
+    return other;
+  }
+
+  [[nodiscard]] SizesOfBodies<Real> view() const { return {half_.data(), inverse_.data(), half_.size() == 1}; }
+  template <class Particles, class At>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE HalfSize<typename At::Value> of(const Particles& particles,
+                                                                        const At& at) const {
+    return view().of(particles, at);
+  }
+
+ private:
+  std::vector<Real> half_, inverse_;
+};
+
+}  // namespace thawslide::mpm

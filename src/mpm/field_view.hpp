@@ -1,0 +1,65 @@
+// The numbers of a particle field in memory, and what kernels need of one: where its numbers stand. For host and
+// device.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/linear.hpp"
+#include "base/select.hpp"
+#include "mpm/one.hpp"
+
+namespace thawslide::mpm {
+
+// Fields stand in blocks of so many particles: the values of one component lie in one cache line, components follow one
+// another.
+inline constexpr std::size_t particles_of_block = 8;
+
+template <int Components>
+THAWSLIDE_HD constexpr std::size_t place_in_field(std::size_t particle, int component) {
+  constexpr std::size_t block = particles_of_block;
+  return (particle / block * Components + static_cast<std::size_t>(component)) * block + particle % block;
+}
+
+template <class T, int Components>
+struct FieldView {
+  T* numbers;
+
+  [[nodiscard]] THAWSLIDE_HD T& operator()(std::size_t particle, int component = 0) const {
+    return numbers[place_in_field<Components>(particle, component)];
+  }
+  [[nodiscard]] THAWSLIDE_HD T load(const One<T>& one, int component = 0) const {
+    return (*this)(one.particle[0], component);
+  }
+  THAWSLIDE_HD void store(const One<T>& one, T value, int component = 0) const {
+    (*this)(one.particle[0], component) = value;
+  }
+  // Whole numbers, from and to a real type.
+  template <class Real>
+  [[nodiscard]] THAWSLIDE_HD Real load_whole(const One<Real>& one) const {
+    return static_cast<Real>((*this)(one.particle[0]));
+  }
+  template <class Real>
+  THAWSLIDE_HD void store_whole(const One<Real>& one, Real value) const {
+    (*this)(one.particle[0]) = static_cast<T>(value);
+  }
+  // Whole vectors and tensors.
+  template <int Size>
+  [[nodiscard]] THAWSLIDE_HD Vector<T, Size> load_vector(const One<T>& one) const {
+    Vector<T, Size> v;
+    unrolled<static_cast<std::size_t>(Size)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+      constexpr int c = static_cast<int>(k());
+      v[c] = c < Components ? load(one, c) : T(0);
+    });
+    return v;
+  }
+  template <class Values>
+  THAWSLIDE_HD void store_vector(const One<T>& one, const Values& values) const {
+    unrolled<static_cast<std::size_t>(Components)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+      constexpr int c = static_cast<int>(k());
+      store(one, values[c], c);
+    });
+  }
+};
+
+}  // namespace thawslide::mpm

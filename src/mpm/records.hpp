@@ -1,0 +1,174 @@
+// What nodes hold during a step: the layouts of their records, and the names by which kernels read and add to them.
+#pragma once
+
+#include <cstddef>
+
+#include "mpm/kernel.hpp"
+
+namespace thawslide::mpm {
+
+// A record is filled up to a multiple of `record_step` numbers.
+inline constexpr std::size_t record_step = 4;
+constexpr std::size_t record_size(int components) {
+  return (static_cast<std::size_t>(components) + record_step - 1) / record_step * record_step;
+}
+
+// Sums over particles with the momentum shape functions S_ip and gradients G_ip. No vector lies in two registers of
+// four.
+template <int Dim>
+struct MomentumLayout {
+  static constexpr std::size_t force = 0;                    // sum S m b - V sigma.G [N], Eq. 12
+  static constexpr std::size_t momentum = Dim == 2 ? 2 : 4;  // sum S m v [kg m/s]
+  static constexpr std::size_t mass = Dim == 2 ? 4 : 3;      // sum S m [kg]
+  static constexpr std::size_t volume = Dim == 2 ? 5 : 7;    // sum S V [m3]
+  static constexpr int size = 2 + 2 * Dim;
+};
+
+// What particles read to move: the node's acceleration [m/s2] and its velocity at mid-step [m/s].
+template <int Dim>
+struct MotionLayout {
+  static constexpr std::size_t acceleration = 0;
+  static constexpr std::size_t middle_velocity = Dim;
+  static constexpr int size = 2 * Dim;
+};
+
+// Sums over particles, weighted by volume (Eq. 21, not normalised).
+struct Averages {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t volume = 0;  // sum S V [m3]
+  static constexpr std::size_t temperature = 1;
+  static constexpr std::size_t pore_pressure = 2;
+  template <int Dim>
+  static constexpr int size = 3;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.averages; }
+};
+
+// What the particles near the ground tell its candidate nodes: sums S m X with the momentum shape functions, for nodes
+// without linear weight and for the slip; sums S V X with the linear shape functions; the smallest distance left to the
+// ground.
+struct NearGroundLayout {
+  static constexpr std::size_t temperature = 0;
+  static constexpr std::size_t pore_pressure = 1;
+  static constexpr std::size_t saturation = 2;
+  static constexpr std::size_t solid_fraction = 3;  // effective, n_e of Eq. 2
+  static constexpr std::size_t slip = 4;            // [kg m]
+  static constexpr std::size_t by_mass = 5;         // those above
+
+  static constexpr std::size_t saturation_by_linear = 5;
+  static constexpr std::size_t solid_fraction_by_linear = 6;
+  static constexpr std::size_t clearance = 7;  // [m], beyond all bounds where there is none
+  static constexpr int size = 8;
+};
+
+// Candidate nodes: how they press on the ground, and what of it they have.
+struct BaseLayout {
+  static constexpr std::size_t load = 0;     // trial momentum into the ground, less what closes the clearance [kg m/s]
+  static constexpr std::size_t covered = 1;  // what the slide covers of the node's share of the ground's surface [m2]
+  static constexpr int size = 2;
+};
+
+// What contact leaves at a node for the stages after it.
+struct ContactLayout {
+  static constexpr std::size_t touching = 0;       // 1 in contact, 0 not
+  static constexpr std::size_t slip_speed = 1;     // [m/s], tangential, at mid-step
+  static constexpr std::size_t friction_heat = 2;  // [W], after the conversion coefficient
+  static constexpr int size = 3;
+};
+
+// What particles see of heat and pore pressure: the averages, or a prescribed temperature, and what
+// becomes of them.
+struct NodalState {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t temperature = 0;       // [C]
+  static constexpr std::size_t pore_pressure = 1;     // [Pa]
+  static constexpr std::size_t temperature_rate = 2;  // [K/s]
+  static constexpr std::size_t pressure_change = 3;   // what seepage brings in the step [Pa], Eq. 22
+  template <int Dim>
+  static constexpr int size = 4;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.state; }
+};
+
+// Sums over particles of what changes their heat (Eq. 19).
+struct HeatRates {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t conduction = 0;  // [W]
+  static constexpr std::size_t advection = 1;   // [W]
+  static constexpr std::size_t capacity = 2;    // [J/K]
+  static constexpr std::size_t subgrid = 3;     // heat taken by subgrid diffusion [J]
+  template <int Dim>
+  static constexpr int size = 4;
+  static constexpr int flux = 0;
+  static auto& in(auto& nodes) { return nodes.heat_rates; }
+};
+
+// Friction heat of nodes without linear weight, per mass [W/kg].
+struct OrphanHeat {
+  using Functions = MomentumFunctions;
+  template <int Dim>
+  static constexpr int size = 1;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.orphan_heat; }
+};
+
+// Sums over particles of what changes their pore pressure (Eq. 23).
+struct Seepage {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t inflow = 0;      // times K_L [Pa m3/s]
+  static constexpr std::size_t pore_space = 1;  // [m3]
+  static constexpr std::size_t subgrid = 2;     // pore space times subgrid diffusion [Pa m3]
+  template <int Dim>
+  static constexpr int size = 3;
+  static constexpr int flux = 0;
+  static auto& in(auto& nodes) { return nodes.seepage; }
+};
+
+// The records of MomentumLayout and MotionLayout, and the velocity mapped back from the moved particles (MUSL) [m/s].
+struct Momentum {
+  using Functions = MomentumFunctions;
+  template <int Dim>
+  static constexpr int size = MomentumLayout<Dim>::size;
+  static constexpr int flux = 0;
+  static auto& in(auto& nodes) { return nodes.momentum; }
+};
+struct Motion {
+  using Functions = MomentumFunctions;
+  template <int Dim>
+  static constexpr int size = MotionLayout<Dim>::size;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.motion; }
+};
+struct Velocity {
+  using Functions = MomentumFunctions;
+  template <int Dim>
+  static constexpr int size = Dim;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.velocity; }
+};
+
+// The same records as APIC's weights see them. They add `record_step` numbers, from `first` on; `place`: of the
+// velocity's among these.
+struct AffineMomentum : Momentum {
+  using Functions = AffineFunctions;
+  using Owner = Momentum;
+  template <int Dim>
+  static constexpr std::size_t place = MomentumLayout<Dim>::momentum % record_step;
+  template <int Dim>
+  static constexpr std::size_t first = MomentumLayout<Dim>::momentum - place<Dim>;
+};
+struct AffineMotion : Motion {
+  using Functions = AffineFunctions;
+  using Owner = Motion;
+};
+struct AffineVelocity : Velocity {
+  using Functions = AffineFunctions;
+  using Owner = Velocity;
+  static constexpr int flux = 0;
+  template <int Dim>
+  static constexpr std::size_t place = 0;
+  template <int Dim>
+  static constexpr std::size_t first = 0;
+};
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,252 @@
+// The kernels of the step (mpm/kernel.hpp) in device code, a thread a particle as in mpm/group_pass.hpp, in double
+// precision. They are compiled and never run: that they can be, and in how many registers, is the test.
+#include <cstddef>
+#include <cstdint>
+
+#include "band/averages_kernel.hpp"
+#include "band/columns_of_tile.hpp"
+#include "band/heat_kernels.hpp"
+#include "band/pressure_kernels.hpp"
+#include "mpm/motion_kernels.hpp"
+#include "mpm/one_particle.hpp"
+#include "mpm/particle_view.hpp"
+#include "mpm/stress_kernel.hpp"
+#include "physics/freezing.hpp"
+#include "physics/heat_content.hpp"
+
+namespace thawslide {
+
+using Real = double;
+
+// A tile's particles, and the records that its nodes hold.
+template <int Dim>
+struct TileOnDevice {
+  mpm::ParticleView<Dim, Real> particles;
+  mpm::SizesOfBodies<Real> sizes;
+  const std::uint32_t* particle;
+  const std::int32_t* nearest[Dim];
+  const std::uint32_t* first_node;
+  const Real* records;
+  Real* accounts;
+  std::size_t count;
+  Real cell, inverse_cell;
+  int sides[2][Dim];
+};
+
+template <class Name, int Dim>
+struct PatchOnDevice {
+  static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
+  static constexpr std::size_t total = static_cast<std::size_t>(mpm::power(mpm::Tile<Dim>::patch_edge, Dim)) * size;
+  const Real* numbers;
+};
+
+// A tile's patch, if there is one, in shared memory; a thread a number.
+template <int Dim, class... Names>
+__device__ auto fetch(mpm::RecordList<Names...> /*names*/, const Real* records, Real* shared) {
+  static_assert(sizeof...(Names) <= 1, "no kernel reads more");
+  const auto copy = [&](std::size_t numbers) {
+    for (std::size_t k = threadIdx.x; k < numbers; k += blockDim.x) {
+      shared[k] = records[k];
+    }
+    __syncthreads();
+    return shared;
+  };
+  return mpm::ByName<mpm::Named<Names, PatchOnDevice<Names, Dim>>...>{
+      {PatchOnDevice<Names, Dim>{copy(PatchOnDevice<Names, Dim>::total)}}...};
+}
+
+template <int Dim, class... Names>
+using CarriedTo = mpm::ByName<mpm::Named<Names, mpm::OneContribution<Real, Dim, mpm::components_of<Names, Dim>>>...>;
+template <int Dim, class List>
+struct CarriedOf;
+template <int Dim, class... Names>
+struct CarriedOf<Dim, mpm::RecordList<Names...>> {
+  using Type = CarriedTo<Dim, Names...>;
+};
+
+// Runs a kernel for the thread's particle. Shape: of momentum.
+template <class Shape, int Dim, class Kernel>
+__device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typename Kernel::Adds>::Type* carried,
+                      typename Kernel::Account* accounts, const Kernel& kernel) {
+  extern __shared__ Real shared[];
+  const auto patches = fetch<Dim>(typename Kernel::Reads{}, tile.records, shared);
+  const std::size_t k = threadIdx.x;
+  if (k >= tile.count) {
+    return;
+  }
+  mpm::ParticleView<Dim, Real> particles = tile.particles;
+  const mpm::One<Real> at{{tile.particle[k]}};
+  mpm::OnePlace<Dim, Real> place{{}, tile.first_node[k], {}};
+  for (std::size_t a = 0; a < Dim; ++a) {
+    const std::int32_t nearest = tile.nearest[a][k];
+    place.offset[static_cast<int>(a)] =
+        particles.position(at.particle[0], static_cast<int>(a)) * tile.inverse_cell - static_cast<Real>(nearest);
+    place.at_side[a] = nearest == tile.sides[0][a] || nearest == tile.sides[1][a];
+  }
+  mpm::OneWeights<Dim, Real> weights;
+  weights.set_linear(place, tile.inverse_cell);
+  weights.template set_momentum<Shape>(place, tile.sizes.of(particles, at), tile.inverse_cell);
+  weights.template set_affine<Shape>(place, tile.cell, tile.inverse_cell);
+  const mpm::SeenByOne<mpm::OneWeights<Dim, Real>, decltype(patches)> seen{weights, patches};
+  typename CarriedOf<Dim, typename Kernel::Adds>::Type added{};
+  typename Kernel::Account account{};
+  kernel(particles, at, seen, added, account);
+  carried[k] = added;
+  accounts[k] = account;
+}
+
+template <int Dim, class Kernel>
+struct Results {
+  typename CarriedOf<Dim, typename Kernel::Adds>::Type* carried;
+  typename Kernel::Account* accounts;
+};
+
+template <int Dim>
+using Shape = mpm::Ugimp<Real>;
+
+template <int Dim>
+__global__ void averages(TileOnDevice<Dim> tile, Results<Dim, band::AddAverages<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::AddAverages<Dim, Real>{});
+}
+
+template <int Dim>
+__global__ void momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddMomentum<Dim, Real>> to,
+                         mpm::AddMomentum<Dim, Real> kernel) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+}
+
+template <int Dim>
+__global__ void affine_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddAffineMomentum<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddAffineMomentum<Dim, Real>{});
+}
+
+template <int Dim>
+__global__ void move(TileOnDevice<Dim> tile, Results<Dim, mpm::Move<Dim, Real>> to, mpm::Move<Dim, Real> kernel) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+}
+
+template <int Dim>
+__global__ void move_affine(TileOnDevice<Dim> tile, Results<Dim, mpm::MoveAffine<Dim, Real>> to,
+                            mpm::MoveAffine<Dim, Real> kernel) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+}
+
+template <int Dim, class Law>
+__global__ void deform(TileOnDevice<Dim> tile, Results<Dim, mpm::Deform<Dim, Real, Law>> to, Law law,
+                       physics::Elastic<Real> elastic, physics::Phases<Real> phases, bool gaps, Real viscosity_time,
+                       bool effective_stress, Real dt) {
+  const mpm::Deform<Dim, Real, Law> kernel{law, elastic, phases, gaps, viscosity_time, effective_stress, dt};
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+}
+
+template <class Curve>
+using Content = physics::HeatContent<Real, Curve>;
+template <class Curve>
+using Law = band::ParticleHeat<Content<Curve>, band::InitialMasses>;
+
+template <int Dim, class Curve>
+__global__ void heat_flows(TileOnDevice<Dim> tile, Results<Dim, band::HeatFlows<Dim, Real, Law<Curve>>> to,
+                           Content<Curve> content, band::BandPhysics<Real> model,
+                           band::HydraulicConductivity<Real> hydraulic, Real dt, bool subgrid) {
+  const Law<Curve> law{content};
+  const band::HeatFlows<Dim, Real, Law<Curve>> kernel{model, hydraulic, law, dt, tile.inverse_cell, subgrid};
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+}
+
+template <int Dim, class Curve>
+__global__ void secant_capacity(TileOnDevice<Dim> tile, Results<Dim, band::SecantCapacity<Dim, Real, Law<Curve>>> to,
+                                Content<Curve> content, Real dt) {
+  const Law<Curve> law{content};
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::SecantCapacity<Dim, Real, Law<Curve>>{law, dt});
+}
+
+template <int Dim, class Curve>
+__global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::TakeHeat<Dim, Real, Law<Curve>>> to,
+                          Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
+  const Law<Curve> law{content};
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::TakeHeat<Dim, Real, Law<Curve>>{model, law, dt});
+}
+
+template <int Dim, class Curve>
+__global__ void take_heat_as_printed(TileOnDevice<Dim> tile,
+                                     Results<Dim, band::TakeHeatAsPrinted<Dim, Real, Law<Curve>>> to,
+                                     Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
+  const Law<Curve> law{content};
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::TakeHeatAsPrinted<Dim, Real, Law<Curve>>{model, law, dt});
+}
+
+template <int Dim, class Curve>
+__global__ void masses_anew(TileOnDevice<Dim> tile, Results<Dim, band::CountMassesAnew<Dim, Real, Law<Curve>>> to,
+                            Content<Curve> content) {
+  const Law<Curve> law{content};
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::CountMassesAnew<Dim, Real, Law<Curve>>{law});
+}
+
+template <int Dim>
+__global__ void orphan_heat(TileOnDevice<Dim> tile, Results<Dim, band::TakeOrphanHeat<Dim, Real>> to, Real dt) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::TakeOrphanHeat<Dim, Real>{dt});
+}
+
+template <int Dim>
+__global__ void seepage(TileOnDevice<Dim> tile, Results<Dim, band::SeepageFlows<Dim, Real>> to,
+                        band::BandPhysics<Real> model, band::HydraulicConductivity<Real> hydraulic, Real dt) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts,
+                    band::SeepageFlows<Dim, Real>{model, hydraulic, dt, tile.inverse_cell});
+}
+
+template <int Dim>
+using Pressure = band::PorePressure<Real, const band::ColumnsOfTile<Dim, Real>&, true>;
+
+template <int Dim>
+__global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim>> to, band::BandPhysics<Real> model,
+                              band::HydraulicConductivity<Real> hydraulic,
+                              const band::ColumnsOfTile<Dim, Real>* columns) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, Pressure<Dim>{model, hydraulic, Real(0.5) * tile.cell, *columns});
+}
+
+// The second phase of a pass: what the particles first .. last-1 of a cell add to a number of one of its nodes.
+template <class Name, int Dim>
+__global__ void sum_in_cell(const mpm::OneWeights<Dim, Real>* weights,
+                            const mpm::OneContribution<Real, Dim, mpm::components_of<Name, Dim>>* carried,
+                            std::size_t first, std::size_t last, Real* sums) {
+  const std::size_t node = threadIdx.x, component = threadIdx.y;
+  Real sum = 0;
+  for (std::size_t k = first; k < last; ++k) {
+    sum = mpm::add_particle(weights[k].template of<typename Name::Functions>(), {node % 3, node / 3 % 3, node / 9},
+                            carried[k], Name::flux != mpm::no_flux, component, sum);
+  }
+  sums[node * blockDim.y + component] = sum;
+}
+
+template <int Dim>
+void instantiate() {
+  using Elastic = physics::LinearElastic<Real>;
+  using Coulomb = physics::MohrCoulomb<Real>;
+  using PowerLaw = physics::PowerLawCurve<Real>;
+  using Line = physics::LinearCurve<Real>;
+  TileOnDevice<Dim> tile{};
+  averages<Dim><<<1, 128>>>(tile, {});
+  momentum<Dim><<<1, 128>>>(tile, {}, {});
+  affine_momentum<Dim><<<1, 128>>>(tile, {});
+  move<Dim><<<1, 128>>>(tile, {}, {});
+  move_affine<Dim><<<1, 128>>>(tile, {}, {});
+  deform<Dim, Elastic><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
+  deform<Dim, Coulomb><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
+  heat_flows<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
+  heat_flows<Dim, Line><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
+  secant_capacity<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, 0);
+  secant_capacity<Dim, Line><<<1, 128>>>(tile, {}, {}, 0);
+  take_heat<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, 0);
+  take_heat<Dim, Line><<<1, 128>>>(tile, {}, {}, {}, 0);
+  take_heat_as_printed<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, 0);
+  masses_anew<Dim, PowerLaw><<<1, 128>>>(tile, {}, {});
+  orphan_heat<Dim><<<1, 128>>>(tile, {}, 0);
+  seepage<Dim><<<1, 128>>>(tile, {}, {}, {}, 0);
+  pore_pressure<Dim><<<1, 128>>>(tile, {}, {}, {}, nullptr);
+  sum_in_cell<mpm::Momentum, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
+  sum_in_cell<mpm::HeatRates, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
+}
+template void instantiate<2>();
+template void instantiate<3>();
+
+}  // namespace thawslide
