@@ -87,7 +87,7 @@ class Field final : public FieldBase {
   }
 
   // As kernels see it on a device. Holds until there are more or fewer particles.
-  [[nodiscard]] FieldView<T, Components> view() { return {data_.data()}; }
+  [[nodiscard]] FieldView<T, Components> view() { return {kept_ ? data_.data() : nullptr}; }
 
   // The first components, as many as the vector has.
   template <class Vector>
@@ -185,6 +185,7 @@ class Field final : public FieldBase {
   // Whether the field is stored at all, from the next resize on. One that is not must not be touched; to the list of
   // fields it is 0.
   void keep(bool kept) { kept_ = kept; }
+  [[nodiscard]] bool is_kept() const { return kept_; }
 
   void resize(std::size_t particles) override {
     expect_room(particles);

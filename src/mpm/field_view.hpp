@@ -23,8 +23,9 @@ THAWSLIDE_HD constexpr std::size_t place_in_field(std::size_t particle, int comp
 
 template <class T, int Components>
 struct FieldView {
-  T* numbers;
+  T* numbers;  // none where the field is not kept
 
+  [[nodiscard]] THAWSLIDE_HD bool is_kept() const { return numbers != nullptr; }
   [[nodiscard]] THAWSLIDE_HD T& operator()(std::size_t particle, int component = 0) const {
     return numbers[place_in_field<Components>(particle, component)];
   }

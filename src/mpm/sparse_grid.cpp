@@ -302,6 +302,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   };
   auto& batches = batches_[t];
   batches.clear();
+  batches.reserve((tile.last - tile.first + most - 1) / most);
   broken_[t] = 0;
   for (std::uint32_t k = tile.first; k < tile.last;) {
     TileBatch<Dim, Real> batch;

@@ -86,7 +86,9 @@ struct Deform {
       at.add_to(work.pore, -volume * particles.pore_pressure.load(at) * volume_strain);
     }
     particles.volume.store(at, volume * increment.volume_ratio);
-    particles.volume_strain.store(at, volume_strain);
+    if (particles.volume_strain.is_kept()) {
+      particles.volume_strain.store(at, volume_strain);
+    }
     particles.porosity.store(
         at, physics::updated_porosity(phases, particles.porosity.load(at), volume_strain, Value(Real(0))));
     note_bad_volumes(particles, at, account.bad);

@@ -240,6 +240,7 @@ void Simulation<Dim, Real>::seed() {
   const auto& materials = model_.motion.materials;
   particles_.affine_velocity.keep(model_.motion.transfer == mpm::TransferKind::apic);
   particles_.viscous_stress.keep(model_.motion.viscous());
+  particles_.volume_strain.keep(model_.band.volumetric_term);
   particles_.gap.keep(
       std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.gaps_close_first; }));
   fill_bodies(parameters_, site_, model_, particles_);
