@@ -302,7 +302,8 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   };
   auto& batches = batches_[t];
   batches.clear();
-  batches.reserve((tile.last - tile.first + most - 1) / most);
+  const std::size_t contiguous = (tile.last - tile.first + most - 1) / most;
+  batches.reserve(contiguous + contiguous / 8 + 2);  // some are broken
   broken_[t] = 0;
   for (std::uint32_t k = tile.first; k < tile.last;) {
     TileBatch<Dim, Real> batch;
