@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "base/linear.hpp"
 #include "base/portability.hpp"
+#include "base/reorder.hpp"
 #include "mpm/batch.hpp"
 #include "mpm/field_view.hpp"
 
@@ -50,9 +51,9 @@ class FieldBase {
   virtual void set_size(std::size_t particles) = 0;
   // The particle at `to` becomes the one at `from`.
   virtual void copy(std::size_t from, std::size_t to) = 0;
-  // Particle k becomes the one that stood at order[k], for as many as `order` has. scratch: room for the work, kept
+  // Particle k becomes the one that stood at order[k], for as many as `order` has. done: room for the work, kept
   // between calls.
-  virtual void reorder(const std::vector<std::uint32_t>& order, AlignedVector<std::byte>& scratch) = 0;
+  virtual void reorder(const std::vector<std::uint32_t>& order, std::vector<std::uint8_t>& done) = 0;
   [[nodiscard]] virtual std::vector<std::byte> bytes() const = 0;
   virtual void set_bytes(const std::vector<std::byte>& bytes) = 0;
 
@@ -211,19 +212,12 @@ class Field final : public FieldBase {
     }
   }
 
-  void reorder(const std::vector<std::uint32_t>& order, AlignedVector<std::byte>& scratch) override {
-    if (!kept_) {
-      return;
-    }
-    scratch.resize(std::max(scratch.size(), order.size() * sizeof(T)));
-    T* moved = reinterpret_cast<T*>(scratch.data());
-    for (int c = 0; c < Components; ++c) {
-      for (std::size_t k = 0; k < order.size(); ++k) {
-        moved[k] = data_[position(order[k], c)];
-      }
-      for (std::size_t k = 0; k < order.size(); ++k) {
-        data_[position(k, c)] = moved[k];
-      }
+  void reorder(const std::vector<std::uint32_t>& order, std::vector<std::uint8_t>& done) override {
+    if (kept_) {
+      using Values = Vector<T, Components>;
+      reorder_in_place(
+          order, done, [&](std::size_t k) { return get<Values>(k); },
+          [&](std::size_t k, const Values& values) { set(k, values); });
     }
   }
 

@@ -108,7 +108,7 @@ class Particles {
 
   void reorder(const std::vector<std::uint32_t>& order) {
     for (FieldBase* field : fields.all()) {
-      field->reorder(order, scratch_);
+      field->reorder(order, reordered_);
     }
   }
 
@@ -121,7 +121,7 @@ class Particles {
   }
 
   std::size_t size_ = 0;
-  AlignedVector<std::byte> scratch_;
+  std::vector<std::uint8_t> reordered_;
 };
 
 // A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
+#include "base/reorder.hpp"
 
 namespace thawslide::mpm {
 
@@ -98,14 +99,10 @@ void SparseGrid<Dim, Real>::note_order(bool sorted) {
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
   particles.reorder(order_);
-  former_numbers_.resize(order_.size());
   for (std::size_t a = 0; a < Dim; ++a) {
-    for (std::size_t k = 0; k < order_.size(); ++k) {
-      former_numbers_[k] = nearest_[in_nearest(order_[k], a)];
-    }
-    for (std::size_t k = 0; k < order_.size(); ++k) {
-      nearest_[in_nearest(k, a)] = former_numbers_[k];
-    }
+    reorder_in_place(
+        order_, moved_, [&](std::size_t k) { return nearest_[in_nearest(k, a)]; },
+        [&](std::size_t k, std::int32_t nearest) { nearest_[in_nearest(k, a)] = nearest; });
   }
   for (std::size_t k = 0; k < order_.size(); ++k) {
     keys_[k] = key_of(k);

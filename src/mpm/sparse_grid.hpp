@@ -106,9 +106,8 @@ class SparseGrid {
   }
 
   Real cell_, inverse_cell_;
-  std::vector<std::uint64_t> keys_;           // by particle: tile key, then place in the tile
-  std::vector<std::int32_t> nearest_;         // by batch in memory, axis and lane: the nearest node
-  std::vector<std::int32_t> former_numbers_;  // while particles are sorted in memory
+  std::vector<std::uint64_t> keys_;    // by particle: tile key, then place in the tile
+  std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: the nearest node
   bool one_material_ = true;
   std::vector<std::uint8_t> moved_;
   std::vector<std::vector<Mover>> task_movers_;
