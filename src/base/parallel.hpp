@@ -12,6 +12,18 @@ namespace thawslide {
 [[nodiscard]] int thread_count();
 void set_thread_count(int threads);
 
+// While one lives, the loops below run on the thread that made it alone: for many that are too short to share out.
+class LoneThread {
+ public:
+  LoneThread() : threads_(thread_count()) { set_thread_count(1); }
+  ~LoneThread() { set_thread_count(threads_); }
+  LoneThread(const LoneThread&) = delete;
+  LoneThread& operator=(const LoneThread&) = delete;
+
+ private:
+  int threads_;
+};
+
 // Cores this process may run on.
 [[nodiscard]] int available_cores();
 

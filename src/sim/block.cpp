@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "physics/contact.hpp"
 #include "sim/block_column.hpp"
 #include "sim/bodies.hpp"
@@ -105,7 +106,7 @@ class Block {
         model_(model),
         path_(*model.profile),
         slices_(make_slices(parameters, model, path_, particles)),
-        column_(model_.band, initial_column()) {
+        column_(model_.band, initial_column(particles.material(0))) {
     const auto& start = parameters.bodies.begin()->second.velocity;
     const Vector<double, 2> into = normal_below(model, slices_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
@@ -126,12 +127,8 @@ class Block {
     friction_heat_ += heat;
     displacement_ += middle * dt;
     slip_ += impulse.slides ? std::abs(middle) * dt : 0.0;
-    if (model_.band.heat) {
-      const double before = column_.heat(scaling());
-      column_.conduct_heat(heat / dt, scaling(), dt);
-      heat_gain_ += column_.heat(scaling()) - before;
-    }
-    column_.drain_pore_pressure(scaling(), dt);
+    const Table& thickness = parameters_.band.thickness;
+    heat_gain_ += column_.step(heat / dt, thickness.value.empty() ? 0.0 : thickness.at(time_), dt);
     time_ += dt;
   }
 
@@ -139,13 +136,14 @@ class Block {
 
   HistoryRow row() {
     const Forces gravity = evaluate_base();
+    const mpm::Particles<2, double>& rows = column_.rows();
     double count = 0.0, temperature = 0.0, saturation = 0.0, pressure = 0.0;
-    for (const BlockRow& band : column_.rows()) {
-      if (band.in_band) {
+    for (std::size_t p = 0; p < rows.size(); ++p) {
+      if (rows.in_band(p) != 0) {
         count += 1.0;
-        temperature += band.temperature;
-        saturation += band.saturation;
-        pressure += band.pore_pressure;
+        temperature += rows.temperature(p);
+        saturation += rows.liquid_saturation(p);
+        pressure += rows.pore_pressure(p);
       }
     }
     const double front = path_.x_at(slices_.all.back().path + displacement_) + model_.origin[0];
@@ -167,7 +165,7 @@ class Block {
   }
 
  private:
-  BlockColumn::Initial initial_column() const {
+  [[nodiscard]] BlockColumn::Initial initial_column(std::int32_t material) const {
     const config::Body& body = parameters_.bodies.begin()->second;
     const auto seed_at = [this](double depth) {
       return Seed<2>{0, Vector<double, 2>(slices_.middle_x, 0.0), depth, 0.0};
@@ -175,17 +173,11 @@ class Block {
     return {slices_.thickness,
             parameters_.grid.cell,
             body.particles_per_axis,
+            material,
             [&, seed_at](double depth) { return initial_temperature(model_, body, nullptr, seed_at(depth)); },
             [&, seed_at](double depth, double saturation) {
               return initial_porosity(body, nullptr, seed_at(depth), saturation);
-            },
-            parameters_.materials.at(body.material).hydraulic_conductivity};
-  }
-
-  // xi in force.
-  [[nodiscard]] double scaling() const {
-    return parameters_.band.thickness.value.empty() ? 1.0
-                                                    : parameters_.grid.cell / parameters_.band.thickness.at(time_);
+            }};
   }
 
   // The law's view of the base now; returns gravity's forces.
@@ -247,6 +239,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   const double interval = std::max(parameters.time.history_interval, dt);
   const auto steps = static_cast<long>(std::ceil(parameters.time.end / dt * (1.0 - 1e-12)));
   const long every = std::max(1L, std::lround(interval / dt));
+  const LoneThread alone;  // waking others for a column takes longer than its step
   std::vector<HistoryRow> rows{block.row()};
   for (long k = 1; k <= steps; ++k) {
     block.step(dt);

@@ -1,25 +1,18 @@
-// The column of particle rows under the rigid block: heat and pore pressure across the band.
+// The band under the rigid block: a column of particles, one a row, that stand still on a grid of their own while the
+// stages of the step conduct their heat and drain their pore pressure. Each lies in the middle between the two nodes of
+// its cell's floor and those of its ceiling, so that both of a pair hold the same and nothing flows sideways.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
-#include "band/model.hpp"
+#include "band/flow_depth.hpp"
+#include "mpm/nodes.hpp"
 
 namespace thawslide::sim {
 
-// One particle row; heights above the base, in the MPM's unscaled cells.
-struct BlockRow {
-  double height;  // of its middle [m]
-  double depth;   // of ice pressure's overburden along the normal [m]
-  bool in_band;   // in the first cell
-  double porosity, initial_porosity, initial_saturation;
-  double temperature, previous_temperature, heat_content, saturation;
-  double liquid_pressure = 0, ice_pressure = 0, pore_pressure = 0;
-  double secant_capacity = 0, conduction_in_cell = 0, seepage_in_cell = 0;
-};
-
-// What the contact law sees at the base node, interpolated as the MPM does.
+// What the contact law sees at the base nodes, interpolated as the MPM does.
 struct BlockBase {
   double pore_pressure, saturation, solid_fraction, temperature;
 };
@@ -30,42 +23,30 @@ class BlockColumn {
   struct Initial {
     double thickness, cell;
     int rows_per_cell;
+    std::int32_t material;                                            // number, as in Model
     std::function<double(double depth)> temperature;                  // [C]
     std::function<double(double depth, double saturation)> porosity;  // saturation: of the pores with water
-    double hydraulic_conductivity;
   };
   BlockColumn(const band::BandModel<2, double>& model, const Initial& initial);
 
-  [[nodiscard]] const std::vector<BlockRow>& rows() const { return rows_; }
-  [[nodiscard]] BlockBase base() const;
-  // Heat per base area that rows hold, in the volume scaled by xi [J/m2].
-  [[nodiscard]] double heat(double scaling) const;
+  // One step with a heat flux into the base [W/m2] and a band that is so thick [m], 0: no band. Returns the heat that
+  // rows gained per base area [J/m2].
+  double step(double flux, double band_thickness, double dt);
 
-  // One step of Eqs. 18, 19 with a heat flux into the base node [W/m2]; xi = scaling.
-  void conduct_heat(double flux, double scaling, double dt);
-  // One step of Eqs. 4, 8, 21-23.
-  void drain_pore_pressure(double scaling, double dt);
+  // Per base area; heights above the base, in the MPM's unscaled cells.
+  [[nodiscard]] const mpm::Particles<2, double>& rows() const { return rows_; }
+  [[nodiscard]] BlockBase base() const;
 
  private:
-  // Nodes below and above a row, and the weight of the lower one.
-  struct Place {
-    std::size_t node;
-    double weight;
-  };
-  [[nodiscard]] Place place(const BlockRow& row) const;
-  [[nodiscard]] std::vector<double> nodal_rates(const std::vector<double>& power,
-                                                const std::vector<double>& capacity) const;
-  [[nodiscard]] std::vector<double> averaged(double BlockRow::*member) const;
-  // Pressure that seepage between nodes brings to each node in a step; that within cells goes to the rows.
-  [[nodiscard]] std::vector<double> seepage_between_nodes(double scaling, double dt);
-  // The liquid's pressure goes on from where it was, or starts with Clapeyron's; `from`: temperature it is heated from
-  // [C].
-  void set_pressure(BlockRow& row, bool was_melted, double from, double seepage_change) const;
+  void find_base_nodes();
+  [[nodiscard]] double heat() const;
 
-  const band::BandModel<2, double>* model_;
-  double cell_, row_height_, hydraulic_conductivity_;
-  std::size_t nodes_;
-  std::vector<BlockRow> rows_;
+  band::BandModel<2, double> model_;
+  mpm::SparseGrid<2, double> grid_;
+  mpm::Particles<2, double> rows_;
+  mpm::Nodes<2, double> nodes_;
+  band::FlowDepth<2, double> flow_depth_;
+  std::vector<mpm::NodeAt> base_nodes_;
 };
 
 }  // namespace thawslide::sim

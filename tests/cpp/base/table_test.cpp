@@ -66,5 +66,16 @@ TEST(ParallelSum, AddsEachOnceAndInTheSameOrderOnAnyThreads) {
   set_thread_count(before);
 }
 
+TEST(LoneThread, LeavesTheNumberOfThreadsAsItWas) {
+  const int before = thread_count();
+  set_thread_count(3);
+  {
+    const LoneThread alone;
+    EXPECT_EQ(thread_count(), 1);
+  }
+  EXPECT_EQ(thread_count(), 3);
+  set_thread_count(before);
+}
+
 }  // namespace
 }  // namespace thawslide

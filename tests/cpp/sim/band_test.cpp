@@ -160,7 +160,7 @@ TEST(BlockModel, AgreesWithTheMaterialPoints) {
   Record record(
       "Deformable slab and rigid block",
       "A slab of 200 m by 50 m at -1 C slides down 25 degrees for 6 s: its base melts and is pressurised. The "
-      "rigid block solves the same band as ordinary differential equations.",
+      "rigid block moves as an ordinary differential equation has it, on one column of the same band.",
       "the same motion, heat and pressure", "docs/theory/block-model.md");
   record.expect_near("velocity, slab over block", value_of(row, "mean_velocity_m_s") / value_of(block, "velocity_m_s"),
                      1.0, 0.02);
@@ -173,6 +173,19 @@ TEST(BlockModel, AgreesWithTheMaterialPoints) {
   EXPECT_NEAR(value_of(row, "band_saturation") / value_of(block, "band_saturation"), 1.0, 0.05);
   EXPECT_NEAR(value_of(row, "band_pore_pressure_Pa") / value_of(block, "band_pore_pressure_Pa"), 1.0, 0.05);
   EXPECT_GT(value_of(block, "band_saturation"), 0.3) << "the base must have begun to melt for this to say much";
+}
+
+// With the scaling on the band alone, the rows above conduct less heat out of it.
+TEST(BlockModel, FollowsTheRegionOfTheScaling) {
+  const config::Case parameters = case_from_text(sliding, {"band.region=first_layer"});
+  const auto block = run_block(parameters).back(), scaled_all = run_block(case_from_text(sliding)).back();
+  Simulation<2, double> simulation(parameters);
+  run_until(simulation, parameters.time.end);
+  const auto row = history_row(simulation);
+  EXPECT_NEAR(value_of(row, "friction_work_J") / 200.0 / value_of(block, "friction_work_J_m2"), 1.0, 0.01);
+  EXPECT_NEAR(value_of(row, "band_temperature_C"), value_of(block, "band_temperature_C"), 0.25);
+  EXPECT_GT(value_of(block, "friction_work_J_m2") / value_of(scaled_all, "friction_work_J_m2"), 1.03);
+  EXPECT_GT(value_of(block, "band_temperature_C"), value_of(scaled_all, "band_temperature_C") + 1.0);
 }
 
 // Adaptive stepping takes the limits of the run, with the cap that time.step sets, and gives what a fixed step gives.

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 #include "../support/case_from_text.hpp"
 #include "base/error.hpp"
 
@@ -66,6 +69,19 @@ TEST(Block, TakesSaturationAndIceContentForTemperatureAndPorosity) {
       EXPECT_NEAR(same[k][column].second, value, 1e-9 * std::abs(value) + 1e-9) << rows[k][column].first;
     }
   }
+}
+
+// Rows gain the heat of friction, all of it; with masses that follow the porosity some is made beside it.
+TEST(Block, TakesTheMassesThatHoldHeatFromTheCase) {
+  const auto gain_over_friction_heat = [](const std::string& masses) {
+    const auto rows =
+        run_block(case_from_text(slab("temperature = -1.0\nporosity = 0.4\n"), {"heat.masses=" + masses}));
+    const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
+    EXPECT_GT(last.at("friction_heat_J_m2"), 1e5);
+    return last.at("heat_gain_J_m2") / last.at("friction_heat_J_m2");
+  };
+  EXPECT_NEAR(gain_over_friction_heat("initial"), 1.0, 1e-9);
+  EXPECT_GT(std::abs(gain_over_friction_heat("current") - 1.0), 1e-5);
 }
 
 TEST(Block, SlidesOneBodyOfASection) {
