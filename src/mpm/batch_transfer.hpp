@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstring>
+#include <limits>
 
 #include "mpm/transfer.hpp"
 
@@ -275,6 +276,17 @@ struct Contribution {
   Contribution() {
     unrolled<groups * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = Real(0); });
     unrolled<Dim * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { flux[c / width][c % width] = Real(0); });
+  }
+};
+
+// What a batch, or one particle, brings to components that it lowers.
+template <class Value, std::size_t Count>
+struct Bounds {
+  Value value[Count];
+
+  Bounds() {
+    constexpr auto largest = std::numeric_limits<typename NumberOf<Value>::Type>::max();
+    unrolled<Count>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = largest; });
   }
 };
 

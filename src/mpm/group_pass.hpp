@@ -1,159 +1,20 @@
 // A particle pass (mpm/particle_pass.hpp) as a device runs it: a group of threads a tile. A thread fetches a node's
 // record; after a barrier a thread a particle runs the kernels; then a thread a node of a cell adds what the cell's
 // particles carry, one after the other; then a thread a node adds what the cells bring, cell after cell, to the tile's
-// patch. So no two threads write one number, and the sums have the order, and the bits, of the processor's.
+// patch; what is lowered takes the smallest number instead. So no two threads write one number, and the sums have the
+// order, and the bits, of the processor's.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
 #include <vector>
 
 #include "mpm/group.hpp"
+#include "mpm/one_particle.hpp"
 #include "mpm/particle_pass.hpp"
 
 namespace thawslide::mpm {
-
-// What one particle carries to a record: see Contribution.
-template <class Real, int Dim, std::size_t Components>
-struct OneContribution {
-  static constexpr std::size_t width = Contribution<Dim, Real, Components>::width;
-  static constexpr std::size_t size = record_size(static_cast<int>(Components));
-
-  Real value[size] = {};
-  Real flux[Dim][width] = {};
-
-  // As shared memory is before anything is in it.
-  void fill(Real number) {
-    std::fill(std::begin(value), std::end(value), number);
-    for (auto& along : flux) {
-      std::fill(std::begin(along), std::end(along), number);
-    }
-  }
-};
-
-// The weights of one particle: by axis, and the place in the patch of the lowest node that it sees.
-template <class Real, int Dim, std::size_t Width>
-struct OneStencil {
-  std::array<AxisWeights<Real, Width>, static_cast<std::size_t>(Dim)> axis;
-  std::size_t first = 0;
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> in_cell{};  // of that node among the 3 an axis of its cell
-};
-
-// The weights of one particle; those of momentum and of APIC where the pass has them.
-template <int Dim, class Real>
-struct OneWeights {
-  OneStencil<Real, Dim, 2> linear;
-  OneStencil<Real, Dim, 3> momentum, affine;
-  Vector<Real, Dim> moment;
-
-  template <class Functions>
-  [[nodiscard]] const auto& of() const {
-    if constexpr (std::is_same_v<Functions, LinearFunctions>) {
-      return linear;
-    } else if constexpr (std::is_same_v<Functions, AffineFunctions>) {
-      return affine;
-    } else {
-      return momentum;
-    }
-  }
-  [[nodiscard]] const Vector<Real, Dim>& second_moment() const { return moment; }
-};
-
-// A particle of a tile: itself, its nearest node and its cell.
-template <int Dim>
-struct TileParticle {
-  std::uint32_t particle;
-  std::array<std::int32_t, static_cast<std::size_t>(Dim)> nearest;
-  std::size_t first_node, cell;  // the lowest node of the cell in the patch; number of the cell in the tile
-};
-
-template <int Dim, class Real>
-std::vector<TileParticle<Dim>> particles_of_tile(const SparseGrid<Dim, Real>& grid, std::size_t tile) {
-  std::vector<TileParticle<Dim>> all;
-  for (const TileBatch<Dim, Real>& batch : grid.batches(tile)) {
-    for (std::size_t lane = 0; lane < batch.count; ++lane) {
-      TileParticle<Dim> one{batch.particle[lane], {}, static_cast<std::size_t>(batch.nodes.first[lane]), 0};
-      for (std::size_t a = 0; a < Dim; ++a) {
-        one.nearest[a] = batch.nearest[a][lane];
-      }
-      const bool goes_on = !all.empty() && all.back().first_node == one.first_node;
-      one.cell = all.empty() ? 0 : all.back().cell + (goes_on ? 0 : 1);
-      all.push_back(one);
-    }
-  }
-  return all;
-}
-
-template <int Dim, class Real>
-Vector<Real, Dim> offset_of(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                            const TileParticle<Dim>& one) {
-  Vector<Real, Dim> offset;
-  for (int a = 0; a < Dim; ++a) {
-    const auto nearest = static_cast<Real>(one.nearest[static_cast<std::size_t>(a)]);
-    offset[a] = particles.position(one.particle, a) * grid.inverse_cell() - nearest;
-  }
-  return offset;
-}
-
-// The corners of the cell of nodes in which the particle lies.
-template <int Dim, class Real>
-OneStencil<Real, Dim, 2> linear_stencil(const SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& offset,
-                                        std::size_t first_node) {
-  OneStencil<Real, Dim, 2> stencil;
-  stencil.first = first_node;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const Real along = offset[static_cast<int>(a)];
-    const bool right = along >= Real(0);
-    stencil.in_cell[a] = right ? 1 : 0;
-    stencil.first += right ? static_cast<std::size_t>(power(Tile<Dim>::patch_edge, static_cast<int>(a))) : 0;
-    stencil.axis[a] = {{right ? Real(1) - along : -along, right ? along : Real(1) + along},
-                       {-grid.inverse_cell(), grid.inverse_cell()}};
-  }
-  return stencil;
-}
-
-template <int Dim>
-bool at_side(const HeldSides<Dim>& sides, const TileParticle<Dim>& one, std::size_t axis) {
-  return one.nearest[axis] == sides.lower[axis] || one.nearest[axis] == sides.upper[axis];
-}
-
-template <int Dim, class Real>
-OneWeights<Dim, Real> weights_of(const LinearWeights& /*weights*/, const SparseGrid<Dim, Real>& grid,
-                                 const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
-  OneWeights<Dim, Real> of_one;
-  of_one.linear = linear_stencil(grid, offset_of(grid, particles, one), one.first_node);
-  return of_one;
-}
-template <class Shape, int Dim, class Real>
-OneWeights<Dim, Real> weights_of(const MomentumWeights<Shape, Dim, Real>& weights, const SparseGrid<Dim, Real>& grid,
-                                 const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
-  OneWeights<Dim, Real> of_one = weights_of(LinearWeights{}, grid, particles, one);
-  const Vector<Real, Dim> offset = offset_of(grid, particles, one);
-  const HalfSize<Real> size = weights.sizes.of(particles, One<Real>{{one.particle}});
-  of_one.momentum.first = one.first_node;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    of_one.momentum.axis[a] =
-        Shape::weights(offset[static_cast<int>(a)], size, at_side(weights.sides, one, a), grid.inverse_cell());
-  }
-  return of_one;
-}
-template <class Shape, int Dim, class Real>
-OneWeights<Dim, Real> weights_of(const AffineWeights<Shape, Dim, Real>& weights, const SparseGrid<Dim, Real>& grid,
-                                 const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
-  const MomentumWeights<Shape, Dim, Real>& of_momentum = weights;
-  OneWeights<Dim, Real> of_one = weights_of(of_momentum, grid, particles, one);
-  const Vector<Real, Dim> offset = offset_of(grid, particles, one);
-  of_one.affine = of_one.momentum;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const Real along = offset[static_cast<int>(a)];
-    const auto& axis = of_one.momentum.axis[a];
-    of_one.affine.axis[a] = Shape::affine(axis, along, at_side(weights.sides, one, a), grid.inverse_cell());
-    of_one.moment[static_cast<int>(a)] = second_moment(axis, along) * (grid.cell() * grid.cell());
-  }
-  return of_one;
-}
 
 // A patch in shared memory.
 template <class Name, int Dim, class Real>
@@ -185,41 +46,6 @@ struct SeenByOne {
   }
 };
 
-// What a particle adds to component c of a node of its cell, numbered along each axis; from `sum` on.
-template <int Dim, class Real, std::size_t Width, std::size_t Components>
-Real add_particle(const OneStencil<Real, Dim, Width>& stencil, const std::array<std::size_t, 3>& node,
-                  const OneContribution<Real, Dim, Components>& carried, bool has_flux, std::size_t c, Real sum) {
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> k{};
-  for (std::size_t a = 0; a < Dim; ++a) {
-    if (node[a] < stencil.in_cell[a] || node[a] >= stencil.in_cell[a] + Width) {
-      return sum;
-    }
-    k[a] = node[a] - stencil.in_cell[a];
-  }
-  const auto& axis = stencil.axis;
-  const bool with_flux = has_flux && c < OneContribution<Real, Dim, Components>::width;
-  Real in_layer = carried.value[c];
-  Real along_0 = with_flux ? carried.flux[0][c] : Real(0), along_1 = with_flux ? carried.flux[1][c] : Real(0);
-  if constexpr (Dim == 3) {
-    in_layer *= axis[2].weight[k[2]];
-    if (with_flux) {
-      in_layer += axis[2].slope[k[2]] * carried.flux[2][c];
-      along_0 *= axis[2].weight[k[2]];
-      along_1 *= axis[2].weight[k[2]];
-    }
-  }
-  Real in_row = axis[1].weight[k[1]] * in_layer;
-  if (with_flux) {
-    in_row += axis[1].slope[k[1]] * along_1;
-  }
-  const Real along = axis[1].weight[k[1]] * along_0;
-  sum += axis[0].weight[k[0]] * in_row;
-  if (with_flux) {
-    sum += axis[0].slope[k[0]] * along;
-  }
-  return sum;
-}
-
 // A tile on the device: what its threads share. One record after the other is added to, each with room of its own.
 template <class Weights, class Reads, class Adds, int Dim, class Real, class... Kernels>
 class GroupOnTile;
@@ -227,17 +53,18 @@ template <class Weights, class... Reads, class... Adds, int Dim, class Real, cla
 class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real, Kernels...> {
   using Patches = ByName<Named<Reads, SharedPatch<Reads, Dim, Real>>...>;
   template <class Name>
-  using CarriedTo = OneContribution<Real, Dim, Adding<Name, Dim, Real>::carried>;
+  using CarriedTo = CarriedByOne<Name, Dim, Real>;
   using Carried = ByName<Named<Adds, CarriedTo<Adds>>...>;
   static constexpr std::size_t cell_nodes = CellNodes<Dim>::count;
   static constexpr auto patch_nodes = static_cast<std::size_t>(Tile<Dim>::patch_nodes);
 
  public:
-  GroupOnTile(HostGroup& group, const SparseGrid<Dim, Real>& grid, std::size_t tile)
+  template <class Takes>
+  GroupOnTile(HostGroup& group, const SparseGrid<Dim, Real>& grid, std::size_t tile, const Takes& takes)
       : group_(group),
         grid_(grid),
         tile_(tile),
-        particles_(particles_of_tile(grid, tile)),
+        particles_(particles_of_tile(grid, tile, takes)),
         carried_(particles_.size()),
         weights_(particles_.size()),
         accounts_(particles_.size()) {
@@ -307,18 +134,26 @@ class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real,
       for (std::size_t c = 0; c < size && !OfAnOwner<Name>; ++c) {
         record[c] = Real(0);
       }
+      for (std::size_t c = 0; c < carried && IsLowered<Name>; ++c) {
+        record[first + c] = start<Name>;
+      }
       for_cells_of(node, [&](std::size_t cell, std::size_t node_of_cell) {
         for (std::size_t c = 0; c < carried; ++c) {
-          record[first + c] += cell_sums[(cell * cell_nodes + node_of_cell) * carried + c];
+          const Real brought = cell_sums[(cell * cell_nodes + node_of_cell) * carried + c];
+          record[first + c] = IsLowered<Name> ? min(record[first + c], brought) : record[first + c] + brought;
         }
       });
     });
   }
 
+  // Of a sum, or of what is lowered.
+  template <class Name>
+  static constexpr Real start = IsLowered<Name> ? std::numeric_limits<Real>::max() : Real(0);
+
   template <class Name>
   Real sum_in_cell(std::size_t cell, std::size_t node, std::size_t component) const {
     const std::array<std::size_t, 3> along{node % 3, node / 3 % 3, node / 9};
-    Real sum = Real(0);
+    Real sum = start<Name>;
     for (std::size_t k = 0; k < particles_.size(); ++k) {
       if (particles_[k].cell == cell) {
         const auto& stencil = weights_[k].template of<typename Name::Functions>();
@@ -370,16 +205,17 @@ class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real,
 };
 
 // As particle_pass.
-template <class Weights, int Dim, class Real, class Records, class TakesTile, class... Kernels>
+template <class Weights, int Dim, class Real, class Records, class Takes, class... Kernels>
 Accounts<Kernels...> group_pass(HostGroup& group, const SparseGrid<Dim, Real>& grid, const Weights& weights,
-                                Particles<Dim, Real>& particles, Records& records, const TakesTile& takes_tile,
+                                Particles<Dim, Real>& particles, Records& records, const Takes& takes,
                                 const Kernels&... kernels) {
   using Reads = AllOf<typename Kernels::Reads...>;
   using Adds = AllOf<typename Kernels::Adds...>;
+  check_records<Reads, Adds, Dim>();
   Accounts<Kernels...> sum{};
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-    if (takes_tile(t)) {
-      sum += GroupOnTile<Weights, Reads, Adds, Dim, Real, Kernels...>(group, grid, t)
+    if (takes(t)) {
+      sum += GroupOnTile<Weights, Reads, Adds, Dim, Real, Kernels...>(group, grid, t, takes)
                  .run(weights, particles, records, kernels...);
     }
   }

@@ -93,16 +93,6 @@ struct BadParticle {
   }
 };
 
-// n_e of Eq. 2 as the basal law sees it: of the particles' current or, without lubrication, initial state.
-template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE Lanes<Real> basal_solid_fraction(const Particles<Dim, Real>& particles,
-                                                         const physics::Phases<Real>& phases, bool lubrication,
-                                                         const Batch<Real>& batch) {
-  const auto& porosity = lubrication ? particles.porosity : particles.initial_porosity;
-  const auto& saturation = lubrication ? particles.liquid_saturation : particles.initial_saturation;
-  return physics::effective_solid_fraction(phases, porosity.load(batch), saturation.load(batch));
-}
-
 // From total stress to effective stress, sigma + P I, of the particles that stand in memory from `first` on.
 template <int Dim, class Real>
 void split_total_stress(Particles<Dim, Real>& particles, std::size_t first = 0);

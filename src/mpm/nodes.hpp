@@ -37,10 +37,10 @@ struct Averages {
   static auto& in(auto& nodes) { return nodes.averages; }
 };
 
-// What the particles near the ground tell its candidate nodes: sums S m X with the momentum shape functions, for nodes
-// without linear weight and for the slip; sums S V X with the linear shape functions; the smallest distance left to the
-// ground.
-struct NearGroundLayout {
+// What the particles near the ground tell its candidate nodes, in one record: sums S m X with the momentum shape
+// functions, for nodes without linear weight and for the slip.
+struct NearGround {
+  using Functions = MomentumFunctions;
   static constexpr std::size_t temperature = 0;
   static constexpr std::size_t pore_pressure = 1;
   static constexpr std::size_t saturation = 2;
@@ -51,7 +51,26 @@ struct NearGroundLayout {
   static constexpr std::size_t saturation_by_linear = 5;
   static constexpr std::size_t solid_fraction_by_linear = 6;
   static constexpr std::size_t clearance = 7;  // [m], beyond all bounds where there is none
+  template <int Dim>
   static constexpr int size = 8;
+  template <int Dim>
+  static constexpr RecordPart part{0, by_mass};
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.near_ground; }
+};
+// Sums S V X with the linear shape functions.
+struct NearGroundByLinear : NearGround {
+  using Functions = LinearFunctions;
+  using Owner = NearGround;
+  template <int Dim>
+  static constexpr RecordPart part{saturation_by_linear, 2};
+};
+// The smallest distance left to the ground of the particles that a node sees with the momentum shape functions.
+struct Clearance : NearGround {
+  using Owner = NearGround;
+  static constexpr bool lowered = true;
+  template <int Dim>
+  static constexpr RecordPart part{clearance, 1};
 };
 
 // Candidate nodes: how they press on the ground, and what of it they have.
@@ -62,11 +81,16 @@ struct BaseLayout {
 };
 
 // What contact leaves at a node for the stages after it.
-struct ContactLayout {
-  static constexpr std::size_t touching = 0;       // 1 in contact, 0 not
-  static constexpr std::size_t slip_speed = 1;     // [m/s], tangential, at mid-step
-  static constexpr std::size_t friction_heat = 2;  // [W], after the conversion coefficient
-  static constexpr int size = 3;
+struct Contact {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t candidate = 0;      // 1 where the ground is near, 0 elsewhere
+  static constexpr std::size_t touching = 1;       // 1 in contact, 0 not
+  static constexpr std::size_t slip_speed = 2;     // [m/s], tangential, at mid-step; 0 where not in contact
+  static constexpr std::size_t friction_heat = 3;  // [W], after the conversion coefficient
+  template <int Dim>
+  static constexpr int size = 4;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.contact; }
 };
 
 // What particles see of heat and pore pressure: the averages, or a prescribed temperature, and what
@@ -140,16 +164,12 @@ struct Velocity {
   static auto& in(auto& nodes) { return nodes.velocity; }
 };
 
-// The same records as APIC's weights see them. `place`: of the momentum in the register that these add to.
+// The same records as APIC's weights see them.
 struct AffineMomentum : Momentum {
   using Functions = AffineFunctions;
   using Owner = Momentum;
-  template <int Dim, class Real>
-  static constexpr std::size_t width = RecordRegister<Real, Dim>::count;
-  template <int Dim, class Real>
-  static constexpr std::size_t place = MomentumLayout<Dim>::momentum % width<Dim, Real>;
-  template <int Dim, class Real>
-  static constexpr std::size_t first = MomentumLayout<Dim>::momentum - place<Dim, Real>;
+  template <int Dim>
+  static constexpr RecordPart part{MomentumLayout<Dim>::momentum, Dim};
 };
 struct AffineMotion : Motion {
   using Functions = AffineFunctions;
@@ -159,11 +179,14 @@ struct AffineVelocity : Velocity {
   using Functions = AffineFunctions;
   using Owner = Velocity;
   static constexpr int flux = 0;
-  template <int Dim, class Real>
-  static constexpr std::size_t place = 0;
-  template <int Dim, class Real>
-  static constexpr std::size_t first = 0;
 };
+
+// The component of a record with which the register begins that holds the first one of a name, and the place of this
+// one there.
+template <class Name, int Dim>
+inline constexpr std::size_t first_in_register = part_of<Name, Dim>.from / record_step* record_step;
+template <class Name, int Dim>
+inline constexpr std::size_t place_in_register = part_of<Name, Dim>.from - first_in_register<Name, Dim>;
 
 template <class Name, int Dim, class Real>
 using PatchOf = Patch<Dim, Real, components_of<Name, Dim>>;
@@ -184,8 +207,8 @@ struct Nodes {
   RecordsOf<Velocity, Dim, Real> velocity{room};
   RecordsOf<Averages, Dim, Real> averages{room};
   NodeRecords<Dim, Real, BaseLayout::size> base;
-  NodeRecords<Dim, Real, ContactLayout::size> contact;
-  NodeRecords<Dim, Real, NearGroundLayout::size> near_ground{room};  // of candidate nodes alone
+  RecordsOf<Contact, Dim, Real> contact;
+  RecordsOf<NearGround, Dim, Real> near_ground{room};  // of candidate nodes alone
   RecordsOf<NodalState, Dim, Real> state;
   RecordsOf<HeatRates, Dim, Real> heat_rates{room};
   RecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
