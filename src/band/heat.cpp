@@ -42,7 +42,7 @@ NodalHeat<Real> solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const 
       grid,
       [&](std::size_t b) {
         if (changing[b] != 0) {
-          sum_patches_in_block(grid, b, nodes.heat_rates.patches(grid.tiles().size()), nodes.secant_rates);
+          sum_patches_in_block(grid, b, nodes.heat_rates.patches(grid.tiles().size()), nodes.secant_rates, every_tile);
         }
       },
       [&](const NodeAt& at, NodalHeat<Real>& sum) {

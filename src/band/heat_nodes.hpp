@@ -85,7 +85,7 @@ struct SolveTemperatureRate {
                   NodalHeat<Real>& sum) const {
     using mpm::HeatRates;
     const auto& rates = nodes.heat_rates(at);
-    const Real friction = nodes.contact(at)[mpm::ContactLayout::friction_heat];
+    const Real friction = nodes.contact(at)[mpm::Contact::friction_heat];
     Real& rate = nodes.state(at)[mpm::NodalState::temperature_rate];
     rate = Real(0);
     nodes.orphan_heat(at)[0] = Real(0);

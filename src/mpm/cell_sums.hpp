@@ -2,6 +2,9 @@
 // which is the particles of one nearest node, cell after cell to the patch. So no sum depends on where batches begin.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "mpm/batch_transfer.hpp"
 #include "mpm/kernel.hpp"
 
@@ -208,6 +211,60 @@ class LinearCellSums {
   Patch<Dim, Real, Components>& patch_;
   bool is_open_ = false;                // the last batch's last cell goes on
   std::array<Register, nodes> sums_{};  // of the cell at hand
+};
+
+// What particles lower `Count` components of the records of a patch to, from component `First` on: each to the smallest
+// number that the particles bring that its node sees, in whatever order.
+template <std::size_t First, std::size_t Count, int Dim, class Real, int Components>
+class PatchMinima {
+  static constexpr Real largest = std::numeric_limits<Real>::max();
+
+ public:
+  explicit PatchMinima(Patch<Dim, Real, Components>& patch) : patch_(patch) {
+    for (auto& record : patch.records) {
+      std::fill_n(record.begin() + First, Count, largest);
+    }
+  }
+  PatchMinima(const PatchMinima&) = delete;
+  PatchMinima& operator=(const PatchMinima&) = delete;
+
+  // Instead of `add`: no cell is left open.
+  void skip() {}
+
+  // The next `count` particles.
+  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count,
+                                   const Bounds<Lanes<Real>, Count>& bounds) {
+    const BatchNodes<Real>& nodes = stencil.nodes;
+    const auto in_first = lanes_before<Real>(nodes.runs == 1 ? lane_count<Real> : nodes.second_run);
+    for_each_node<Dim>(stencil.axis, 0,
+                       [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
+                         // A box that ends at the edge of a node's support overlaps it by round-off, or not.
+                         const auto is_seen = weight > round_off<Real>;
+                         unrolled<Count>([&](auto c) THAWSLIDE_INLINE_LAMBDA {
+                           const Lanes<Real> seen = select(is_seen, bounds.value[c], Lanes<Real>(largest));
+                           if (nodes.runs == BatchNodes<Real>::many_runs) {
+                             for (std::size_t lane = 0; lane < count; ++lane) {
+                               lower<c>(nodes.first[lane], offset, seen[lane]);
+                             }
+                             return;
+                           }
+                           lower<c>(nodes.first[0], offset, smallest(select(in_first, seen, Lanes<Real>(largest))));
+                           if (nodes.runs == 2) {
+                             lower<c>(nodes.first[lane_count<Real> - 1], offset,
+                                      smallest(select(in_first, Lanes<Real>(largest), seen)));
+                           }
+                         });
+                       });
+  }
+
+ private:
+  template <std::size_t Component>
+  THAWSLIDE_ALWAYS_INLINE void lower(std::int32_t first_node, std::size_t offset, Real seen) {
+    Real& known = patch_.records[static_cast<std::size_t>(first_node) + offset][First + Component];
+    known = std::min(known, seen);
+  }
+
+  Patch<Dim, Real, Components>& patch_;
 };
 
 template <int FluxGroup, std::size_t Carried, std::size_t First = 0, int Dim, class Real, int Components>

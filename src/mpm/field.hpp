@@ -143,6 +143,10 @@ class Field final : public FieldBase {
     return Lanes<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
   }
   template <class Real>
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const One<Real>& one, Real value) {
+    (*this)(one.particle[0]) = static_cast<T>(value);
+  }
+  template <class Real>
   THAWSLIDE_ALWAYS_INLINE void store_whole(const Batch<Real>& batch, const Lanes<Real>& values) {
     if (batch.contiguous) {
       values.store_whole(&(*this)(batch.particle[0]));

@@ -1,7 +1,8 @@
 // A particle pass (mpm/particle_pass.hpp) as a device runs it: a group of threads a tile. A thread fetches a node's
 // record; after a barrier a thread a particle runs the kernels; then a thread a node of a cell adds what the cell's
 // particles carry, one after the other; then a thread a node adds what the cells bring, cell after cell, to the tile's
-// patch. So no two threads write one number, and the sums have the order, and the bits, of the processor's.
+// patch; what is lowered takes the smallest number instead. So no two threads write one number, and the sums have the
+// order, and the bits, of the processor's.
 #pragma once
 
 #include <algorithm>
@@ -10,75 +11,11 @@
 #include <vector>
 
 #include "mpm/group.hpp"
-#include "mpm/one_particle.hpp"
 #include "mpm/particle_pass.hpp"
 #include "mpm/particle_view.hpp"
+#include "mpm/tile_particles.hpp"
 
 namespace thawslide::mpm {
-
-// A particle of a tile: itself, its nearest node and its cell.
-template <int Dim>
-struct TileParticle {
-  std::uint32_t particle;
-  std::array<std::int32_t, static_cast<std::size_t>(Dim)> nearest;
-  std::size_t first_node, cell;  // the lowest node of the cell in the patch; number of the cell in the tile
-};
-
-template <int Dim, class Real>
-std::vector<TileParticle<Dim>> particles_of_tile(const SparseGrid<Dim, Real>& grid, std::size_t tile) {
-  std::vector<TileParticle<Dim>> all;
-  for (const TileBatch<Dim, Real>& batch : grid.batches(tile)) {
-    for (std::size_t lane = 0; lane < batch.count; ++lane) {
-      TileParticle<Dim> one{batch.particle[lane], {}, static_cast<std::size_t>(batch.nodes.first[lane]), 0};
-      for (std::size_t a = 0; a < Dim; ++a) {
-        one.nearest[a] = batch.nearest[a][lane];
-      }
-      const bool goes_on = !all.empty() && all.back().first_node == one.first_node;
-      one.cell = all.empty() ? 0 : all.back().cell + (goes_on ? 0 : 1);
-      all.push_back(one);
-    }
-  }
-  return all;
-}
-
-template <int Dim, class Real>
-OnePlace<Dim, Real> place_of(const SparseGrid<Dim, Real>& grid, const HeldSides<Dim>& sides,
-                             const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
-  OnePlace<Dim, Real> place{{}, one.first_node, {}};
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const int axis = static_cast<int>(a);
-    place.offset[axis] =
-        particles.position(one.particle, axis) * grid.inverse_cell() - static_cast<Real>(one.nearest[a]);
-    place.at_side[a] = one.nearest[a] == sides.lower[a] || one.nearest[a] == sides.upper[a];
-  }
-  return place;
-}
-
-template <int Dim, class Real>
-OneWeights<Dim, Real> weights_of(const LinearWeights& /*weights*/, const SparseGrid<Dim, Real>& grid,
-                                 const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
-  OneWeights<Dim, Real> of_one;
-  of_one.set_linear(place_of(grid, HeldSides<Dim>{}, particles, one), grid.inverse_cell());
-  return of_one;
-}
-template <class Shape, int Dim, class Real>
-OneWeights<Dim, Real> weights_of(const MomentumWeights<Shape, Dim, Real>& weights, const SparseGrid<Dim, Real>& grid,
-                                 const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
-  OneWeights<Dim, Real> of_one;
-  const OnePlace<Dim, Real> place = place_of(grid, weights.sides, particles, one);
-  of_one.set_linear(place, grid.inverse_cell());
-  const HalfSize<Real> size = weights.sizes.of(particles, One<Real>{{one.particle}});
-  of_one.template set_momentum<Shape>(place, size, grid.inverse_cell());
-  return of_one;
-}
-template <class Shape, int Dim, class Real>
-OneWeights<Dim, Real> weights_of(const AffineWeights<Shape, Dim, Real>& weights, const SparseGrid<Dim, Real>& grid,
-                                 const Particles<Dim, Real>& particles, const TileParticle<Dim>& one) {
-  const MomentumWeights<Shape, Dim, Real>& of_momentum = weights;
-  OneWeights<Dim, Real> of_one = weights_of(of_momentum, grid, particles, one);
-  of_one.template set_affine<Shape>(place_of(grid, weights.sides, particles, one), grid.cell(), grid.inverse_cell());
-  return of_one;
-}
 
 // A patch in shared memory.
 template <class Name, int Dim, class Real>
@@ -94,17 +31,18 @@ template <class Weights, class... Reads, class... Adds, int Dim, class Real, cla
 class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real, Kernels...> {
   using Patches = ByName<Named<Reads, SharedPatch<Reads, Dim, Real>>...>;
   template <class Name>
-  using CarriedTo = OneContribution<Real, Dim, Adding<Name, Dim, Real>::carried>;
+  using CarriedTo = CarriedByOne<Name, Dim, Real>;
   using Carried = ByName<Named<Adds, CarriedTo<Adds>>...>;
   static constexpr std::size_t cell_nodes = CellNodes<Dim>::count;
   static constexpr auto patch_nodes = static_cast<std::size_t>(Tile<Dim>::patch_nodes);
 
  public:
-  GroupOnTile(HostGroup& group, const SparseGrid<Dim, Real>& grid, std::size_t tile)
+  template <class Takes>
+  GroupOnTile(HostGroup& group, const SparseGrid<Dim, Real>& grid, std::size_t tile, const Takes& takes)
       : group_(group),
         grid_(grid),
         tile_(tile),
-        particles_(particles_of_tile(grid, tile)),
+        particles_(particles_of_tile(grid, tile, takes)),
         carried_(particles_.size()),
         weights_(particles_.size()),
         accounts_(particles_.size()) {
@@ -175,18 +113,26 @@ class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real,
       for (std::size_t c = 0; c < size && !OfAnOwner<Name>; ++c) {
         record[c] = Real(0);
       }
+      for (std::size_t c = 0; c < carried && IsLowered<Name>; ++c) {
+        record[first + c] = start<Name>;
+      }
       for_cells_of(node, [&](std::size_t cell, std::size_t node_of_cell) {
         for (std::size_t c = 0; c < carried; ++c) {
-          record[first + c] += cell_sums[(cell * cell_nodes + node_of_cell) * carried + c];
+          const Real brought = cell_sums[(cell * cell_nodes + node_of_cell) * carried + c];
+          record[first + c] = IsLowered<Name> ? min(record[first + c], brought) : record[first + c] + brought;
         }
       });
     });
   }
 
+  // Of a sum, or of what is lowered.
+  template <class Name>
+  static constexpr Real start = IsLowered<Name> ? std::numeric_limits<Real>::max() : Real(0);
+
   template <class Name>
   Real sum_in_cell(std::size_t cell, std::size_t node, std::size_t component) const {
     const std::array<std::size_t, 3> along{node % 3, node / 3 % 3, node / 9};
-    Real sum = Real(0);
+    Real sum = start<Name>;
     for (std::size_t k = 0; k < particles_.size(); ++k) {
       if (particles_[k].cell == cell) {
         const auto& stencil = weights_[k].template of<typename Name::Functions>();
@@ -238,16 +184,17 @@ class GroupOnTile<Weights, RecordList<Reads...>, RecordList<Adds...>, Dim, Real,
 };
 
 // As particle_pass.
-template <class Weights, int Dim, class Real, class Records, class TakesTile, class... Kernels>
+template <class Weights, int Dim, class Real, class Records, class Takes, class... Kernels>
 Accounts<Kernels...> group_pass(HostGroup& group, const SparseGrid<Dim, Real>& grid, const Weights& weights,
-                                Particles<Dim, Real>& particles, Records& records, const TakesTile& takes_tile,
+                                Particles<Dim, Real>& particles, Records& records, const Takes& takes,
                                 const Kernels&... kernels) {
   using Reads = AllOf<typename Kernels::Reads...>;
   using Adds = AllOf<typename Kernels::Adds...>;
+  check_records<Reads, Adds, Dim>();
   Accounts<Kernels...> sum{};
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-    if (takes_tile(t)) {
-      sum += GroupOnTile<Weights, Reads, Adds, Dim, Real, Kernels...>(group, grid, t)
+    if (takes(t)) {
+      sum += GroupOnTile<Weights, Reads, Adds, Dim, Real, Kernels...>(group, grid, t, takes)
                  .run(weights, particles, records, kernels...);
     }
   }

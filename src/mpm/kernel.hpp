@@ -1,11 +1,11 @@
 // What kernels are: the pure functions of one particle's numbers that make up the stages of a step, and what they say
 // of themselves. A kernel is an object with
-//   Reads, Adds   lists of the node records that it reads and adds to (mpm/nodes.hpp)
+//   Reads, Adds   lists of the node records that it reads and that it adds to, or lowers (mpm/nodes.hpp)
 //   Account       what it sums over all particles
 //   operator()(particles, at, seen, added, account)
 // `at` names one particle, or a batch of them (mpm/batch.hpp): particles.FIELD.load(at) gives its numbers. What it
 // reads of the nodes about it is seen.read<Record, Count>(), what it adds to them goes to added.of<Record>(). A kernel
-// has no loops, batches or patches in it; mpm/particle_pass.hpp runs it over all particles.
+// has no loops, batches or patches in it; mpm/particle_pass.hpp runs it over all particles, or over some tiles'.
 #pragma once
 
 #include <cstddef>
@@ -47,6 +47,46 @@ requires requires { typename Name::Owner; }
 struct OwnerOf<Name> {
   using Type = typename Name::Owner;
 };
+
+// Components of a record: `count` of them, from number `from` on.
+struct RecordPart {
+  std::size_t from, count;
+};
+// Those that particles add to under a name: all of the record where it names none.
+template <class Name, int Dim>
+inline constexpr RecordPart part_of{0, static_cast<std::size_t>(Name::template size<Dim>)};
+template <class Name, int Dim>
+requires requires { Name::template part<Dim>; }
+inline constexpr RecordPart part_of<Name, Dim> = Name::template part<Dim>;
+
+// Whether particles lower the components of a name, each to the smallest number that one brings, instead of adding.
+template <class Name>
+concept IsLowered = requires {
+  requires Name::lowered;
+};
+
+// Whether two names add to components of their own, and whether all of a list do. The order in which two would add to
+// the same ones depends on where batches begin.
+template <class First, class Second, int Dim>
+inline constexpr bool are_apart =
+    std::is_same_v<First, Second> || !std::is_same_v<typename OwnerOf<First>::Type, typename OwnerOf<Second>::Type> ||
+    part_of<First, Dim>.from + part_of<First, Dim>.count <= part_of<Second, Dim>.from ||
+    part_of<Second, Dim>.from + part_of<Second, Dim>.count <= part_of<First, Dim>.from;
+template <class Name, class List, int Dim>
+inline constexpr bool is_apart_from = false;
+template <class Name, class... Names, int Dim>
+inline constexpr bool is_apart_from<Name, RecordList<Names...>, Dim> = (are_apart<Name, Names, Dim> && ...);
+template <class List, int Dim>
+inline constexpr bool all_apart = false;
+template <class... Names, int Dim>
+inline constexpr bool all_apart<RecordList<Names...>, Dim> = (is_apart_from<Names, RecordList<Names...>, Dim> && ...);
+
+// Whether the names of a list are of one record.
+template <class List>
+inline constexpr bool one_record = true;
+template <class Name, class... Names>
+inline constexpr bool one_record<RecordList<Name, Names...>> =
+    (std::is_same_v<typename OwnerOf<Name>::Type, typename OwnerOf<Names>::Type> && ...);
 
 // Whether two lists have no record in common, whatever it is called.
 template <class First, class Second>

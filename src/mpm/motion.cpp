@@ -1,12 +1,10 @@
 #include "mpm/motion.hpp"
 
-#include <cmath>
-#include <limits>
-
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/particle_pass.hpp"
+#include "mpm/position_kernel.hpp"
 
 namespace thawslide::mpm {
 
@@ -75,57 +73,10 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
   return work;
 }
 
-namespace {
-
-// What is wrong with the particles of a batch that are not well.
-template <int Dim, class Real>
-void note_faults(const Particles<Dim, Real>& particles, const Batch<Real>& batch, const LaneMask<Real>& well,
-                 BadParticle& bad) {
-  for (std::size_t lane = 0; lane < batch.count; ++lane) {
-    const std::uint32_t p = batch.particle[lane];
-    const Vector<Real, Dim> position = particles.position.template get<Vector<Real, Dim>>(p) +
-                                       particles.step_displacement.template get<Vector<Real, Dim>>(p);
-    const bool finite = position.allFinite() && std::isfinite(particles.temperature(p)) &&
-                        std::isfinite(particles.pore_pressure(p)) && std::isfinite(particles.stress(p, 0));
-    if (!well[lane]) {
-      bad.note(particles.id(p), finite ? Fault::left_domain : Fault::state_not_finite);
-    }
-  }
-}
-
-}  // namespace
-
 template <int Dim, class Real>
 void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
                         BadParticle& bad) {
-  using LanesVector = Vector<Lanes<Real>, Dim>;
-  constexpr std::size_t chunk = 1024;
-  const std::size_t tasks = (particles.size() + chunk - 1) / chunk;
-  bad += parallel_sum<BadParticle>(tasks, [&](std::size_t task, BadParticle& found) {
-    const std::size_t last = std::min(particles.size(), (task + 1) * chunk);
-    for (std::size_t p = task * chunk; p < last; p += Batch<Real>::most) {
-      const auto batch = batch_in_memory<Real>(p, last);
-      LanesVector step = particles.step_displacement.template load_vector<Dim>(batch);
-      const LanesVector old = particles.position.template load_vector<Dim>(batch);
-      // Not a number is in no range.
-      const Lanes<Real> state =
-          particles.temperature.load(batch) + particles.pore_pressure.load(batch) + particles.stress.load(batch);
-      auto well = abs(state) <= Lanes<Real>(std::numeric_limits<Real>::max());
-      for (int a = 0; a < Dim; ++a) {
-        well = well & (old[a] + step[a] >= lower[a]) & (old[a] + step[a] <= upper[a]);
-      }
-      if (any(!well)) {
-        note_faults(particles, batch, well, found);
-        for (int a = 0; a < Dim; ++a) {
-          step[a] = select(well, step[a], Lanes<Real>(Real(0)));
-        }
-      }
-      particles.position.store_vector(batch, LanesVector(old + step));
-      particles.displacement.store_vector(batch,
-                                          LanesVector(particles.displacement.template load_vector<Dim>(batch) + step));
-      particles.path_length.store(batch, particles.path_length.load(batch) + sqrt(step.squaredNorm()));
-    }
-  });
+  bad += for_particles_in_memory(particles, TakePosition<Dim, Real>{lower, upper});
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \

@@ -46,16 +46,6 @@ struct MoveWork {
   Real particle_kinetic = 0;
 };
 
-// n_e of Eq. 2 as the basal law sees it: of the particles' current or, without lubrication, initial state.
-template <int Dim, class Real, class At>
-THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(const Particles<Dim, Real>& particles,
-                                                                const physics::Phases<Real>& phases, bool lubrication,
-                                                                const At& at) {
-  const auto& porosity = lubrication ? particles.porosity : particles.initial_porosity;
-  const auto& saturation = lubrication ? particles.liquid_saturation : particles.initial_saturation;
-  return physics::effective_solid_fraction(phases, porosity.load(at), saturation.load(at));
-}
-
 // From total stress to effective stress, sigma + P I, of the particles that stand in memory from `first` on.
 template <int Dim, class Real>
 void split_total_stress(Particles<Dim, Real>& particles, std::size_t first = 0);

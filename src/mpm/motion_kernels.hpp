@@ -80,7 +80,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const Particles& p
       mass * affine_velocity<Dim>(particles, at) * seen.weights.second_moment().asDiagonal();
   auto& carried = added.template of<To>();
   unrolled<static_cast<std::size_t>(Dim * Dim)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-    carried.flux[k / Dim][To::template place<Dim> + k % Dim] =
+    carried.flux[k / Dim][place_in_register<To, Dim> + k % Dim] =
         moment(static_cast<int>(k) % Dim, static_cast<int>(k) / Dim);
   });
 }

@@ -5,11 +5,22 @@
 
 namespace thawslide::mpm {
 
-// The sums of a block's records.
+// The sums of a block's records, of what the particles of the tiles added that takes(t) names; for a name that is
+// lowered the smallest numbers, after the sums of its record.
+template <class Name, int Dim, class Real, class Takes>
+void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes, const Takes& takes) {
+  auto& records = nodes.template of<Name>();
+  const auto patches = records.patches(grid.tiles().size());
+  if constexpr (IsLowered<Name>) {
+    unrolled<part_of<Name, Dim>.count>(
+        [&](auto c) { take_smallest_in_block<part_of<Name, Dim>.from + c>(grid, block, patches, records, takes); });
+  } else {
+    sum_patches_in_block(grid, block, patches, records, takes);
+  }
+}
 template <class Name, int Dim, class Real>
 void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes) {
-  auto& records = nodes.template of<Name>();
-  sum_patches_in_block(grid, block, records.patches(grid.tiles().size()), records);
+  sum_block<Name>(grid, block, nodes, every_tile);
 }
 
 // Calls begin(block) and then of_node(node, account) for the nodes of each block; returns the sum of the accounts.

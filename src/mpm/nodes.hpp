@@ -25,8 +25,8 @@ struct Nodes {
   RecordsOf<Velocity, Dim, Real> velocity{room};
   RecordsOf<Averages, Dim, Real> averages{room};
   NodeRecords<Dim, Real, BaseLayout::size> base;
-  NodeRecords<Dim, Real, ContactLayout::size> contact;
-  NodeRecords<Dim, Real, NearGroundLayout::size> near_ground{room};  // of candidate nodes alone
+  RecordsOf<Contact, Dim, Real> contact;
+  RecordsOf<NearGround, Dim, Real> near_ground{room};  // of candidate nodes alone
   RecordsOf<NodalState, Dim, Real> state;
   RecordsOf<HeatRates, Dim, Real> heat_rates{room};
   RecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change

@@ -35,6 +35,18 @@ struct OneContribution {
   }
 };
 
+// The same of what it lowers.
+template <class Real, std::size_t Count>
+struct OneBounds : Bounds<Real, Count> {
+  static constexpr std::size_t size = Count;
+
+  void fill(Real number) {
+    for (Real& one : this->value) {
+      one = number;
+    }
+  }
+};
+
 // Where a particle stands: from its nearest node, in cells; the lowest node that it sees, by its place in the tile's
 // patch; whether the nearest node lies, along each axis, on a side of the domain that prescribes velocity.
 template <int Dim, class Real>
@@ -127,17 +139,28 @@ struct SeenByOne {
   }
 };
 
-// What a particle adds to component c of a node of its cell, numbered along each axis; from `sum` on.
+// A node of a particle's cell, numbered along each axis: k is its number among those that the particle sees. False if
+// it sees another.
+template <int Dim, class Real, std::size_t Width>
+THAWSLIDE_HD bool find_in_stencil(const OneStencil<Real, Dim, Width>& stencil, const std::array<std::size_t, 3>& node,
+                                  std::array<std::size_t, static_cast<std::size_t>(Dim)>& k) {
+  for (std::size_t a = 0; a < Dim; ++a) {
+    if (node[a] < stencil.in_cell[a] || node[a] >= stencil.in_cell[a] + Width) {
+      return false;
+    }
+    k[a] = node[a] - stencil.in_cell[a];
+  }
+  return true;
+}
+
+// Component c of such a node after the particle, `sum` before it.
 template <int Dim, class Real, std::size_t Width, std::size_t Components>
 THAWSLIDE_HD Real add_particle(const OneStencil<Real, Dim, Width>& stencil, const std::array<std::size_t, 3>& node,
                                const OneContribution<Real, Dim, Components>& carried, bool has_flux, std::size_t c,
                                Real sum) {
   std::array<std::size_t, static_cast<std::size_t>(Dim)> k{};
-  for (std::size_t a = 0; a < Dim; ++a) {
-    if (node[a] < stencil.in_cell[a] || node[a] >= stencil.in_cell[a] + Width) {
-      return sum;
-    }
-    k[a] = node[a] - stencil.in_cell[a];
+  if (!find_in_stencil(stencil, node, k)) {
+    return sum;
   }
   const auto& axis = stencil.axis;
   const bool with_flux = has_flux && c < record_step;
@@ -161,6 +184,19 @@ THAWSLIDE_HD Real add_particle(const OneStencil<Real, Dim, Width>& stencil, cons
     sum += axis[0].slope[k[0]] * along;
   }
   return sum;
+}
+template <int Dim, class Real, std::size_t Width, std::size_t Count>
+THAWSLIDE_HD Real add_particle(const OneStencil<Real, Dim, Width>& stencil, const std::array<std::size_t, 3>& node,
+                               const OneBounds<Real, Count>& carried, bool /*has_flux*/, std::size_t c, Real smallest) {
+  std::array<std::size_t, static_cast<std::size_t>(Dim)> k{};
+  if (!find_in_stencil(stencil, node, k)) {
+    return smallest;
+  }
+  Real weight = Real(1);
+  for (std::size_t a = 0; a < Dim; ++a) {
+    weight *= stencil.axis[a].weight[k[a]];
+  }
+  return weight > round_off<Real> ? min(smallest, carried.value[c]) : smallest;
 }
 
 }  // namespace thawslide::mpm

@@ -2,7 +2,9 @@
 // once, records fetched once and sums added once.
 #pragma once
 
+#include <algorithm>
 #include <tuple>
+#include <type_traits>
 
 #include "mpm/body_sizes.hpp"
 #include "mpm/cell_sums.hpp"
@@ -106,34 +108,31 @@ struct SeenByBatch {
 };
 
 // What particles add to a record, and a tile's sums of it. A record that has an owner is another way to add to the
-// owner's: with other weights, to one of its registers. It takes a pass of its own after the owner's, since the order
-// in which the two would add in one pass depends on where batches begin.
+// owner's: with other weights, to one of its registers. Where the owner's particles add to the same components, it
+// takes a pass of its own after the owner's; else it may stand after it in one list.
 template <class Name>
 concept OfAnOwner = requires {
   typename Name::Owner;
 };
 template <class Name, int Dim, class Real>
 struct Adding {
-  static constexpr std::size_t carried = components_of<Name, Dim>, first = 0;
+  static constexpr int size = components_of<Name, Dim>;
+  static constexpr std::size_t first = first_in_register<Name, Dim>;
+  static constexpr std::size_t carried = place_in_register<Name, Dim> + part_of<Name, Dim>.count;
   static constexpr bool has_flux = Name::flux != no_flux;
+  static_assert(first == 0 || carried <= record_step);
+  using Carried = Contribution<Dim, Real, carried>;
   using Sums = std::conditional_t<std::is_same_v<typename Name::Functions, LinearFunctions>,
-                                  LinearCellSums<has_flux, first, carried, Dim, Real, components_of<Name, Dim>>,
-                                  CellSums<Name::flux, first, carried, Dim, Real, components_of<Name, Dim>>>;
+                                  LinearCellSums<has_flux, first, carried, Dim, Real, size>,
+                                  CellSums<Name::flux, first, carried, Dim, Real, size>>;
 };
-template <OfAnOwner Name, int Dim, class Real>
+template <IsLowered Name, int Dim, class Real>
 struct Adding<Name, Dim, Real> {
-  static constexpr std::size_t carried = Dim, first = Name::template first<Dim>;
-  static constexpr bool has_flux = true;
-  using Sums = CellSums<0, first, carried, Dim, Real, components_of<Name, Dim>>;
+  static constexpr std::size_t first = part_of<Name, Dim>.from, carried = part_of<Name, Dim>.count;
+  static constexpr bool has_flux = false;
+  using Carried = Bounds<Lanes<Real>, carried>;
+  using Sums = PatchMinima<first, carried, Dim, Real, components_of<Name, Dim>>;
 };
-template <class List>
-inline constexpr bool has_owner = false;
-template <class... Names>
-inline constexpr bool has_owner<RecordList<Names...>> = (OfAnOwner<Names> || ...);
-template <class List>
-inline constexpr std::size_t count_of = 0;
-template <class... Names>
-inline constexpr std::size_t count_of<RecordList<Names...>> = sizeof...(Names);
 template <class Name, int Dim, class Real>
 using SumsOf = typename Adding<Name, Dim, Real>::Sums;
 
@@ -157,13 +156,15 @@ class TileWork<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
     return {weights, patches_};
   }
 
-  using Added = ByName<Named<Adds, Contribution<Dim, Real, Adding<Adds, Dim, Real>::carried>>...>;
+  using Added = ByName<Named<Adds, typename Adding<Adds, Dim, Real>::Carried>...>;
   template <class Weights>
   THAWSLIDE_ALWAYS_INLINE void add([[maybe_unused]] const Weights& weights, [[maybe_unused]] std::size_t count,
                                    [[maybe_unused]] const Added& added) {
     (sums_.template of<Adds>().add(weights.template of<typename Adds::Functions>(), count, added.template of<Adds>()),
      ...);
   }
+  // Instead, for a batch that is passed over.
+  THAWSLIDE_ALWAYS_INLINE void skip() { (sums_.template of<Adds>().skip(), ...); }
 
  private:
   template <class Name, class Records>
@@ -199,7 +200,16 @@ THAWSLIDE_ALWAYS_INLINE decltype(auto) in_tile(const Kernel& kernel, std::size_t
   }
 }
 
-inline constexpr auto every_tile = [](std::size_t /*tile*/) { return true; };
+// Whether a pass takes what sees these nodes of a tile that it takes: a batch, or a particle with the lowest node's
+// place in the patch. All where takes(tile, nodes) says nothing of them.
+template <class Takes, class Nodes>
+THAWSLIDE_ALWAYS_INLINE bool takes_nodes(const Takes& takes, std::size_t tile, const Nodes& nodes) {
+  if constexpr (std::is_invocable_v<const Takes&, std::size_t, const Nodes&>) {
+    return takes(tile, nodes);
+  } else {
+    return true;
+  }
+}
 
 // Room for the patches of records.
 template <class... Names, class Records>
@@ -208,24 +218,36 @@ void take_patches(RecordList<Names...> /*names*/, [[maybe_unused]] std::size_t t
   (static_cast<void>(records.template of<Names>().patches(tiles)), ...);
 }
 
-// Runs kernels over the particles of the tiles that takes_tile(t) names, one after the other for each batch; what they
-// add is in the patches then, to be summed by a node_pass. Records: of Nodes.
-template <class Weights, int Dim, class Real, class Records, class TakesTile, class... Kernels>
+// What is wrong with the records of a pass does not compile.
+template <class Reads, class Adds, int Dim>
+constexpr void check_records() {
+  static_assert(all_apart<Adds, Dim>, "particles add to these components of a record in different ways");
+  static_assert(one_record<Adds>, "the patches of two records would lie in the same room");
+  static_assert(are_disjoint<Reads, Adds>, "no record is read in the pass that adds to it: it has no sums yet");
+}
+
+// Runs kernels over the particles of the tiles that takes(t) names, those of takes(t, nodes) where it tells them apart,
+// one kernel after the other for each batch; what they add is in the patches then, to be summed by a node_pass.
+// Records: of Nodes.
+template <class Weights, int Dim, class Real, class Records, class Takes, class... Kernels>
 Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weights& weights,
-                                   Particles<Dim, Real>& particles, Records& records, const TakesTile& takes_tile,
+                                   Particles<Dim, Real>& particles, Records& records, const Takes& takes,
                                    const Kernels&... kernels) {
   using Reads = AllOf<typename Kernels::Reads...>;
   using Adds = AllOf<typename Kernels::Adds...>;
-  static_assert(!(has_owner<Adds> && count_of<Adds> > 1), "a record with an owner takes a pass of its own");
-  static_assert(are_disjoint<Reads, Adds>, "no record is read in the pass that adds to it: it has no sums yet");
+  check_records<Reads, Adds, Dim>();
   take_patches(Adds{}, grid.tiles().size(), records);
   return parallel_sum<Accounts<Kernels...>>(grid.tiles().size(), [&](std::size_t t, Accounts<Kernels...>& accounts) {
-    if (!takes_tile(t)) {
+    if (!takes(t)) {
       return;
     }
     TileWork<Reads, Adds, Dim, Real> work(grid, t, records);
     const auto run = [&]<std::size_t... K>(std::index_sequence<K...> /*kernels*/, const auto&... of_tile) {
       for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
+        if (!takes_nodes(takes, t, batch.nodes)) {
+          work.skip();
+          continue;
+        }
         const BatchWeights<Weights, Dim, Real> of_batch(weights, grid, particles, batch);
         typename TileWork<Reads, Adds, Dim, Real>::Added added;
         (of_tile(particles, batch, work.seen(of_batch), added, std::get<K>(accounts)), ...);
@@ -233,6 +255,25 @@ Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weig
       }
     };
     run(std::index_sequence_for<Kernels...>(), in_tile(kernels, t)...);
+  });
+}
+
+// Runs a kernel that neither reads nor adds to nodes over all particles as they stand in memory; returns its account.
+// A batch may be of several tiles and materials.
+template <int Dim, class Real, class Kernel>
+typename Kernel::Account for_particles_in_memory(Particles<Dim, Real>& particles, const Kernel& kernel) {
+  static_assert(std::is_same_v<typename Kernel::Reads, RecordList<>> &&
+                std::is_same_v<typename Kernel::Adds, RecordList<>>);
+  using Account = typename Kernel::Account;
+  constexpr std::size_t chunk = 1024;
+  const std::size_t tasks = (particles.size() + chunk - 1) / chunk;
+  return parallel_sum<Account>(tasks, [&](std::size_t task, Account& account) {
+    const ByName<> seen{};
+    ByName<> added{};
+    const std::size_t last = std::min(particles.size(), (task + 1) * chunk);
+    for (std::size_t p = task * chunk; p < last; p += Batch<Real>::most) {
+      kernel(particles, batch_in_memory<Real>(p, last), seen, added, account);
+    }
   });
 }
 

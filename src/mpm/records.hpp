@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
+#include "base/select.hpp"
 #include "mpm/kernel.hpp"
 
 namespace thawslide::mpm {
@@ -44,10 +46,10 @@ struct Averages {
   static auto& in(auto& nodes) { return nodes.averages; }
 };
 
-// What the particles near the ground tell its candidate nodes: sums S m X with the momentum shape functions, for nodes
-// without linear weight and for the slip; sums S V X with the linear shape functions; the smallest distance left to the
-// ground.
-struct NearGroundLayout {
+// What the particles near the ground tell its candidate nodes, in one record: sums S m X with the momentum shape
+// functions, for nodes without linear weight and for the slip.
+struct NearGround {
+  using Functions = MomentumFunctions;
   static constexpr std::size_t temperature = 0;
   static constexpr std::size_t pore_pressure = 1;
   static constexpr std::size_t saturation = 2;
@@ -58,7 +60,26 @@ struct NearGroundLayout {
   static constexpr std::size_t saturation_by_linear = 5;
   static constexpr std::size_t solid_fraction_by_linear = 6;
   static constexpr std::size_t clearance = 7;  // [m], beyond all bounds where there is none
+  template <int Dim>
   static constexpr int size = 8;
+  template <int Dim>
+  static constexpr RecordPart part{0, by_mass};
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.near_ground; }
+};
+// Sums S V X with the linear shape functions.
+struct NearGroundByLinear : NearGround {
+  using Functions = LinearFunctions;
+  using Owner = NearGround;
+  template <int Dim>
+  static constexpr RecordPart part{saturation_by_linear, 2};
+};
+// The smallest distance left to the ground of the particles that a node sees with the momentum shape functions.
+struct Clearance : NearGround {
+  using Owner = NearGround;
+  static constexpr bool lowered = true;
+  template <int Dim>
+  static constexpr RecordPart part{clearance, 1};
 };
 
 // Candidate nodes: how they press on the ground, and what of it they have.
@@ -69,11 +90,16 @@ struct BaseLayout {
 };
 
 // What contact leaves at a node for the stages after it.
-struct ContactLayout {
-  static constexpr std::size_t touching = 0;       // 1 in contact, 0 not
-  static constexpr std::size_t slip_speed = 1;     // [m/s], tangential, at mid-step
-  static constexpr std::size_t friction_heat = 2;  // [W], after the conversion coefficient
-  static constexpr int size = 3;
+struct Contact {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t candidate = 0;      // 1 where the ground is near, 0 elsewhere
+  static constexpr std::size_t touching = 1;       // 1 in contact, 0 not
+  static constexpr std::size_t slip_speed = 2;     // [m/s], tangential, at mid-step; 0 where not in contact
+  static constexpr std::size_t friction_heat = 3;  // [W], after the conversion coefficient
+  template <int Dim>
+  static constexpr int size = 4;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.contact; }
 };
 
 // What particles see of heat and pore pressure: the averages, or a prescribed temperature, and what
@@ -147,15 +173,12 @@ struct Velocity {
   static auto& in(auto& nodes) { return nodes.velocity; }
 };
 
-// The same records as APIC's weights see them. They add `record_step` numbers, from `first` on; `place`: of the
-// velocity's among these.
+// The same records as APIC's weights see them.
 struct AffineMomentum : Momentum {
   using Functions = AffineFunctions;
   using Owner = Momentum;
   template <int Dim>
-  static constexpr std::size_t place = MomentumLayout<Dim>::momentum % record_step;
-  template <int Dim>
-  static constexpr std::size_t first = MomentumLayout<Dim>::momentum - place<Dim>;
+  static constexpr RecordPart part{MomentumLayout<Dim>::momentum, Dim};
 };
 struct AffineMotion : Motion {
   using Functions = AffineFunctions;
@@ -165,10 +188,23 @@ struct AffineVelocity : Velocity {
   using Functions = AffineFunctions;
   using Owner = Velocity;
   static constexpr int flux = 0;
-  template <int Dim>
-  static constexpr std::size_t place = 0;
-  template <int Dim>
-  static constexpr std::size_t first = 0;
 };
 
+// The component of a record with which the register begins that holds the first one of a name, and the place of this
+// one there.
+template <class Name, int Dim>
+inline constexpr std::size_t first_in_register = part_of<Name, Dim>.from / record_step* record_step;
+template <class Name, int Dim>
+inline constexpr std::size_t place_in_register = part_of<Name, Dim>.from - first_in_register<Name, Dim>;
+
+// What a batch, or one particle, brings to components that it lowers.
+template <class Value, std::size_t Count>
+struct Bounds {
+  Value value[Count];
+
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Bounds() {
+    constexpr auto largest = std::numeric_limits<typename NumberOf<Value>::Type>::max();
+    unrolled<Count>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = largest; });
+  }
+};
 }  // namespace thawslide::mpm

@@ -143,17 +143,23 @@ THAWSLIDE_ALWAYS_INLINE void for_shared_nodes(const Visit& visit) {
   });
 }
 
-// Sums at the nodes of one block of what the patches of the tiles hold, always in the same order: the block's own tile,
-// then those about it.
-template <int Dim, class Real, int Components>
+inline constexpr auto every_tile = [](std::size_t /*tile*/) { return true; };
+
+// Sums at the nodes of one block of what the patches of the tiles that takes(t) names hold, always in the same order:
+// the block's own tile, then those about it.
+template <int Dim, class Real, int Components, class Takes>
 void sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
-                          std::span<Patch<Dim, Real, Components>> patches, NodeRecords<Dim, Real, Components>& nodes) {
+                          std::span<Patch<Dim, Real, Components>> patches, NodeRecords<Dim, Real, Components>& nodes,
+                          const Takes& takes) {
   using Record = typename NodeRecords<Dim, Real, Components>::Record;
   using Register = RecordRegister<Real, Components>;
   constexpr std::size_t size = std::tuple_size_v<Record>;
   constexpr std::size_t own = static_cast<std::size_t>(Tile<Dim>::stencil) / 2;
   Record* records = &nodes(block, 0);
   const std::int32_t* tiles = grid.tiles_about_block(block);
+  const auto holds_some = [&](std::size_t d) {
+    return tiles[d] != KeyIndex::absent && takes(static_cast<std::size_t>(tiles[d]));
+  };
   // Calls visit(sums, parts) for each register of the records that the block shares with the tile in direction d.
   const auto for_registers = [&](auto d, const auto& visit) THAWSLIDE_INLINE_LAMBDA {
     const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
@@ -163,14 +169,14 @@ void sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
       }
     });
   };
-  if (tiles[own] == KeyIndex::absent) {
+  if (!holds_some(own)) {
     std::fill_n(records->data(), size * NodeRecords<Dim, Real, Components>::nodes, Real(0));
   } else {
     for_registers(std::integral_constant<std::size_t, own>(),
                   [](Real* sums, const Real* parts) { Register::load(parts).store(sums); });
   }
   for_each_direction<Dim>([&](auto d) {
-    if (d != own && tiles[d] != KeyIndex::absent) {
+    if (d != own && holds_some(d)) {
       for_registers(d,
                     [](Real* sums, const Real* parts) { (Register::load(sums) + Register::load(parts)).store(sums); });
     }
@@ -183,13 +189,34 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
   nodes.resize(grid.blocks().size());
   const auto patches = nodes.patches(grid.tiles().size());
   parallel_for(grid.blocks().size(), [&](std::size_t block) {
-    sum_patches_in_block(grid, block, patches, nodes);
+    sum_patches_in_block(grid, block, patches, nodes, every_tile);
     then(block);
   });
 }
 template <int Dim, class Real, int Components>
 void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes) {
   sum_patches(grid, nodes, [](std::size_t /*block*/) {});
+}
+
+// Of one component at the nodes of one block: the smallest number that the patches hold of the tiles that
+// takes(t) names, or the largest there is.
+template <std::size_t Component, int Dim, class Real, int Components, class Takes>
+void take_smallest_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
+                            std::span<Patch<Dim, Real, Components>> patches, NodeRecords<Dim, Real, Components>& nodes,
+                            const Takes& takes) {
+  for (std::size_t k = 0; k < NodeRecords<Dim, Real, Components>::nodes; ++k) {
+    nodes(block, k)[Component] = std::numeric_limits<Real>::max();
+  }
+  const std::int32_t* tiles = grid.tiles_about_block(block);
+  for_each_direction<Dim>([&](auto d) {
+    if (tiles[d] != KeyIndex::absent && takes(static_cast<std::size_t>(tiles[d]))) {
+      const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
+      for_shared_nodes<Dim, opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch) {
+        Real& known = nodes(block, in_block)[Component];
+        known = std::min(known, patch.records[in_patch][Component]);
+      });
+    }
+  });
 }
 
 // Copies what the nodes about tile t hold into a patch.

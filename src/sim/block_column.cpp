@@ -7,7 +7,7 @@
 #include "band/averages.hpp"
 #include "band/heat.hpp"
 #include "band/pore_pressure.hpp"
-#include "mpm/motion.hpp"
+#include "terrain/near_ground_kernel.hpp"
 
 namespace thawslide::sim {
 
@@ -68,7 +68,7 @@ double BlockColumn::step(double flux, double band_thickness, double dt) {
   const double before = heat();
   if (model_.heat) {
     for (const mpm::NodeAt& node : base_nodes_) {
-      nodes_.contact(node)[mpm::ContactLayout::friction_heat] = flux / static_cast<double>(base_nodes_.size());
+      nodes_.contact(node)[mpm::Contact::friction_heat] = flux / static_cast<double>(base_nodes_.size());
     }
     band::conduct_heat(grid_, model_, dt, false, nodes_, rows_);
   }
@@ -96,7 +96,7 @@ BlockBase BlockColumn::base() const {
     base.temperature += weight * rows_.temperature(p);
     base.saturation += weight * rows_.liquid_saturation(p);
     base.solid_fraction +=
-        weight * mpm::basal_solid_fraction(rows_, model_.phases, model_.lubrication, mpm::One<double>{{p}});
+        weight * terrain::basal_solid_fraction(model_.phases, model_.lubrication, rows_, mpm::One<double>{{p}});
   }
   return {base.pore_pressure / weights, base.saturation / weights, base.solid_fraction / weights,
           base.temperature / weights};

@@ -253,13 +253,8 @@ void Simulation<Dim, Real>::seed() {
 // Which particles are in the band before anything has moved.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::mark_band() {
-  nodes_.contact.resize(grid_.blocks().size());
+  terrain::start_contact(grid_, ground(), nodes_);
   if (model_.ground) {
-    for (std::size_t b = 0; b < grid_.blocks().size(); ++b) {
-      for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-        nodes_.contact(b, k).fill(Real(0));
-      }
-    }
     terrain::mark_band_and_slip(grid_, ground_, Real(0), nodes_, particles_);
   }
 }

@@ -11,6 +11,6 @@ namespace thawslide::terrain {
 // theirs.
 template <int Dim, class Real>
 void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
-                        const mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);
+                        mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);
 
 }  // namespace thawslide::terrain

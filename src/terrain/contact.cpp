@@ -14,10 +14,10 @@ namespace {
 
 using mpm::Averages;
 using mpm::BaseLayout;
-using mpm::ContactLayout;
+using mpm::Contact;
 using mpm::MomentumLayout;
 using mpm::MotionLayout;
-using NearGround = mpm::NearGroundLayout;
+using mpm::NearGround;
 
 // The smallest contact area, as a share of a cell's face: keeps N = p.n / (A dt) finite where no ground is near.
 constexpr double smallest_area = 1e-6;
@@ -81,7 +81,6 @@ template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
                       const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
-  using Layout = NearGround;
   const auto& linear = nodes.averages(b, k);
   const auto& near_ground = nodes.near_ground(b, k);
   const auto average = [&](Real sum_by_linear, std::size_t by_mass) {
@@ -96,11 +95,11 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   contact.state[c] = state;
   basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
-      model.pore_pressure ? average(linear[Averages::pore_pressure], Layout::pore_pressure) : Real(0);
-  basal.saturation[c] = average(near_ground[Layout::saturation_by_linear], Layout::saturation);
-  basal.solid_fraction[c] = average(near_ground[Layout::solid_fraction_by_linear], Layout::solid_fraction);
-  basal.temperature[c] = average(linear[Averages::temperature], Layout::temperature);
-  basal.slip[c] = near_ground[Layout::slip] / state.mass;
+      model.pore_pressure ? average(linear[Averages::pore_pressure], NearGround::pore_pressure) : Real(0);
+  basal.saturation[c] = average(near_ground[NearGround::saturation_by_linear], NearGround::saturation);
+  basal.solid_fraction[c] = average(near_ground[NearGround::solid_fraction_by_linear], NearGround::solid_fraction);
+  basal.temperature[c] = average(linear[Averages::temperature], NearGround::temperature);
+  basal.slip[c] = near_ground[NearGround::slip] / state.mass;
   basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
 }
 
@@ -172,7 +171,7 @@ template <int Dim, class Real>
 void apply_contact(const mpm::BlockConstraints<Dim, Real>& constraints, std::size_t k, const Vector<Real, Dim>& normal,
                    Real load, Real area, Real strength, Real friction, Real heat_fraction, Real dt,
                    NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
-                   typename mpm::NodeRecords<Dim, Real, ContactLayout::size>::Record& left) {
+                   typename mpm::RecordsOf<Contact, Dim, Real>::Record& left) {
   const Vector<Real, Dim> tangential = state.momentum - state.momentum.dot(normal) * normal;
   const Real tangential_size = tangential.norm();
   const auto impulse = physics::contact_impulse(load, tangential_size, area, dt, strength);
@@ -192,9 +191,9 @@ void apply_contact(const mpm::BlockConstraints<Dim, Real>& constraints, std::siz
   work.force -= total / dt;
   work.area += area;
   work.friction_area += friction * area;
-  left[ContactLayout::touching] = Real(1);
-  left[ContactLayout::slip_speed] = impulse.slides ? slip_speed : Real(0);
-  left[ContactLayout::friction_heat] = heat_fraction * friction_work / dt;
+  left[Contact::touching] = Real(1);
+  left[Contact::slip_speed] = impulse.slides ? slip_speed : Real(0);
+  left[Contact::friction_heat] = heat_fraction * friction_work / dt;
 }
 
 // Records the motion of a node and the energies that constraints, damping and FLIP take.
@@ -220,7 +219,30 @@ void finish_node(const NodeState<Dim, Real>& state, bool constrained, Real dampi
   }
 }
 
+// No node of a block is in contact; `known`: its nodes' ground, null where none is a candidate.
+template <int Dim, class Real>
+void start_block(const typename GroundOnGrid<Dim, Real>::Block* known, std::size_t b, mpm::Nodes<Dim, Real>& nodes) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+    auto& contact = nodes.contact(b, k);
+    contact.fill(Real(0));
+    contact[Contact::candidate] = known != nullptr && (*known)[k].candidate ? Real(1) : Real(0);
+  }
+}
+
+// What the nodes of a block know of the ground; null where none is a candidate.
+template <int Dim, class Real>
+const typename GroundOnGrid<Dim, Real>::Block* candidates_of(const GroundOnGrid<Dim, Real>* ground, std::size_t b) {
+  return ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
+}
+
 }  // namespace
+
+template <int Dim, class Real>
+void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                   mpm::Nodes<Dim, Real>& nodes) {
+  nodes.contact.resize(grid.blocks().size());
+  parallel_for(grid.blocks().size(), [&](std::size_t b) { start_block(candidates_of(ground, b), b, nodes); });
+}
 
 template <int Dim, class Real>
 ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
@@ -237,7 +259,8 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
   using Work = ContactWork<Dim, Real>;
   return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {
     const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
-    const auto* known = ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
+    const auto* known = candidates_of(ground, b);
+    start_block(known, b, nodes);
     std::array<Real, block_nodes> pressure{};
     if (known != nullptr) {
       pressure = base_pressure(grid, *ground, nodes, b, dt, smallest);
@@ -247,7 +270,6 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
     };
     BlockContact<Dim, Real> contact;
     for (std::size_t k = 0; k < block_nodes; ++k) {
-      nodes.contact(b, k).fill(Real(0));
       nodes.motion(b, k).fill(Real(0));
       if (!(nodes.momentum(b, k)[MomentumLayout<Dim>::mass] > Real(0))) {
         continue;
@@ -272,6 +294,8 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
+  template void start_contact<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,  \
+                                         mpm::Nodes<Dim, Real>&);                                            \
   template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                \
       const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&, \
       const ContactModel<Dim, Real>&, Real, Real, mpm::Nodes<Dim, Real>&);

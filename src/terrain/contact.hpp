@@ -59,13 +59,18 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                        const ContactModel<Dim, Real>& model, Real time, Real dt,
                                        mpm::Nodes<Dim, Real>& nodes);
 
+// Fills nodes.contact before anything has moved: no node is in contact. `ground` may be null.
+template <int Dim, class Real>
+void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                   mpm::Nodes<Dim, Real>& nodes);
+
 // Momentum with which a node runs into the ground in this step, less what closes the clearance before it.
 template <int Dim, class Real>
 Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, bool distance_check, Real dt,
                  Real mass, Real inward_momentum) {
-  return std::max(Real(0), distance_check ? inward_momentum -
-                                                mass * (nodes.near_ground(b, k)[mpm::NearGroundLayout::clearance] / dt)
-                                          : inward_momentum);
+  return std::max(Real(0), distance_check
+                               ? inward_momentum - mass * (nodes.near_ground(b, k)[mpm::NearGround::clearance] / dt)
+                               : inward_momentum);
 }
 
 }  // namespace thawslide::terrain

@@ -40,20 +40,13 @@ class GroundOnGrid {
     parallel_for(grid.tiles().size(), [&](std::size_t t) { find_near(grid, t); });
   }
 
-  // Whether a block about tile t has candidate nodes.
-  [[nodiscard]] bool any_candidate_about(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) const {
-    const std::int32_t* blocks = grid.blocks_about_tile(t);
-    return std::any_of(blocks, blocks + T::stencil,
-                       [&](std::int32_t b) { return any_candidate(static_cast<std::size_t>(b)); });
-  }
-
   // Whether particles of tile t see a candidate node, with any shape functions.
   [[nodiscard]] bool any_near(std::size_t t) const { return any_near_[t] != 0; }
-  // The same for those of one of its batches.
-  [[nodiscard]] bool any_near(std::size_t t, const mpm::TileBatch<Dim, Real>& batch) const {
-    const auto& lowest = batch.nodes.first;
-    const auto is_near = [&](std::int32_t node) { return near_[t][static_cast<std::size_t>(node)] != 0; };
-    return batch.nodes.runs == 1 ? is_near(lowest[0]) : std::any_of(lowest.begin(), lowest.end(), is_near);
+  // The same for one with the lowest node that it sees at a place of the tile's patch, and for those of a batch.
+  [[nodiscard]] bool any_near(std::size_t t, std::size_t lowest) const { return near_[t][lowest] != 0; }
+  [[nodiscard]] bool any_near(std::size_t t, const mpm::BatchNodes<Real>& nodes) const {
+    const auto is_near = [&](std::int32_t lowest) { return any_near(t, static_cast<std::size_t>(lowest)); };
+    return nodes.runs == 1 ? is_near(nodes.first[0]) : std::any_of(nodes.first.begin(), nodes.first.end(), is_near);
   }
 
   // What the nodes of active block b know.
@@ -128,10 +121,11 @@ class GroundOnGrid {
   void find_near(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) {
     near_[t].fill(0);
     any_near_[t] = 0;
-    if (!any_candidate_about(grid, t)) {
+    const std::int32_t* blocks = grid.blocks_about_tile(t);
+    if (std::none_of(blocks, blocks + T::stencil,
+                     [&](std::int32_t b) { return any_candidate(static_cast<std::size_t>(b)); })) {
       return;
     }
-    const std::int32_t* blocks = grid.blocks_about_tile(t);
     Near candidate{};
     mpm::for_each_direction<Dim>([&](auto d) {
       const auto b = static_cast<std::size_t>(blocks[d]);

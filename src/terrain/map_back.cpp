@@ -5,7 +5,7 @@
 
 namespace thawslide::terrain {
 
-using mpm::ContactLayout;
+using mpm::Contact;
 using mpm::MomentumLayout;
 using mpm::MotionLayout;
 
@@ -15,9 +15,8 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
                            const Vector<Real, Dim>& gravity, Real time, Real dt, mpm::Nodes<Dim, Real>& nodes) {
   using Layout = MomentumLayout<Dim>;
   nodes.velocity.resize(grid.blocks().size());
-  const auto patches = nodes.velocity.patches(grid.tiles().size());
   return parallel_sum<Real>(grid.blocks().size(), [&](std::size_t b, Real& work) {
-    sum_patches_in_block(grid, b, patches, nodes.velocity);
+    mpm::sum_block<mpm::Velocity>(grid, b, nodes);
     const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       const auto& record = nodes.momentum(b, k);
@@ -26,7 +25,7 @@ Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
         continue;
       }
       Vector<Real, Dim> momentum = mpm::vector_at<Dim, Real>(nodes.velocity(b, k), 0);
-      if (ground != nullptr && nodes.contact(b, k)[ContactLayout::touching] > Real(0)) {
+      if (ground != nullptr && nodes.contact(b, k)[Contact::touching] > Real(0)) {
         const Vector<Real, Dim>& normal = ground->block(b)[k].normal;
         momentum -= approach_of(nodes, b, k, model.distance_check, dt, mass, momentum.dot(normal)) * normal;
       }

@@ -20,7 +20,7 @@ void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
 // clearance [m], the smallest distance left between the ground and the particles that a node sees, 0 where they touch.
 template <int Dim, class Real>
 void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                         const mpm::MotionModel<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
+                         const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
                          mpm::Nodes<Dim, Real>& nodes);
 
 }  // namespace thawslide::terrain

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -26,8 +27,11 @@
 #include "band/pore_pressure_of_tile.hpp"
 #include "mpm/group_pass.hpp"
 #include "mpm/motion_kernels.hpp"
+#include "mpm/position_kernel.hpp"
 #include "mpm/stress_kernel.hpp"
 #include "sim/simulation.hpp"
+#include "terrain/band_marks_kernel.hpp"
+#include "terrain/nodes_on_ground.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -42,8 +46,14 @@ static_assert(are_disjoint<RecordList<>, RecordList<mpm::Velocity>>);
 static_assert(!are_disjoint<RecordList<mpm::Motion, mpm::Velocity>, RecordList<mpm::HeatRates, mpm::Velocity>>);
 static_assert(!are_disjoint<RecordList<mpm::Velocity>, RecordList<mpm::AffineVelocity>>);
 static_assert(!are_disjoint<RecordList<mpm::AffineMotion>, RecordList<mpm::Motion>>);
+// Two ways to add to the same components of a record, and patches of two records in the same room.
+static_assert(mpm::all_apart<RecordList<mpm::NearGround, mpm::NearGroundByLinear, mpm::Clearance>, 3>);
+static_assert(!mpm::all_apart<RecordList<mpm::Momentum, mpm::AffineMomentum>, 3>);
+static_assert(!mpm::all_apart<RecordList<mpm::AffineVelocity, mpm::Velocity>, 2>);
+static_assert(mpm::one_record<RecordList<mpm::NearGround, mpm::Clearance>>);
+static_assert(!mpm::one_record<RecordList<mpm::Velocity, mpm::HeatRates>>);
 
-// Particles of a run of two bodies, copied, on a grid of their own, with nodes that hold any numbers.
+// Particles of a run of two bodies, copied, on a grid of their own, with nodes that hold any numbers, and the ground.
 template <int Dim>
 class Scene {
  public:
@@ -60,11 +70,24 @@ class Scene {
       for (int c = 0; c < Dim * Dim; ++c) {
         particles.affine_velocity(p, c) = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
       }
+      particles.contact_offset(p) = std::uniform_real_distribution<double>(0.0, 0.5)(random);
     }
+    ground.update(*model.ground, grid);
     fill<mpm::NodalState>({1.0, 1e5, 0.1, 1e3}, random);
     fill<mpm::Velocity>({1.0, 2.0, 0.5}, random);
     fill<mpm::Motion>({10.0, 5.0, 8.0, 1.0, 2.0, 3.0}, random);
     fill<mpm::OrphanHeat>({2.0}, random);
+    fill<mpm::Contact>({1.0, 1.0, 3.0, 1e3}, random);
+    for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+        auto& contact = nodes.contact(b, k);
+        const bool candidate = ground.block(b)[k].candidate;
+        const double touching = candidate && contact[mpm::Contact::touching] > 0.0 ? 1.0 : 0.0;
+        contact[mpm::Contact::candidate] = candidate ? 1.0 : 0.0;
+        contact[mpm::Contact::touching] = touching;
+        contact[mpm::Contact::slip_speed] *= touching;
+      }
+    }
   }
 
   static void copy(const mpm::Particles<Dim, double>& from, mpm::Particles<Dim, double>& to) {
@@ -92,18 +115,38 @@ class Scene {
   mpm::SparseGrid<Dim, double> grid;
   mpm::Particles<Dim, double> particles;
   mpm::Nodes<Dim, double> nodes;
+  terrain::GroundOnGrid<Dim, double> ground;
 };
+
+// What a pass needs beside weights and kernels: its records, what of tiles it takes, and whether its sums are asked for
+// at what the ground knows of a node.
+template <class Records, class Takes, class Asked>
+struct Pass {
+  std::string name;
+  Records& records;
+  Takes takes;
+  Asked asked;
+};
+constexpr auto everywhere = [](const auto& /*ground*/) { return true; };
 
 // Every bit that a pass leaves: in fields, in the patches that it adds to, and its sums.
 using Bits = std::map<std::string, std::vector<double>>;
 
-template <class Name, int Dim>
-void take_patches_of(Scene<Dim>& scene, Bits& bits) {
+template <class Name, int Dim, class Asked>
+void take_patches_of(Scene<Dim>& scene, const Asked& asked, Bits& bits) {
   auto& of_name = bits[typeid(Name).name()];
-  for (const auto& patch : scene.nodes.template of<Name>().patches(scene.grid.tiles().size())) {
-    for (const auto& record : patch.records) {
-      of_name.insert(of_name.end(), record.begin(), record.end());
-    }
+  const auto patches = scene.nodes.template of<Name>().patches(scene.grid.tiles().size());
+  for (std::size_t t = 0; t < patches.size(); ++t) {
+    const std::int32_t* blocks = scene.grid.blocks_about_tile(t);
+    mpm::for_each_direction<Dim>([&](auto d) {
+      const auto& block = scene.ground.block(static_cast<std::size_t>(blocks[d]));
+      mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
+        const auto& record = patches[t].records[in_patch];
+        if (asked(block[in_block])) {
+          of_name.insert(of_name.end(), record.begin(), record.end());
+        }
+      });
+    });
   }
 }
 
@@ -128,15 +171,17 @@ struct PatchesOf<mpm::RecordList<Names...>> {
     };
     (clear_one(scene.nodes.template of<Names>().patches(scene.grid.tiles().size())), ...);
   }
-  template <int Dim>
-  static void take([[maybe_unused]] Scene<Dim>& scene, [[maybe_unused]] Bits& bits) {
-    (take_patches_of<Names>(scene, bits), ...);
+  template <int Dim, class Asked>
+  static void take([[maybe_unused]] Scene<Dim>& scene, [[maybe_unused]] const Asked& asked,
+                   [[maybe_unused]] Bits& bits) {
+    (take_patches_of<Names>(scene, asked, bits), ...);
   }
+  static constexpr int count = sizeof...(Names);
 };
 
 // Runs a pass by run(particles) on a copy of the scene's particles.
-template <class Adds, int Dim, class Run>
-Bits bits_of(Scene<Dim>& scene, const Run& run) {
+template <class Adds, int Dim, class Asked, class Run>
+Bits bits_of(Scene<Dim>& scene, const Asked& asked, const Run& run) {
   mpm::Particles<Dim, double> particles;
   particles.affine_velocity.keep(true);
   particles.viscous_stress.keep(true);
@@ -144,25 +189,26 @@ Bits bits_of(Scene<Dim>& scene, const Run& run) {
   PatchesOf<Adds>::clear(scene);
   run(particles);
   Bits bits = fields_by_id(particles);
-  PatchesOf<Adds>::take(scene, bits);
+  PatchesOf<Adds>::take(scene, asked, bits);
   return bits;
 }
 
 // The pass of some kernels by lanes and by groups.
-template <int Dim, class Weights, class... Kernels>
-void expect_the_bits_of_lanes(const std::string& name, Scene<Dim>& scene, const Weights& weights,
+template <int Dim, class Records, class Takes, class Asked, class Weights, class... Kernels>
+void expect_the_bits_of_lanes(const Pass<Records, Takes, Asked>& pass, Scene<Dim>& scene, const Weights& weights,
                               const Kernels&... kernels) {
+  const std::string& name = pass.name;
   using Adds = mpm::AllOf<typename Kernels::Adds...>;
   using Reads = mpm::AllOf<typename Kernels::Reads...>;
   Bits before = fields_by_id(scene.particles);
   PatchesOf<Adds>::clear(scene);
-  PatchesOf<Adds>::take(scene, before);
-  const Bits by_lanes = bits_of<Adds>(scene, [&](auto& particles) {
-    mpm::particle_pass(scene.grid, weights, particles, scene.nodes, mpm::every_tile, kernels...);
+  PatchesOf<Adds>::take(scene, pass.asked, before);
+  const Bits by_lanes = bits_of<Adds>(scene, pass.asked, [&](auto& particles) {
+    mpm::particle_pass(scene.grid, weights, particles, pass.records, pass.takes, kernels...);
   });
   const auto by_group = [&](HostGroup group) {
-    return bits_of<Adds>(scene, [&](auto& particles) {
-      mpm::group_pass(group, scene.grid, weights, particles, scene.nodes, mpm::every_tile, kernels...);
+    return bits_of<Adds>(scene, pass.asked, [&](auto& particles) {
+      mpm::group_pass(group, scene.grid, weights, particles, pass.records, pass.takes, kernels...);
     });
   };
   EXPECT_FALSE(are_same(by_lanes, before)) << name;
@@ -179,10 +225,68 @@ void expect_the_bits_of_lanes(const std::string& name, Scene<Dim>& scene, const 
       }
     }
   }
-  constexpr bool reads = !std::is_same_v<Reads, mpm::RecordList<>>, adds = !std::is_same_v<Adds, mpm::RecordList<>>;
-  const int first = reads ? 0 : 1, last = adds ? 2 : 0;
+  constexpr bool reads = !std::is_same_v<Reads, mpm::RecordList<>>;
+  constexpr int added = PatchesOf<Adds>::count, first = reads ? 0 : 1, last = added > 0 ? 1 + added : 0;
   for (int barrier = first; barrier <= last; ++barrier) {
     EXPECT_FALSE(are_same(by_lanes, by_group({7, ThreadOrder::shuffled, barrier}))) << name << ", barrier " << barrier;
+  }
+}
+template <int Dim, class Weights, class... Kernels>
+void expect_the_bits_of_lanes(const std::string& name, Scene<Dim>& scene, const Weights& weights,
+                              const Kernels&... kernels) {
+  const Pass<mpm::Nodes<Dim, double>, decltype(mpm::every_tile), decltype(everywhere)> pass{
+      name, scene.nodes, mpm::every_tile, everywhere};
+  expect_the_bits_of_lanes(pass, scene, weights, kernels...);
+}
+
+// What is near the ground: what the nodes that are no candidates hold is not asked for.
+template <int Dim, class Weights>
+void expect_the_bits_near_the_ground(Scene<Dim>& scene, const Weights& weights, double dt) {
+  const terrain::SeesCandidates<Dim, double> sees_candidates{scene.ground};
+  terrain::NodesOnGround<Dim, double> on_ground{scene.nodes, scene.ground};
+  const auto candidates = [](const auto& ground) { return ground.candidate; };
+  const auto& motion = scene.model.motion;
+  const Pass<decltype(on_ground), decltype(sees_candidates), decltype(candidates)> near_ground{
+      "near ground", on_ground, sees_candidates, candidates};
+  expect_the_bits_of_lanes(near_ground, scene, weights,
+                           terrain::AddNearGround<Dim, double>{motion.phases, motion.lubrication});
+  mpm::for_particles_in_memory(scene.particles, terrain::LeaveBand<Dim, double>{});
+  const auto in_band = fields_by_id(scene.particles).at("in_band");
+  EXPECT_EQ(std::count(in_band.begin(), in_band.end(), 0.0), static_cast<std::ptrdiff_t>(in_band.size()));
+  const Pass<mpm::Nodes<Dim, double>, decltype(sees_candidates), decltype(everywhere)> band{
+      "band", scene.nodes, sees_candidates, everywhere};
+  expect_the_bits_of_lanes(band, scene, mpm::LinearWeights{}, terrain::MarkBand<Dim, double>{dt});
+  // In one pass with what needs nothing of it, of which all particles take part.
+  expect_the_bits_of_lanes("move and band", scene, weights, mpm::Move<Dim, double>{0.1, dt},
+                           terrain::MarkBand<Dim, double>{dt});
+}
+
+// New positions by tiles, in memory and by groups; some particles would leave the domain.
+template <int Dim>
+void expect_the_same_positions(Scene<Dim>& scene) {
+  Vector<double, Dim> lower = Vector<double, Dim>::Constant(-1e3), upper = -lower;
+  upper[0] = scene.particles.position(scene.particles.size() / 2, 0);
+  const mpm::TakePosition<Dim, double> kernel{lower, upper};
+  std::vector<mpm::BadParticle> bad;
+  const auto bits = [&](const auto& run) {
+    return bits_of<mpm::RecordList<>>(scene, everywhere, [&](auto& particles) { bad.push_back(run(particles)); });
+  };
+  const Bits by_tiles = bits([&](auto& particles) {
+    return std::get<0>(
+        mpm::particle_pass(scene.grid, mpm::LinearWeights{}, particles, scene.nodes, mpm::every_tile, kernel));
+  });
+  const Bits in_memory = bits([&](auto& particles) { return mpm::for_particles_in_memory(particles, kernel); });
+  const Bits by_groups = bits([&](auto& particles) {
+    HostGroup group(7, ThreadOrder::shuffled);
+    return std::get<0>(
+        mpm::group_pass(group, scene.grid, mpm::LinearWeights{}, particles, scene.nodes, mpm::every_tile, kernel));
+  });
+  EXPECT_TRUE(are_same(by_tiles, in_memory));
+  EXPECT_TRUE(are_same(by_tiles, by_groups));
+  EXPECT_NE(by_tiles.at("position"), fields_by_id(scene.particles).at("position"));
+  for (const mpm::BadParticle& found : bad) {
+    EXPECT_EQ(found.fault, mpm::Fault::left_domain);
+    EXPECT_EQ(found.id, bad.front().id);
   }
 }
 
@@ -210,6 +314,8 @@ void expect_all_kernels_agree() {
   expect_the_bits_of_lanes("move", scene, ugimp, mpm::Move<Dim, double>{0.1, dt});
   expect_the_bits_of_lanes("move, linear", scene, linear, mpm::Move<Dim, double>{0.1, dt});
   expect_the_bits_of_lanes("move, affine", scene, affine, mpm::MoveAffine<Dim, double>{dt});
+  expect_the_bits_near_the_ground(scene, ugimp, dt);
+  expect_the_bits_near_the_ground(scene, quadratic, dt);
   expect_the_bits_of_lanes("stress", scene, ugimp, stress);
   expect_the_bits_of_lanes("seepage", scene, by_linear,
                            band::SeepageFlows<Dim, double>{band, band.hydraulic(), dt, scene.grid.inverse_cell()});
@@ -229,6 +335,7 @@ void expect_all_kernels_agree() {
     expect_the_bits_of_lanes("heat as printed", scene, by_linear,
                              band::TakeHeatAsPrinted<Dim, double, Law>{band, law, dt});
   });
+  expect_the_same_positions(scene);
 }
 
 TEST(Group, RunsTheKernelsOfTheStepWithTheBitsOfLanesInThePlane) { expect_all_kernels_agree<2>(); }

@@ -55,7 +55,7 @@ void expect_same_sums(const Records& records, const ScalarStep<Dim>& scalar, con
 // The motion of nodes and what contact leaves there. hovers: part of the base keeps a distance from the ground.
 template <int Dim>
 void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarStep<Dim>& scalar, bool hovers) {
-  using mpm::ContactLayout;
+  using mpm::Contact;
   const auto& nodes = simulation.nodes();
   int touching = 0, moving = 0;
   std::map<std::string, std::pair<double, double>> found;  // largest difference and size
@@ -67,15 +67,15 @@ void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarSt
   };
   for (const auto& [node, clearance] : scalar.contact().clearance()) {
     const auto [b, k] = scalar.at(node);
-    compare("clearance", nodes.near_ground(b, k)[mpm::NearGroundLayout::clearance], clearance);
+    compare("clearance", nodes.near_ground(b, k)[mpm::NearGround::clearance], clearance);
   }
   for (const auto& [node, motion] : scalar.contact().motion()) {
     const auto [b, k] = scalar.at(node);
     const auto& contact = nodes.contact(b, k);
-    EXPECT_EQ(contact[ContactLayout::touching] > 0.0, motion.touching);
+    EXPECT_EQ(contact[Contact::touching] > 0.0, motion.touching);
     touching += motion.touching ? 1 : 0;
-    compare("slip speed", contact[ContactLayout::slip_speed], motion.slip_speed);
-    compare("friction heat", contact[ContactLayout::friction_heat], motion.friction_heat);
+    compare("slip speed", contact[Contact::slip_speed], motion.slip_speed);
+    compare("friction heat", contact[Contact::friction_heat], motion.friction_heat);
     // Times the mass: nodes that see next to none have the accelerations of round-off.
     const auto& record = nodes.momentum(b, k);
     const double mass = record[mpm::MomentumLayout<Dim>::mass];
@@ -121,7 +121,7 @@ void expect_the_scalar_step(const config::Case& parameters, bool yields, bool ho
   const auto candidates = [&](std::size_t b, std::size_t k) { return simulation.ground()->block(b)[k].candidate; };
   expect_same_sums(simulation.nodes().near_ground, scalar, scalar.near_ground_by_mass(), 0, candidates);
   expect_same_sums(simulation.nodes().near_ground, scalar, scalar.near_ground_by_linear(),
-                   mpm::NearGroundLayout::saturation_by_linear, candidates);
+                   mpm::NearGround::saturation_by_linear, candidates);
   expect_same_nodes(simulation, scalar, hovers);
   using P = Point<Dim>;
   const auto expect_same = [&](const char* name, const auto& of) {

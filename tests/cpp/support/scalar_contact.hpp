@@ -66,7 +66,7 @@ class ScalarContact {
 
  private:
   using Momentum = mpm::MomentumLayout<Dim>;
-  using NearGround = mpm::NearGroundLayout;
+  using NearGround = mpm::NearGround;
   static constexpr std::size_t solid_fraction_by_linear =
       NearGround::solid_fraction_by_linear - NearGround::saturation_by_linear;  // in the oracle's own sums
   static constexpr double smallest_share = 1e-6;  // of a cell's face: keeps N finite over no ground

@@ -30,7 +30,7 @@ class ScalarStep {
     linear_ = add_up(Transfer::linear, mpm::components_of<mpm::Averages, Dim>, [&](const Point<Dim>& p) {
       return Carried<Dim>{{p.volume, p.volume * p.temperature, p.volume * p.pore_pressure}, {}};
     });
-    near_ground_by_mass_ = add_up(Transfer::ugimp, mpm::NearGroundLayout::by_mass, [&](const Point<Dim>& p) {
+    near_ground_by_mass_ = add_up(Transfer::ugimp, mpm::NearGround::by_mass, [&](const Point<Dim>& p) {
       return Carried<Dim>{{p.mass * p.temperature, p.mass * p.pore_pressure, p.mass * p.saturation,
                            p.mass * solid_fraction(p), p.mass * p.slip},
                           {}};

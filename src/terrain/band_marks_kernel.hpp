@@ -1,0 +1,50 @@
+// What a particle does in mark_band_and_slip: kernels (mpm/kernel.hpp).
+#pragma once
+
+#include "base/select.hpp"
+#include "mpm/reading.hpp"
+#include "mpm/records.hpp"
+
+namespace thawslide::terrain {
+
+// Where no candidate node is near, none is in the band.
+template <int Dim, class Real>
+struct LeaveBand {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Account = mpm::NoAccount;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
+                                                       Added& /*added*/, Account& /*account*/) const {
+    particles.in_band.store_whole(at, typename At::Value(Real(0)));
+  }
+};
+
+// Particles in a cell with a candidate corner are in the band; those in one with a contact node slip as these do.
+template <int Dim, class Real>
+struct MarkBand {
+  using Reads = mpm::RecordList<mpm::Contact>;
+  using Adds = mpm::RecordList<>;
+  using Account = mpm::NoAccount;
+
+  Real dt;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& /*added*/, Account& /*account*/) const {
+    using mpm::Contact;
+    using Value = typename At::Value;
+    const auto contact = seen.template read<Contact, 3>().value;
+    const Value zero = Real(0), one = Real(1);
+    particles.in_band.store_whole(at, select(contact[Contact::candidate] > zero, one, zero));
+    const auto touches = contact[Contact::touching] > zero;
+    if (any(touches)) {
+      const Value slip_speed = contact[Contact::slip_speed] / select(touches, contact[Contact::touching], one);
+      const Value slip = particles.slip.load(at);
+      particles.slip.store(at, select(touches, slip + dt * slip_speed, slip));
+    }
+  }
+};
+
+}  // namespace thawslide::terrain

@@ -1,0 +1,65 @@
+// What a particle does in near_ground_to_grid: a kernel (mpm/kernel.hpp), and what it reads of the ground.
+#pragma once
+
+#include "base/select.hpp"
+#include "mpm/reading.hpp"
+#include "mpm/records.hpp"
+#include "physics/mixture.hpp"
+
+namespace thawslide::terrain {
+
+// The record that particles read of the ground itself.
+struct Ground {
+  using Functions = mpm::LinearFunctions;
+  static constexpr std::size_t distance = 0;  // from the ground, positive above it [m]
+  static constexpr std::size_t normal = 1;    // into the ground
+  template <int Dim>
+  static constexpr int size = 1 + Dim;
+};
+
+// n_e of Eq. 2 as the basal law sees it: of the current or, without lubrication, initial state.
+template <class Real, class Particles, class At>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(const physics::Phases<Real>& phases,
+                                                                             bool lubrication,
+                                                                             const Particles& particles, const At& at) {
+  const auto& porosity = lubrication ? particles.porosity : particles.initial_porosity;
+  const auto& saturation = lubrication ? particles.liquid_saturation : particles.initial_saturation;
+  return physics::effective_solid_fraction(phases, porosity.load(at), saturation.load(at));
+}
+
+// State and slip to the nodes near the ground, by mass with the momentum shape functions and by volume with the linear
+// ones; lowers their clearance.
+template <int Dim, class Real>
+struct AddNearGround {
+  using Reads = mpm::RecordList<Ground>;
+  using Adds = mpm::RecordList<mpm::NearGround, mpm::NearGroundByLinear, mpm::Clearance>;
+  using Account = mpm::NoAccount;
+
+  physics::Phases<Real> phases;
+  bool lubrication;  // off: the solid fraction is that of the initial porosity and saturation
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& /*account*/) const {
+    using mpm::NearGround, mpm::NearGroundByLinear;
+    using Value = typename At::Value;
+    const Value mass = particles.mass.load(at), volume = particles.volume.load(at);
+    const Value saturation = particles.liquid_saturation.load(at);
+    const Value solid_fraction = basal_solid_fraction(phases, lubrication, particles, at);
+    auto& by_mass = added.template of<NearGround>();
+    by_mass.value[NearGround::temperature] = mass * particles.temperature.load(at);
+    by_mass.value[NearGround::pore_pressure] = mass * particles.pore_pressure.load(at);
+    by_mass.value[NearGround::saturation] = mass * saturation;
+    by_mass.value[NearGround::solid_fraction] = mass * solid_fraction;
+    by_mass.value[NearGround::slip] = mass * particles.slip.load(at);
+    auto& by_linear = added.template of<NearGroundByLinear>();
+    constexpr std::size_t first = mpm::first_in_register<NearGroundByLinear, Dim>;
+    by_linear.value[NearGround::saturation_by_linear - first] = volume * saturation;
+    by_linear.value[NearGround::solid_fraction_by_linear - first] = volume * solid_fraction;
+    const Value distance = seen.template read<Ground, 1>(Ground::distance).value[0];
+    added.template of<mpm::Clearance>().value[0] =
+        max(Value(Real(0)), Value(distance - particles.contact_offset.load(at)));
+  }
+};
+
+}  // namespace thawslide::terrain
