@@ -37,6 +37,9 @@ REGISTERS_OF_STEP = {
     "averages": (24, 24),  # 16, 16
     "momentum": (40, 40),  # 32, 32
     "affine_momentum": (40, 44),  # 32, 38
+    "near_ground": (38, 40),  # 30, 32
+    "mark_band": (38, 50),  # 30, 42
+    "leave_band": (16, 16),  # 8, 8
     "move": (48, 152),  # 42, 138
     "move_affine": (80, 144),  # 72, 130
     "deform, LinearElastic<double>": (74, 104),  # 66, 95
@@ -52,8 +55,10 @@ REGISTERS_OF_STEP = {
     "orphan_heat": (40, 40),  # 32, 32
     "seepage": (50, 46),  # 43, 40
     "pore_pressure": (56, 56),  # 50, 50
+    "take_position": (40, 42),  # 32, 34
     "sum_in_cell, Momentum": (40, 40),  # 32, 32
-    "sum_in_cell, HeatRates": (40, 40),  # 34, 34
+    "sum_in_cell, HeatRates": (40, 40),  # 32, 32
+    "sum_in_cell, Clearance": (32, 36),  # 24, 29
 }
 
 
@@ -88,7 +93,7 @@ def compiled(nvcc: str, source: Path, folder: Path) -> str:
 
 def short_name(demangled: str) -> str:
     """Return a kernel's name and template arguments, without result, parameters and namespaces."""
-    name = re.sub(r"thawslide::(?:physics::|mpm::|band::)?", "", demangled.removeprefix("void "))
+    name = re.sub(r"thawslide::(?:physics::|mpm::|band::|terrain::)?", "", demangled.removeprefix("void "))
     return name.replace("> >", ">>").split("(")[0]
 
 

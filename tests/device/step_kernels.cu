@@ -2,6 +2,7 @@
 // precision. They are compiled and never run: that they can be, and in how many registers, is the test.
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "band/averages_kernel.hpp"
 #include "band/columns_of_tile.hpp"
@@ -10,9 +11,12 @@
 #include "mpm/motion_kernels.hpp"
 #include "mpm/one_particle.hpp"
 #include "mpm/particle_view.hpp"
+#include "mpm/position_kernel.hpp"
 #include "mpm/stress_kernel.hpp"
 #include "physics/freezing.hpp"
 #include "physics/heat_content.hpp"
+#include "terrain/band_marks_kernel.hpp"
+#include "terrain/near_ground_kernel.hpp"
 
 namespace thawslide {
 
@@ -55,13 +59,19 @@ __device__ auto fetch(mpm::RecordList<Names...> /*names*/, const Real* records, 
       {PatchOnDevice<Names, Dim>{copy(PatchOnDevice<Names, Dim>::total)}}...};
 }
 
-template <int Dim, class... Names>
-using CarriedTo = mpm::ByName<mpm::Named<Names, mpm::OneContribution<Real, Dim, mpm::components_of<Names, Dim>>>...>;
+// What a particle carries to a record, or brings to one that it lowers.
+template <class Name, int Dim>
+inline constexpr std::size_t carried_numbers =
+    mpm::IsLowered<Name> ? mpm::part_of<Name, Dim>.count
+                         : mpm::place_in_register<Name, Dim> + mpm::part_of<Name, Dim>.count;
+template <class Name, int Dim>
+using CarriedTo = std::conditional_t<mpm::IsLowered<Name>, mpm::OneBounds<Real, carried_numbers<Name, Dim>>,
+                                     mpm::OneContribution<Real, Dim, carried_numbers<Name, Dim>>>;
 template <int Dim, class List>
 struct CarriedOf;
 template <int Dim, class... Names>
 struct CarriedOf<Dim, mpm::RecordList<Names...>> {
-  using Type = CarriedTo<Dim, Names...>;
+  using Type = mpm::ByName<mpm::Named<Names, CarriedTo<Names, Dim>>...>;
 };
 
 // Runs a kernel for the thread's particle. Shape: of momentum.
@@ -118,6 +128,22 @@ __global__ void momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddMomentum<D
 template <int Dim>
 __global__ void affine_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddAffineMomentum<Dim, Real>> to) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddAffineMomentum<Dim, Real>{});
+}
+
+template <int Dim>
+__global__ void near_ground(TileOnDevice<Dim> tile, Results<Dim, terrain::AddNearGround<Dim, Real>> to,
+                            terrain::AddNearGround<Dim, Real> kernel) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+}
+
+template <int Dim>
+__global__ void mark_band(TileOnDevice<Dim> tile, Results<Dim, terrain::MarkBand<Dim, Real>> to, Real dt) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::MarkBand<Dim, Real>{dt});
+}
+
+template <int Dim>
+__global__ void leave_band(TileOnDevice<Dim> tile, Results<Dim, terrain::LeaveBand<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::LeaveBand<Dim, Real>{});
 }
 
 template <int Dim>
@@ -204,13 +230,19 @@ __global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim>
   visit<Shape<Dim>>(tile, to.carried, to.accounts, Pressure<Dim>{model, hydraulic, Real(0.5) * tile.cell, *columns});
 }
 
-// The second phase of a pass: what the particles first .. last-1 of a cell add to a number of one of its nodes.
+template <int Dim>
+__global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::TakePosition<Dim, Real>> to,
+                              mpm::TakePosition<Dim, Real> kernel) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+}
+
+// The second phase of a pass: what the particles first .. last-1 of a cell add to a number of one of its nodes, or the
+// smallest that they bring.
 template <class Name, int Dim>
-__global__ void sum_in_cell(const mpm::OneWeights<Dim, Real>* weights,
-                            const mpm::OneContribution<Real, Dim, mpm::components_of<Name, Dim>>* carried,
+__global__ void sum_in_cell(const mpm::OneWeights<Dim, Real>* weights, const CarriedTo<Name, Dim>* carried,
                             std::size_t first, std::size_t last, Real* sums) {
   const std::size_t node = threadIdx.x, component = threadIdx.y;
-  Real sum = 0;
+  Real sum = sums[node * blockDim.y + component];
   for (std::size_t k = first; k < last; ++k) {
     sum = mpm::add_particle(weights[k].template of<typename Name::Functions>(), {node % 3, node / 3 % 3, node / 9},
                             carried[k], Name::flux != mpm::no_flux, component, sum);
@@ -228,6 +260,10 @@ void instantiate() {
   averages<Dim><<<1, 128>>>(tile, {});
   momentum<Dim><<<1, 128>>>(tile, {}, {});
   affine_momentum<Dim><<<1, 128>>>(tile, {});
+  near_ground<Dim><<<1, 128>>>(tile, {}, {});
+  mark_band<Dim><<<1, 128>>>(tile, {}, 0);
+  leave_band<Dim><<<1, 128>>>(tile, {});
+  take_position<Dim><<<1, 128>>>(tile, {}, {});
   move<Dim><<<1, 128>>>(tile, {}, {});
   move_affine<Dim><<<1, 128>>>(tile, {}, {});
   deform<Dim, Elastic><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
@@ -245,6 +281,7 @@ void instantiate() {
   pore_pressure<Dim><<<1, 128>>>(tile, {}, {}, {}, nullptr);
   sum_in_cell<mpm::Momentum, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
   sum_in_cell<mpm::HeatRates, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
+  sum_in_cell<mpm::Clearance, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
 }
 template void instantiate<2>();
 template void instantiate<3>();
