@@ -19,7 +19,7 @@ NodalHeat<Real> solve_with_tangent(const mpm::SparseGrid<Dim, Real>& grid, const
                                    bool first_step, mpm::Nodes<Dim, Real>& nodes) {
   using mpm::HeatRates;
   nodes.heat_rates.resize(grid.blocks().size());
-  nodes.orphan_heat.resize(grid.blocks().size());
+  nodes.orphan_heat.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.contact.holds(b); });
   const SolveTemperatureRate<Dim, Real> solve{grid, model, dt, first_step};
   return mpm::node_pass<NodalHeat<Real>>(
       grid, [&](std::size_t b) { mpm::sum_block<HeatRates>(grid, b, nodes); },
@@ -35,14 +35,15 @@ template <int Dim, class Real>
 NodalHeat<Real> solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                                   bool first_step, mpm::Nodes<Dim, Real>& nodes) {
   using mpm::HeatRates;
-  nodes.secant_rates.resize(grid.blocks().size());
   const auto& changing = nodes.marks.changing_blocks;
+  nodes.secant_rates.hold(grid.blocks().size(), [&](std::size_t b) { return changing[b] != 0; });
   const SolveTemperatureRate<Dim, Real> solve{grid, model, dt, first_step};
   return mpm::node_pass<NodalHeat<Real>>(
       grid,
       [&](std::size_t b) {
         if (changing[b] != 0) {
-          sum_patches_in_block(grid, b, nodes.heat_rates.patches(grid.tiles().size()), nodes.secant_rates, every_tile);
+          sum_patches_in_block(grid, b, nodes.heat_rates.patches(grid.tiles().size()), nodes.secant_rates.of_block(b),
+                               every_tile);
         }
       },
       [&](const NodeAt& at, NodalHeat<Real>& sum) {

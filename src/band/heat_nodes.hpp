@@ -88,11 +88,14 @@ struct SolveTemperatureRate {
     const Real friction = nodes.contact(at)[mpm::Contact::friction_heat];
     Real& rate = nodes.state(at)[mpm::NodalState::temperature_rate];
     rate = Real(0);
-    nodes.orphan_heat(at)[0] = Real(0);
+    if (nodes.orphan_heat.holds(at.block)) {
+      nodes.orphan_heat.of_block(at.block)[at.node][0] = Real(0);
+    }
     sum.gain.friction += dt * friction;
     if (!(capacity > Real(0))) {
       if (friction > Real(0)) {
-        nodes.orphan_heat(at)[0] = friction / nodes.momentum(at)[mpm::MomentumLayout<Dim>::mass];
+        nodes.orphan_heat.of_block(at.block)[at.node][0] =
+            friction / nodes.momentum(at)[mpm::MomentumLayout<Dim>::mass];
         sum.any_orphan = true;
       }
       return;

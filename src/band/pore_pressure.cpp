@@ -37,7 +37,7 @@ void seep(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& mo
   mpm::particle_pass(
       grid, mpm::LinearWeights{}, particles, nodes, [&](std::size_t t) { return grid.any_about_tile(t, blocks); },
       SeepageFlows<Dim, Real>{model, model.hydraulic(), dt, grid.inverse_cell()});
-  nodes.seepage.resize(grid.blocks().size());
+  nodes.seepage.hold(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
   mpm::node_pass<mpm::NoAccount>(
       grid,
       [&](std::size_t b) {
@@ -48,7 +48,7 @@ void seep(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& mo
       [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) {
         const auto& sums = nodes.seepage(at);
         Real& change = nodes.state(at)[mpm::NodalState::pressure_change];
-        change = blocks[at.block] != 0 && sums[mpm::Seepage::pore_space] > Real(0)
+        change = sums[mpm::Seepage::pore_space] > Real(0)
                      ? (dt * sums[mpm::Seepage::inflow] - sums[mpm::Seepage::subgrid]) / sums[mpm::Seepage::pore_space]
                      : Real(0);
       });

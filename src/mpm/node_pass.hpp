@@ -12,10 +12,11 @@ void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, 
   auto& records = nodes.template of<Name>();
   const auto patches = records.patches(grid.tiles().size());
   if constexpr (IsLowered<Name>) {
-    unrolled<part_of<Name, Dim>.count>(
-        [&](auto c) { take_smallest_in_block<part_of<Name, Dim>.from + c>(grid, block, patches, records, takes); });
+    unrolled<part_of<Name, Dim>.count>([&](auto c) {
+      take_smallest_in_block<part_of<Name, Dim>.from + c>(grid, block, patches, records.of_block(block), takes);
+    });
   } else {
-    sum_patches_in_block(grid, block, patches, records, takes);
+    sum_patches_in_block(grid, block, patches, records.of_block(block), takes);
   }
 }
 template <class Name, int Dim, class Real>

@@ -10,6 +10,8 @@ template <class Name, int Dim, class Real>
 using PatchOf = Patch<Dim, Real, components_of<Name, Dim>>;
 template <class Name, int Dim, class Real>
 using RecordsOf = NodeRecords<Dim, Real, components_of<Name, Dim>>;
+template <class Name, int Dim, class Real>
+using SparseRecordsOf = SparseRecords<Dim, Real, components_of<Name, Dim>>;
 
 // Where temperatures change and water seeps: tiles with such particles, and blocks whose nodes these see.
 struct ActivityMarks {
@@ -24,14 +26,15 @@ struct Nodes {
   RecordsOf<Motion, Dim, Real> motion;
   RecordsOf<Velocity, Dim, Real> velocity{room};
   RecordsOf<Averages, Dim, Real> averages{room};
-  NodeRecords<Dim, Real, BaseLayout::size> base;
-  RecordsOf<Contact, Dim, Real> contact;
-  RecordsOf<NearGround, Dim, Real> near_ground{room};  // of candidate nodes alone
   RecordsOf<NodalState, Dim, Real> state;
   RecordsOf<HeatRates, Dim, Real> heat_rates{room};
-  RecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
-  RecordsOf<OrphanHeat, Dim, Real> orphan_heat;
-  RecordsOf<Seepage, Dim, Real> seepage{room};  // of blocks to whose nodes water seeps
+  // Of blocks with candidate nodes.
+  SparseRecords<Dim, Real, BaseLayout::size> base;
+  SparseRecordsOf<Contact, Dim, Real> contact;
+  SparseRecordsOf<NearGround, Dim, Real> near_ground{room};
+  SparseRecordsOf<OrphanHeat, Dim, Real> orphan_heat;
+  SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
+  SparseRecordsOf<Seepage, Dim, Real> seepage{room};   // of blocks to whose nodes water seeps
   ActivityMarks marks;
 
   template <class Name>

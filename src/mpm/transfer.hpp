@@ -72,6 +72,7 @@ class NodeRecords {
   }
   [[nodiscard]] Record& operator()(const NodeAt& at) { return (*this)(at.block, at.node); }
   [[nodiscard]] const Record& operator()(const NodeAt& at) const { return (*this)(at.block, at.node); }
+  [[nodiscard]] Record* of_block(std::size_t block) { return &records_[block * nodes]; }
   void resize(std::size_t blocks) { resize_sparingly(records_, blocks * nodes); }
 
   // Patches for the tiles, to be cleared and filled by whoever works on a tile, and to be summed before other records
@@ -84,6 +85,45 @@ class NodeRecords {
  private:
   AlignedVector<Record> records_;
   std::shared_ptr<PatchRoom> room_;
+};
+
+// One record a node of the active blocks that are asked for; those of other blocks read as zeros.
+template <int Dim, class Real, int Components>
+class SparseRecords {
+ public:
+  using Record = std::array<Real, record_size(Components)>;
+  static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
+
+  SparseRecords() = default;
+  explicit SparseRecords(std::shared_ptr<PatchRoom> room) : records_(std::move(room)) {}
+
+  // Holds the blocks, of so many, for which holds(block) is true; what is in them then is any numbers.
+  template <class Holds>
+  void hold(std::size_t blocks, const Holds& holds) {
+    resize_sparingly(place_, blocks);
+    std::uint32_t held = 0;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      place_[b] = holds(b) ? ++held : 0;
+    }
+    records_.resize(held + 1);
+    std::fill_n(records_.of_block(0), nodes, Record{});
+  }
+  [[nodiscard]] bool holds(std::size_t block) const { return place_[block] != 0; }
+
+  [[nodiscard]] const Record& operator()(std::size_t block, std::size_t node) const {
+    return records_(place_[block], node);
+  }
+  [[nodiscard]] const Record& operator()(const NodeAt& at) const { return (*this)(at.block, at.node); }
+  [[nodiscard]] Record* of_block(std::size_t block) {
+    THAWSLIDE_ASSERT(holds(block), "block {} is not held", block);
+    return records_.of_block(place_[block]);
+  }
+
+  [[nodiscard]] std::span<Patch<Dim, Real, Components>> patches(std::size_t tiles) { return records_.patches(tiles); }
+
+ private:
+  NodeRecords<Dim, Real, Components> records_;  // zeros, then the blocks that are held
+  std::vector<std::uint32_t> place_;            // by block
 };
 
 // Calls body(d) for the directions d = 0 .. 3^Dim-1 of a neighbourhood, each a constant.
@@ -149,13 +189,12 @@ inline constexpr auto every_tile = [](std::size_t /*tile*/) { return true; };
 // the block's own tile, then those about it.
 template <int Dim, class Real, int Components, class Takes>
 void sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
-                          std::span<Patch<Dim, Real, Components>> patches, NodeRecords<Dim, Real, Components>& nodes,
-                          const Takes& takes) {
-  using Record = typename NodeRecords<Dim, Real, Components>::Record;
+                          std::span<Patch<Dim, Real, Components>> patches,
+                          typename Patch<Dim, Real, Components>::Record* records, const Takes& takes) {
+  using Record = typename Patch<Dim, Real, Components>::Record;
   using Register = RecordRegister<Real, Components>;
   constexpr std::size_t size = std::tuple_size_v<Record>;
   constexpr std::size_t own = static_cast<std::size_t>(Tile<Dim>::stencil) / 2;
-  Record* records = &nodes(block, 0);
   const std::int32_t* tiles = grid.tiles_about_block(block);
   const auto holds_some = [&](std::size_t d) {
     return tiles[d] != KeyIndex::absent && takes(static_cast<std::size_t>(tiles[d]));
@@ -189,7 +228,7 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
   nodes.resize(grid.blocks().size());
   const auto patches = nodes.patches(grid.tiles().size());
   parallel_for(grid.blocks().size(), [&](std::size_t block) {
-    sum_patches_in_block(grid, block, patches, nodes, every_tile);
+    sum_patches_in_block(grid, block, patches, nodes.of_block(block), every_tile);
     then(block);
   });
 }
@@ -202,17 +241,17 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
 // takes(t) names, or the largest there is.
 template <std::size_t Component, int Dim, class Real, int Components, class Takes>
 void take_smallest_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
-                            std::span<Patch<Dim, Real, Components>> patches, NodeRecords<Dim, Real, Components>& nodes,
-                            const Takes& takes) {
+                            std::span<Patch<Dim, Real, Components>> patches,
+                            typename Patch<Dim, Real, Components>::Record* records, const Takes& takes) {
   for (std::size_t k = 0; k < NodeRecords<Dim, Real, Components>::nodes; ++k) {
-    nodes(block, k)[Component] = std::numeric_limits<Real>::max();
+    records[k][Component] = std::numeric_limits<Real>::max();
   }
   const std::int32_t* tiles = grid.tiles_about_block(block);
   for_each_direction<Dim>([&](auto d) {
     if (tiles[d] != KeyIndex::absent && takes(static_cast<std::size_t>(tiles[d]))) {
       const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
       for_shared_nodes<Dim, opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch) {
-        Real& known = nodes(block, in_block)[Component];
+        Real& known = records[in_block][Component];
         known = std::min(known, patch.records[in_patch][Component]);
       });
     }
@@ -220,8 +259,8 @@ void take_smallest_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block
 }
 
 // Copies what the nodes about tile t hold into a patch.
-template <int Dim, class Real, int Components>
-void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const NodeRecords<Dim, Real, Components>& nodes,
+template <int Dim, class Real, template <int, class, int> class Records, int Components>
+void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const Records<Dim, Real, Components>& nodes,
                 Patch<Dim, Real, Components>& patch) {
   using Register = RecordRegister<Real, Components>;
   constexpr std::size_t size = record_size(Components);

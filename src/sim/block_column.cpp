@@ -1,6 +1,7 @@
 #include "sim/block_column.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -50,15 +51,19 @@ BlockColumn::BlockColumn(const band::BandModel<2, double>& model, const Initial&
 
 void BlockColumn::find_base_nodes() {
   nodes_.momentum.resize(grid_.blocks().size());  // asked for its mass where heat is no longer a number
-  nodes_.contact.resize(grid_.blocks().size());
+  std::vector<std::uint8_t> is_base(grid_.blocks().size(), 0);
   for (std::size_t b = 0; b < grid_.blocks().size(); ++b) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<2>::nodes); ++k) {
-      nodes_.contact(b, k).fill(0.0);
       const Vector<double, 2> place = mpm::node_position(grid_, b, k);
       if (place[1] == 0.0 && (place[0] == 0.0 || place[0] == grid_.cell())) {
         base_nodes_.push_back({b, k});
+        is_base[b] = 1;
       }
     }
+  }
+  nodes_.contact.hold(grid_.blocks().size(), [&](std::size_t b) { return is_base[b] != 0; });
+  for (const mpm::NodeAt& node : base_nodes_) {
+    std::fill_n(nodes_.contact.of_block(node.block), mpm::Tile<2>::nodes, std::array<double, 4>{});
   }
 }
 
@@ -68,7 +73,8 @@ double BlockColumn::step(double flux, double band_thickness, double dt) {
   const double before = heat();
   if (model_.heat) {
     for (const mpm::NodeAt& node : base_nodes_) {
-      nodes_.contact(node)[mpm::Contact::friction_heat] = flux / static_cast<double>(base_nodes_.size());
+      nodes_.contact.of_block(node.block)[node.node][mpm::Contact::friction_heat] =
+          flux / static_cast<double>(base_nodes_.size());
     }
     band::conduct_heat(grid_, model_, dt, false, nodes_, rows_);
   }

@@ -50,6 +50,9 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::find_particles_cells() {
   grid_.update(particles_, sorting_interval_);
   update_ground();
+  if (grid_.blocks_changed() && !parameters_.mechanics.enabled) {
+    terrain::start_contact(grid_, ground(), nodes_);  // there is none, and no step resolves it
+  }
 }
 
 template <int Dim, class Real>

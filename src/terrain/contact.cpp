@@ -141,14 +141,14 @@ template <int Dim, class Real>
 void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                      const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
                      Real dt, mpm::Nodes<Dim, Real>& nodes) {
-  nodes.base.resize(grid.blocks().size());
+  nodes.base.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (!ground.any_candidate(b)) {
       return;
     }
     const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-      auto& base = nodes.base(b, k);
+      auto& base = nodes.base.of_block(b)[k];
       base.fill(Real(0));
       if (!ground.block(b)[k].candidate) {
         continue;
@@ -219,13 +219,11 @@ void finish_node(const NodeState<Dim, Real>& state, bool constrained, Real dampi
   }
 }
 
-// No node of a block is in contact; `known`: its nodes' ground, null where none is a candidate.
+// No node of a block is in contact; `known`: its nodes' ground.
 template <int Dim, class Real>
-void start_block(const typename GroundOnGrid<Dim, Real>::Block* known, std::size_t b, mpm::Nodes<Dim, Real>& nodes) {
+void start_block(const typename GroundOnGrid<Dim, Real>::Block& known, std::size_t b, mpm::Nodes<Dim, Real>& nodes) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-    auto& contact = nodes.contact(b, k);
-    contact.fill(Real(0));
-    contact[Contact::candidate] = known != nullptr && (*known)[k].candidate ? Real(1) : Real(0);
+    nodes.contact.of_block(b)[k] = {known[k].candidate ? Real(1) : Real(0)};
   }
 }
 
@@ -235,13 +233,23 @@ const typename GroundOnGrid<Dim, Real>::Block* candidates_of(const GroundOnGrid<
   return ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
 }
 
+template <int Dim, class Real>
+void hold_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                  mpm::Nodes<Dim, Real>& nodes) {
+  nodes.contact.hold(grid.blocks().size(), [&](std::size_t b) { return candidates_of(ground, b) != nullptr; });
+}
+
 }  // namespace
 
 template <int Dim, class Real>
 void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                    mpm::Nodes<Dim, Real>& nodes) {
-  nodes.contact.resize(grid.blocks().size());
-  parallel_for(grid.blocks().size(), [&](std::size_t b) { start_block(candidates_of(ground, b), b, nodes); });
+  hold_contact(grid, ground, nodes);
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    if (nodes.contact.holds(b)) {
+      start_block(ground->block(b), b, nodes);
+    }
+  });
 }
 
 template <int Dim, class Real>
@@ -251,7 +259,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                        mpm::Nodes<Dim, Real>& nodes) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   nodes.motion.resize(grid.blocks().size());
-  nodes.contact.resize(grid.blocks().size());
+  hold_contact(grid, ground, nodes);
   const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
   if (ground != nullptr) {
     press_on_ground(grid, *ground, constraints, model, time, dt, nodes);
@@ -260,9 +268,9 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
   return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {
     const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
     const auto* known = candidates_of(ground, b);
-    start_block(known, b, nodes);
     std::array<Real, block_nodes> pressure{};
     if (known != nullptr) {
+      start_block(*known, b, nodes);
       pressure = base_pressure(grid, *ground, nodes, b, dt, smallest);
     }
     const auto finish = [&](const NodeState<Dim, Real>& state, std::size_t k) {
@@ -287,7 +295,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
       apply_contact(on_block, k, (*known)[k].normal, nodes.base(b, k)[BaseLayout::load], contact.area[c], strength,
                     contact.basal.friction[c], model.law.heat_fraction, dt, contact.state[c], work,
-                    nodes.contact(b, k));
+                    nodes.contact.of_block(b)[k]);
       finish(contact.state[c], k);
     }
   });

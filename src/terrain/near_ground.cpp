@@ -54,7 +54,7 @@ void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnG
     mpm::particle_pass(grid, weights, particles, records, sees_candidates,
                        AddNearGround<Dim, Real>{model.phases, model.lubrication});
   });
-  nodes.near_ground.resize(grid.blocks().size());
+  nodes.near_ground.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (ground.any_candidate(b)) {
       mpm::sum_block<mpm::NearGround>(grid, b, nodes, sees_candidates);

@@ -80,7 +80,7 @@ class Scene {
     fill<mpm::Contact>({1.0, 1.0, 3.0, 1e3}, random);
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-        auto& contact = nodes.contact(b, k);
+        auto& contact = nodes.contact.of_block(b)[k];
         const bool candidate = ground.block(b)[k].candidate;
         const double touching = candidate && contact[mpm::Contact::touching] > 0.0 ? 1.0 : 0.0;
         contact[mpm::Contact::candidate] = candidate ? 1.0 : 0.0;
@@ -100,12 +100,17 @@ class Scene {
   template <class Name>
   void fill(const std::vector<double>& sizes, std::mt19937& random) {
     auto& records = nodes.template of<Name>();
-    records.resize(grid.blocks().size());
+    if constexpr (requires { records.holds(0); }) {
+      records.hold(grid.blocks().size(), [](std::size_t /*block*/) { return true; });
+    } else {
+      records.resize(grid.blocks().size());
+    }
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-        records(b, k).fill(0.0);
+        auto& record = records.of_block(b)[k];
+        record.fill(0.0);
         for (std::size_t c = 0; c < static_cast<std::size_t>(mpm::components_of<Name, Dim>); ++c) {
-          records(b, k)[c] = std::uniform_real_distribution<double>(-sizes[c], sizes[c])(random);
+          record[c] = std::uniform_real_distribution<double>(-sizes[c], sizes[c])(random);
         }
       }
     }
