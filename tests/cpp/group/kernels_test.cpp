@@ -70,7 +70,8 @@ class Scene {
       for (int c = 0; c < Dim * Dim; ++c) {
         particles.affine_velocity(p, c) = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
       }
-      particles.contact_offset(p) = std::uniform_real_distribution<double>(0.0, 0.5)(random);
+      // Most hover, so that what they read of the distance matters.
+      particles.contact_offset(p) = std::uniform_real_distribution<double>(-1.0, 0.1)(random);
     }
     ground.update(*model.ground, grid);
     fill<mpm::NodalState>({1.0, 1e5, 0.1, 1e3}, random);
