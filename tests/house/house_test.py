@@ -41,7 +41,8 @@ def own_files() -> list[Path]:
     inside = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file()]
     kinds = {".cpp", ".hpp", ".cu", ".in", ".py", ".toml", ".md", ".txt", ".csv", ".ini", ""}
     found = [path for path in [*inside, *ROOT.iterdir()] if path.is_file() and path.suffix in kinds]
-    return sorted(path for path in found if "__pycache__" not in path.parts and ".pytest_cache" not in path.parts)
+    built = {"__pycache__", ".pytest_cache", ".git"}  # the last is a file in a worktree beside the clone
+    return sorted(path for path in found if not built & set(path.parts))
 
 
 def documents() -> list[Path]:
