@@ -8,7 +8,7 @@ namespace thawslide::sim {
 // Heap in use over particles after a run of 100,000, with grid and nodes [bytes]; measured by benchmarks/speed
 // (docs/performance.md). Thin slides take more a particle, compact ones less.
 template <int Dim>
-inline constexpr double bytes_of_particle = Dim == 3 ? 727.0 : 705.0;
+inline constexpr double bytes_of_particle = Dim == 3 ? 640.0 : 616.0;
 
 // Bytes that this process may use: the machine's memory, or less where a limit is set (ulimit -v).
 [[nodiscard]] double memory_allowed();
