@@ -12,11 +12,12 @@ double bilinear(const Raster& raster, double x, double y, Missing missing) {
   const double share_x = across - column, share_y = up - row;
   double value = 0.0, weight = 0.0;
   for (int k = 0; k < 4; ++k) {
-    const double share = (k % 2 == 0 ? 1.0 - share_x : share_x) * (k / 2 == 0 ? 1.0 - share_y : share_y);
+    const int right = k % 2, above = k / 2;
+    const double share = (right == 0 ? 1.0 - share_x : share_x) * (above == 0 ? 1.0 - share_y : share_y);
     if (share <= rounding) {
       continue;
     }
-    const double i = column + k % 2, j = row + k / 2;
+    const double i = column + right, j = row + above;
     const bool inside = i >= 0.0 && j >= 0.0 && i < raster.columns && j < raster.rows;
     const double there = inside ? raster.at(static_cast<int>(i), static_cast<int>(j)) : unknown;
     if (!std::isnan(there)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "base/error.hpp"
 
@@ -12,8 +13,9 @@ namespace {
 // Adds the shares of the way from one number to another at which it passes a whole one.
 void add_crossings(double from, double to, std::vector<double>& shares) {
   const double lower = std::min(from, to), upper = std::max(from, to);
-  for (double border = std::floor(lower) + 1.0; border < upper; border += 1.0) {
-    shares.push_back((border - from) / (to - from));
+  const auto last = static_cast<std::int64_t>(std::ceil(upper));
+  for (auto border = static_cast<std::int64_t>(std::floor(lower)) + 1; border < last; ++border) {
+    shares.push_back((static_cast<double>(border) - from) / (to - from));
   }
 }
 

@@ -248,8 +248,8 @@ void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_siz
   const bool any_near = about.highest > lowest[2] - reach && about.lowest < lowest[2] + width + reach;
   for (int k = 0; k < edge * edge * edge; ++k) {
     GroundAtNode<3, double>& node = nodes[k];
-    const Vector<double, 3> position =
-        lowest + cell_size * Vector<double, 3>(k % edge, k / edge % edge, k / (edge * edge));
+    const int column = k % edge, row = k / edge % edge, layer = k / (edge * edge);
+    const Vector<double, 3> position = lowest + cell_size * Vector<double, 3>(column, row, layer);
     const Place place = position.head<2>();
     const double sign = position[2] >= height(place) ? 1.0 : -1.0;
     const auto foot = any_near ? nearest(position, reach) : std::nullopt;
