@@ -109,7 +109,7 @@ __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results,
   result.put(warmer);
   result.put(law.curve.saturation(warmer));
   result.put(law.curve.temperature(row.take()));
-  result.put(law.melting_heat(porosity));
+  result.put(law.coefficients(porosity).melting);
 }
 template __global__ void heat<PowerLawCurve<Real>>(HeatContent<Real, PowerLawCurve<Real>>, Real*, Real*, std::size_t);
 template __global__ void heat<LinearCurve<Real>>(HeatContent<Real, LinearCurve<Real>>, Real*, Real*, std::size_t);
