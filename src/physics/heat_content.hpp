@@ -55,10 +55,10 @@ struct HeatContent {
   // Per volume [J/m3/K] and [J/m3]; rho_I n L_f is what melting takes.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE EnthalpyCoefficients<Value> coefficients(Value porosity) const {
-    return {heat_capacity(phases, porosity, Value(0)),
-            porosity *
-                (phases.water_density * phases.water_heat_capacity - phases.ice_density * phases.ice_heat_capacity),
-            latent ? phases.ice_density * porosity * phases.latent_heat : Value(0)};
+    return {
+        heat_capacity(phases, porosity, Value(0)),
+        porosity * (phases.water_density * phases.water_heat_capacity - phases.ice_density * phases.ice_heat_capacity),
+        latent ? phases.ice_density * porosity * phases.latent_heat : Value(0)};
   }
 };
 
