@@ -96,10 +96,25 @@ struct Contact {
   static constexpr std::size_t touching = 1;       // 1 in contact, 0 not
   static constexpr std::size_t slip_speed = 2;     // [m/s], tangential, at mid-step; 0 where not in contact
   static constexpr std::size_t friction_heat = 3;  // [W], after the conversion coefficient
+  static constexpr std::size_t normal_force = 4;   // on the ground [N]
+  static constexpr std::size_t area = 5;           // [m2]
   template <int Dim>
-  static constexpr int size = 4;
+  static constexpr int size = 6;
   static constexpr int flux = no_flux;
   static auto& in(auto& nodes) { return nodes.contact; }
+};
+
+// What contact nodes see of the band columns about them: sums over pieces of base of their weight and area [m2] times
+// each quantity.
+struct BaseState {
+  static constexpr std::size_t area = 0;
+  static constexpr std::size_t temperature = 1;
+  static constexpr std::size_t pressure_ratio = 2;  // pore pressure over averaged normal pressure
+  static constexpr std::size_t saturation = 3;
+  static constexpr std::size_t solid_fraction = 4;  // effective, n_e of Eq. 2
+  static constexpr std::size_t slip = 5;            // [m]
+  template <int Dim>
+  static constexpr int size = 6;
 };
 
 // What particles see of heat and pore pressure: the averages, or a prescribed temperature, and what

@@ -79,7 +79,7 @@ struct ColumnDrive {
 // What a column got and gave, per area at the end of the step.
 template <class Real>
 struct ColumnAccount {
-  Real friction_heat = 0, body_heat = 0, vented_heat = 0, steam_heat = 0;  // [J/m2]
+  Real friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0;  // [J/m2]
   Real body_water = 0, vented_water = 0, steam = 0;                        // [kg/m2]
 };
 

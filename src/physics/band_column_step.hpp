@@ -44,6 +44,9 @@ THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGri
     column.thawing[k] =
         (left * before.slide_height(k) * column.thawing[k] + thawing[k + 1] - thawing[k]) / after.slide_height(k);
   }
+  for (int k = 0; k < ColumnCells::ground; ++k) {  // the ground that the piece comes to cover is as warm as its own
+    account.ground_heat += (Real(1) - left) * column.heat[k];
+  }
   column.thickness = drive.thickness;
   account.body_heat += heat[count];
   account.body_water += water[count];
@@ -83,6 +86,24 @@ THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& mod
   }
   set_pressures(model, PressureBounds<Real>(model, drive.normal_pressure, column), column);
   return account;
+}
+
+// Heat [J/m2], and ice and water [kg/m2], of a column.
+template <class Real>
+THAWSLIDE_HD Real heat_of(const BandColumn<Real>& column) {
+  Real sum = 0;
+  for (const Real heat : column.heat) {
+    sum += heat;
+  }
+  return sum;
+}
+template <class Real>
+THAWSLIDE_HD Real water_of(const BandColumn<Real>& column) {
+  Real sum = 0;
+  for (const Real water : column.water) {
+    sum += water;
+  }
+  return sum;
 }
 
 // A column in matter of one temperature [C], its pores full of ice and water.

@@ -77,6 +77,23 @@ struct BlockContact {
   Column<NodeState<Dim, Real>> state;
 };
 
+// Where band columns lie under the slide, the base is as they have it; where none has been laid yet, as the body is.
+template <class Record, class Real>
+void take_columns_state(const Record& state, bool pore_pressure, std::size_t c, BasalNodes<Real>& basal) {
+  using mpm::BaseState;
+  const Real area = state[BaseState::area];
+  if (!(area > Real(0))) {
+    basal.pore_pressure[c] = Real(0);
+    return;
+  }
+  basal.pore_pressure[c] =
+      pore_pressure ? state[BaseState::pressure_ratio] / area * basal.normal_pressure[c] : Real(0);
+  basal.saturation[c] = state[BaseState::saturation] / area;
+  basal.solid_fraction[c] = state[BaseState::solid_fraction] / area;
+  basal.temperature[c] = state[BaseState::temperature] / area;
+  basal.slip[c] = state[BaseState::slip] / area;
+}
+
 template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
                       const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
@@ -100,6 +117,9 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   basal.solid_fraction[c] = average(near_ground[NearGround::solid_fraction_by_linear], NearGround::solid_fraction);
   basal.temperature[c] = average(linear[Averages::temperature], NearGround::temperature);
   basal.slip[c] = near_ground[NearGround::slip] / state.mass;
+  if (model.band_columns) {
+    take_columns_state(nodes.base_state(b, k), model.pore_pressure, c, basal);
+  }
   basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
 }
 
@@ -194,6 +214,8 @@ void apply_contact(const mpm::BlockConstraints<Dim, Real>& constraints, std::siz
   left[Contact::touching] = Real(1);
   left[Contact::slip_speed] = impulse.slides ? slip_speed : Real(0);
   left[Contact::friction_heat] = heat_fraction * friction_work / dt;
+  left[Contact::normal_force] = impulse.normal / dt;
+  left[Contact::area] = area;
 }
 
 // Records the motion of a node and the energies that constraints, damping and FLIP take.

@@ -47,6 +47,7 @@ struct ContactModel {
   BasalLaw<Real> law;
   bool base_holds = false;      // no slip at all: while gravity is being settled in
   bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
+  bool band_columns = false;    // the base's state is that of nodes.base_state
   Real mass_damping = 0;        // [1/s]
   bool distance_check = false;  // a node may close its clearance before contact acts
 };
