@@ -29,6 +29,7 @@ REGISTERS_OF_PHYSICS = {
     "heat<LinearCurve<double>>": 56,  # 50
     "mixture": 40,  # 32
     "pore_water": 44,  # 38
+    "water_balance": 50,  # 44
     "basal_contact": 40,  # 32
 }
 

@@ -12,6 +12,7 @@
 #include "physics/kinematics.hpp"
 #include "physics/mixture.hpp"
 #include "physics/mohr_coulomb.hpp"
+#include "physics/pore_water.hpp"
 #include "physics/pressurization.hpp"
 #include "physics/principal.hpp"
 #include "physics/tension_gap.hpp"
@@ -137,6 +138,21 @@ __global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign
   const Real scaling = pore_space_scaling(row.take(), as_printed);
   const Real diffusivity = hydraulic_diffusivity(phases, porosity, saturation, scaling * row.take());
   result.put(share_of_subgrid_diffusion(diffusivity, row.take(), 3, dt));
+}
+
+__global__ void water_balance(Phases<Real> phases, WaterExpansion<Real> water, Real skeleton_compressibility,
+                              Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Real porosity = row.take(), from = row.take(), to = row.take(), load = row.take();
+  const Real storage = pore_storage(phases, porosity, skeleton_compressibility);
+  const Real gas_void = melting_void(phases, porosity, row.take());
+  result.put(expansion(phases, porosity, row.take(), water.at(to)));
+  result.put(undrained_loading(phases, porosity, skeleton_compressibility, row.take()));
+  const Real surplus =
+      thawing_surplus(storage, load, row.take(), gas_void) + melted_swelling(phases, water, porosity, from, to);
+  const PoreFilling<Real> filling = pore_filling(surplus, storage, load);
+  result.put(filling.pressure);
+  result.put(pore_surplus(filling, storage));
 }
 
 __global__ void basal_contact(FrictionClamp clamp, bool cap_pressure, Real dt, Real* numbers, Real* results,
