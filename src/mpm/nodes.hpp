@@ -35,6 +35,7 @@ struct Nodes {
   SparseRecordsOf<OrphanHeat, Dim, Real> orphan_heat;
   SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
   SparseRecordsOf<Seepage, Dim, Real> seepage{room};   // of blocks to whose nodes water seeps
+  SparseRecordsOf<SeepingWater, Dim, Real> seeping_water{room};
   ActivityMarks marks;
 
   template <class Name>
