@@ -34,6 +34,11 @@ enum class CohesionLaw { constant, slip, ice, time };
 enum class FrictionClamp { keep_cohesion, joint };
 enum class BandRegion { all, first_layer };
 enum class CutCells { as_they_are, equal_thickness };
+enum class ThicknessChange { as_printed, conserving };
+enum class AdvectionForm { as_printed, conservative };
+enum class WaterExpansionLaw { constant, by_temperature };
+enum class FrozenRows { draining, sealed, vented };
+enum class FrozenPressure { ice_pressure, none };
 enum class HeatUpdate { enthalpy, apparent_capacity };
 enum class HeatMasses { initial, current };
 enum class ClapeyronSign { usual, printed };
@@ -87,6 +92,7 @@ struct Phases {
   double rock_heat_capacity = 858, ice_heat_capacity = 2040, water_heat_capacity = 4180;
   double rock_conductivity = 3.0, ice_conductivity = 2.22, water_conductivity = 0.58;
   double rock_expansion = 3e-5, ice_expansion = 5.1e-5, water_expansion = 2.75e-4;
+  WaterExpansionLaw water_expansion_law = WaterExpansionLaw::constant;
   double water_bulk_modulus = 1e9;
   double latent_heat = 333.5e3;
   double water_unit_weight = 9810;
@@ -192,6 +198,7 @@ struct Band {
   Table thickness;  // m over time; empty: no band, xi = 1
   BandRegion region = BandRegion::all;
   CutCells cut_cells = CutCells::as_they_are;
+  ThicknessChange thickness_change = ThicknessChange::as_printed;
 };
 
 struct HeatBoundary {
@@ -206,6 +213,7 @@ struct Heat {
   bool latent = true;
   bool conduction = true;
   bool advection = true;
+  AdvectionForm advection_form = AdvectionForm::as_printed;
   std::array<HeatBoundary, 6> boundary{};
 };
 
@@ -214,7 +222,12 @@ struct Pressure {
   bool thermal_pressurization = true;  // off: once melted the liquid keeps r^-1 P_I
   ClapeyronSign clapeyron = ClapeyronSign::usual;
   bool volumetric_term = false;
+  FrozenPressure frozen = FrozenPressure::ice_pressure;
+  double residual_stress = std::numeric_limits<double>::infinity();  // Pa, s0; infinity: no excess pressure on thawing
+  bool melt_contraction = false;                                     // melt leaves a void, filled before P rises
+  double skeleton_compressibility = 0;                               // 1/Pa, m_v; 0: rigid pore
   bool seepage = true;
+  FrozenRows frozen_rows = FrozenRows::draining;
   SeepageScaling seepage_scaling = SeepageScaling::consistent;
   ThicknessDirection thickness_direction = ThicknessDirection::normal;
   ThicknessUpdate thickness_update = ThicknessUpdate::each_step;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 
@@ -172,6 +173,28 @@ void check_switches(const Case& checked, Reading& reading) {
   }
 }
 
+// The same of heat and water in the band.
+void check_band_switches(const Case& checked, Reading& reading) {
+  if (reading.sound({"heat.advection_form", "heat.update", "heat.masses"}) &&
+      checked.heat.advection_form == AdvectionForm::conservative &&
+      (checked.heat.update != HeatUpdate::enthalpy || checked.heat.masses != HeatMasses::initial)) {
+    reading.report_misfit(
+        {"heat.advection_form", "heat.update", "heat.masses"},
+        "heat.advection_form is \"conservative\", and heat.update or heat.masses is as printed, which makes heat all "
+        "the same; allowed with it: heat.update = \"enthalpy\" and heat.masses = \"initial\". Set both so, or "
+        "heat.advection_form = \"as_printed\".");
+  }
+  if (reading.sound({"pressure.residual_stress", "pressure.frozen"}) &&
+      checked.pressure.residual_stress < std::numeric_limits<double>::infinity() &&
+      checked.pressure.frozen != FrozenPressure::none) {
+    reading.report_misfit(
+        {"pressure.residual_stress", "pressure.frozen"},
+        fmt::format("pressure.residual_stress is {} Pa, and pressure.frozen is not \"none\"; where ice presses, water "
+                    "starts from its pressure. Set pressure.frozen = \"none\", or remove pressure.residual_stress.",
+                    checked.pressure.residual_stress));
+  }
+}
+
 void check_times(const Case& checked, Reading& reading) {
   const Time& time = checked.time;
   if (!reading.sound({"time.end"})) {
@@ -222,6 +245,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_materials(checked, reading);
   check_basal(checked, reading);
   check_switches(checked, reading);
+  check_band_switches(checked, reading);
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
 }

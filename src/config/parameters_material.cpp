@@ -34,6 +34,10 @@ std::vector<Parameter<Phases>> phase_parameters() {
             "volumetric thermal expansion of ice, beta_I"),
       phase(&Phases::water_expansion, "water_expansion", "1/K", not_negative,
             "volumetric thermal expansion of water, beta_L"),
+      parameter(&Phases::water_expansion_law,
+                {.key = "water_expansion_law",
+                 .text = "water's expansion beta_L over temperature, in pore pressure (source of the four values: not "
+                         "checked)"}),
       phase(&Phases::water_bulk_modulus, "water_bulk_modulus", "Pa", positive, "bulk modulus of water, K_L"),
       phase(&Phases::latent_heat, "latent_heat", "J/kg", not_negative,
             "latent heat of melting, L_f; Table 1 prints its unit as J/m3"),

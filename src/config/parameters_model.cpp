@@ -175,6 +175,10 @@ std::vector<Parameter<Band>> band_parameters() {
       parameter(&Band::region,
                 {.key = "region", .text = "particles that the scaling xi acts on", .source = "Sec. 2.3"}),
       parameter(&Band::cut_cells, {.key = "cut_cells", .text = "the band where the ground cuts through cells"}),
+      parameter(&Band::thickness_change,
+                {.key = "thickness_change",
+                 .text = "what becomes of heat where e changes over time, or with band.cut_cells along the ground, and "
+                         "where particles leave the first layer"}),
   };
 }
 
@@ -198,6 +202,8 @@ std::vector<Parameter<Heat>> heat_parameters() {
                 {.key = "advection",
                  .text = "seeping water carries heat; needs pressure.enabled and a hydraulic conductivity",
                  .source = "Eq. 9"}),
+      parameter(&Heat::advection_form,
+                {.key = "advection_form", .text = "form of the heat that seeping water carries", .source = "Eq. 9"}),
   };
 }
 
@@ -221,9 +227,29 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
                 {.key = "volumetric_term",
                  .text = "compressing the body presses on melted pore water too: -div v in Eq. 8, which Eq. 23 drops",
                  .source = "Eq. 8"}),
+      parameter(&Pressure::frozen, {.key = "frozen", .text = "pore pressure of frozen and partly frozen matter"}),
+      parameter(
+          &Pressure::residual_stress,
+          {.key = "residual_stress",
+           .unit = "Pa",
+           .range = {.low = 0, .infinity_allowed = true},
+           .text = "effective stress s0 that thawing leaves of the load N, with frozen = \"none\": the water then "
+                   "starts at N - s0; inf: at no excess pressure"}),
+      parameter(&Pressure::melt_contraction,
+                {.key = "melt_contraction",
+                 .text = "melt fills r = rho_I/rho_L of the pore that its ice filled: water has to fill the void "
+                         "n (1 - r) by expansion or inflow before its pressure rises; false: as if it were full"}),
+      parameter(&Pressure::skeleton_compressibility,
+                {.key = "skeleton_compressibility",
+                 .unit = "1/Pa",
+                 .range = at_least(0),
+                 .text = "volume by which the skeleton gives way per volume and effective stress, m_v: pores store "
+                         "n/K_L + m_v per pressure, and P follows the load above; 0: rigid pore"}),
       parameter(
           &Pressure::seepage,
           {.key = "seepage", .text = "Darcy flow of melted pore water (Eq. 22); false: undrained", .source = "Eq. 22"}),
+      parameter(&Pressure::frozen_rows,
+                {.key = "frozen_rows", .text = "frozen matter towards water that seeps to it; water lost is counted"}),
       parameter(&Pressure::seepage_scaling,
                 {.key = "seepage_scaling", .text = "how seepage is scaled in the band", .source = "Eq. 23"}),
       parameter(&Pressure::thickness_direction,

@@ -100,6 +100,35 @@ inline std::vector<Choice<CutCells>> choices(CutCells) {
   return {{CutCells::as_they_are, "as_they_are", "its cells hold what lies in them: xi = grid.cell / e everywhere"},
           {CutCells::equal_thickness, "equal_thickness", "xi is such that what lies in them counts as thick as e"}};
 }
+inline std::vector<Choice<ThicknessChange>> choices(ThicknessChange) {
+  return {{ThicknessChange::as_printed, "as_printed",
+           "temperatures stay: the heat that a thicker band then holds, or a thinner one lacks, is band_rescale_J"},
+          {ThicknessChange::conserving, "conserving",
+           "a band that thickens takes in matter as it was at t = 0 and mixes with it; one that thins leaves its own "
+           "behind: what comes and goes is band_rescale_J"}};
+}
+inline std::vector<Choice<AdvectionForm>> choices(AdvectionForm) {
+  return {
+      {AdvectionForm::as_printed, "as_printed", "rho_L C_L q_L.grad T, as Eq. 9 has it: what it makes is advection_J"},
+      {AdvectionForm::conservative, "conservative",
+       "-div(rho_L C_L q_L (T - Tref)): nothing is made, and water that drains takes its heat along"}};
+}
+inline std::vector<Choice<WaterExpansionLaw>> choices(WaterExpansionLaw) {
+  return {{WaterExpansionLaw::constant, "constant", "water_expansion"},
+          {WaterExpansionLaw::by_temperature, "by_temperature",
+           "-0.7e-4 at 0 C, 2.1e-4 at 20, 4.6e-4 at 50, 7.5e-4 1/K at 100, linear between and beyond"}};
+}
+inline std::vector<Choice<FrozenRows>> choices(FrozenRows) {
+  return {{FrozenRows::draining, "draining", "its pores take up water at the pressure of their ice: a sink"},
+          {FrozenRows::sealed, "sealed", "no water passes, as through ice"},
+          {FrozenRows::vented, "vented", "its pores lead to the air: P = 0 there"}};
+}
+inline std::vector<Choice<FrozenPressure>> choices(FrozenPressure) {
+  return {{FrozenPressure::ice_pressure, "ice_pressure",
+           "P_I = rho_I g H and Clapeyron's P_L, and from P_I/r on once melted (Eqs. 4, 21)"},
+          {FrozenPressure::none, "none",
+           "P = 0: ice carries load as a solid does; on thawing P starts at N - residual_stress, never below 0"}};
+}
 inline std::vector<Choice<HeatUpdate>> choices(HeatUpdate) {
   return {{HeatUpdate::enthalpy, "enthalpy", "heat content with its secant capacity: closes to round-off"},
           {HeatUpdate::apparent_capacity, "apparent_capacity",

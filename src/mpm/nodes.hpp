@@ -36,6 +36,7 @@ struct Nodes {
   SparseRecordsOf<BaseState, Dim, Real> base_state;  // where band columns lie under the slide
   SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
   SparseRecordsOf<Seepage, Dim, Real> seepage{room};   // of blocks to whose nodes water seeps
+  SparseRecordsOf<SeepingWater, Dim, Real> seeping_water{room};
   ActivityMarks marks;
 
   template <class Name>

@@ -122,7 +122,7 @@ struct BaseState {
 struct NodalState {
   using Functions = LinearFunctions;
   static constexpr std::size_t temperature = 0;       // [C]
-  static constexpr std::size_t pore_pressure = 1;     // [Pa]
+  static constexpr std::size_t pore_pressure = 1;     // [Pa], of the water that seeps
   static constexpr std::size_t temperature_rate = 2;  // [K/s]
   static constexpr std::size_t pressure_change = 3;   // what seepage brings in the step [Pa], Eq. 22
   template <int Dim>
@@ -159,10 +159,22 @@ struct Seepage {
   static constexpr std::size_t inflow = 0;      // times K_L [Pa m3/s]
   static constexpr std::size_t pore_space = 1;  // [m3]
   static constexpr std::size_t subgrid = 2;     // pore space times subgrid diffusion [Pa m3]
+  static constexpr std::size_t seeping = 3;     // pore space of particles that water seeps from and to [m3]
   template <int Dim>
-  static constexpr int size = 3;
+  static constexpr int size = 4;
   static constexpr int flux = 0;
   static auto& in(auto& nodes) { return nodes.seepage; }
+};
+
+// Sums over the particles whose pores take part in seepage, where these are not all.
+struct SeepingWater {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t volume = 0;         // sum S V [m3]
+  static constexpr std::size_t pore_pressure = 1;  // sum S V P
+  template <int Dim>
+  static constexpr int size = 2;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.seeping_water; }
 };
 
 // The records of MomentumLayout and MotionLayout, and the velocity mapped back from the moved particles (MUSL) [m/s].

@@ -78,6 +78,12 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases,
   return expansion(phases, porosity, saturation, Value(phases.water_expansion));
 }
 
+// A quantity per volume of two matters mixed by volume, of which `share` is of the first.
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value mixed(Value first, Value second, Value share) {
+  return share * first + (Value(1) - share) * second;
+}
+
 // exp(x) - 1; for the small arguments of a step by its series, which is exact to round-off there and much faster.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {

@@ -96,6 +96,14 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_storage(const Phases<Real>& phas
   return porosity / phases.water_bulk_modulus + skeleton_compressibility;
 }
 
+// n + K_L m_v [1]: what a rigid pore's porosity would have to be to store as much; n of Eqs. 8 and 23 where they divide
+// by it.
+template <class Real, class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value storing_porosity(const Phases<Real>& phases, Value porosity,
+                                                            Real skeleton_compressibility) {
+  return porosity + phases.water_bulk_modulus * skeleton_compressibility;
+}
+
 // n (1 - r) dS: the void that melting leaves, per volume of mixture [1]; melted: dS, share of the pore.
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melting_void(const Phases<Real>& phases, Value porosity, Value melted) {
@@ -125,7 +133,13 @@ struct PoreFilling {
   Value opening;   // volume of water that parts the base, per volume of mixture [1]
 };
 
-// storage n/K_L + m_v [1/Pa], above 0; normal load N [Pa].
+// storage n/K_L + m_v [1/Pa], above 0. Of a pore that nothing opens: P may pass any load.
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE PoreFilling<Value> pore_filling(Value surplus, Value storage) {
+  const Value none = 0;
+  return {max(surplus / storage, none), max(-surplus, none), none};
+}
+// The same below a normal load N [Pa], at which the base opens.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE PoreFilling<Value> pore_filling(Value surplus, Value storage, Value normal_load) {
   const Value none = 0;
@@ -139,13 +153,18 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_surplus(const PoreFilling<Value>
   return storage * filling.pressure + filling.opening - filling.gas_void;
 }
 
-// w [1] when the last ice of a pore melts: the water takes over what the ice carried of the load, N - s0, but not the
-// residual effective stress s0 [Pa], less what the void takes that melting left (Morgenstern and Nixon 1971 name s0;
-// s0 at N or above: no excess pressure).
+// P [Pa] when the last ice of a pore melts, while no void takes of it: N - s0, since the water takes over what the ice
+// carried of the load N, but not the residual effective stress s0 [Pa]. s0 at N or above: no excess pressure.
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value thawing_pressure(Value normal_load, Value residual_stress) {
+  return max(normal_load - residual_stress, Value(0));
+}
+
+// w [1] then, less what the void takes that melting left.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value thawing_surplus(Value storage, Value normal_load, Value residual_stress,
                                                            Value gas_void) {
-  return storage * max(normal_load - residual_stress, Value(0)) - gas_void;
+  return storage * thawing_pressure(normal_load, residual_stress) - gas_void;
 }
 
 }  // namespace thawslide::physics

@@ -128,7 +128,8 @@ class Block {
     displacement_ += middle * dt;
     slip_ += impulse.slides ? std::abs(middle) * dt : 0.0;
     const Table& thickness = parameters_.band.thickness;
-    heat_gain_ += column_.step(heat / dt, thickness.value.empty() ? 0.0 : thickness.at(time_), dt);
+    heat_gain_ +=
+        column_.step(heat / dt, basal_.normal_pressure[0], thickness.value.empty() ? 0.0 : thickness.at(time_), dt);
     time_ += dt;
   }
 
@@ -172,6 +173,7 @@ class Block {
     };
     return {slices_.thickness,
             parameters_.grid.cell,
+            gravity_on_slices(model_, path_, slices_, 0.0).normal / slices_.base,
             body.particles_per_axis,
             material,
             [&, seed_at](double depth) { return initial_temperature(model_, body, nullptr, seed_at(depth)); },

@@ -24,8 +24,9 @@ band::BandModel<2, double> of_a_rigid_body(band::BandModel<2, double> model) {
 }  // namespace
 
 BlockColumn::BlockColumn(const band::BandModel<2, double>& model, const Initial& initial)
-    : model_(of_a_rigid_body(model)), grid_(initial.cell) {
+    : model_(of_a_rigid_body(model)), grid_(initial.cell), thickness_(initial.thickness) {
   const double row_height = initial.cell / initial.rows_per_cell;
+  band::keep_fields(model_, rows_);
   rows_.resize(static_cast<std::size_t>(std::max(1.0, std::round(initial.thickness / row_height))));
   for (std::size_t p = 0; p < rows_.size(); ++p) {
     const double height = (static_cast<double>(p) + 0.5) * row_height;
@@ -43,6 +44,7 @@ BlockColumn::BlockColumn(const band::BandModel<2, double>& model, const Initial&
     rows_.porosity(p) = rows_.initial_porosity(p) = initial.porosity(depth, saturation);
   }
   band::set_heat_content(model_, rows_);
+  set_normal_load(initial.normal_pressure);
   band::set_pore_pressure(model_, rows_);
   grid_.update(rows_, 0);
   flow_depth_.update(grid_, model_, {}, rows_);
@@ -67,7 +69,15 @@ void BlockColumn::find_base_nodes() {
   }
 }
 
-double BlockColumn::step(double flux, double band_thickness, double dt) {
+void BlockColumn::set_normal_load(double normal_pressure) {
+  for (std::size_t p = 0; model_.needs_normal_load() && p < rows_.size(); ++p) {
+    const double load = normal_pressure * rows_.flow_depth(p) / thickness_;
+    rows_.load_change(p) = load - rows_.normal_load(p);
+    rows_.normal_load(p) = load;
+  }
+}
+
+double BlockColumn::step(double flux, double normal_pressure, double band_thickness, double dt) {
   band::rescale_band<2, double>(grid_, model_, band_thickness, {}, rows_);
   band::average_on_grid(grid_, model_, rows_, nodes_);
   const double before = heat();
@@ -79,6 +89,7 @@ double BlockColumn::step(double flux, double band_thickness, double dt) {
     band::conduct_heat(grid_, model_, dt, false, nodes_, rows_);
   }
   if (model_.pressure) {
+    set_normal_load(normal_pressure);
     band::drain_pore_pressure(grid_, model_, flow_depth_, dt, nodes_, rows_);
   }
   return heat() - before;

@@ -69,16 +69,23 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("advection_J", ledger.advection);
   add("capacity_heat_J", ledger.capacity_heat);
   add("porosity_heat_J", ledger.porosity_heat);
+  add("drained_heat_J", ledger.drained_heat);
   add("numerical_J", ledger.numerical);
   add("mechanical_residual_J", stored + dissipated + ledger.pore_work - ledger.frame_work - ledger.numerical +
                                    ledger.left_mechanical - ledger.joined_mechanical - ledger.initial_mechanical);
   add("thermal_residual_J", sums.sensible + sums.latent - ledger.initial_thermal - ledger.friction_heat -
                                 ledger.boundary_heat - ledger.band_rescale - ledger.advection - ledger.capacity_heat -
-                                ledger.porosity_heat + ledger.left_thermal - ledger.joined_thermal);
+                                ledger.porosity_heat + ledger.drained_heat + ledger.left_thermal -
+                                ledger.joined_thermal);
   add("mass_kg", sums.mass);
   add("rock_kg", sums.rock);
   add("ice_kg", sums.ice);
   add("water_kg", sums.water);
+  add("pore_water_kg", sums.water + sums.seeped);
+  add("drained_water_kg", ledger.drained_water);
+  add("vented_water_kg", ledger.vented_water);
+  add("seepage_residual_kg", sums.seeped + ledger.left_seeped + ledger.drained_water + ledger.vented_water);
+  add("pore_void_m3", sums.gas);
   add("mass_residual_kg", sums.mass + ledger.left_mass - ledger.joined_mass - ledger.initial_mass);
   add("left_mass_kg", ledger.left_mass);
   add("left_mechanical_J", ledger.left_mechanical);

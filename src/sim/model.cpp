@@ -161,6 +161,26 @@ band::AnyHeatContent<Real> make_heat_content(const config::Case& parameters, con
       phases, {reference, static_cast<Real>(freezing.exponent)}, latent};
 }
 
+template <class Real>
+void set_water_balance(const config::Case& parameters, band::BandPhysics<Real>& band) {
+  const config::Pressure& pressure = parameters.pressure;
+  band.frozen_rows = pressure.frozen_rows == config::FrozenRows::sealed   ? band::FrozenRows::sealed
+                     : pressure.frozen_rows == config::FrozenRows::vented ? band::FrozenRows::vented
+                                                                          : band::FrozenRows::draining;
+  band.ice_presses = pressure.frozen == config::FrozenPressure::ice_pressure;
+  band.melt_contracts = pressure.melt_contraction;
+  band.residual_stress = static_cast<Real>(pressure.residual_stress);
+  band.skeleton_compressibility = static_cast<Real>(pressure.skeleton_compressibility);
+  band.water.law = parameters.phases.water_expansion_law == config::WaterExpansionLaw::by_temperature
+                       ? physics::WaterExpansionLaw::by_temperature
+                       : physics::WaterExpansionLaw::constant;
+  band.water.constant = static_cast<Real>(parameters.phases.water_expansion);
+  band.conservative_advection =
+      parameters.heat.enabled && parameters.heat.advection_form == config::AdvectionForm::conservative;
+  band.rescaling_mixes =
+      parameters.heat.enabled && parameters.band.thickness_change == config::ThicknessChange::conserving;
+}
+
 template <int Dim, class Real>
 band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::MotionModel<Dim, Real>& motion,
                                      const Vector<Real, Dim>& extent) {
@@ -193,6 +213,7 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   band.normal_thickness = parameters.pressure.thickness_direction == config::ThicknessDirection::normal;
   band.thickness_each_step = parameters.pressure.thickness_update == config::ThicknessUpdate::each_step;
   band.gravity = static_cast<Real>(parameters.general.gravity);
+  set_water_balance(parameters, band);
   for (const auto& material : motion.materials) {
     band.hydraulic_conductivity.push_back(material.hydraulic_conductivity);
   }

@@ -64,6 +64,9 @@ void Simulation<Dim, Real>::update_ground() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::average_band_on_grid() {
+  if (model_.band.rescaling_mixes) {
+    rescale_band();  // which changes temperatures
+  }
   if (model_.ground || model_.band.heat || model_.band.pressure) {
     band::average_on_grid(grid_, model_.band, particles_, nodes_);
   }
@@ -113,7 +116,7 @@ void Simulation<Dim, Real>::update_stress_and_porosity() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::conduct_heat() {
+void Simulation<Dim, Real>::rescale_band() {
   Real added = 0;
   const bool depends_on_place = model_.band.region != band::ScaledRegion::all || model_.layer_thickness;
   if (depends_on_place || band_thickness() != thickness_in_force_) {
@@ -121,10 +124,17 @@ void Simulation<Dim, Real>::conduct_heat() {
     added = band::rescale_band(grid_, model_.band, static_cast<Real>(thickness_in_force_), model_.layer_thickness,
                                particles_);
   }
+  ledger_.band_rescale += model_.band.heat ? added : Real(0);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::conduct_heat() {
+  if (!model_.band.rescaling_mixes) {
+    rescale_band();
+  }
   if (!model_.band.heat) {
     return;
   }
-  ledger_.band_rescale += added;
   const auto gain = band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_);
   ledger_.friction_heat += gain.friction;
   ledger_.boundary_heat += gain.boundary;
@@ -139,7 +149,11 @@ void Simulation<Dim, Real>::drain_pore_pressure() {
     return;
   }
   update_columns();
-  band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, particles_);
+  update_normal_load();
+  const auto loss = band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, particles_);
+  ledger_.drained_water += loss.drained.mass;
+  ledger_.drained_heat += loss.drained.heat;
+  ledger_.vented_water += loss.vented;
 }
 
 template <int Dim, class Real>
@@ -194,6 +208,7 @@ void Simulation<Dim, Real>::begin() {
   band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);
   update_columns();
   flow_depth_.depth_to_particles(grid_, particles_);
+  update_normal_load();
   band::set_pore_pressure(model_.band, particles_);
   start_ledger();
 }
@@ -243,7 +258,7 @@ void Simulation<Dim, Real>::seed() {
   const auto& materials = model_.motion.materials;
   particles_.affine_velocity.keep(model_.motion.transfer == mpm::TransferKind::apic);
   particles_.viscous_stress.keep(model_.motion.viscous());
-  particles_.volume_strain.keep(model_.band.volumetric_term);
+  band::keep_fields(model_.band, particles_);
   particles_.gap.keep(
       std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.gaps_close_first; }));
   fill_bodies(parameters_, site_, model_, particles_);

@@ -99,6 +99,8 @@ class Simulation {
   [[nodiscard]] std::string way_ahead(std::size_t particle) const;
   void mark_band();
   void update_columns();
+  void update_normal_load(std::size_t first = 0);
+  void rescale_band();
   void start_ledger();
   void stop_if_bad();
   [[nodiscard]] double band_thickness() const;
@@ -128,6 +130,8 @@ template <int Dim, class Real>
 struct BodySums {
   Real kinetic = 0, potential = 0, sensible = 0, latent = 0;
   Real mass = 0, rock = 0, ice = 0, water = 0;
+  Real seeped = 0;  // water that seepage brought, less what it took [kg]
+  Real gas = 0;     // void in the pores of the band's own matter [m3]
   Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();
 };
 

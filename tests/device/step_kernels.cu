@@ -221,13 +221,20 @@ __global__ void seepage(TileOnDevice<Dim> tile, Results<Dim, band::SeepageFlows<
 }
 
 template <int Dim>
-using Pressure = band::PorePressure<Real, const band::ColumnsOfTile<Dim, Real>&, true>;
+__global__ void seeping_water(TileOnDevice<Dim> tile, Results<Dim, band::AddSeepingWater<Dim, Real>> to,
+                              band::BandPhysics<Real> model, band::HydraulicConductivity<Real> hydraulic) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::AddSeepingWater<Dim, Real>{model, hydraulic});
+}
 
-template <int Dim>
-__global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim>> to, band::BandPhysics<Real> model,
-                              band::HydraulicConductivity<Real> hydraulic,
+template <int Dim, bool Balances>
+using Pressure = band::PorePressure<Real, const band::ColumnsOfTile<Dim, Real>&, true, Balances>;
+
+template <int Dim, bool Balances>
+__global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim, Balances>> to,
+                              band::BandPhysics<Real> model, band::HydraulicConductivity<Real> hydraulic,
                               const band::ColumnsOfTile<Dim, Real>* columns) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, Pressure<Dim>{model, hydraulic, Real(0.5) * tile.cell, *columns});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts,
+                    Pressure<Dim, Balances>{model, hydraulic, Real(0.5) * tile.cell, *columns});
 }
 
 template <int Dim>
@@ -278,7 +285,9 @@ void instantiate() {
   masses_anew<Dim, PowerLaw><<<1, 128>>>(tile, {}, {});
   orphan_heat<Dim><<<1, 128>>>(tile, {}, 0);
   seepage<Dim><<<1, 128>>>(tile, {}, {}, {}, 0);
-  pore_pressure<Dim><<<1, 128>>>(tile, {}, {}, {}, nullptr);
+  seeping_water<Dim><<<1, 128>>>(tile, {}, {}, {});
+  pore_pressure<Dim, false><<<1, 128>>>(tile, {}, {}, {}, nullptr);
+  pore_pressure<Dim, true><<<1, 128>>>(tile, {}, {}, {}, nullptr);
   sum_in_cell<mpm::Momentum, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
   sum_in_cell<mpm::HeatRates, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
   sum_in_cell<mpm::Clearance, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
