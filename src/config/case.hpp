@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/table.hpp"
+#include "physics/basal/parameter.hpp"
 
 namespace thawslide::config {
 
@@ -29,8 +30,6 @@ enum class Leaving { stop, remove };
 enum class ShapeFunction { ugimp, linear, quadratic };
 enum class Transfer { flip, blend, apic };
 enum class InitialStress { geostatic, none, settle };
-enum class FrictionLaw { constant, lubricated };
-enum class CohesionLaw { constant, slip, ice, time };
 enum class FrictionClamp { keep_cohesion, joint };
 enum class BandRegion { all, first_layer };
 enum class CutCells { as_they_are, equal_thickness };
@@ -174,16 +173,22 @@ struct Mechanics {
   double mass_damping = 0.0;      // 1/s, during the run
 };
 
-struct Basal {
-  FrictionLaw friction = FrictionLaw::lubricated;
-  double friction_angle = 0;  // degrees
-  double lubrication_exponent = 2.0;
-  double min_solid_fraction = 0.05, max_solid_fraction = 0.85;
-  double cohesion = 0;
-  CohesionLaw cohesion_law = CohesionLaw::slip;
-  double residual_cohesion = 0;
-  double slip_distance = 0;       // m, d_c of the slip law
-  double cohesion_loss_time = 0;  // s, the time law
+// Numbers that laws of the base take, by key; one that is not here has its default.
+struct LawNumbers {
+  std::map<std::string, double> by_key;
+
+  [[nodiscard]] double operator()(const physics::basal::Parameter& number) const;
+  [[nodiscard]] double& operator[](const physics::basal::Parameter& number);
+};
+
+// What one kind of ground bears: words of physics/basal/laws.hpp, and the numbers of these laws.
+struct GroundStrength {
+  std::string friction = "lubricated";
+  std::string cohesion_law = "slip";
+  LawNumbers numbers;
+};
+
+struct Basal : GroundStrength {
   FrictionClamp clamp = FrictionClamp::keep_cohesion;
   bool cap_pressure = false;   // P <= N
   double heat_fraction = 1.0;  // energy conversion coefficient

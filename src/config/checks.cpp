@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
 
@@ -77,21 +78,23 @@ void check_materials(const Case& checked, Reading& reading) {
 }
 
 void check_basal(const Case& checked, Reading& reading) {
-  const Basal& basal = checked.basal;
-  if (reading.sound({"basal.min_solid_fraction", "basal.max_solid_fraction"}) &&
-      basal.min_solid_fraction >= basal.max_solid_fraction) {
+  const LawNumbers& numbers = checked.basal.numbers;
+  const double least = numbers(physics::basal::min_solid_fraction), most = numbers(physics::basal::max_solid_fraction);
+  const double initial = numbers(physics::basal::initial_cohesion),
+               residual = numbers(physics::basal::residual_cohesion);
+  if (reading.sound({"basal.min_solid_fraction", "basal.max_solid_fraction"}) && least >= most) {
     reading.report_misfit(
         {"basal.max_solid_fraction", "basal.min_solid_fraction"},
         fmt::format("basal.max_solid_fraction is {}, not above basal.min_solid_fraction, which is {}; Eq. 25 "
                     "divides by their difference. Make the one larger or the other smaller.",
-                    basal.max_solid_fraction, basal.min_solid_fraction));
+                    most, least));
   }
-  if (reading.sound({"basal.cohesion", "basal.residual_cohesion"}) && basal.residual_cohesion > basal.cohesion) {
+  if (reading.sound({"basal.cohesion", "basal.residual_cohesion"}) && residual > initial) {
     reading.report_misfit(
         {"basal.residual_cohesion", "basal.cohesion"},
         fmt::format("basal.residual_cohesion is {} Pa, above basal.cohesion, which is {} Pa; cohesion along the "
                     "ground is only lost. Give a residual at most the cohesion.",
-                    basal.residual_cohesion, basal.cohesion));
+                    residual, initial));
   }
 }
 

@@ -1,4 +1,4 @@
-// The parameters of the model: [mechanics], [basal], [mechanisms], [band], [heat], [pressure].
+// The parameters of the model: [mechanics], [mechanisms], [band], [heat], [pressure].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -52,93 +52,6 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
                                            .range = at_least(0),
                                            .text = "rate at which velocities are damped during the run; 0: none"}),
   };
-}
-
-bool loses_cohesion(const Case& whole, const Basal& basal, CohesionLaw law) {
-  return whole.terrain.kind != TerrainKind::none && basal.cohesion_law == law && basal.cohesion > 0;
-}
-
-std::vector<Parameter<Basal>> friction_parameters() {
-  return {
-      parameter(&Basal::friction,
-                {.key = "friction", .text = "law of the friction coefficient mu_e", .source = "Eqs. 17, 25"}),
-      parameter(&Basal::friction_angle, {.key = "friction_angle",
-                                         .unit = "degrees",
-                                         .range = {.low = 0, .high = 90, .high_open = true},
-                                         .text = "basal friction angle phi_f",
-                                         .source = "Eq. 25, Tables 2, 3"})
-          .required_if("when there is a terrain",
-                       [](const Case& whole, const Basal&) {
-                         return whole.terrain.kind != TerrainKind::none && whole.mechanics.enabled;
-                       }),
-      parameter(&Basal::lubrication_exponent,
-                {.key = "lubrication_exponent",
-                 .range = above(0),
-                 .text = "exponent omega: the larger, the later friction falls as solid is lost",
-                 .source = "Eq. 25"}),
-      parameter(&Basal::min_solid_fraction, {.key = "min_solid_fraction",
-                                             .range = between(0, 1),
-                                             .text = "effective solid fraction at which friction vanishes, n_min",
-                                             .source = "Eq. 25"}),
-      parameter(&Basal::max_solid_fraction, {.key = "max_solid_fraction",
-                                             .range = between(0, 1),
-                                             .text = "effective solid fraction at which friction is whole, n_max",
-                                             .source = "Eq. 25"}),
-      parameter(&Basal::clamp,
-                {.key = "clamp",
-                 .text = "strength S_slide of the ground where the pore pressure P passes the normal stress N",
-                 .source = "Eq. 17"}),
-      parameter(&Basal::cap_pressure, {.key = "cap_pressure",
-                                       .text = "the pore pressure P counts as N, the normal stress, at most",
-                                       .source = "Eq. 17"}),
-      parameter(&Basal::heat_fraction,
-                {.key = "heat_fraction",
-                 .range = between(0, 1),
-                 .text = "energy conversion coefficient: share of the friction work that heats the slide",
-                 .source = "Eq. 20, Secs. 3.3, 4"}),
-      parameter(&Basal::distance_check,
-                {.key = "distance_check",
-                 .text = "contact waits until the particles' own edges reach the ground; off: it acts as soon as nodes "
-                         "feel the slide approach, up to a cell early",
-                 .source = "Nairn 2013"}),
-  };
-}
-
-std::vector<Parameter<Basal>> cohesion_parameters() {
-  return {
-      parameter(&Basal::cohesion, {.key = "cohesion",
-                                   .unit = "Pa",
-                                   .range = at_least(0),
-                                   .text = "cohesion along the ground at t = 0, c_0",
-                                   .source = "Eq. 17"}),
-      parameter(&Basal::cohesion_law, {.key = "cohesion_law", .text = "how the cohesion c_S along the ground is lost"}),
-      parameter(&Basal::residual_cohesion, {.key = "residual_cohesion",
-                                            .unit = "Pa",
-                                            .range = at_least(0),
-                                            .text = "cohesion that is left, c_r, of the laws \"slip\" and \"time\""}),
-      parameter(&Basal::slip_distance, {.key = "slip_distance",
-                                        .unit = "m",
-                                        .range = above(0),
-                                        .text = "slip over which the cohesion falls to 1/e, d_c, of the law \"slip\""})
-          .required_if(
-              "when basal.cohesion > 0 and basal.cohesion_law is \"slip\"",
-              [](const Case& whole, const Basal& basal) { return loses_cohesion(whole, basal, CohesionLaw::slip); }),
-      parameter(&Basal::cohesion_loss_time, {.key = "cohesion_loss_time",
-                                             .unit = "s",
-                                             .range = at_least(0),
-                                             .text = "time at which the cohesion is lost, of the law \"time\""})
-          .required_if(
-              "when basal.cohesion > 0 and basal.cohesion_law is \"time\"",
-              [](const Case& whole, const Basal& basal) { return loses_cohesion(whole, basal, CohesionLaw::time); }),
-  };
-}
-
-std::vector<Parameter<Basal>> basal_parameters() {
-  std::vector<Parameter<Basal>> result = friction_parameters();
-  for (auto& cohesion : cohesion_parameters()) {
-    result.push_back(std::move(cohesion));
-  }
-  return result;
 }
 
 std::vector<Parameter<Mechanisms>> mechanism_parameters() {
@@ -265,8 +178,7 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
 void declare_model(Tables& tables) {
   tables.push_back(std::make_unique<SingleTable<Mechanics>>("mechanics", "Momentum and stress", &Case::mechanics,
                                                             mechanics_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Basal>>("basal", "Friction and cohesion along the ground", &Case::basal,
-                                                        basal_parameters()));
+  declare_basal(tables);
   tables.push_back(std::make_unique<SingleTable<Mechanisms>>("mechanisms", "The mechanisms of Sec. 3.3, on or off",
                                                              &Case::mechanisms, mechanism_parameters()));
   tables.push_back(

@@ -77,17 +77,6 @@ inline std::vector<Choice<InitialStress>> choices(InitialStress) {
       {InitialStress::none, "none", "stress-free: gravity acts suddenly"},
       {InitialStress::settle, "settle", "gravity acts on the damped body, held by its base, before t = 0"}};
 }
-inline std::vector<Choice<FrictionLaw>> choices(FrictionLaw) {
-  return {
-      {FrictionLaw::constant, "constant", "tan(friction_angle)"},
-      {FrictionLaw::lubricated, "lubricated", "tan(friction_angle) times a factor that falls as ice melts (Eq. 25)"}};
-}
-inline std::vector<Choice<CohesionLaw>> choices(CohesionLaw) {
-  return {{CohesionLaw::constant, "constant", "cohesion, for ever"},
-          {CohesionLaw::slip, "slip", "c_r + (c_0 - c_r) exp(-slip/slip_distance)"},
-          {CohesionLaw::ice, "ice", "cohesion (1 - S_L): in proportion to the ice"},
-          {CohesionLaw::time, "time", "cohesion before cohesion_loss_time, residual_cohesion from then on"}};
-}
 inline std::vector<Choice<FrictionClamp>> choices(FrictionClamp) {
   return {{FrictionClamp::keep_cohesion, "keep_cohesion", "mu_e max(0, N - P) + c_S: cohesion is kept"},
           {FrictionClamp::joint, "joint", "max(0, mu_e (N - P) + c_S): excess pressure cancels cohesion"}};

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "config/basal_laws.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/layer_thickness.hpp"
 #include "terrain/profile_surface.hpp"
@@ -110,37 +111,11 @@ mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, con
   return constraints;
 }
 
-terrain::CohesionLoss make_cohesion_loss(const config::Basal& basal) {
-  if (basal.cohesion <= 0.0) {
-    return terrain::CohesionLoss::constant;  // nothing to lose: the other laws' parameters may be absent
-  }
-  switch (basal.cohesion_law) {
-    case config::CohesionLaw::slip:
-      return terrain::CohesionLoss::slip;
-    case config::CohesionLaw::ice:
-      return terrain::CohesionLoss::ice;
-    case config::CohesionLaw::time:
-      return terrain::CohesionLoss::time;
-    case config::CohesionLaw::constant:
-      break;
-  }
-  return terrain::CohesionLoss::constant;
-}
-
 template <class Real>
-terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
-  const config::Basal& basal = parameters.basal;
+terrain::BasalLaw<Real> make_basal_law(const config::Basal& basal) {
   terrain::BasalLaw<Real> law;
-  law.friction_coefficient = static_cast<Real>(std::tan(radians(basal.friction_angle)));
-  law.lubricated = basal.friction == config::FrictionLaw::lubricated;
-  law.lubrication_exponent = static_cast<Real>(basal.lubrication_exponent);
-  law.min_solid_fraction = static_cast<Real>(basal.min_solid_fraction);
-  law.max_solid_fraction = static_cast<Real>(basal.max_solid_fraction);
-  law.cohesion = static_cast<Real>(basal.cohesion);
-  law.residual_cohesion = static_cast<Real>(basal.residual_cohesion);
-  law.cohesion_loss = make_cohesion_loss(basal);
-  law.slip_distance = static_cast<Real>(basal.slip_distance);
-  law.cohesion_loss_time = static_cast<Real>(basal.cohesion_loss_time);
+  law.friction = config::friction_of<Real>(basal);
+  law.cohesion = config::cohesion_of<Real>(basal);
   law.clamp = basal.clamp == config::FrictionClamp::joint ? physics::FrictionClamp::joint
                                                           : physics::FrictionClamp::keep_cohesion;
   law.cap_pressure = basal.cap_pressure;
@@ -334,7 +309,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
     model.motion.sizes.add(Real(1) / static_cast<Real>(2 * body.particles_per_axis));
   }
   model.constraints = make_constraints<Dim, Real>(parameters, model.origin);
-  model.contact.law = make_basal_law<Real>(parameters);
+  model.contact.law = make_basal_law<Real>(parameters.basal);
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
   model.contact.distance_check = parameters.basal.distance_check;

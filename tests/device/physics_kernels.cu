@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "physics/basal/laws.hpp"
 #include "physics/basal_friction.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/contact.hpp"
@@ -155,14 +156,33 @@ __global__ void water_balance(Phases<Real> phases, WaterExpansion<Real> water, R
   result.put(pore_surplus(filling, storage));
 }
 
+__device__ basal::ContactNode<Real> take_node(Row& row) {
+  return {row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take()};
+}
+
+template <class Law>
+__global__ void friction_law(Law law, Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  result.put(law.coefficient(take_node(row)));
+}
+template <class Law>
+__global__ void cohesion_law(Law law, Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  result.put(law.cohesion(take_node(row)));
+}
+
+// A kernel for each law of the lists.
+void use_every_law(void (*use)(const void* kernel)) {
+  basal::for_each_law<basal::FrictionLaw<Real>>(
+      [&]<class Law>(basal::OfType<Law>) { use(reinterpret_cast<const void*>(friction_law<Law>)); });
+  basal::for_each_law<basal::CohesionLaw<Real>>(
+      [&]<class Law>(basal::OfType<Law>) { use(reinterpret_cast<const void*>(cohesion_law<Law>)); });
+}
+
 __global__ void basal_contact(FrictionClamp clamp, bool cap_pressure, Real dt, Real* numbers, Real* results,
                               std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
-  const Real friction = lubrication_factor(row.take(), row.take(), row.take(), row.take());
-  const Real cohesion = cohesion_after_slip(row.take(), row.take(), row.take(), row.take());
-  const Real with_ice = cohesion_of_ice(cohesion, row.take());
-  const Real lasting = cohesion_until(with_ice, row.take(), row.take(), row.take());
-  const Real strength = sliding_strength(friction, row.take(), row.take(), lasting, clamp, cap_pressure);
+  const Real strength = sliding_strength(row.take(), row.take(), row.take(), row.take(), clamp, cap_pressure);
   const ContactImpulse<Real> impulse = contact_impulse(row.take(), row.take(), row.take(), dt, strength);
   result.put(impulse.normal);
   result.put(impulse.tangential);

@@ -6,6 +6,7 @@
 #include "case_messages.hpp"
 #include "config/declaration.hpp"
 #include "config/describe.hpp"
+#include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -29,7 +30,7 @@ Case sound_over_initialisers() {
   Body& block = expected.bodies["block"];
   block.material = "rock";
   block.max = {40.0, 20.0, 0.0};
-  expected.basal.friction_angle = 20.0;
+  expected.basal.numbers[physics::basal::friction_angle] = 20.0;
   return expected;
 }
 
@@ -52,7 +53,13 @@ TEST(CaseFile, DefaultsAreThoseOfThePaper) {
   EXPECT_EQ(found.phases.ice_to_rock_density_ratio, 1.0 / 3.0);
   EXPECT_EQ(found.freezing.curve, CurveKind::power_law);
   EXPECT_EQ(found.freezing.exponent, 5.0);
-  EXPECT_EQ(found.basal.friction, FrictionLaw::lubricated);
+  EXPECT_EQ(found.basal.friction, "lubricated");
+  EXPECT_EQ(found.basal.numbers(physics::basal::lubrication_exponent), 2.0);
+  EXPECT_EQ(found.basal.numbers(physics::basal::min_solid_fraction), 0.05);
+  EXPECT_EQ(found.basal.numbers(physics::basal::max_solid_fraction), 0.85);
+  EXPECT_EQ(found.basal.cohesion_law, "slip");
+  EXPECT_EQ(found.basal.numbers(physics::basal::initial_cohesion), 0.0);
+  EXPECT_EQ(found.basal.numbers(physics::basal::residual_cohesion), 0.0);
   EXPECT_EQ(found.basal.clamp, FrictionClamp::keep_cohesion);
   EXPECT_EQ(found.pressure.clapeyron, ClapeyronSign::usual);
   EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::ugimp);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "physics/basal_friction.hpp"
 #include "physics/contact.hpp"
 #include "scalar_points.hpp"
 #include "terrain/main_axis.hpp"
@@ -161,10 +160,10 @@ class ScalarContact {
     const double pore = average(node, sums_.linear, mpm::Averages::pore_pressure, NearGround::pore_pressure);
     const double solid =
         average(node, sums_.near_ground_by_linear, solid_fraction_by_linear, NearGround::solid_fraction);
-    const double factor =
-        physics::lubrication_factor(solid, law.min_solid_fraction, law.max_solid_fraction, law.lubrication_exponent);
-    return physics::sliding_strength(factor * law.friction_coefficient, normal_pressure, pore, law.cohesion, law.clamp,
-                                     law.cap_pressure);
+    const physics::basal::ContactNode<double> state{.solid_fraction = solid};
+    const double friction = std::get<physics::basal::LubricatedFriction<double>>(law.friction).coefficient(state);
+    const double cohesion = std::get<physics::basal::ConstantCohesion<double>>(law.cohesion).initial;
+    return physics::sliding_strength(friction, normal_pressure, pore, cohesion, law.clamp, law.cap_pressure);
   }
 
   [[nodiscard]] NodeMotion<Dim> move(const Index& node) const {
