@@ -69,6 +69,9 @@ int resume_run(const ResumeOptions& options) {
     const NamedNumbers blocks =
         io::read_checkpoint<Dim, double>(folder / "checkpoint.bin", simulation.particles(), scalars);
     simulation.restore(scalars);
+    if (simulation.band_columns() != nullptr) {
+      simulation.restore_band_columns(blocks.at("band_columns"));
+    }
     if (simulation.time() >= parameters.time.end - 0.5 * simulation.last_step()) {
       fmt::print("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
       return static_cast<int>(ExitCode::done);

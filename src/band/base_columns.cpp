@@ -75,13 +75,12 @@ void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, cons
 // The places of new pieces lie on a lattice of one a cell, so that they do not depend on the order of nodes.
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                        const NodeGroundOf& node_ground, Real thickness,
-                                        mpm::Nodes<Dim, Real>& nodes) {
+                                        const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim, Real>& nodes) {
   std::set<std::array<int, Dim - 1>> places;
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
-      const bool uncovered = nodes.contact(b, k)[Contact::touching] > Real(0) &&
-                             !(nodes.base_state(b, k)[BaseState::area] > Real(0));
+      const bool uncovered =
+          nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0));
       if (!uncovered) {
         continue;
       }
@@ -119,8 +118,7 @@ void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, 
     const Stencil stencil(grid, piece.position);
     for (std::size_t k = 0; k < stencil.count; ++k) {
       if (nodes.base_state.holds(stencil.block[k])) {
-        nodes.base_state.of_block(stencil.block[k])[stencil.node[k]][BaseState::area] +=
-            stencil.weight[k] * piece.area;
+        nodes.base_state.of_block(stencil.block[k])[stencil.node[k]][BaseState::area] += stencil.weight[k] * piece.area;
       }
     }
     pieces_.push_back(piece);
@@ -128,12 +126,14 @@ void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, 
 }
 
 // The velocity of the slide at a piece, and how it changes along the ground: a linear fit to the nodes about it, each
-// weighted by its mass. Velocities are turned from the ground below the node to that of the piece, so that a bend of the
-// ground stretches nothing.
+// weighted by its mass. Velocities are turned from the ground below the node to that of the piece, so that a bend of
+// the ground stretches nothing.
 template <int Dim, class Real>
-typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(
-    const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground, const Stencil& stencil,
-    const mpm::Nodes<Dim, Real>& nodes, const Piece& piece) const {
+typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                           const NodeGroundOf& node_ground,
+                                                                           const Stencil& stencil,
+                                                                           const mpm::Nodes<Dim, Real>& nodes,
+                                                                           const Piece& piece) const {
   constexpr Real smallest_spread = static_cast<Real>(1e-3);  // of places, in cells squared
   const auto along_ground = [&](const Vector<Real, Dim>& v) -> Vector<Real, Dim> {
     return v - v.dot(piece.normal) * piece.normal;
@@ -265,9 +265,9 @@ Real BaseColumns<Dim, Real>::wanted_thickness(const Piece& piece, Real thickness
     wanted = std::max(now, thickness + model_.growth_per_slip * piece.slip);
   } else if (model_.growth == BandGrowth::inertial && piece.load > Real(0)) {
     const Real effective = std::max(piece.load - means_of(piece).pore_pressure, least_effective * piece.load);
-    wanted = std::max({now, thickness,
-                       piece.speed * model_.grain_size * std::sqrt(model_.rock_density / effective) /
-                           model_.inertial_number});
+    wanted = std::max(
+        {now, thickness,
+         piece.speed * model_.grain_size * std::sqrt(model_.rock_density / effective) / model_.inertial_number});
   }
   return std::min({std::max(wanted, now / fastest_growth), now * fastest_growth, model_.largest_thickness});
 }

@@ -32,7 +32,7 @@ struct ColumnsModel {
   BandGrowth growth = BandGrowth::none;
   Real grain_size = 0, inertial_number = 1;  // d [m], I
   Real growth_per_slip = 0;
-  Real rock_density = 0;      // rho_S [kg/m3]
+  Real rock_density = 0;       // rho_S [kg/m3]
   Real largest_thickness = 0;  // of the band [m]
 };
 
@@ -110,13 +110,12 @@ class BaseColumns {
                   Real thickness, mpm::Nodes<Dim, Real>& nodes);
   // How the slide about a piece moves.
   struct Nearby {
-    Vector<Real, Dim> velocity;    // along the ground [m/s]
-    Matrix<Real, Dim> gradient;    // of it, along the ground [1/s]
+    Vector<Real, Dim> velocity;  // along the ground [m/s]
+    Matrix<Real, Dim> gradient;  // of it, along the ground [1/s]
     bool is_there = false;
   };
   [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
-                                  const Stencil& stencil, const mpm::Nodes<Dim, Real>& nodes,
-                                  const Piece& piece) const;
+                                  const Stencil& stencil, const mpm::Nodes<Dim, Real>& nodes, const Piece& piece) const;
   void take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const;
   void move(const Ground& ground, const Nearby& slide, Real dt, Piece& piece) const;
   void part_long_pieces(Real longest, const Ground& ground);

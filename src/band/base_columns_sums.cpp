@@ -65,8 +65,7 @@ BaseMeans<Real> BaseColumns<Dim, Real>::means() const {
     result.thickness += piece.area * piece.column.thickness;
     const Real* slide = piece.column.temperature + physics::ColumnCells::ground;
     result.hottest = std::max(result.hottest, *std::max_element(slide, slide + physics::ColumnCells::slide));
-    const Real highest =
-        *std::max_element(piece.column.pressure, piece.column.pressure + physics::ColumnCells::slide);
+    const Real highest = *std::max_element(piece.column.pressure, piece.column.pressure + physics::ColumnCells::slide);
     if (piece.load > Real(0)) {
       result.largest_pressure_ratio = std::max(result.largest_pressure_ratio, highest / piece.load);
     }
@@ -110,10 +109,10 @@ void BaseColumns<Dim, Real>::restore(const std::vector<double>& numbers) {
   THAWSLIDE_ASSERT(next == numbers.size(), "{} numbers of band columns for {}", numbers.size(), next);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                              \
-  template ColumnSums<Real> BaseColumns<Dim, Real>::sums() const;                     \
-  template BaseMeans<Real> BaseColumns<Dim, Real>::means() const;                     \
-  template std::vector<double> BaseColumns<Dim, Real>::state() const;                 \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                              \
+  template ColumnSums<Real> BaseColumns<Dim, Real>::sums() const;     \
+  template BaseMeans<Real> BaseColumns<Dim, Real>::means() const;     \
+  template std::vector<double> BaseColumns<Dim, Real>::state() const; \
   template void BaseColumns<Dim, Real>::restore(const std::vector<double>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -33,6 +33,9 @@ enum class InitialStress { geostatic, none, settle };
 enum class FrictionClamp { keep_cohesion, joint };
 enum class BandRegion { all, first_layer };
 enum class CutCells { as_they_are, equal_thickness };
+enum class BandKind { scaled, columns };
+enum class BandGrowth { none, inertial, slip };
+enum class EndOfWater { sealed, vented };
 enum class ThicknessChange { as_printed, conserving };
 enum class AdvectionForm { as_printed, conservative };
 enum class WaterExpansionLaw { constant, by_temperature };
@@ -200,10 +203,18 @@ struct Mechanisms {  // Sec. 3.3
 };
 
 struct Band {
+  BandKind model = BandKind::scaled;
   Table thickness;  // m over time; empty: no band, xi = 1
   BandRegion region = BandRegion::all;
   CutCells cut_cells = CutCells::as_they_are;
   ThicknessChange thickness_change = ThicknessChange::as_printed;
+  BandGrowth growth = BandGrowth::none;
+  double grain_size = 0.05;      // m, BandGrowth::inertial
+  double inertial_number = 0.3;  // BandGrowth::inertial
+  double growth_per_slip = 0;    // BandGrowth::slip
+  double load_time = 1.0;        // s, over which N is averaged
+  double column_step = 0.05;     // s, largest time between the steps of a column
+  double ground_temperature = std::numeric_limits<double>::quiet_NaN();  // C; not a number: that of the body's base
 };
 
 struct HeatBoundary {
@@ -216,6 +227,7 @@ struct Heat {
   HeatUpdate update = HeatUpdate::enthalpy;
   HeatMasses masses = HeatMasses::initial;
   bool latent = true;
+  bool steam = true;
   bool conduction = true;
   bool advection = true;
   AdvectionForm advection_form = AdvectionForm::as_printed;
@@ -233,6 +245,8 @@ struct Pressure {
   double skeleton_compressibility = 0;                               // 1/Pa, m_v; 0: rigid pore
   bool seepage = true;
   FrozenRows frozen_rows = FrozenRows::draining;
+  EndOfWater column_top = EndOfWater::vented;
+  double water_to_steam_viscosity = 0;  // ratio; 0: steam does not seep
   SeepageScaling seepage_scaling = SeepageScaling::consistent;
   ThicknessDirection thickness_direction = ThicknessDirection::normal;
   ThicknessUpdate thickness_update = ThicknessUpdate::each_step;

@@ -176,6 +176,31 @@ void check_switches(const Case& checked, Reading& reading) {
   }
 }
 
+// Band columns have none of the forms that make heat or water from nothing.
+void check_band_columns(const Case& checked, Reading& reading) {
+  if (!reading.sound({"band.model"}) || checked.band.model != BandKind::columns) {
+    return;
+  }
+  const auto require = [&](bool met, const char* key, const char* found, const char* allowed) {
+    if (reading.sound({key}) && !met) {
+      reading.report_misfit({key, "band.model"},
+                            fmt::format("band.model is \"columns\", and {} is {}; allowed with it: {}. Set {} so, or "
+                                        "band.model = \"scaled\".",
+                                        key, found, allowed, key));
+    }
+  };
+  require(checked.terrain.kind != TerrainKind::none, "terrain.type", "\"none\"", "any terrain");
+  require(!checked.band.thickness.value.empty(), "band.thickness", "not given",
+          "a thickness in m, constant or over time");
+  require(checked.heat.enabled, "heat.enabled", "false", "true");
+  require(checked.pressure.frozen == FrozenPressure::none, "pressure.frozen", "\"ice_pressure\"", "\"none\"");
+  require(checked.pressure.frozen_rows != FrozenRows::draining, "pressure.frozen_rows", "\"draining\"",
+          "\"sealed\" or \"vented\"");
+  require(checked.pressure.melt_contraction, "pressure.melt_contraction", "false", "true");
+  require(checked.band.thickness_change == ThicknessChange::conserving, "band.thickness_change", "\"as_printed\"",
+          "\"conserving\"");
+}
+
 // The same of heat and water in the band.
 void check_band_switches(const Case& checked, Reading& reading) {
   if (reading.sound({"heat.advection_form", "heat.update", "heat.masses"}) &&
@@ -249,6 +274,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_basal(checked, reading);
   check_switches(checked, reading);
   check_band_switches(checked, reading);
+  check_band_columns(checked, reading);
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
 }

@@ -75,7 +75,11 @@ std::vector<Parameter<Mechanisms>> mechanism_parameters() {
 }
 
 std::vector<Parameter<Band>> band_parameters() {
+  const auto grows = [](BandGrowth growth) {
+    return [growth](const Case&, const Band& band) { return band.model == BandKind::columns && band.growth == growth; };
+  };
   return {
+      parameter(&Band::model, {.key = "model", .text = "what carries heat and pore pressure along the ground"}),
       parameter(
           &Band::thickness,
           {.key = "thickness",
@@ -92,6 +96,31 @@ std::vector<Parameter<Band>> band_parameters() {
                 {.key = "thickness_change",
                  .text = "what becomes of heat where e changes over time, or with band.cut_cells along the ground, and "
                          "where particles leave the first layer"}),
+      parameter(&Band::growth, {.key = "growth", .text = "how the band of columns grows thicker"}),
+      parameter(&Band::grain_size, {.key = "grain_size",
+                                    .unit = "m",
+                                    .range = above(0),
+                                    .text = "size d of grains, of growth \"inertial\"",
+                                    .source = "Jop et al. 2006 (not checked)"}),
+      parameter(&Band::inertial_number, {.key = "inertial_number",
+                                         .range = above(0),
+                                         .text = "inertial number I up to which the band stays, of growth \"inertial\"",
+                                         .source = "Jop et al. 2006 (not checked)"}),
+      parameter(&Band::growth_per_slip,
+                {.key = "growth_per_slip", .range = above(0), .text = "thickness gained over slip, of growth \"slip\""})
+          .required_if("when band.growth is \"slip\"", grows(BandGrowth::slip)),
+      parameter(&Band::load_time, {.key = "load_time",
+                                   .unit = "s",
+                                   .range = above(0),
+                                   .text = "time over which columns average the normal pressure N, which switches on "
+                                           "and off at nodes"}),
+      parameter(&Band::column_step,
+                {.key = "column_step", .unit = "s", .range = above(0), .text = "largest time step of columns"}),
+      parameter(&Band::ground_temperature, {.key = "ground_temperature",
+                                            .unit = "C",
+                                            .range = {.low = -100, .high = 100},
+                                            .text = "temperature of the ground below columns at the start"})
+          .otherwise("that of the body's base"),
   };
 }
 
@@ -108,6 +137,10 @@ std::vector<Parameter<Heat>> heat_parameters() {
           {.key = "latent",
            .text = "melting takes and freezing gives latent heat; false: ice melts all the same, at no cost of heat",
            .source = "Eq. 9"}),
+      parameter(&Heat::steam,
+                {.key = "steam",
+                 .text = "water of band columns boils where its steam lifts the slide, and leaves; false: "
+                         "it stays liquid"}),
       parameter(&Heat::conduction, {.key = "conduction",
                                     .text = "heat is conducted, q_T = -k grad T; false: it stays where it is made",
                                     .source = "Eq. 18"}),
@@ -163,6 +196,14 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
           {.key = "seepage", .text = "Darcy flow of melted pore water (Eq. 22); false: undrained", .source = "Eq. 22"}),
       parameter(&Pressure::frozen_rows,
                 {.key = "frozen_rows", .text = "frozen matter towards water that seeps to it; water lost is counted"}),
+      parameter(
+          &Pressure::column_top,
+          {.key = "column_top", .text = "what water meets at the top of a band column that has thawed throughout"}),
+      parameter(&Pressure::water_to_steam_viscosity,
+                {.key = "water_to_steam_viscosity",
+                 .range = at_least(0),
+                 .text = "viscosity of water over that of steam, by which steam of band columns seeps into vented "
+                         "matter; 0: it does not seep"}),
       parameter(&Pressure::seepage_scaling,
                 {.key = "seepage_scaling", .text = "how seepage is scaled in the band", .source = "Eq. 23"}),
       parameter(&Pressure::thickness_direction,

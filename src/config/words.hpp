@@ -89,6 +89,20 @@ inline std::vector<Choice<CutCells>> choices(CutCells) {
   return {{CutCells::as_they_are, "as_they_are", "its cells hold what lies in them: xi = grid.cell / e everywhere"},
           {CutCells::equal_thickness, "equal_thickness", "xi is such that what lies in them counts as thick as e"}};
 }
+inline std::vector<Choice<BandKind>> choices(BandKind) {
+  return {{BandKind::scaled, "scaled", "the lowest rows of particles, their heat and seepage scaled by xi"},
+          {BandKind::columns, "columns",
+           "columns of cells through ground, band and body, of the band's true thickness, that move with the base"}};
+}
+inline std::vector<Choice<BandGrowth>> choices(BandGrowth) {
+  return {{BandGrowth::none, "none", "the band is as thick as thickness says"},
+          {BandGrowth::inertial, "inertial",
+           "e = v d sqrt(rho_S/(N - P))/I where that is more, with N - P at least 0.02 N"},
+          {BandGrowth::slip, "slip", "thickness plus growth_per_slip times the slip"}};
+}
+inline std::vector<Choice<EndOfWater>> choices(EndOfWater) {
+  return {{EndOfWater::sealed, "sealed", "nothing passes"}, {EndOfWater::vented, "vented", "air, at P = 0"}};
+}
 inline std::vector<Choice<ThicknessChange>> choices(ThicknessChange) {
   return {{ThicknessChange::as_printed, "as_printed",
            "temperatures stay: the heat that a thicker band then holds, or a thinner one lacks, is band_rescale_J"},

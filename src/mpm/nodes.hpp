@@ -33,7 +33,7 @@ struct Nodes {
   SparseRecordsOf<Contact, Dim, Real> contact;
   SparseRecordsOf<NearGround, Dim, Real> near_ground{room};
   SparseRecordsOf<OrphanHeat, Dim, Real> orphan_heat;
-  SparseRecordsOf<BaseState, Dim, Real> base_state;  // where band columns lie under the slide
+  SparseRecordsOf<BaseState, Dim, Real> base_state;    // where band columns lie under the slide
   SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
   SparseRecordsOf<Seepage, Dim, Real> seepage{room};   // of blocks to whose nodes water seeps
   SparseRecordsOf<SeepingWater, Dim, Real> seeping_water{room};

@@ -80,7 +80,7 @@ struct ColumnDrive {
 template <class Real>
 struct ColumnAccount {
   Real friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0;  // [J/m2]
-  Real body_water = 0, vented_water = 0, steam = 0;                        // [kg/m2]
+  Real body_water = 0, vented_water = 0, steam = 0;                                         // [kg/m2]
 };
 
 // Ice and water [kg/m3] of matter at temperature [C] whose pores are full.

@@ -312,6 +312,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
   model.contact.law = make_basal_law<Real>(parameters.basal);
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
+  model.contact.band_columns = parameters.band.model == config::BandKind::columns;
   model.contact.distance_check = parameters.basal.distance_check;
   model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
   model.profile = make_profile<Dim>(parameters, site, model.origin);

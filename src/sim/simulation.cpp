@@ -82,6 +82,7 @@ void Simulation<Dim, Real>::resolve_contact() {
   if (model_.ground) {
     terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
   }
+  band_columns_to_nodes();
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_);
   ledger_.friction_work += contact_.friction_work;
@@ -96,6 +97,7 @@ void Simulation<Dim, Real>::resolve_contact() {
   if (model_.ground) {
     terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
   }
+  band_columns_follow();
 }
 
 template <int Dim, class Real>
@@ -117,6 +119,9 @@ void Simulation<Dim, Real>::update_stress_and_porosity() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::rescale_band() {
+  if (model_.contact.band_columns) {
+    return;
+  }
   Real added = 0;
   const bool depends_on_place = model_.band.region != band::ScaledRegion::all || model_.layer_thickness;
   if (depends_on_place || band_thickness() != thickness_in_force_) {
@@ -132,6 +137,10 @@ void Simulation<Dim, Real>::conduct_heat() {
   if (!model_.band.rescaling_mixes) {
     rescale_band();
   }
+  if (band_columns_) {  // the body keeps its temperature
+    ledger_.friction_heat += contact_.friction_work - contact_.converted;
+    return;
+  }
   if (!model_.band.heat) {
     return;
   }
@@ -145,7 +154,7 @@ void Simulation<Dim, Real>::conduct_heat() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::drain_pore_pressure() {
-  if (!model_.band.pressure) {
+  if (!model_.band.pressure || band_columns_) {
     return;
   }
   update_columns();
@@ -205,11 +214,14 @@ void Simulation<Dim, Real>::begin() {
     terrain::set_contact_offset(grid_, ground_, model_.band.sizes, particles_);
   }
   mark_band();
-  band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);
+  if (!model_.contact.band_columns) {
+    band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);
+  }
   update_columns();
   flow_depth_.depth_to_particles(grid_, particles_);
   update_normal_load();
   band::set_pore_pressure(model_.band, particles_);
+  start_band_columns();
   start_ledger();
 }
 
@@ -229,6 +241,8 @@ void Simulation<Dim, Real>::settle() {
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
   model_.contact.base_holds = true;
+  model_.contact.band_columns = false;
+  band_columns_.reset();
   model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
   const config::Leaving leaving = std::exchange(parameters_.grid.leaving, config::Leaving::stop);  // nothing may go
   const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
@@ -331,8 +345,9 @@ double Simulation<Dim, Real>::next_step(double until) const {
 
 template <int Dim, class Real>
 std::vector<double> Simulation<Dim, Real>::scalars() const {
-  std::vector<double> numbers{time_, last_step_, rear_at_start_, static_cast<double>(step_number_),
-                              static_cast<double>(next_id_)};
+  std::vector<double> numbers{
+      time_,       last_step_, rear_at_start_, static_cast<double>(step_number_), static_cast<double>(next_id_),
+      column_time_};
   Ledger<Dim, Real> ledger = ledger_;
   ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
   return numbers;
@@ -348,6 +363,7 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   rear_at_start_ = scalars[k++];
   step_number_ = static_cast<std::int64_t>(scalars[k++]);
   next_id_ = static_cast<std::int64_t>(scalars[k++]);
+  column_time_ = scalars[k++];
   ledger_.for_each([&](Real& account) { account = static_cast<Real>(scalars[k++]); });
   // Rows came back in order of id: nothing of the former order may be trusted.
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));

@@ -76,8 +76,7 @@ void take_columns_state(const Record& state, bool pore_pressure, std::size_t c, 
     basal.pore_pressure[c] = Real(0);
     return;
   }
-  basal.pore_pressure[c] =
-      pore_pressure ? state[BaseState::pressure_ratio] / area * basal.normal_pressure[c] : Real(0);
+  basal.pore_pressure[c] = pore_pressure ? state[BaseState::pressure_ratio] / area * basal.normal_pressure[c] : Real(0);
   basal.saturation[c] = state[BaseState::saturation] / area;
   basal.solid_fraction[c] = state[BaseState::solid_fraction] / area;
   basal.temperature[c] = state[BaseState::temperature] / area;
@@ -205,6 +204,7 @@ void apply_contact(const mpm::BlockConstraints<Dim, Real>& constraints, std::siz
   work.force -= total / dt;
   work.area += area;
   work.friction_area += friction * area;
+  work.shear_force += impulse.tangential / dt;
   left[Contact::touching] = Real(1);
   left[Contact::slip_speed] = impulse.slides ? slip_speed : Real(0);
   left[Contact::friction_heat] = heat_fraction * friction_work / dt;
