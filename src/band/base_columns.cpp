@@ -49,7 +49,10 @@ template <int Dim, class Real>
 void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
                                     const NodeGroundOf& node_ground, Real thickness, Real dt,
                                     mpm::Nodes<Dim, Real>& nodes) {
-  lay_pieces(grid, ground, node_ground, thickness, nodes);
+  if (look_for_gaps_ || some_node_is_bare(grid, nodes)) {
+    lay_pieces(grid, ground, node_ground, thickness, nodes);
+    look_for_gaps_ = false;
+  }
   std::vector<std::uint8_t> alone(pieces_.size());
   parallel_for(pieces_.size(), [&](std::size_t p) {
     const Stencil stencil(grid, pieces_[p].position);
@@ -72,57 +75,98 @@ void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, cons
   part_long_pieces(Real(1.5) * grid.cell(), ground);
 }
 
-// The places of new pieces lie on a lattice of one a cell, so that they do not depend on the order of nodes.
+template <int Dim, class Real>
+typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_cell(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                              const Vector<Real, Dim>& place) const {
+  Lattice cell;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    cell[a] = static_cast<int>(std::floor(place[static_cast<int>(a)] * grid.inverse_cell()));
+  }
+  return cell;
+}
+
+template <int Dim, class Real>
+bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
+                                               const mpm::Nodes<Dim, Real>& nodes) const {
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
+      if (nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0))) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Pieces are laid in the cells of a horizontal lattice, so that they do not depend on the order of nodes: where a node
+// in contact has its foot, unless some piece lies within three quarters of a cell of the cell's middle.
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
                                         const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim, Real>& nodes) {
-  std::set<std::array<int, Dim - 1>> places;
+  const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
+  std::set<Lattice> bare;
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
-      const bool uncovered =
-          nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0));
-      if (!uncovered) {
-        continue;
+      const auto& contact = nodes.contact(b, k);
+      const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
+      if (contact[Contact::touching] > Real(0) && (unseen || contact[Contact::area] > least_area)) {
+        const NodeGround near = node_ground(b, k);
+        bare.insert(lattice_cell(grid, mpm::node_position(grid, b, k) + near.distance * *near.normal));
       }
-      const NodeGround near = node_ground(b, k);
-      const Vector<Real, Dim> foot = mpm::node_position(grid, b, k) + near.distance * *near.normal;
-      std::array<int, Dim - 1> place;
-      for (std::size_t a = 0; a + 1 < Dim; ++a) {
-        place[a] = static_cast<int>(std::floor(foot[static_cast<int>(a)] * grid.inverse_cell()));
-      }
-      places.insert(place);
     }
   }
-  for (const auto& place : places) {
-    Piece piece;
-    piece.id = next_id_++;
-    piece.position.setZero();
-    piece.sides.setZero();
-    for (int a = 0; a + 1 < Dim; ++a) {
-      piece.position[a] = (static_cast<Real>(place[static_cast<std::size_t>(a)]) + Real(0.5)) * grid.cell();
-      piece.sides(a, a) = grid.cell();
+  for (const Piece& piece : pieces_) {  // covers the cells whose middle is near
+    const Lattice own = lattice_cell(grid, piece.position);
+    for (int k = 0; k < mpm::power(3, Dim - 1); ++k) {
+      Lattice cell = own;
+      Real furthest = 0;
+      for (std::size_t a = 0, rest = static_cast<std::size_t>(k); a + 1 < Dim; ++a, rest /= 3) {
+        cell[a] += static_cast<int>(rest % 3) - 1;
+        const Real middle = (static_cast<Real>(cell[a]) + Real(0.5)) * grid.cell();
+        furthest = std::max(furthest, std::abs(piece.position[static_cast<int>(a)] - middle));
+      }
+      if (furthest < Real(0.75) * grid.cell()) {
+        bare.erase(cell);
+      }
     }
-    piece.normal = ground.normal(piece.position.template head<Dim - 1>());
-    piece.position[Dim - 1] = ground.height(piece.position.template head<Dim - 1>());
-    for (int a = 0; a + 1 < Dim; ++a) {
-      piece.sides(Dim - 1, a) = -piece.normal[a] / piece.normal[Dim - 1] * grid.cell();
-    }
-    piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
-    piece.column = std::visit(
-        [&](const auto& model) {
-          return physics::start_column(model, thickness, model_.body_temperature, model_.ground_temperature, Real(0));
-        },
-        model_.column);
-    ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
-    ledger_.laid_water += piece.area * physics::water_of(piece.column);
+  }
+  for (const Lattice& cell : bare) {
+    const Piece piece = new_piece(cell, grid.cell(), ground, thickness);
     const Stencil stencil(grid, piece.position);
     for (std::size_t k = 0; k < stencil.count; ++k) {
       if (nodes.base_state.holds(stencil.block[k])) {
         nodes.base_state.of_block(stencil.block[k])[stencil.node[k]][BaseState::area] += stencil.weight[k] * piece.area;
       }
     }
+    ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
+    ledger_.laid_water += piece.area * physics::water_of(piece.column);
     pieces_.push_back(piece);
   }
+}
+
+template <int Dim, class Real>
+BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Lattice& cell, Real cell_size, const Ground& ground,
+                                                       Real thickness) {
+  Piece piece;
+  piece.id = next_id_++;
+  piece.position.setZero();
+  piece.sides.setZero();
+  for (int a = 0; a + 1 < Dim; ++a) {
+    piece.position[a] = (static_cast<Real>(cell[static_cast<std::size_t>(a)]) + Real(0.5)) * cell_size;
+    piece.sides(a, a) = cell_size;
+  }
+  piece.normal = ground.normal(piece.position.template head<Dim - 1>());
+  piece.position[Dim - 1] = ground.height(piece.position.template head<Dim - 1>());
+  for (int a = 0; a + 1 < Dim; ++a) {
+    piece.sides(Dim - 1, a) = -piece.normal[a] / piece.normal[Dim - 1] * cell_size;
+  }
+  piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
+  piece.column = std::visit(
+      [&](const auto& model) {
+        return physics::start_column(model, thickness, model_.body_temperature, model_.ground_temperature, Real(0));
+      },
+      model_.column);
+  return piece;
 }
 
 // The velocity of the slide at a piece, and how it changes along the ground: a linear fit to the nodes about it, each
@@ -275,6 +319,7 @@ Real BaseColumns<Dim, Real>::wanted_thickness(const Piece& piece, Real thickness
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::step(Real thickness, Real duration) {
   constexpr Real largest_share = static_cast<Real>(0.1);  // by which a piece may stretch in one step of its column
+  look_for_gaps_ = true;
   std::vector<physics::ColumnAccount<Real>> accounts(pieces_.size());
   const auto add = [](physics::ColumnAccount<Real>& sum, const physics::ColumnAccount<Real>& part, Real area) {
     sum.friction_heat += area * part.friction_heat;

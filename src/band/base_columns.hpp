@@ -84,8 +84,9 @@ class BaseColumns {
   // Fills nodes.base_state of the blocks that hold contact.
   void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
 
-  // After contact: pieces where the slide touches ground that none covers, and what contact does to all: load, heat,
-  // slip. Then they move by dt, and those that have become long part.
+  // After contact, at the positions that to_nodes has seen: what contact does to all pieces (load, heat, slip), new
+  // ones first where the slide touches ground that none covers. Then they move by dt, and those that have become long
+  // part.
   void follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
               Real thickness, Real dt, mpm::Nodes<Dim, Real>& nodes);
 
@@ -106,8 +107,13 @@ class BaseColumns {
   using Piece = BasePiece<Dim, Real>;
   using Stencil = BaseStencil<Dim, Real>;
 
+  using Lattice = std::array<int, Dim - 1>;  // a cell of the horizontal lattice on which pieces are laid
+  [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const;
+  [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
+                                       const mpm::Nodes<Dim, Real>& nodes) const;
   void lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
                   Real thickness, mpm::Nodes<Dim, Real>& nodes);
+  [[nodiscard]] Piece new_piece(const Lattice& cell, Real cell_size, const Ground& ground, Real thickness);
   // How the slide about a piece moves.
   struct Nearby {
     Vector<Real, Dim> velocity;  // along the ground [m/s]
@@ -127,6 +133,7 @@ class BaseColumns {
   std::vector<Piece> pieces_;
   ColumnLedger<Real> ledger_;
   std::int64_t next_id_ = 0;
+  bool look_for_gaps_ = true;
 };
 
 }  // namespace thawslide::band

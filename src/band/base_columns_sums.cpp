@@ -78,7 +78,8 @@ BaseMeans<Real> BaseColumns<Dim, Real>::means() const {
 
 template <int Dim, class Real>
 std::vector<double> BaseColumns<Dim, Real>::state() const {
-  std::vector<double> numbers{static_cast<double>(next_id_), static_cast<double>(pieces_.size())};
+  std::vector<double> numbers{static_cast<double>(next_id_), look_for_gaps_ ? 1.0 : 0.0,
+                              static_cast<double>(pieces_.size())};
   ColumnLedger<Real> ledger = ledger_;
   const auto add = [&](const Real& number) { numbers.push_back(static_cast<double>(number)); };
   ledger.for_each(add);
@@ -98,6 +99,7 @@ void BaseColumns<Dim, Real>::restore(const std::vector<double>& numbers) {
     return numbers[next++];
   };
   next_id_ = static_cast<std::int64_t>(take());
+  look_for_gaps_ = take() != 0.0;
   pieces_.assign(static_cast<std::size_t>(take()), Piece{});
   const auto set = [&](Real& number) { number = static_cast<Real>(take()); };
   ledger_.for_each(set);

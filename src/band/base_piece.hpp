@@ -48,43 +48,41 @@ Vector<Real, Dim> turned(const Vector<Real, Dim>& v, const Vector<Real, Dim>& fr
   return along > round_off<Real> ? Vector<Real, Dim>(v - both * (both.dot(v) / along) + Real(2) * from.dot(v) * to) : v;
 }
 
-// The nodes that a piece of base sees, with the weights of quadratic B-splines: they reach 1.5 cells along each axis,
-// further than nodes which feel the slide lie from the ground.
+// The nodes that a piece of base sees, with the weights of cubic B-splines: they reach two cells along each axis. Nodes
+// that feel the slide lie within 1.25 cells of the ground, and their feet within half a cell of where a piece is laid.
 template <int Dim, class Real>
 struct BaseStencil {
   using T = mpm::Tile<Dim>;
-  static constexpr std::size_t most = static_cast<std::size_t>(T::stencil);
+  static constexpr int width = 4;
+  static constexpr std::size_t most = static_cast<std::size_t>(mpm::power(width, Dim));
 
   std::size_t count = 0;
   std::array<std::size_t, most> block, node;
   std::array<Real, most> weight;
 
   BaseStencil(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& position) {
-    typename T::Index nearest, tile;
-    std::array<std::array<Real, 3>, Dim> along;
+    typename T::Index below, tile;
+    std::array<std::array<Real, width>, Dim> along;
     for (std::size_t a = 0; a < Dim; ++a) {
       const Real place = position[static_cast<int>(a)] * grid.inverse_cell();
-      const Real node_place = std::floor(place + Real(0.5));
-      const Real d = place - node_place;
-      nearest[a] = static_cast<int>(node_place);
-      along[a] = {Real(0.5) * (Real(0.5) - d) * (Real(0.5) - d), Real(0.75) - d * d,
-                  Real(0.5) * (Real(0.5) + d) * (Real(0.5) + d)};
+      below[a] = static_cast<int>(std::floor(place));
+      along[a] = cubic_weights(place - std::floor(place));
     }
     int local = 0;
-    T::split(nearest, tile, local);
+    T::split(below, tile, local);
     const auto found = std::lower_bound(grid.blocks().begin(), grid.blocks().end(), T::key(tile));
     if (found == grid.blocks().end() || *found != T::key(tile)) {
       return;  // no slide is near
     }
     const std::int32_t* about = grid.blocks_about_block(static_cast<std::size_t>(found - grid.blocks().begin()));
-    for (int k = 0; k < T::stencil; ++k) {
+    for (int k = 0; k < static_cast<int>(most); ++k) {
       int direction = T::stencil / 2, in_tile = local;
       Real product = 1;
-      for (int a = 0, rest = k; a < Dim; ++a, rest /= 3) {
-        const typename T::Beside beside = T::beside(in_tile, a, rest % 3 - 1);
+      for (int a = 0, rest = k; a < Dim; ++a, rest /= width) {
+        const typename T::Beside beside = T::beside(in_tile, a, rest % width - 1);
         direction += beside.direction - T::stencil / 2;
         in_tile = beside.local;
-        product *= along[static_cast<std::size_t>(a)][static_cast<std::size_t>(rest % 3)];
+        product *= along[static_cast<std::size_t>(a)][static_cast<std::size_t>(rest % width)];
       }
       if (about[direction] != KeyIndex::absent && product > Real(0)) {
         block[count] = static_cast<std::size_t>(about[direction]);
@@ -92,6 +90,14 @@ struct BaseStencil {
         weight[count++] = product;
       }
     }
+  }
+
+ private:
+  // Of the two nodes on either side of a place at the share t between the inner ones.
+  static std::array<Real, width> cubic_weights(Real t) {
+    const Real s = Real(1) - t, sixth = Real(1) / Real(6);
+    return {sixth * s * s * s, sixth * (Real(4) - Real(3) * t * t * (Real(2) - t)),
+            sixth * (Real(4) - Real(3) * s * s * (Real(2) - s)), sixth * t * t * t};
   }
 };
 

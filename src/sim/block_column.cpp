@@ -65,7 +65,8 @@ void BlockColumn::find_base_nodes() {
   }
   nodes_.contact.hold(grid_.blocks().size(), [&](std::size_t b) { return is_base[b] != 0; });
   for (const mpm::NodeAt& node : base_nodes_) {
-    std::fill_n(nodes_.contact.of_block(node.block), mpm::Tile<2>::nodes, std::array<double, 4>{});
+    std::fill_n(nodes_.contact.of_block(node.block), mpm::Tile<2>::nodes,
+                mpm::RecordsOf<mpm::Contact, 2, double>::Record{});
   }
 }
 
