@@ -132,6 +132,7 @@ void Simulation<Dim, Real>::conduct_heat() {
   if (!model_.band.rescaling_mixes) {
     rescale_band();
   }
+  band::average_seeping_water(grid_, model_.band, particles_, nodes_);
   if (!model_.band.heat) {
     return;
   }

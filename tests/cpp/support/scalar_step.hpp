@@ -55,6 +55,9 @@ class ScalarStep {
     mark_band_and_slip();
     move();
     deform();
+    if (simulation.model().band.frozen_rows != band::FrozenRows::draining) {
+      seeping_ = add_up(Transfer::linear, 2, [&](const Point<Dim>& p) { return seeping_water(p); });
+    }
     conduct();
     drain();
     for (Point<Dim>& p : points_) {
