@@ -8,12 +8,24 @@
 
 namespace thawslide::band {
 
-namespace {
+template <int Dim, class Real>
+void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                     mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
+  mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, mpm::every_tile, AddAverages<Dim, Real>{});
+  nodes.averages.resize(grid.blocks().size());
+  nodes.state.resize(grid.blocks().size());
+  const SetNodalState<Dim, Real> set_state{grid, model};
+  mpm::node_pass<mpm::NoAccount>(
+      grid, [&](std::size_t b) { mpm::sum_block<mpm::Averages>(grid, b, nodes); },
+      [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) { set_state(nodes, at); });
+}
 
-// Puts the pressure of the water that seeps into nodes.state, where frozen rows are sealed or vented.
 template <int Dim, class Real>
 void average_seeping_water(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                            mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
+  if (!model.lets_water_seep() || model.frozen_rows == FrozenRows::draining) {
+    return;
+  }
   const auto hydraulic = model.hydraulic();
   const bool any_seeps = find_seepage<Dim, Real>(
       grid, nodes.marks, [&](const mpm::Batch<Real>& batch) { return any(seeps(model, hydraulic, particles, batch)); });
@@ -42,26 +54,11 @@ void average_seeping_water(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
       });
 }
 
-}  // namespace
-
-template <int Dim, class Real>
-void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                     mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
-  mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, mpm::every_tile, AddAverages<Dim, Real>{});
-  nodes.averages.resize(grid.blocks().size());
-  nodes.state.resize(grid.blocks().size());
-  const SetNodalState<Dim, Real> set_state{grid, model};
-  mpm::node_pass<mpm::NoAccount>(
-      grid, [&](std::size_t b) { mpm::sum_block<mpm::Averages>(grid, b, nodes); },
-      [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) { set_state(nodes, at); });
-  if (model.lets_water_seep() && model.frozen_rows != FrozenRows::draining) {
-    average_seeping_water(grid, model, particles, nodes);
-  }
-}
-
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                   \
-  template void average_on_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, \
-                                           mpm::Particles<Dim, Real>&, mpm::Nodes<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                         \
+  template void average_on_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&,       \
+                                           mpm::Particles<Dim, Real>&, mpm::Nodes<Dim, Real>&);                  \
+  template void average_seeping_water<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, \
+                                                 mpm::Particles<Dim, Real>&, mpm::Nodes<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

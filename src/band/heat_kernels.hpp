@@ -54,19 +54,15 @@ struct HeatFlows {
     particles.conduction_in_cell.store(at, in_cell);
     const auto melted = particles.temperature.load(at) >= model.reference_temperature;
     if (model.advection && model.seepage && model.thermal_pressurization && any(melted)) {
-      const auto pressure_gradient =
-          gradient_of(seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure), 0);
-      const Value carried = carried_per_gradient(particles, at);
       if (model.conservative_advection) {
-        const Value above = particles.temperature.load(at) - model.reference_temperature;
+        const auto flux = carried_heat(particles, at, seen);
         for (std::size_t a = 0; a < Dim; ++a) {
           rates.flux[a][mpm::HeatRates::conduction] =
-              rates.flux[a][mpm::HeatRates::conduction] -
-              select(melted, carried * above * pressure_gradient[static_cast<int>(a)], Value(Real(0)));
+              rates.flux[a][mpm::HeatRates::conduction] + select(melted, flux[static_cast<int>(a)], Value(Real(0)));
         }
       } else {
         rates.value[mpm::HeatRates::advection] =
-            select(melted, carried * pressure_gradient.dot(gradient), Value(Real(0)));
+            select(melted, advection(particles, at, seen, gradient), Value(Real(0)));
       }
     }
     rates.value[mpm::HeatRates::capacity] = capacity;
@@ -74,15 +70,32 @@ struct HeatFlows {
   }
 
  private:
-  // Water seeps where it is melted; V rho_L C_L xi k_L/gamma_w, the heat that it carries per kelvin and gradient of
-  // pressure. Eq. 9 has the convective form, q_L.grad T; the conservative one is the flux of rho_L C_L q_L (T - Tref).
-  template <class Particles, class At>
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value carried_per_gradient(const Particles& particles,
-                                                                               const At& at) const {
+  // Water seeps where it is melted; the heat it carries [W].
+  template <class Particles, class At, class Seen, class Gradient>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value advection(const Particles& particles, const At& at,
+                                                                    const Seen& seen,
+                                                                    const Gradient& temperature_gradient) const {
+    const auto pressure_gradient =
+        gradient_of(seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure), 0);
     const auto mobility =
         particles.thermal_scaling.load(at) * hydraulic(particles, at) / model.phases.water_unit_weight;
     const Real capacity = model.phases.water_density * model.phases.water_heat_capacity;
-    return particles.volume.load(at) * capacity * mobility;
+    return particles.volume.load(at) * capacity * mobility * pressure_gradient.dot(temperature_gradient);
+  }
+
+  // The same as a flux, V xi rho_L C_L q_L (T - Tref) with q_L = -(k_L/gamma_w) grad P [W m].
+  template <class Particles, class At, class Seen>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto carried_heat(const Particles& particles, const At& at,
+                                                         const Seen& seen) const {
+    using Value = typename At::Value;
+    const auto pressure_gradient =
+        gradient_of(seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure), 0);
+    const Value mobility =
+        particles.thermal_scaling.load(at) * hydraulic(particles, at) / model.phases.water_unit_weight;
+    const Real capacity = model.phases.water_density * model.phases.water_heat_capacity;
+    const Value carried = particles.volume.load(at) * capacity * mobility *
+                          (particles.temperature.load(at) - model.reference_temperature);
+    return Vector<Value, Dim>(-carried * pressure_gradient);
   }
 };
 

@@ -139,7 +139,8 @@ struct PorePressure {
     if (any(frozen) && (!Balances || model.ice_presses)) {
       now = frozen_pressures(model, ice, temperature, particles.liquid_saturation.load(at));
     }
-    if (any(!frozen)) {
+    // What has just frozen still contracts down to Tref.
+    if (any(!frozen) || (Balances && any(melted_before(model, particles, at)))) {
       const Value melted = melted_pressure(particles, at, seen, !frozen, drained);
       now = {select(frozen, now.liquid, melted), select(frozen, now.pore, melted)};
     }
@@ -211,7 +212,8 @@ struct PorePressure {
       return max(start - held / storage, none);
     }
     const Value from = select(was_melted, particles.previous_temperature.load(at), Value(model.reference_temperature));
-    Value gained = physics::melted_swelling(model.phases, model.water, porosity, from, particles.temperature.load(at));
+    const Value to = max(particles.temperature.load(at), Value(model.reference_temperature));
+    Value gained = physics::melted_swelling(model.phases, model.water, porosity, from, to);
     if (model.skeleton_compressibility > Real(0)) {
       gained += select(was_melted, model.skeleton_compressibility * particles.load_change.load(at), none);
     }
@@ -221,7 +223,7 @@ struct PorePressure {
     const Value before = select(was_melted, particles.liquid_pressure.load(at), start);
     const Value surplus = physics::pore_surplus<Value>({before + seeped, held, none}, storage) + gained;
     const auto filling = physics::pore_filling(surplus, storage);
-    particles.pore_void.store(at, select(melted, filling.gas_void, held));
+    particles.pore_void.store(at, select(melted | was_melted, filling.gas_void, held));
     return filling.pressure;
   }
 

@@ -122,7 +122,7 @@ struct BaseState {
 struct NodalState {
   using Functions = LinearFunctions;
   static constexpr std::size_t temperature = 0;       // [C]
-  static constexpr std::size_t pore_pressure = 1;     // [Pa], of the water that seeps
+  static constexpr std::size_t pore_pressure = 1;     // [Pa]
   static constexpr std::size_t temperature_rate = 2;  // [K/s]
   static constexpr std::size_t pressure_change = 3;   // what seepage brings in the step [Pa], Eq. 22
   template <int Dim>

@@ -81,6 +81,7 @@ void BlockColumn::set_normal_load(double normal_pressure) {
 double BlockColumn::step(double flux, double normal_pressure, double band_thickness, double dt) {
   band::rescale_band<2, double>(grid_, model_, band_thickness, {}, rows_);
   band::average_on_grid(grid_, model_, rows_, nodes_);
+  band::average_seeping_water(grid_, model_, rows_, nodes_);
   const double before = heat();
   if (model_.heat) {
     for (const mpm::NodeAt& node : base_nodes_) {

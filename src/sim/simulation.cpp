@@ -141,6 +141,7 @@ void Simulation<Dim, Real>::conduct_heat() {
     ledger_.friction_heat += contact_.friction_work - contact_.converted;
     return;
   }
+  band::average_seeping_water(grid_, model_.band, particles_, nodes_);
   if (!model_.band.heat) {
     return;
   }
