@@ -103,8 +103,9 @@ struct Freezing {
 struct Material {
   LawKind law = LawKind::mohr_coulomb;
   double youngs_modulus = 0, poisson_ratio = 0;
-  double friction_angle = 0, dilation_angle = 0;
-  double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps); equal: none
+  double friction_angle = 0, residual_friction_angle = 0, dilation_angle = 0;
+  double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps/eps_c); equal: none
+  double softening_strain = 1.0;               // eps_c, Sec. 4
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
   bool gaps_close_first = false;                                    // torn matter bears nothing until its gap is closed
   double viscosity_time = 0;                                        // s, Kelvin-Voigt

@@ -195,6 +195,7 @@ TEST(ScalarStep, IsThatOfTheBatchesWithOtherChoices) {
   of({"time.stepping=adaptive"});
   of({"band.region=first_layer"});
   of({"terrain.representation=rigid_points"});
+  of({"material.melted.softening_strain=0.01", "material.melted.residual_friction_angle=20.0"});
 }
 
 }  // namespace
