@@ -221,6 +221,10 @@ struct Pressure {
   ThicknessUpdate thickness_update = ThicknessUpdate::each_step;
 };
 
+struct Block {
+  bool bends = false;  // their pressure counts
+};
+
 struct Checkpoint {
   double interval = 0;  // s; 0: only at the end
 };
@@ -263,6 +267,7 @@ struct Case {
   Band band;
   Heat heat;
   Pressure pressure;
+  Block block;
   Checkpoint checkpoint;
   Maps maps;
   std::map<std::string, Probe> probes;

@@ -158,6 +158,8 @@ seepage = false
 seepage_scaling = "printed"
 thickness_direction = "vertical"
 thickness_update = "frozen"
+[block]
+bends = true
 )";
 
 const std::string rest_in_3d = R"([case]
