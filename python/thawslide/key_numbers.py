@@ -7,12 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from thawslide.figures.energy import relative_residual
-from thawslide.figures.force import seismic_force
+from thawslide.figures.force import band_of, force_in_band, reported_bands, reported_forces, seismic_force
 from thawslide.figures.style import area_text, prefixed, volume_text
-from thawslide.run import Run
+from thawslide.run import Run, Target
 
 STOPPED_SHARE = 0.01  # of the peak mean velocity
 BOILING = 100.0  # C, at one atmosphere
+# Reported quantities that are a column of the history at the time of the report.
+COLUMN_OF_TARGET = {
+    "mean_velocity": "mean_velocity_m_s",
+    "mean_displacement": "mean_displacement_m",
+    "front_distance": "runout_m",
+    "band_SL": "band_saturation",
+}
 
 
 @dataclass(frozen=True)
@@ -86,21 +93,26 @@ def key_numbers(run: Run) -> list[KeyNumber]:
     rows += _map_numbers(run)
     rows += _band_numbers(run)
     if "seismic_force_x_N" in history:
-        _, magnitude = seismic_force(run)
-        if np.isfinite(magnitude).any():
-            at = int(np.nanargmax(magnitude))
-            unit = "N/m of width" if run.per_metre else "N"
-            rows.append(
-                KeyNumber(
-                    "Largest seismic force", shown(float(magnitude[at]), unit), f"at {shown(float(time[at]), 's')}"
-                )
-            )
+        rows += _force_numbers(run)
     for words, column in (("Mechanical", "mechanical_residual_J"), ("Thermal", "thermal_residual_J")):
         if column in history:
             residual = relative_residual(run, column)
             value = shown(float(np.nanmax(residual))) if residual is not None else "nothing changed"
             rows.append(KeyNumber(f"{words} energy residual", value, "largest, over the largest change of any account"))
     return rows
+
+
+def found_for(run: Run, target: Target) -> str:
+    """Return what a run has for a reported value, with its unit; "" where it has nothing to compare."""
+    history = run.history
+    column = COLUMN_OF_TARGET.get(target.quantity, "")
+    if column in history and target.time <= history["time_s"][-1]:
+        return shown(float(np.interp(target.time, history["time_s"], history[column])), target.unit.strip("-"))
+    if target in reported_forces(run) and "seismic_force_x_N" in history and not run.per_metre:
+        band = band_of(target)
+        magnitude = seismic_force(run)[1] if band is None else force_in_band(run, band)
+        return shown(float(np.nanmax(magnitude)), "N") if np.isfinite(magnitude).any() else ""
+    return ""
 
 
 def boiling_note(run: Run) -> str:
@@ -144,6 +156,20 @@ def _along_path(words: str, value: float, remark: str) -> KeyNumber:
     return KeyNumber(
         words, "not known", "maps.path is not given, and the slide has hardly moved: no path to measure along"
     )
+
+
+def _force_numbers(run: Run) -> list[KeyNumber]:
+    """Return the largest force on the ground, as it is and as those who inverted seismic waves would have it."""
+    unit = "N/m of width" if run.per_metre else "N"
+    forces = {"": seismic_force(run)[1]}
+    forces |= {f", band-passed {band.words}": force_in_band(run, band) for band in reported_bands(run)}
+    rows = []
+    for words, magnitude in forces.items():
+        if np.isfinite(magnitude).any():
+            at = int(np.nanargmax(magnitude))
+            when = f"at {shown(float(run.history['time_s'][at]), 's')}"
+            rows.append(KeyNumber(f"Largest seismic force{words}", shown(float(magnitude[at]), unit), when))
+    return rows
 
 
 def _map_numbers(run: Run) -> list[KeyNumber]:

@@ -151,6 +151,7 @@ int check_case(const CheckOptions& options) {
     sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
     records.start(simulation);
     print_map_note(parameters, simulation.site());
+    print_notices(parameters);
     const Json setup = options.draws ? setup_json<Dim>(simulation) : Json();
     const auto limit = simulation.step_limit();
     const double dt = simulation.next_step(parameters.time.end);

@@ -43,6 +43,7 @@ int run_case(const RunOptions& options) {
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
     const sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written
     print_map_note(parameters, simulation.site());
+    print_notices(parameters);
     io::make_run_folder(folder, options.overwrite);
     fmt::print("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
                parameters.general.title.empty() ? parameters.name : parameters.general.title,

@@ -111,8 +111,9 @@ struct Freezing {
 struct Material {
   LawKind law = LawKind::mohr_coulomb;
   double youngs_modulus = 0, poisson_ratio = 0;
-  double friction_angle = 0, dilation_angle = 0;
-  double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps); equal: none
+  double friction_angle = 0, residual_friction_angle = 0, dilation_angle = 0;
+  double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps/eps_c); equal: none
+  double softening_strain = 1.0;               // eps_c, Sec. 4
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
   bool gaps_close_first = false;                                    // torn matter bears nothing until its gap is closed
   double viscosity_time = 0;                                        // s, Kelvin-Voigt
@@ -252,6 +253,10 @@ struct Pressure {
   ThicknessUpdate thickness_update = ThicknessUpdate::each_step;
 };
 
+struct Block {
+  bool bends = false;  // their pressure counts
+};
+
 struct Checkpoint {
   double interval = 0;  // s; 0: only at the end
 };
@@ -294,6 +299,7 @@ struct Case {
   Band band;
   Heat heat;
   Pressure pressure;
+  Block block;
   Checkpoint checkpoint;
   Maps maps;
   std::map<std::string, Probe> probes;

@@ -55,6 +55,25 @@ void check_grid(const Case& checked, Reading& reading) {
   }
 }
 
+void check_residual_friction(const std::string& table, const Material& material, Reading& reading) {
+  const double residual = material.residual_friction_angle;
+  if (reading.sound({table + ".residual_friction_angle", table + ".friction_angle"}) &&
+      residual > material.friction_angle) {
+    reading.report_misfit(
+        {table + ".residual_friction_angle", table + ".friction_angle"},
+        fmt::format("{}.residual_friction_angle is {} degrees, above {}.friction_angle, which is {} degrees; softening "
+                    "takes friction away. Give a residual at most the friction angle.",
+                    table, residual, table, material.friction_angle));
+  } else if (reading.sound({table + ".residual_friction_angle", table + ".dilation_angle"}) &&
+             residual < material.dilation_angle && material.dilation_angle <= material.friction_angle) {
+    reading.report_misfit(
+        {table + ".residual_friction_angle", table + ".dilation_angle"},
+        fmt::format("{}.residual_friction_angle is {} degrees, below {}.dilation_angle, which is {} degrees; allowed: "
+                    "at least the dilation angle, which does not soften, else plastic flow makes energy.",
+                    table, residual, table, material.dilation_angle));
+  }
+}
+
 void check_materials(const Case& checked, Reading& reading) {
   for (const auto& [name, material] : checked.materials) {
     const std::string table = "material." + name;
@@ -74,6 +93,7 @@ void check_materials(const Case& checked, Reading& reading) {
                       "most the friction angle, else plastic flow makes energy.",
                       table, material.dilation_angle, table, material.friction_angle));
     }
+    check_residual_friction(table, material, reading);
   }
 }
 

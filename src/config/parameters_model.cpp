@@ -1,4 +1,4 @@
-// The parameters of the model: [mechanics], [mechanisms], [band], [heat], [pressure].
+// The parameters of the model: [mechanics], [mechanisms], [band], [heat], [pressure], [block].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -214,6 +214,16 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
   };
 }
 
+std::vector<Parameter<Block>> block_parameters() {
+  return {
+      parameter(
+          &Block::bends,
+          {.key = "bends",
+           .text = "where the ground bends, the slide presses on it by v^2 kappa more, or less; false: its weight "
+                   "alone does"}),
+  };
+}
+
 }  // namespace
 
 void declare_model(Tables& tables) {
@@ -231,6 +241,8 @@ void declare_model(Tables& tables) {
                                                        six_sides(&Heat::boundary, "heat condition")));
   tables.push_back(
       std::make_unique<SingleTable<Pressure>>("pressure", "Pore pressure", &Case::pressure, pressure_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Block>>("block", "The rigid-block model of `thawslide block`",
+                                                        &Case::block, block_parameters()));
 }
 
 }  // namespace thawslide::config

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "physics/bend.hpp"
 #include "physics/contact.hpp"
 #include "sim/block_column.hpp"
 #include "sim/bodies.hpp"
@@ -28,6 +29,11 @@ class Path {
   }
   [[nodiscard]] double length_at(double x) const { return map(line_->x(), length_, x); }
   [[nodiscard]] double x_at(double length) const { return map(length_, line_->x(), length); }
+  // Mean over a span of the way [1/m], positive where the ground is hollow.
+  [[nodiscard]] double curvature(double length, double span) const {
+    const auto angle = [&](double at) { return std::atan(line_->gradient(x_at(at))); };
+    return (angle(length + 0.5 * span) - angle(length - 0.5 * span)) / span;
+  }
 
  private:
   static double map(const std::vector<double>& from, const std::vector<double>& to, double value) {
@@ -84,16 +90,22 @@ Vector<double, 2> normal_below(const Model<2, double>& model, double x) {
 }
 
 struct Forces {
-  double along = 0, normal = 0;  // of gravity, downhill and into the ground [N per m of width]
+  double along = 0, normal = 0;  // of gravity downhill, and into the ground [N per m of width]
 };
 
-Forces gravity_on_slices(const Model<2, double>& model, const Path& path, const Slices& slices, double displacement) {
+// speed: with which the slices follow the bends of the ground [m/s].
+Forces forces_on_slices(const Model<2, double>& model, const Path& path, const Slices& slices, double displacement,
+                        double speed) {
   Forces forces;
   for (const Slice& slice : slices.all) {
-    const Vector<double, 2> normal = normal_below(model, path.x_at(slice.path + displacement));
+    const double place = slice.path + displacement;
+    const Vector<double, 2> normal = normal_below(model, path.x_at(place));
     const Vector<double, 2> tangent(-normal[1], normal[0]);  // towards +x
     forces.along += slice.mass * model.motion.gravity.dot(tangent);
-    forces.normal += std::max(0.0, slice.mass * model.motion.gravity.dot(normal));
+    // A slide bridges bends shorter than it is thick; over less than a slice its neighbours would miss some of a kink.
+    const double span = std::max(slice.base, slices.thickness);
+    forces.normal +=
+        physics::load_in_bend(slice.mass, model.motion.gravity.dot(normal), speed, path.curvature(place, span));
   }
   return forces;
 }
@@ -114,10 +126,10 @@ class Block {
   }
 
   void step(double dt) {
-    const Forces gravity = evaluate_base();
-    const double trial = slices_.mass * velocity_ + dt * gravity.along;
+    const Forces forces = evaluate_base();
+    const double trial = slices_.mass * velocity_ + dt * forces.along;
     const auto impulse =
-        physics::contact_impulse(dt * gravity.normal, std::abs(trial), slices_.base, dt, basal_.strength[0]);
+        physics::contact_impulse(dt * forces.normal, std::abs(trial), slices_.base, dt, basal_.strength[0]);
     const double old_velocity = velocity_;
     velocity_ = (trial - std::copysign(impulse.tangential, trial)) / slices_.mass;
     const double middle = 0.5 * (old_velocity + velocity_);
@@ -136,7 +148,7 @@ class Block {
   [[nodiscard]] double time() const { return time_; }
 
   HistoryRow row() {
-    const Forces gravity = evaluate_base();
+    const Forces forces = evaluate_base();
     const mpm::Particles<2, double>& rows = column_.rows();
     double count = 0.0, temperature = 0.0, saturation = 0.0, pressure = 0.0;
     for (std::size_t p = 0; p < rows.size(); ++p) {
@@ -155,7 +167,7 @@ class Block {
             {"normal_pressure_Pa", basal_.normal_pressure[0]},
             {"pore_pressure_Pa", basal_.pore_pressure[0]},
             {"sliding_strength_Pa", basal_.strength[0]},
-            {"driving_traction_Pa", gravity.along / slices_.base},
+            {"driving_traction_Pa", forces.along / slices_.base},
             {"band_temperature_C", temperature / count},
             {"band_saturation", saturation / count},
             {"band_pore_pressure_Pa", pressure / count},
@@ -182,12 +194,13 @@ class Block {
             }};
   }
 
-  // The law's view of the base now; returns gravity's forces.
+  // The law's view of the base now; returns the forces on the slices.
   Forces evaluate_base() {
-    const Forces gravity = gravity_on_slices(model_, path_, slices_, displacement_);
+    const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
+    const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
     const BlockBase base = column_.base();
     basal_.count = 1;
-    basal_.normal_pressure[0] = gravity.normal / slices_.base;
+    basal_.normal_pressure[0] = forces.normal / slices_.base;
     basal_.pore_pressure[0] = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
     basal_.temperature[0] = base.temperature;
     basal_.saturation[0] = base.saturation;
@@ -195,7 +208,7 @@ class Block {
     basal_.slip[0] = slip_;
     basal_.speed[0] = std::abs(velocity_);
     evaluate_basal_law(model_.contact.law, time_, basal_);
-    return gravity;
+    return forces;
   }
 
   const config::Case& parameters_;

@@ -46,10 +46,19 @@ mpm::MaterialModel<Real> make_material(const config::Material& material, bool de
   model.viscosity_time = static_cast<Real>(material.viscosity_time);
   model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
   if (material.law == config::LawKind::mohr_coulomb && deformation) {
-    model.law = physics::MohrCoulomb<Real>::make(
-        model.elastic, static_cast<Real>(material.friction_angle), static_cast<Real>(material.dilation_angle),
-        static_cast<Real>(material.cohesion), static_cast<Real>(material.residual_cohesion),
-        static_cast<Real>(material.tension_cutoff));
+    const physics::Strength<Real> strength{
+        .friction_angle = static_cast<Real>(material.friction_angle),
+        .dilation_angle = static_cast<Real>(material.dilation_angle),
+        .cohesion = static_cast<Real>(material.cohesion),
+        .residual_cohesion = static_cast<Real>(material.residual_cohesion),
+        .tension_cutoff = static_cast<Real>(material.tension_cutoff),
+        .softening_strain = static_cast<Real>(material.softening_strain),
+        .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
+    if (strength.residual_friction_angle < strength.friction_angle) {
+      model.law = physics::MohrCoulomb<Real, true>::make(model.elastic, strength);
+    } else {
+      model.law = physics::MohrCoulomb<Real>::make(model.elastic, strength);
+    }
   } else {
     model.law = physics::LinearElastic<Real>{};
   }

@@ -22,8 +22,10 @@ LIMIT = 300.0  # s; it takes about 10 alone
 REGISTERS_OF_PHYSICS = {
     "strain_and_stress<LinearElastic<double>, 2>": 52,  # 46
     "strain_and_stress<LinearElastic<double>, 3>": 80,  # 72
-    "strain_and_stress<MohrCoulomb<double>, 2>": 68,  # 60
-    "strain_and_stress<MohrCoulomb<double>, 3>": 96,  # 84
+    "strain_and_stress<MohrCoulomb<double, false>, 2>": 68,  # 60
+    "strain_and_stress<MohrCoulomb<double, false>, 3>": 96,  # 84
+    "strain_and_stress<MohrCoulomb<double, true>, 2>": 86,  # 77
+    "strain_and_stress<MohrCoulomb<double, true>, 3>": 98,  # 88
     "yield_and_gap<2>": 50,  # 44
     "yield_and_gap<3>": 80,  # 72
     "heat<PowerLawCurve<double>>": 60,  # 54
@@ -46,7 +48,8 @@ REGISTERS_OF_STEP = {
     "move": (48, 152),  # 42, 138
     "move_affine": (80, 144),  # 72, 130
     "deform, LinearElastic<double>": (74, 104),  # 66, 95
-    "deform, MohrCoulomb<double>": (140, 164),  # 128, 148
+    "deform, MohrCoulomb<double, false>": (140, 164),  # 128, 148
+    "deform, MohrCoulomb<double, true>": (124, 144),  # 112, 130
     "heat_flows, PowerLawCurve<double>": (66, 76),  # 59, 68
     "heat_flows, LinearCurve<double>": (62, 76),  # 56, 68
     "secant_capacity, PowerLawCurve<double>": (52, 54),  # 46, 48

@@ -81,6 +81,11 @@ template __global__ void strain_and_stress<MohrCoulomb<Real>, 2>(MohrCoulomb<Rea
                                                                  std::size_t);
 template __global__ void strain_and_stress<MohrCoulomb<Real>, 3>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*,
                                                                  std::size_t);
+using SofteningFriction = MohrCoulomb<Real, true>;
+template __global__ void strain_and_stress<SofteningFriction, 2>(SofteningFriction, Elastic<Real>, Real*, Real*,
+                                                                 std::size_t);
+template __global__ void strain_and_stress<SofteningFriction, 3>(SofteningFriction, Elastic<Real>, Real*, Real*,
+                                                                 std::size_t);
 
 // What decides whether a particle needs its law at all, and what gaps take of its strain.
 template <int Dim>

@@ -275,6 +275,7 @@ void instantiate() {
   move_affine<Dim><<<1, 128>>>(tile, {}, {});
   deform<Dim, Elastic><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   deform<Dim, Coulomb><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
+  deform<Dim, physics::MohrCoulomb<Real, true>><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   heat_flows<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
   heat_flows<Dim, Line><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
   secant_capacity<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, 0);

@@ -63,6 +63,8 @@ TEST(CaseFile, DefaultsAreThoseOfThePaper) {
   EXPECT_EQ(found.basal.clamp, FrictionClamp::keep_cohesion);
   EXPECT_EQ(found.pressure.clapeyron, ClapeyronSign::usual);
   EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::ugimp);
+  EXPECT_EQ(found.materials.at("rock").softening_strain, 1.0);
+  EXPECT_FALSE(found.block.bends);
   EXPECT_EQ(found.bodies.at("block").porosity.at(0.0, 0.0), 0.375);
 }
 
@@ -110,6 +112,7 @@ TEST(CaseFile, FillsInWhatFollowsFromOtherKeys) {
       {{"step = 0.001", "stepping = \"adaptive\""}, {"law = \"elastic\"", "friction_angle = 30.0\ncohesion = 2e5"}}));
   EXPECT_EQ(found.time.step, 2.0) << "no cap but the end";
   EXPECT_EQ(found.materials.at("rock").residual_cohesion, 2e5) << "no softening";
+  EXPECT_EQ(found.materials.at("rock").residual_friction_angle, 30.0) << "no softening";
 }
 
 TEST(CaseFile, IsNamedByItsFolder) {

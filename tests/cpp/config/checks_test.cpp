@@ -244,6 +244,16 @@ TEST(Values, FitOneAnother) {
       error_of_changed({{"[body.block]", "residual_cohesion = 10.0\ncohesion = 5.0\n[body.block]"}}),
       "FOLDER/case.toml:15:21: material.rock.residual_cohesion is 10 Pa, above material.rock.cohesion, which is 5 "
       "Pa; softening takes cohesion away. Give a residual at most the cohesion.");
+  EXPECT_EQ(error_of_changed({{"[body.block]", "residual_friction_angle = 10.0\nfriction_angle = 5.0\n[body.block]"}}),
+            "FOLDER/case.toml:15:27: material.rock.residual_friction_angle is 10 degrees, above "
+            "material.rock.friction_angle, "
+            "which is 5 degrees; softening takes friction away. Give a residual at most the friction angle.");
+  EXPECT_EQ(error_of_changed({{"[body.block]",
+                               "residual_friction_angle = 10.0\nfriction_angle = 30.0\ndilation_angle = "
+                               "12.0\n[body.block]"}}),
+            "FOLDER/case.toml:15:27: material.rock.residual_friction_angle is 10 degrees, below "
+            "material.rock.dilation_angle, which is 12 degrees; allowed: at least the dilation angle, which does not "
+            "soften, else plastic flow makes energy.");
 }
 
 TEST(Values, GiveOneAnotherAMeaning) {

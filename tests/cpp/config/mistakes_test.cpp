@@ -10,7 +10,7 @@ using namespace case_messages;
 const std::string all_tables =
     "[case], [time], [grid], [grid.boundary], [terrain], [checkpoint], [maps], [probe.NAME], [report], [phases], "
     "[freezing], [material.NAME], [body.NAME], [frame.NAME], [initial], [mechanics], [basal], [mechanisms], [band], "
-    "[heat], [heat.boundary], [pressure].";
+    "[heat], [heat.boundary], [pressure], [block].";
 
 TEST(Mistakes, SoundCaseHasNone) { EXPECT_EQ(error_of_text(sound), "no error"); }
 

@@ -80,6 +80,8 @@ friction_angle = 31.0
 dilation_angle = 4.0
 cohesion = 200000.0
 residual_cohesion = 100000.0
+residual_friction_angle = 22.0
+softening_strain = 0.02
 tension_cutoff = 10000.0
 gaps_close_first = true
 viscosity_time = 0.03
@@ -156,6 +158,8 @@ seepage = false
 seepage_scaling = "printed"
 thickness_direction = "vertical"
 thickness_update = "frozen"
+[block]
+bends = true
 )";
 
 const std::string rest_in_3d = R"([case]

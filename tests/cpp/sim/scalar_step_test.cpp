@@ -202,6 +202,7 @@ TEST(ScalarStep, IsThatOfTheBatchesWithOtherChoices) {
   of({"pressure.frozen_rows=vented", "phases.water_expansion_law=by_temperature"});
   of({"pressure.frozen=none", "pressure.residual_stress=2e3", "pressure.skeleton_compressibility=1e-8"});
   of({"pressure.melt_contraction=true", "pressure.frozen=none", "heat.advection_form=conservative"});
+  of({"material.melted.softening_strain=0.01", "material.melted.residual_friction_angle=20.0"});
 }
 
 }  // namespace
