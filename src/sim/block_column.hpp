@@ -16,6 +16,15 @@ namespace thawslide::sim {
 struct BlockBase {
   double pore_pressure, saturation, solid_fraction, temperature;
 };
+// Means over the band.
+struct BlockBand {
+  double temperature, saturation, pore_pressure;
+};
+// What one step does to the base: heat flux into it [W/m2], normal pressure on it [Pa], speed of slip [m/s], slip [m],
+// thickness of the band as the case has it [m], 0: no band.
+struct BlockDrive {
+  double heat_flux, normal_pressure, speed, slip, band_thickness, dt;
+};
 
 class BlockColumn {
  public:
@@ -30,13 +39,13 @@ class BlockColumn {
   };
   BlockColumn(const band::BandModel<2, double>& model, const Initial& initial);
 
-  // One step with a heat flux into the base [W/m2], a normal pressure on it [Pa] and a band that is so thick [m], 0: no
-  // band. Returns the heat that rows gained per base area [J/m2].
-  double step(double flux, double normal_pressure, double band_thickness, double dt);
+  // Returns the heat that rows gained per base area [J/m2].
+  double step(const BlockDrive& drive);
 
   // Per base area; heights above the base, in the MPM's unscaled cells.
   [[nodiscard]] const mpm::Particles<2, double>& rows() const { return rows_; }
   [[nodiscard]] BlockBase base() const;
+  [[nodiscard]] BlockBand band() const;
 
  private:
   void find_base_nodes();

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "physics/basal/bonds_cohesion.hpp"
 #include "physics/basal/constant_cohesion.hpp"
 #include "physics/basal/constant_friction.hpp"
 #include "physics/basal/ice_cohesion.hpp"
@@ -24,7 +25,8 @@ using CohesionLaw = std::variant<  //
     ConstantCohesion<Real>,        //
     SlipCohesion<Real>,            //
     IceCohesion<Real>,             //
-    TimeCohesion<Real>>;
+    TimeCohesion<Real>,            //
+    BondsCohesion<Real>>;
 
 // The type of a law, to be handed to a function.
 template <class Law>

@@ -194,8 +194,8 @@ TEST(Mistakes, MissingKey) {
             "'friction_angle = ...' to [basal]: basal friction angle phi_f, a number, >= 0 and < 90 [degrees].");
   EXPECT_EQ(error_of_changed({{"[basal]", "[basal]\ncohesion = 1.0"}}),
             "FOLDER/case.toml:20:1: key 'basal.slip_distance' is missing: it is needed when basal.cohesion > 0 and "
-            "basal.cohesion_law is \"slip\". Add 'slip_distance = ...' to [basal]: slip over which the cohesion falls "
-            "to 1/e, d_c, of the law \"slip\", a number, > 0 [m].");
+            "basal.cohesion_law is \"slip\" or \"bonds\". Add 'slip_distance = ...' to [basal]: slip over which the "
+            "cohesion falls to 1/e, d_c, of the laws \"slip\" and \"bonds\", a number, > 0 [m].");
 }
 
 TEST(Mistakes, KeyOfAnotherDimension) {

@@ -89,6 +89,25 @@ TEST(Cohesion, Laws) {
   EXPECT_DOUBLE_EQ(time.cohesion(Node{.time = 10.0}), 1e5);
 }
 
+// Simpson's rule over the slip: the energy that sliding takes, while all is frozen, is c_0 d_c.
+TEST(Cohesion, BondsCostTheirEnergyOnce) {
+  const double initial = 1.9e5, distance = 20.0;
+  const auto bonds = law_from<BondsCohesion<double>>({{"cohesion", initial}, {"slip_distance", distance}});
+  const int parts = 4000;
+  const double slip = 50.0 * distance, part = slip / parts;
+  double energy = 0.0;
+  for (int k = 0; k <= parts; ++k) {
+    energy += (k == 0 || k == parts ? 1.0
+               : k % 2 == 1         ? 4.0
+                                    : 2.0) *
+              part / 3.0 * bonds.cohesion(Node{.slip = k * part});
+  }
+  EXPECT_NEAR(energy / (initial * distance), 1.0, 1e-9);
+  EXPECT_EQ(bonds.cohesion(Node{}), initial);
+  EXPECT_DOUBLE_EQ(bonds.cohesion(Node{.saturation = 0.75, .slip = distance}), 0.25 * initial * std::exp(-1.0));
+  EXPECT_EQ(bonds.cohesion(Node{.saturation = 1.0}), 0.0);
+}
+
 TEST(Contact, SticksBelowTheStrengthAndSlidesAboveIt) {
   const auto sticks = contact_impulse(8.0, 3.0, 2.0, 0.5, 3.0);
   EXPECT_FALSE(sticks.slides);
