@@ -12,12 +12,6 @@ using mpm::BaseState;
 using mpm::Contact;
 
 template <int Dim, class Real>
-physics::BandMeans<Real> BaseColumns<Dim, Real>::means_of(const Piece& piece) const {
-  return std::visit([&](const auto& model) { return physics::band_means(model, piece.load, piece.column); },
-                    model_.column);
-}
-
-template <int Dim, class Real>
 void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
   nodes.base_state.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.near_ground.holds(b); });
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
@@ -27,7 +21,7 @@ void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mp
     }
   }
   for (const Piece& piece : pieces_) {
-    const physics::BandMeans<Real> means = means_of(piece);
+    const physics::BandMeans<Real> means = means_of(model_, piece);
     const Stencil stencil(grid, piece.position);
     const Real ratio = piece.load > Real(0) ? means.pore_pressure / piece.load : Real(0);
     for (std::size_t k = 0; k < stencil.count; ++k) {
@@ -224,7 +218,7 @@ typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes,
                                              Piece& piece) const {
-  Real force = 0, area = 0, heat = 0, slip = 0, touching = 0;
+  Real force = 0, area = 0, heat = 0, slip = 0;
   for (std::size_t k = 0; k < stencil.count; ++k) {
     const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
     if (contact[Contact::touching] > Real(0)) {
@@ -233,14 +227,10 @@ void BaseColumns<Dim, Real>::take_from_nodes(const Stencil& stencil, Real dt, co
       slip += stencil.weight[k] * contact[Contact::area] * contact[Contact::slip_speed];
       heat += stencil.weight[k] * contact[Contact::friction_heat] /
               nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
-      touching += stencil.weight[k];
     }
   }
-  const Real load = area > Real(0) ? force / area : Real(0);
-  const Real share = piece.touched ? -physics::exponential_minus_one(-dt / model_.load_time) : Real(1);
   if (piece.touched || area > Real(0)) {
-    piece.load += share * (load - piece.load);
-    piece.touched = true;
+    follow_load(model_, area > Real(0) ? force / area : Real(0), dt, piece);
   }
   piece.speed = area > Real(0) ? slip / area : Real(0);
   piece.slip += dt * piece.speed;
@@ -301,61 +291,11 @@ void BaseColumns<Dim, Real>::take_up(const Piece& piece) {
 }
 
 template <int Dim, class Real>
-Real BaseColumns<Dim, Real>::wanted_thickness(const Piece& piece, Real thickness) const {
-  constexpr Real least_effective = static_cast<Real>(0.02), fastest_growth = static_cast<Real>(1.05);
-  const Real now = piece.column.thickness;
-  Real wanted = thickness;
-  if (model_.growth == BandGrowth::slip) {
-    wanted = std::max(now, thickness + model_.growth_per_slip * piece.slip);
-  } else if (model_.growth == BandGrowth::inertial && piece.load > Real(0)) {
-    const Real effective = std::max(piece.load - means_of(piece).pore_pressure, least_effective * piece.load);
-    wanted = std::max(
-        {now, thickness,
-         piece.speed * model_.grain_size * std::sqrt(model_.rock_density / effective) / model_.inertial_number});
-  }
-  return std::min({std::max(wanted, now / fastest_growth), now * fastest_growth, model_.largest_thickness});
-}
-
-template <int Dim, class Real>
 void BaseColumns<Dim, Real>::step(Real thickness, Real duration) {
-  constexpr Real largest_share = static_cast<Real>(0.1);  // by which a piece may stretch in one step of its column
   look_for_gaps_ = true;
   std::vector<physics::ColumnAccount<Real>> accounts(pieces_.size());
-  const auto add = [](physics::ColumnAccount<Real>& sum, const physics::ColumnAccount<Real>& part, Real area) {
-    sum.friction_heat += area * part.friction_heat;
-    sum.body_heat += area * part.body_heat;
-    sum.ground_heat += area * part.ground_heat;
-    sum.vented_heat += area * part.vented_heat;
-    sum.steam_heat += area * part.steam_heat;
-    sum.body_water += area * part.body_water;
-    sum.vented_water += area * part.vented_water;
-    sum.steam += area * part.steam;
-  };
-  parallel_for(pieces_.size(), [&](std::size_t p) {
-    Piece& piece = pieces_[p];
-    const Real stretch = std::log(piece.area / piece.area_of_column);
-    const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(stretch) / largest_share)));
-    const Real before = piece.column.thickness, after = wanted_thickness(piece, thickness);
-    const Real dt = duration / static_cast<Real>(parts), heat = piece.heat / static_cast<Real>(parts);
-    const Real factor = std::exp(stretch / static_cast<Real>(parts));
-    for (int part = 1; part <= parts; ++part) {
-      piece.area_of_column = part == parts ? piece.area : piece.area_of_column * factor;
-      std::visit(
-          [&](const auto& model) {
-            const physics::ColumnDrive<Real> drive{
-                dt,
-                std::max(piece.load, Real(0)),
-                heat / (piece.area_of_column * dt),
-                (factor - Real(1)) / dt,
-                before + (after - before) * static_cast<Real>(part) / static_cast<Real>(parts),
-                physics::body_enthalpy(model, model_.body_temperature),
-                physics::water_of_full_pores(model, model_.body_temperature)};
-            add(accounts[p], physics::step_column(model, drive, piece.column), piece.area_of_column);
-          },
-          model_.column);
-    }
-    piece.heat = Real(0);
-  });
+  parallel_for(pieces_.size(),
+               [&](std::size_t p) { accounts[p] = step_piece(model_, thickness, duration, pieces_[p]); });
   for (const auto& account : accounts) {
     ledger_.friction_heat += account.friction_heat;
     ledger_.body_heat += account.body_heat;

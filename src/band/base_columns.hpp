@@ -3,38 +3,13 @@
 #pragma once
 
 #include <functional>
-#include <variant>
 #include <vector>
 
-#include "band/base_piece.hpp"
+#include "band/piece_step.hpp"
 #include "base/named_numbers.hpp"
 #include "mpm/nodes.hpp"
-#include "physics/band_column_step.hpp"
 
 namespace thawslide::band {
-
-template <class Real>
-using AnyColumnModel = std::variant<physics::ColumnModel<Real, physics::PowerLawCurve<Real>>,
-                                    physics::ColumnModel<Real, physics::LinearCurve<Real>>>;
-
-// How the band's thickness e grows beyond what the case gives.
-enum class BandGrowth {
-  none,
-  inertial,  // e = v d sqrt(rho_S/(N - P))/I, with N - P at least 0.02 N
-  slip       // in proportion to the slip
-};
-
-template <class Real>
-struct ColumnsModel {
-  AnyColumnModel<Real> column;
-  Real body_temperature = 0, ground_temperature = 0;  // [C]
-  Real load_time = 0;                                 // over which N is averaged [s]
-  BandGrowth growth = BandGrowth::none;
-  Real grain_size = 0, inertial_number = 1;  // d [m], I
-  Real growth_per_slip = 0;
-  Real rock_density = 0;       // rho_S [kg/m3]
-  Real largest_thickness = 0;  // of the band [m]
-};
 
 // Sums over all pieces [J, kg, m2, m3]. Heat: with the friction heat that waits for the columns' next step.
 template <class Real>
@@ -97,7 +72,6 @@ class BaseColumns {
   [[nodiscard]] const ColumnLedger<Real>& ledger() const { return ledger_; }
   [[nodiscard]] ColumnSums<Real> sums() const;
   [[nodiscard]] BaseMeans<Real> means() const;
-  [[nodiscard]] physics::BandMeans<Real> means_of(const BasePiece<Dim, Real>& piece) const;
 
   // Everything a checkpoint must hold, and its way back.
   [[nodiscard]] std::vector<double> state() const;
@@ -127,7 +101,6 @@ class BaseColumns {
   void part_long_pieces(Real longest, const Ground& ground);
   void take_up(const Piece& piece);
   void place_on(const Ground& ground, Piece& piece) const;
-  [[nodiscard]] Real wanted_thickness(const Piece& piece, Real thickness) const;
 
   ColumnsModel<Real> model_;
   std::vector<Piece> pieces_;

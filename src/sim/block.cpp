@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <variant>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "physics/bend.hpp"
 #include "physics/contact.hpp"
+#include "sim/block_band_column.hpp"
 #include "sim/block_column.hpp"
 #include "sim/bodies.hpp"
 #include "sim/initial_state.hpp"
@@ -118,7 +120,7 @@ class Block {
         model_(model),
         path_(*model.profile),
         slices_(make_slices(parameters, model, path_, particles)),
-        column_(model_.band, initial_column(particles.material(0))) {
+        column_(make_column(particles.material(0))) {
     const auto& start = parameters.bodies.begin()->second.velocity;
     const Vector<double, 2> into = normal_below(model, slices_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
@@ -139,9 +141,8 @@ class Block {
     friction_heat_ += heat;
     displacement_ += middle * dt;
     slip_ += impulse.slides ? std::abs(middle) * dt : 0.0;
-    const Table& thickness = parameters_.band.thickness;
-    heat_gain_ +=
-        column_.step(heat / dt, basal_.normal_pressure[0], thickness.value.empty() ? 0.0 : thickness.at(time_), dt);
+    const BlockDrive drive{heat / dt, basal_.normal_pressure[0], std::abs(middle), slip_, band_thickness(), dt};
+    heat_gain_ += std::visit([&](auto& column) { return column.step(drive); }, column_);
     time_ += dt;
   }
 
@@ -149,16 +150,7 @@ class Block {
 
   HistoryRow row() {
     const Forces forces = evaluate_base();
-    const mpm::Particles<2, double>& rows = column_.rows();
-    double count = 0.0, temperature = 0.0, saturation = 0.0, pressure = 0.0;
-    for (std::size_t p = 0; p < rows.size(); ++p) {
-      if (rows.in_band(p) != 0) {
-        count += 1.0;
-        temperature += rows.temperature(p);
-        saturation += rows.liquid_saturation(p);
-        pressure += rows.pore_pressure(p);
-      }
-    }
+    const BlockBand band = std::visit([](const auto& column) { return column.band(); }, column_);
     const double front = path_.x_at(slices_.all.back().path + displacement_) + model_.origin[0];
     return {{"time_s", time_},
             {"velocity_m_s", velocity_},
@@ -168,9 +160,9 @@ class Block {
             {"pore_pressure_Pa", basal_.pore_pressure[0]},
             {"sliding_strength_Pa", basal_.strength[0]},
             {"driving_traction_Pa", forces.along / slices_.base},
-            {"band_temperature_C", temperature / count},
-            {"band_saturation", saturation / count},
-            {"band_pore_pressure_Pa", pressure / count},
+            {"band_temperature_C", band.temperature},
+            {"band_saturation", band.saturation},
+            {"band_pore_pressure_Pa", band.pore_pressure},
             {"band_friction_coefficient", basal_.friction[0]},
             {"friction_work_J_m2", friction_work_},
             {"friction_heat_J_m2", friction_heat_},
@@ -178,6 +170,25 @@ class Block {
   }
 
  private:
+  [[nodiscard]] double band_thickness() const {
+    const Table& thickness = parameters_.band.thickness;
+    return thickness.value.empty() ? 0.0 : thickness.at(time_);
+  }
+
+  [[nodiscard]] std::variant<BlockColumn, BlockBandColumn> make_column(std::int32_t material) const {
+    const BlockColumn::Initial rows = initial_column(material);
+    if (!model_.contact.band_columns) {
+      return BlockColumn(model_.band, rows);
+    }
+    const double temperature = rows.temperature(rows.thickness);
+    const double saturation =
+        model_.band.with_heat_content([&](const auto& content) { return content.curve.saturation(temperature); });
+    const double conductivity = model_.band.hydraulic_conductivity[static_cast<std::size_t>(material)];
+    const ColumnMatter matter{temperature, rows.porosity(rows.thickness, saturation), conductivity, rows.thickness};
+    return BlockBandColumn(make_columns_model(parameters_, model_, matter), band_thickness(), rows.normal_pressure,
+                           parameters_.band.column_step);
+  }
+
   [[nodiscard]] BlockColumn::Initial initial_column(std::int32_t material) const {
     const config::Body& body = parameters_.bodies.begin()->second;
     const auto seed_at = [this](double depth) {
@@ -185,7 +196,7 @@ class Block {
     };
     return {slices_.thickness,
             parameters_.grid.cell,
-            gravity_on_slices(model_, path_, slices_, 0.0).normal / slices_.base,
+            forces_on_slices(model_, path_, slices_, 0.0, 0.0).normal / slices_.base,
             body.particles_per_axis,
             material,
             [&, seed_at](double depth) { return initial_temperature(model_, body, nullptr, seed_at(depth)); },
@@ -198,7 +209,7 @@ class Block {
   Forces evaluate_base() {
     const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
     const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
-    const BlockBase base = column_.base();
+    const BlockBase base = std::visit([](const auto& column) { return column.base(); }, column_);
     basal_.count = 1;
     basal_.normal_pressure[0] = forces.normal / slices_.base;
     basal_.pore_pressure[0] = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
@@ -215,7 +226,7 @@ class Block {
   const Model<2, double>& model_;
   Path path_;
   Slices slices_;
-  BlockColumn column_;
+  std::variant<BlockColumn, BlockBandColumn> column_;
   terrain::BasalNodes<double> basal_;
   double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;
   double friction_work_ = 0, friction_heat_ = 0, heat_gain_ = 0;

@@ -78,21 +78,21 @@ void BlockColumn::set_normal_load(double normal_pressure) {
   }
 }
 
-double BlockColumn::step(double flux, double normal_pressure, double band_thickness, double dt) {
-  band::rescale_band<2, double>(grid_, model_, band_thickness, {}, rows_);
+double BlockColumn::step(const BlockDrive& drive) {
+  band::rescale_band<2, double>(grid_, model_, drive.band_thickness, {}, rows_);
   band::average_on_grid(grid_, model_, rows_, nodes_);
   band::average_seeping_water(grid_, model_, rows_, nodes_);
   const double before = heat();
   if (model_.heat) {
     for (const mpm::NodeAt& node : base_nodes_) {
       nodes_.contact.of_block(node.block)[node.node][mpm::Contact::friction_heat] =
-          flux / static_cast<double>(base_nodes_.size());
+          drive.heat_flux / static_cast<double>(base_nodes_.size());
     }
-    band::conduct_heat(grid_, model_, dt, false, nodes_, rows_);
+    band::conduct_heat(grid_, model_, drive.dt, false, nodes_, rows_);
   }
   if (model_.pressure) {
-    set_normal_load(normal_pressure);
-    band::drain_pore_pressure(grid_, model_, flow_depth_, dt, nodes_, rows_);
+    set_normal_load(drive.normal_pressure);
+    band::drain_pore_pressure(grid_, model_, flow_depth_, drive.dt, nodes_, rows_);
   }
   return heat() - before;
 }
@@ -119,6 +119,20 @@ BlockBase BlockColumn::base() const {
   }
   return {base.pore_pressure / weights, base.saturation / weights, base.solid_fraction / weights,
           base.temperature / weights};
+}
+
+BlockBand BlockColumn::band() const {
+  double count = 0.0;
+  BlockBand band{};
+  for (std::size_t p = 0; p < rows_.size(); ++p) {
+    if (rows_.in_band(p) != 0) {
+      count += 1.0;
+      band.temperature += rows_.temperature(p);
+      band.saturation += rows_.liquid_saturation(p);
+      band.pore_pressure += rows_.pore_pressure(p);
+    }
+  }
+  return {band.temperature / count, band.saturation / count, band.pore_pressure / count};
 }
 
 }  // namespace thawslide::sim
