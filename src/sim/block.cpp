@@ -170,23 +170,25 @@ class Block {
   }
 
  private:
+  using AnyColumn = std::variant<BlockColumn, BlockBandColumn>;
+
   [[nodiscard]] double band_thickness() const {
     const Table& thickness = parameters_.band.thickness;
     return thickness.value.empty() ? 0.0 : thickness.at(time_);
   }
 
-  [[nodiscard]] std::variant<BlockColumn, BlockBandColumn> make_column(std::int32_t material) const {
+  [[nodiscard]] AnyColumn make_column(std::int32_t material) const {
     const BlockColumn::Initial rows = initial_column(material);
     if (!model_.contact.band_columns) {
-      return BlockColumn(model_.band, rows);
+      return AnyColumn(std::in_place_type<BlockColumn>, model_.band, rows);
     }
     const double temperature = rows.temperature(rows.thickness);
     const double saturation =
         model_.band.with_heat_content([&](const auto& content) { return content.curve.saturation(temperature); });
     const double conductivity = model_.band.hydraulic_conductivity[static_cast<std::size_t>(material)];
     const ColumnMatter matter{temperature, rows.porosity(rows.thickness, saturation), conductivity, rows.thickness};
-    return BlockBandColumn(make_columns_model(parameters_, model_, matter), band_thickness(), rows.normal_pressure,
-                           parameters_.band.column_step);
+    return AnyColumn(std::in_place_type<BlockBandColumn>, make_columns_model(parameters_, model_, matter),
+                     band_thickness(), rows.normal_pressure, parameters_.band.column_step);
   }
 
   [[nodiscard]] BlockColumn::Initial initial_column(std::int32_t material) const {
@@ -226,9 +228,9 @@ class Block {
   const Model<2, double>& model_;
   Path path_;
   Slices slices_;
-  std::variant<BlockColumn, BlockBandColumn> column_;
-  terrain::BasalNodes<double> basal_;
   double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;
+  AnyColumn column_;
+  terrain::BasalNodes<double> basal_;
   double friction_work_ = 0, friction_heat_ = 0, heat_gain_ = 0;
 };
 
