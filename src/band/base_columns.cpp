@@ -21,7 +21,7 @@ void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mp
     }
   }
   for (const Piece& piece : pieces_) {
-    const physics::BandMeans<Real> means = means_of(model_, piece);
+    const physics::BandMeans<Real> means = means_of(piece);
     const Stencil stencil(grid, piece.position);
     const Real ratio = piece.load > Real(0) ? means.pore_pressure / piece.load : Real(0);
     for (std::size_t k = 0; k < stencil.count; ++k) {
@@ -124,18 +124,52 @@ void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, 
       }
     }
   }
+  const std::size_t known = pieces_.size();
   for (const Lattice& cell : bare) {
-    const Piece piece = new_piece(cell, grid.cell(), ground, thickness);
-    const Stencil stencil(grid, piece.position);
-    for (std::size_t k = 0; k < stencil.count; ++k) {
-      if (nodes.base_state.holds(stencil.block[k])) {
-        nodes.base_state.of_block(stencil.block[k])[stencil.node[k]][BaseState::area] += stencil.weight[k] * piece.area;
-      }
-    }
+    pieces_.push_back(new_piece(cell, grid.cell(), ground, thickness));
+    add_area(grid, pieces_.back(), nodes);
+  }
+  std::vector<Real> share;  // of the area in contact
+  for (std::size_t p = known; p < pieces_.size(); ++p) {
+    share.push_back(area_in_contact(grid, nodes, pieces_[p]) / pieces_[p].area);
+  }
+  for (std::size_t p = known; p < pieces_.size(); ++p) {  // at the edge of the slide a piece is smaller than its cell
+    Piece& piece = pieces_[p];
+    const Real factor = std::clamp(share[p - known], Real(0.1), Real(1));
+    add_area(grid, piece, nodes, factor - Real(1));
+    piece.sides *= std::pow(factor, Real(1) / static_cast<Real>(Dim - 1));
+    piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
     ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
     ledger_.laid_water += piece.area * physics::water_of(piece.column);
-    pieces_.push_back(piece);
   }
+}
+
+// Adds a share of a piece's area to what nodes see.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::add_area(const mpm::SparseGrid<Dim, Real>& grid, const Piece& piece,
+                                      mpm::Nodes<Dim, Real>& nodes, Real share) const {
+  const Stencil stencil(grid, piece.position);
+  for (std::size_t k = 0; k < stencil.count; ++k) {
+    if (nodes.base_state.holds(stencil.block[k])) {
+      nodes.base_state.of_block(stencil.block[k])[stencil.node[k]][BaseState::area] +=
+          share * stencil.weight[k] * piece.area;
+    }
+  }
+}
+
+// What of the area in contact falls to a piece, as nodes share it out among those that they see [m2].
+template <int Dim, class Real>
+Real BaseColumns<Dim, Real>::area_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
+                                             const Piece& piece) const {
+  const Stencil stencil(grid, piece.position);
+  Real area = 0;
+  for (std::size_t k = 0; k < stencil.count; ++k) {
+    const Real seen = nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
+    if (seen > Real(0)) {
+      area += nodes.contact(stencil.block[k], stencil.node[k])[Contact::area] * stencil.weight[k] * piece.area / seen;
+    }
+  }
+  return area;
 }
 
 template <int Dim, class Real>

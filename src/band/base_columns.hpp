@@ -69,6 +69,9 @@ class BaseColumns {
   void step(Real thickness, Real duration);
 
   [[nodiscard]] const std::vector<BasePiece<Dim, Real>>& pieces() const { return pieces_; }
+  [[nodiscard]] physics::BandMeans<Real> means_of(const BasePiece<Dim, Real>& piece) const {
+    return band::means_of(model_, piece);
+  }
   [[nodiscard]] const ColumnLedger<Real>& ledger() const { return ledger_; }
   [[nodiscard]] ColumnSums<Real> sums() const;
   [[nodiscard]] BaseMeans<Real> means() const;
@@ -87,6 +90,10 @@ class BaseColumns {
                                        const mpm::Nodes<Dim, Real>& nodes) const;
   void lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
                   Real thickness, mpm::Nodes<Dim, Real>& nodes);
+  void add_area(const mpm::SparseGrid<Dim, Real>& grid, const Piece& piece, mpm::Nodes<Dim, Real>& nodes,
+                Real share = 1) const;
+  [[nodiscard]] Real area_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
+                                     const Piece& piece) const;
   [[nodiscard]] Piece new_piece(const Lattice& cell, Real cell_size, const Ground& ground, Real thickness);
   // How the slide about a piece moves.
   struct Nearby {

@@ -40,7 +40,7 @@ template <int Dim, class Real>
 ColumnSums<Real> BaseColumns<Dim, Real>::sums() const {
   ColumnSums<Real> sums;
   for (const Piece& piece : pieces_) {
-    const physics::BandMeans<Real> means = means_of(model_, piece);
+    const physics::BandMeans<Real> means = means_of(piece);
     sums.area += piece.area;
     sums.heat += piece.area_of_column * physics::heat_of(piece.column) + piece.heat;
     sums.waiting_heat += piece.heat;
@@ -56,7 +56,7 @@ BaseMeans<Real> BaseColumns<Dim, Real>::means() const {
   BaseMeans<Real> result;
   Real area = 0;
   for (const Piece& piece : pieces_) {
-    const physics::BandMeans<Real> means = means_of(model_, piece);
+    const physics::BandMeans<Real> means = means_of(piece);
     area += piece.area;
     result.temperature += piece.area * means.temperature;
     result.saturation += piece.area * means.saturation;
