@@ -119,7 +119,7 @@ TEST(ThicknessChange, ConservingMixesTheVoidToo) {
   const double all = particles.pore_void(3);
   for (std::size_t p = 0; p < particles.size(); ++p) {
     heat_to(simulation, p, 400.0);
-    particles.pore_void(p) = 0.0;
+    particles.pore_void(p) = particles.liquid_pressure(p) = particles.pore_pressure(p) = 0.0;
   }
   simulation.step(1.0);
   simulation.step(1.0);
@@ -151,12 +151,15 @@ TEST(ConservativeAdvection, MakesNoHeat) {
   EXPECT_EQ(value_of(row, "advection_J"), 0.0);
   EXPECT_GT(drained, 0.0);
   EXPECT_NEAR((heat(row) + drained) / before, 1.0, 1e-13);
-  EXPECT_NEAR(value_of(row, "drained_water_kg") * 4180.0 * 45.0 / drained, 1.0, 0.9) << "water of 5 to 45 C";
+  const double of_water = drained / (value_of(row, "drained_water_kg") * 4180.0);
+  EXPECT_TRUE(of_water > 4.9 && of_water < 45.0) << of_water << " C";
 }
 
 // In the first step heat moves up by rho_L C_L q_L (T - Tref): its centre by the flux over all heat.
 TEST(ConservativeAdvection, CarriesTheHeatOfTheWater) {
-  Simulation<2, double> simulation(case_from_text(column, seeping));
+  auto on_small_cells = seeping;
+  on_small_cells.emplace_back("grid.cell=0.25");
+  Simulation<2, double> simulation(case_from_text(column, on_small_cells));
   stir(simulation, 20.0);
   const auto& particles = simulation.particles();
   const auto moment = [&] {
@@ -171,7 +174,9 @@ TEST(ConservativeAdvection, CarriesTheHeatOfTheWater) {
   // q_L = k/gamma_w 1e6 pi/5 sin(pi y/5); the integral of q_L (25 + 20 cos(pi y/5)) over 1 m by 5 m is 50/pi of its
   // amplitude times 5.
   const double exact = 1000.0 * 4180.0 * 1e-9 / 9810.0 * 1e6 * pi<double> / 5.0 * 25.0 * 10.0 / pi<double>;
-  EXPECT_NEAR((moment() - before) / exact, 1.0, 0.02);
+  const double top = 4.9375;  // of the particles that drain
+  const double moved = moment() - before + value_of(history_row(simulation), "drained_heat_J") * top;
+  EXPECT_NEAR(moved / exact, 1.0, 0.02);
 }
 
 // Water that leaves a body of one temperature leaves it so, at its drained top as well.
@@ -182,7 +187,7 @@ TEST(ConservativeAdvection, LeavesOneTemperatureAlone) {
   const auto row = history_row(simulation);
   const auto& particles = simulation.particles();
   const double drained = value_of(row, "drained_water_kg");
-  EXPECT_GT(drained, 0.3);
+  EXPECT_GT(drained, 0.1);
   for (std::size_t p = 0; p < particles.size(); ++p) {
     EXPECT_NEAR(particles.temperature(p), 25.0, 0.05);
   }

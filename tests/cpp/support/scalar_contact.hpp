@@ -172,6 +172,7 @@ class ScalarContact {
     const Place old = old_momentum(node);
     Place momentum = trial(node), along = Place::Zero();
     double friction_impulse = 0.0;
+    bool slides = false;
     const auto load = load_.find(node);
     if (load != load_.end() && load->second > 0.0) {
       const Place& normal = ground_.at(node).normal;
@@ -182,11 +183,12 @@ class ScalarContact {
       along = tangential.normalized();
       momentum -= impulse.normal * normal + impulse.tangential * along;
       motion.touching = true;
-      friction_impulse = impulse.slides ? impulse.tangential : 0.0;
+      slides = impulse.slides;
+      friction_impulse = impulse.tangential;
     }
     motion.acceleration = (momentum - old) / (mass(node) * dt_);
     motion.middle_velocity = 0.5 * (old + momentum) / mass(node);
-    if (friction_impulse > 0.0) {
+    if (slides) {
       motion.slip_speed = std::max(0.0, motion.middle_velocity.dot(along));
       motion.friction_heat = model_.law.heat_fraction * friction_impulse * motion.slip_speed / dt_;
     }
