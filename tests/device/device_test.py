@@ -60,7 +60,9 @@ REGISTERS_OF_STEP = {
     "masses_anew, PowerLawCurve<double>": (44, 44),  # 38, 38
     "orphan_heat": (40, 40),  # 32, 32
     "seepage": (50, 46),  # 43, 40
-    "pore_pressure": (56, 56),  # 50, 50
+    "seeping_water": (24, 24),  # 16, 16
+    "pore_pressure, false": (64, 64),  # 58, 58
+    "pore_pressure, true": (64, 64),  # 57, 58
     "take_position": (40, 42),  # 32, 34
     "sum_in_cell, Momentum": (40, 40),  # 32, 32
     "sum_in_cell, HeatRates": (40, 40),  # 32, 32

@@ -130,6 +130,7 @@ __global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::
   result.put(conductivity(phases, porosity, saturation));
   result.put(expansion(phases, porosity, saturation));
   result.put(updated_porosity(phases, porosity, row.take(), row.take()));
+  result.put(mixed(porosity, row.take(), row.take()));
 }
 
 __global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign, bool as_printed, Real* numbers,
@@ -159,6 +160,8 @@ __global__ void water_balance(Phases<Real> phases, WaterExpansion<Real> water, R
   const PoreFilling<Real> filling = pore_filling(surplus, storage, load);
   result.put(filling.pressure);
   result.put(pore_surplus(filling, storage));
+  result.put(pore_filling(surplus, storage).gas_void);
+  result.put(storing_porosity(phases, porosity, skeleton_compressibility));
 }
 
 __device__ basal::ContactNode<Real> take_node(Row& row) {

@@ -62,6 +62,14 @@ TEST(CaseFile, DefaultsAreThoseOfThePaper) {
   EXPECT_EQ(found.basal.numbers(physics::basal::residual_cohesion), 0.0);
   EXPECT_EQ(found.basal.clamp, FrictionClamp::keep_cohesion);
   EXPECT_EQ(found.pressure.clapeyron, ClapeyronSign::usual);
+  EXPECT_EQ(found.phases.water_expansion_law, WaterExpansionLaw::constant);
+  EXPECT_EQ(found.pressure.frozen, FrozenPressure::ice_pressure);
+  EXPECT_TRUE(std::isinf(found.pressure.residual_stress));
+  EXPECT_FALSE(found.pressure.melt_contraction);
+  EXPECT_EQ(found.pressure.skeleton_compressibility, 0.0);
+  EXPECT_EQ(found.pressure.frozen_rows, FrozenRows::draining);
+  EXPECT_EQ(found.band.thickness_change, ThicknessChange::as_printed);
+  EXPECT_EQ(found.heat.advection_form, AdvectionForm::as_printed);
   EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::ugimp);
   EXPECT_EQ(found.materials.at("rock").softening_strain, 1.0);
   EXPECT_FALSE(found.block.bends);

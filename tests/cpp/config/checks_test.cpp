@@ -276,6 +276,14 @@ TEST(Values, GiveOneAnotherAMeaning) {
       "--set pressure.enabled=false: mechanics.effective_stress is true, and pressure.enabled is false; there is no "
       "pore "
       "pressure to take off. Set pressure.enabled = true, or mechanics.effective_stress = false.");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[heat]\nadvection_form = \"conservative\"\nmasses = \"current\"\n[basal]"}}),
+            "FOLDER/case.toml:21:18: heat.advection_form is \"conservative\", and heat.update or heat.masses is as "
+            "printed, which makes heat all the same; allowed with it: heat.update = \"enthalpy\" and heat.masses = "
+            "\"initial\". Set both so, or heat.advection_form = \"as_printed\".");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[pressure]\nresidual_stress = 2e5\n[basal]"}}),
+            "FOLDER/case.toml:21:19: pressure.residual_stress is 200000 Pa, and pressure.frozen is not \"none\"; where "
+            "ice presses, water starts from its pressure. Set pressure.frozen = \"none\", or remove "
+            "pressure.residual_stress.");
   EXPECT_EQ(
       error_of_changed({{"elevation = 0.0", "slope = 30.0"}}),
       "FOLDER/case.toml:10:9: terrain.slope is 30 degrees, and terrain.type is not \"plane\"; no other ground has "

@@ -63,6 +63,7 @@ water_conductivity = 0.75
 rock_expansion = 0.001
 ice_expansion = 0.002
 water_expansion = 0.003
+water_expansion_law = "by_temperature"
 water_bulk_modulus = 2000000000.0
 latent_heat = 330000.0
 water_unit_weight = 9800.0
@@ -138,6 +139,7 @@ pressurization = false
 thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] }
 region = "first_layer"
 cut_cells = "equal_thickness"
+thickness_change = "conserving"
 [heat]
 enabled = false
 update = "apparent_capacity"
@@ -154,7 +156,12 @@ y_max = { flux = -2.0 }
 thermal_pressurization = false
 clapeyron = "printed"
 volumetric_term = true
+frozen = "none"
+residual_stress = 20000.0
+melt_contraction = true
+skeleton_compressibility = 0.001
 seepage = false
+frozen_rows = "sealed"
 seepage_scaling = "printed"
 thickness_direction = "vertical"
 thickness_update = "frozen"
@@ -192,6 +199,8 @@ velocity = [1.5, -0.5, 0.25]
 slope_shear = true
 [basal]
 friction_angle = 25.0
+[heat]
+advection_form = "conservative"
 [heat.boundary]
 z_min = { temperature = -8.0 }
 z_max = { flux = 3.5 }

@@ -72,6 +72,9 @@ class Scene {
       }
       // Most hover, so that what they read of the distance matters.
       particles.contact_offset(p) = std::uniform_real_distribution<double>(-1.0, 0.1)(random);
+      particles.pore_void(p) = std::uniform_real_distribution<double>(-1e-4, 1e-4)(random);
+      particles.normal_load(p) = std::uniform_real_distribution<double>(0.0, 1e5)(random);
+      particles.load_change(p) = std::uniform_real_distribution<double>(-1e3, 1e3)(random);
     }
     ground.update(*model.ground, grid);
     fill<mpm::NodalState>({1.0, 1e5, 0.1, 1e3}, random);
@@ -328,14 +331,30 @@ void expect_all_kernels_agree() {
   band::FlowDepth<Dim, double> depth;
   depth.update(scene.grid, band, {}, scene.particles);
   expect_the_bits_of_lanes("pressure", scene, by_linear,
-                           band::UpdatePorePressure<Dim, double, true>{scene.grid, band, depth});
+                           band::UpdatePorePressure<Dim, double, true, false>{scene.grid, band, depth});
   expect_the_bits_of_lanes("pressure without seepage", scene, by_linear,
-                           band::UpdatePorePressure<Dim, double, false>{scene.grid, band, depth});
+                           band::UpdatePorePressure<Dim, double, false, false>{scene.grid, band, depth});
+  auto balanced = band;
+  balanced.frozen_rows = band::FrozenRows::sealed;
+  balanced.ice_presses = false;
+  balanced.skeleton_compressibility = 1e-8;
+  balanced.water.law = physics::WaterExpansionLaw::by_temperature;
+  balanced.conservative_advection = true;
+  expect_the_bits_of_lanes("seeping water", scene, by_linear,
+                           band::AddSeepingWater<Dim, double>{balanced, balanced.hydraulic()});
+  expect_the_bits_of_lanes(
+      "seepage between sealed rows", scene, by_linear,
+      band::SeepageFlows<Dim, double>{balanced, balanced.hydraulic(), dt, scene.grid.inverse_cell()});
+  expect_the_bits_of_lanes("pressure by the balance of water", scene, by_linear,
+                           band::UpdatePorePressure<Dim, double, true, true>{scene.grid, balanced, depth});
   expect_the_bits_of_lanes("orphan heat", scene, ugimp, band::TakeOrphanHeat<Dim, double>{dt});
   band::with_particle_heat(band, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
     const band::HeatFlows<Dim, double, Law> flows{band, band.hydraulic(), law, dt, scene.grid.inverse_cell(), true};
     expect_the_bits_of_lanes("heat flows", scene, by_linear, flows);
+    const band::HeatFlows<Dim, double, Law> conserving{balanced, balanced.hydraulic(),      law,
+                                                       dt,       scene.grid.inverse_cell(), true};
+    expect_the_bits_of_lanes("heat flows with the water's heat", scene, by_linear, conserving);
     expect_the_bits_of_lanes("secant capacity", scene, by_linear, band::SecantCapacity<Dim, double, Law>{law, dt});
     expect_the_bits_of_lanes("heat", scene, by_linear, band::TakeHeat<Dim, double, Law>{band, law, dt});
     expect_the_bits_of_lanes("heat as printed", scene, by_linear,

@@ -49,7 +49,7 @@ TEST(WaterExpansion, SwellingAddsUpAndHasTheExpansionForItsRate) {
   for (int k = 0; k < 1000; ++k) {
     const double a = temperature(random), b = temperature(random), c = temperature(random);
     EXPECT_NEAR(by_temperature.swelling(a, b) + by_temperature.swelling(b, c), by_temperature.swelling(a, c), 2e-16);
-    EXPECT_EQ(by_temperature.swelling(a, b), -by_temperature.swelling(b, a));
+    EXPECT_NEAR(by_temperature.swelling(a, b), -by_temperature.swelling(b, a), 1e-16);
     // The rate by a central difference, which is exact on a line; a bend within it is at most h times its jump off.
     const double h = 1e-3;
     const double rate = (by_temperature.swelling(a - h, a + h)) / (2.0 * h);
@@ -90,6 +90,9 @@ TEST(PoreWater, StorageByHand) {
   const auto phases = table1();
   EXPECT_DOUBLE_EQ(pore_storage(phases, 0.375, 0.0), 3.75e-10);
   EXPECT_DOUBLE_EQ(pore_storage(phases, 0.375, 2e-9), 2.375e-9);
+  EXPECT_EQ(storing_porosity(phases, 0.375, 0.0), 0.375);
+  EXPECT_NEAR(storing_porosity(phases, 0.375, 2e-9) / phases.water_bulk_modulus, pore_storage(phases, 0.375, 2e-9),
+              1e-24);
   // A rigid pore at constant volume: 325 kPa/K of heating, as undrained_pressure_coefficient has it.
   EXPECT_NEAR(melted_swelling(phases, constant, 0.375, 0.0, 1.0) / pore_storage(phases, 0.375, 0.0),
               undrained_pressure_coefficient(phases, 0.375, 1.0), 1e-7);
@@ -134,6 +137,9 @@ TEST(PoreWater, SurplusIsKeptByPressureVoidAndOpening) {
     if (filling.opening > 1e-12 * std::abs(w)) {
       EXPECT_EQ(filling.pressure, std::max(0.0, normal));
     }
+    const auto unbounded = pore_filling(w, storage);
+    EXPECT_EQ(unbounded.gas_void, filling.gas_void);
+    EXPECT_EQ(unbounded.pressure, pore_filling(w, storage, HUGE_VAL).pressure);
     voids += filling.gas_void > 0.0 ? 1 : 0;
     openings += filling.opening > 0.0 ? 1 : 0;
     pressed += filling.pressure > 0.0 && filling.pressure < normal ? 1 : 0;

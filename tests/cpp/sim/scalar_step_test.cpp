@@ -200,8 +200,9 @@ TEST(ScalarStep, IsThatOfTheBatchesWithOtherChoices) {
   of({"terrain.representation=rigid_points"});
   of({"pressure.frozen_rows=sealed"});
   of({"pressure.frozen_rows=vented", "phases.water_expansion_law=by_temperature"});
-  of({"pressure.frozen=none", "pressure.residual_stress=2e3", "pressure.skeleton_compressibility=1e-8"});
-  of({"pressure.melt_contraction=true", "pressure.frozen=none", "heat.advection_form=conservative"});
+  of({"pressure.frozen=none", "pressure.residual_stress=2e3", "pressure.skeleton_compressibility=1e-8",
+      "basal.friction_angle=5.0"});
+  of({"pressure.melt_contraction=true", "pressure.skeleton_compressibility=1e-8", "heat.advection_form=conservative"});
   of({"material.melted.softening_strain=0.01", "material.melted.residual_friction_angle=20.0"});
 }
 
