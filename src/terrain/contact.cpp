@@ -69,7 +69,7 @@ struct BlockContact {
 
 template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
-                      const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
+                      const ContactModel<Dim, Real>& model, const GroundAtNode<Dim, Real>& ground,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
   using mpm::NodalState;
   const auto& known = nodes.state(b, k);
@@ -86,6 +86,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   contact.node[c] = k;
   contact.area[c] = area;
   contact.state[c] = state;
+  basal.substrate[c] = ground.substrate;
   basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
       model.pore_pressure ? average(known[NodalState::pore_pressure], NearGround::pore_pressure) : Real(0);
@@ -94,7 +95,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
       average(near_ground[NearGround::solid_fraction_by_linear] / volume, NearGround::solid_fraction);
   basal.temperature[c] = average(known[NodalState::temperature], NearGround::temperature);
   basal.slip[c] = near_ground[NearGround::slip] / state.mass;
-  basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
+  basal.speed[c] = (state.momentum - state.momentum.dot(ground.normal) * ground.normal).norm() / state.mass;
 }
 
 // How much of the space that belongs to a node slide fills, 0 to 1.
@@ -278,7 +279,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       }
       const auto state = trial_state(on_block, k, dt, model.mass_damping, nodes.momentum(b, k));
       if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
-        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k].normal, state, contact);
+        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k], state, contact);
       } else {
         finish(state, k);
       }
