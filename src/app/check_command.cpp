@@ -16,6 +16,7 @@
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
 #include "app/setup_json.hpp"
+#include "app/substrate_list.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/case_proposal.hpp"
@@ -162,6 +163,7 @@ int check_case(const CheckOptions& options) {
     }
     fmt::print("{}: the case is sound\n", parameters.file);
     print_releases(parameters, simulation.site());
+    print_substrates(parameters, simulation.site());
     fmt::print("  particles   {}\n", simulation.particles().size());
     fmt::print("  cells       {:.0f} in the domain; blocks of {} nodes held: {}\n", cells, mpm::Tile<Dim>::nodes,
                simulation.grid().blocks().size());

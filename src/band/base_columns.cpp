@@ -126,19 +126,22 @@ void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, 
   }
   const std::size_t known = pieces_.size();
   for (const Lattice& cell : bare) {
-    pieces_.push_back(new_piece(cell, grid.cell(), ground, thickness));
+    pieces_.push_back(new_piece(cell, grid.cell(), ground));
     add_area(grid, pieces_.back(), nodes);
   }
-  std::vector<Real> share;  // of the area in contact
+  std::vector<InContact> contacts;
   for (std::size_t p = known; p < pieces_.size(); ++p) {
-    share.push_back(area_in_contact(grid, nodes, pieces_[p]) / pieces_[p].area);
+    contacts.push_back(in_contact(grid, nodes, pieces_[p]));
   }
   for (std::size_t p = known; p < pieces_.size(); ++p) {  // at the edge of the slide a piece is smaller than its cell
     Piece& piece = pieces_[p];
-    const Real factor = std::clamp(share[p - known], Real(0.1), Real(1));
-    add_area(grid, piece, nodes, factor - Real(1));
-    piece.sides *= std::pow(factor, Real(1) / static_cast<Real>(Dim - 1));
+    const InContact& contact = contacts[p - known];
+    const Real share = std::clamp(contact.area / piece.area, Real(0.1), Real(1));
+    add_area(grid, piece, nodes, share - Real(1));
+    piece.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
     piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
+    follow_load(model_, contact.normal_force / contact.area, Real(0), piece);
+    start_column_of(model_, thickness, piece);
     ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
     ledger_.laid_water += piece.area * physics::water_of(piece.column);
   }
@@ -157,24 +160,27 @@ void BaseColumns<Dim, Real>::add_area(const mpm::SparseGrid<Dim, Real>& grid, co
   }
 }
 
-// What of the area in contact falls to a piece, as nodes share it out among those that they see [m2].
+// What of contact falls to a piece, as nodes share it out among those that they see.
 template <int Dim, class Real>
-Real BaseColumns<Dim, Real>::area_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
-                                             const Piece& piece) const {
+typename BaseColumns<Dim, Real>::InContact BaseColumns<Dim, Real>::in_contact(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                              const mpm::Nodes<Dim, Real>& nodes,
+                                                                              const Piece& piece) const {
   const Stencil stencil(grid, piece.position);
-  Real area = 0;
+  InContact result;
   for (std::size_t k = 0; k < stencil.count; ++k) {
     const Real seen = nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
     if (seen > Real(0)) {
-      area += nodes.contact(stencil.block[k], stencil.node[k])[Contact::area] * stencil.weight[k] * piece.area / seen;
+      const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
+      const Real share = stencil.weight[k] * piece.area / seen;
+      result.area += share * contact[Contact::area];
+      result.normal_force += share * contact[Contact::normal_force];
     }
   }
-  return area;
+  return result;
 }
 
 template <int Dim, class Real>
-BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Lattice& cell, Real cell_size, const Ground& ground,
-                                                       Real thickness) {
+BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Lattice& cell, Real cell_size, const Ground& ground) {
   Piece piece;
   piece.id = next_id_++;
   piece.position.setZero();
@@ -189,11 +195,6 @@ BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Lattice& cell, Real
     piece.sides(Dim - 1, a) = -piece.normal[a] / piece.normal[Dim - 1] * cell_size;
   }
   piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
-  piece.column = std::visit(
-      [&](const auto& model) {
-        return physics::start_column(model, thickness, model_.body_temperature, model_.ground_temperature, Real(0));
-      },
-      model_.column);
   return piece;
 }
 

@@ -92,9 +92,12 @@ class BaseColumns {
                   Real thickness, mpm::Nodes<Dim, Real>& nodes);
   void add_area(const mpm::SparseGrid<Dim, Real>& grid, const Piece& piece, mpm::Nodes<Dim, Real>& nodes,
                 Real share = 1) const;
-  [[nodiscard]] Real area_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
+  struct InContact {
+    Real area = 0, normal_force = 0;  // [m2], [N]
+  };
+  [[nodiscard]] InContact in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
                                      const Piece& piece) const;
-  [[nodiscard]] Piece new_piece(const Lattice& cell, Real cell_size, const Ground& ground, Real thickness);
+  [[nodiscard]] Piece new_piece(const Lattice& cell, Real cell_size, const Ground& ground);
   // How the slide about a piece moves.
   struct Nearby {
     Vector<Real, Dim> velocity;  // along the ground [m/s]

@@ -47,6 +47,15 @@ physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasePie
 }
 
 template <int Dim, class Real>
+void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasePiece<Dim, Real>& piece) {
+  piece.column = std::visit(
+      [&](const auto& column) {
+        return physics::start_column(column, thickness, model.body_temperature, model.ground_temperature, piece.load);
+      },
+      model.column);
+}
+
+template <int Dim, class Real>
 void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real dt, BasePiece<Dim, Real>& piece) {
   const Real share = piece.touched ? -physics::exponential_minus_one(-dt / model.load_time) : Real(1);
   piece.load += share * (std::max(normal_pressure, Real(0)) - piece.load);
@@ -85,6 +94,7 @@ physics::ColumnAccount<Real> step_piece(const ColumnsModel<Real>& model, Real th
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                         \
   template physics::BandMeans<Real> means_of<Dim, Real>(const ColumnsModel<Real>&, const BasePiece<Dim, Real>&); \
+  template void start_column_of<Dim, Real>(const ColumnsModel<Real>&, Real, BasePiece<Dim, Real>&);              \
   template void follow_load<Dim, Real>(const ColumnsModel<Real>&, Real, Real, BasePiece<Dim, Real>&);            \
   template physics::ColumnAccount<Real> step_piece<Dim, Real>(const ColumnsModel<Real>&, Real, Real,             \
                                                               BasePiece<Dim, Real>&);

@@ -35,6 +35,10 @@ struct ColumnsModel {
 template <int Dim, class Real>
 physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece);
 
+// A new column of the body's matter, with a band of this thickness [m], under the piece's load.
+template <int Dim, class Real>
+void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasePiece<Dim, Real>& piece);
+
 // Follows a normal pressure [Pa] of this step, averaged over the model's time.
 template <int Dim, class Real>
 void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real dt, BasePiece<Dim, Real>& piece);

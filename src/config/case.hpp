@@ -199,6 +199,18 @@ struct Basal : GroundStrength {
   bool distance_check = true;
 };
 
+// A kind of ground of its own, and where it lies: along x, within polygons, or where a raster has its code.
+struct Substrate : GroundStrength {
+  double x_min = -std::numeric_limits<double>::infinity(), x_max = std::numeric_limits<double>::infinity();
+  std::string outline;                // file of polygons; absolute once read; empty: none
+  std::vector<std::string> polygons;  // names of those of the file that bound it; empty: all
+  std::string name_attribute = "name";
+  std::string raster;  // of codes; absolute once read; empty: none
+  int code = 0;
+
+  [[nodiscard]] bool is_strip() const { return outline.empty() && raster.empty(); }
+};
+
 struct Mechanisms {  // Sec. 3.3
   bool deformation = true, lubrication = true, pressurization = true;
 };
@@ -295,6 +307,7 @@ struct Case {
   Initial initial;
   Mechanics mechanics;
   Basal basal;
+  std::map<std::string, Substrate> substrates;
   Mechanisms mechanisms;
   Band band;
   Heat heat;

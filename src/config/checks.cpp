@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
 
@@ -94,27 +93,6 @@ void check_materials(const Case& checked, Reading& reading) {
                       table, material.dilation_angle, table, material.friction_angle));
     }
     check_residual_friction(table, material, reading);
-  }
-}
-
-void check_basal(const Case& checked, Reading& reading) {
-  const LawNumbers& numbers = checked.basal.numbers;
-  const double least = numbers(physics::basal::min_solid_fraction), most = numbers(physics::basal::max_solid_fraction);
-  const double initial = numbers(physics::basal::initial_cohesion),
-               residual = numbers(physics::basal::residual_cohesion);
-  if (reading.sound({"basal.min_solid_fraction", "basal.max_solid_fraction"}) && least >= most) {
-    reading.report_misfit(
-        {"basal.max_solid_fraction", "basal.min_solid_fraction"},
-        fmt::format("basal.max_solid_fraction is {}, not above basal.min_solid_fraction, which is {}; Eq. 25 "
-                    "divides by their difference. Make the one larger or the other smaller.",
-                    most, least));
-  }
-  if (reading.sound({"basal.cohesion", "basal.residual_cohesion"}) && residual > initial) {
-    reading.report_misfit(
-        {"basal.residual_cohesion", "basal.cohesion"},
-        fmt::format("basal.residual_cohesion is {} Pa, above basal.cohesion, which is {} Pa; cohesion along the "
-                    "ground is only lost. Give a residual at most the cohesion.",
-                    residual, initial));
   }
 }
 
@@ -291,7 +269,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_grid(checked, reading);
   check_times(checked, reading);
   check_materials(checked, reading);
-  check_basal(checked, reading);
+  check_grounds(checked, reading);
   check_switches(checked, reading);
   check_band_switches(checked, reading);
   check_band_columns(checked, reading);

@@ -1,4 +1,4 @@
-// The parameters of the base: [basal]. The words and numbers of its laws follow from physics/basal.
+// The parameters of the base: [basal], [substrate.NAME]. The words and numbers of its laws follow from physics/basal.
 #include <algorithm>
 
 #include "config/table_declaration.hpp"
@@ -166,11 +166,59 @@ std::vector<Parameter<Basal>> basal_parameters() {
   return result;
 }
 
+std::vector<Parameter<Substrate>> place_parameters() {
+  const auto is_strip = [](const Case&, const Substrate& substrate) { return substrate.is_strip(); };
+  const auto has_outline = [](const Case&, const Substrate& substrate) { return !substrate.outline.empty(); };
+  const auto has_raster = [](const Case&, const Substrate& substrate) { return !substrate.raster.empty(); };
+  const std::string when_strip = "when neither outline nor raster is given";
+  const std::string when_outline = "when outline is given", when_raster = "when raster is given";
+  return {
+      parameter(&Substrate::x_min, {.key = "x_min", .unit = "m", .text = "where along x the substrate begins"})
+          .otherwise("it begins where the ground does")
+          .only_if(when_strip, "outline", is_strip),
+      parameter(&Substrate::x_max, {.key = "x_max", .unit = "m", .text = "where along x the substrate ends"})
+          .otherwise("it ends where the ground does")
+          .only_if(when_strip, "outline", is_strip),
+      parameter(&Substrate::outline,
+                {.key = "outline",
+                 .text = "file of polygons in which the substrate lies: Shapefile, GeoPackage or GeoJSON",
+                 .dimension = 3,
+                 .is_path = true})
+          .otherwise("raster, or x_min and x_max, say where"),
+      parameter(&Substrate::polygons,
+                {.key = "polygons", .text = "names of the polygons in which it lies; []: all of the file"})
+          .only_if(when_outline, "outline", has_outline),
+      parameter(&Substrate::name_attribute,
+                {.key = "name_attribute", .text = "attribute that holds the polygons' names"})
+          .only_if(when_outline, "outline", has_outline),
+      parameter(&Substrate::raster, {.key = "raster",
+                                     .text = "raster of whole numbers, each the code of a substrate: it lies in the "
+                                             "cells about the points that hold its own",
+                                     .dimension = 3,
+                                     .is_path = true})
+          .otherwise("outline, or x_min and x_max, say where"),
+      parameter(&Substrate::code, {.key = "code", .text = "the substrate's code in the raster"})
+          .required_if(when_raster, has_raster)
+          .only_if(when_raster, "raster", has_raster),
+  };
+}
+
+std::vector<Parameter<Substrate>> substrate_parameters() {
+  std::vector<Parameter<Substrate>> result = place_parameters();
+  for (const auto& more : {friction_parameters<Substrate>(""), cohesion_parameters<Substrate>("")}) {
+    result.insert(result.end(), more.begin(), more.end());
+  }
+  return result;
+}
+
 }  // namespace
 
 void declare_basal(Tables& tables) {
   tables.push_back(std::make_unique<SingleTable<Basal>>("basal", "Friction and cohesion along the ground", &Case::basal,
                                                         basal_parameters()));
+  tables.push_back(std::make_unique<NamedTable<Substrate>>(
+      "substrate", "Part of the ground with friction and cohesion of its own, in place of those of [basal]",
+      &Case::substrates, substrate_parameters()));
 }
 
 }  // namespace thawslide::config

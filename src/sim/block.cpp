@@ -130,8 +130,7 @@ class Block {
   void step(double dt) {
     const Forces forces = evaluate_base();
     const double trial = slices_.mass * velocity_ + dt * forces.along;
-    const auto impulse =
-        physics::contact_impulse(dt * forces.normal, std::abs(trial), slices_.base, dt, basal_.strength[0]);
+    const auto impulse = physics::contact_impulse(dt * forces.normal, std::abs(trial), slices_.base, dt, strength_);
     const double old_velocity = velocity_;
     velocity_ = (trial - std::copysign(impulse.tangential, trial)) / slices_.mass;
     const double middle = 0.5 * (old_velocity + velocity_);
@@ -158,12 +157,12 @@ class Block {
             {"front_position_m", front + 0.5 * parameters_.grid.cell},
             {"normal_pressure_Pa", basal_.normal_pressure[0]},
             {"pore_pressure_Pa", basal_.pore_pressure[0]},
-            {"sliding_strength_Pa", basal_.strength[0]},
+            {"sliding_strength_Pa", strength_},
             {"driving_traction_Pa", forces.along / slices_.base},
             {"band_temperature_C", band.temperature},
             {"band_saturation", band.saturation},
             {"band_pore_pressure_Pa", band.pore_pressure},
-            {"band_friction_coefficient", basal_.friction[0]},
+            {"band_friction_coefficient", friction_},
             {"friction_work_J_m2", friction_work_},
             {"friction_heat_J_m2", friction_heat_},
             {"heat_gain_J_m2", heat_gain_}};
@@ -207,7 +206,7 @@ class Block {
             }};
   }
 
-  // The law's view of the base now; returns the forces on the slices.
+  // The law's view of the base now, averaged over what the slices stand on; returns the forces on the slices.
   Forces evaluate_base() {
     const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
     const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
@@ -220,8 +219,33 @@ class Block {
     basal_.solid_fraction[0] = base.solid_fraction;
     basal_.slip[0] = slip_;
     basal_.speed[0] = std::abs(velocity_);
-    evaluate_basal_law(model_.contact.law, time_, basal_);
+    strength_ = friction_ = 0.0;
+    const std::vector<double> shares = mass_on_substrates();
+    for (std::size_t number = 0; number < shares.size(); ++number) {
+      if (shares[number] > 0.0) {
+        basal_.substrate[0] = static_cast<int>(number);
+        evaluate_basal_law(model_.contact.law, time_, basal_);
+        strength_ += shares[number] * basal_.strength[0];
+        friction_ += shares[number] * basal_.friction[0];
+      }
+    }
     return forces;
+  }
+
+  // By number of the substrate: the share of the mass whose slices stand on it.
+  [[nodiscard]] std::vector<double> mass_on_substrates() const {
+    if (!model_.substrates) {
+      return {1.0};
+    }
+    std::vector<double> shares(model_.contact.law.grounds.size(), 0.0);
+    for (const Slice& slice : slices_.all) {
+      const int number = model_.substrates->at(path_.x_at(slice.path + displacement_), 0.0);
+      shares[static_cast<std::size_t>(number)] += slice.mass;
+    }
+    for (double& share : shares) {
+      share /= slices_.mass;
+    }
+    return shares;
   }
 
   const config::Case& parameters_;
@@ -231,6 +255,7 @@ class Block {
   double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;
   AnyColumn column_;
   terrain::BasalNodes<double> basal_;
+  double strength_ = 0, friction_ = 0;  // of the base now: [Pa]; mu_e
   double friction_work_ = 0, friction_heat_ = 0, heat_gain_ = 0;
 };
 

@@ -11,12 +11,8 @@ BlockBandColumn::BlockBandColumn(const band::ColumnsModel<double>& model, double
   piece_.normal.setZero();
   piece_.sides.setZero();
   piece_.area = piece_.area_of_column = 1.0;
-  piece_.column = std::visit(
-      [&](const auto& column) {
-        return physics::start_column(column, thickness, model.body_temperature, model.ground_temperature, load);
-      },
-      model.column);
   band::follow_load(model_, load, 0.0, piece_);
+  band::start_column_of(model_, thickness, piece_);
 }
 
 double BlockBandColumn::step(const BlockDrive& drive) {

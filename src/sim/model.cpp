@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/basal_laws.hpp"
+#include "sim/substrates.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/layer_thickness.hpp"
 #include "terrain/profile_surface.hpp"
@@ -121,10 +122,13 @@ mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, con
 }
 
 template <class Real>
-terrain::BasalLaw<Real> make_basal_law(const config::Basal& basal) {
+terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
+  const config::Basal& basal = parameters.basal;
   terrain::BasalLaw<Real> law;
-  law.friction = config::friction_of<Real>(basal);
-  law.cohesion = config::cohesion_of<Real>(basal);
+  law.grounds = {{config::friction_of<Real>(basal), config::cohesion_of<Real>(basal)}};
+  for (const auto& [name, substrate] : parameters.substrates) {
+    law.grounds.push_back({config::friction_of<Real>(substrate), config::cohesion_of<Real>(substrate)});
+  }
   law.clamp = basal.clamp == config::FrictionClamp::joint ? physics::FrictionClamp::joint
                                                           : physics::FrictionClamp::keep_cohesion;
   law.cap_pressure = basal.cap_pressure;
@@ -318,7 +322,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
     model.motion.sizes.add(Real(1) / static_cast<Real>(2 * body.particles_per_axis));
   }
   model.constraints = make_constraints<Dim, Real>(parameters, model.origin);
-  model.contact.law = make_basal_law<Real>(parameters.basal);
+  model.contact.law = make_basal_law<Real>(parameters);
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
   model.contact.band_columns = parameters.band.model == config::BandKind::columns;
@@ -326,6 +330,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
   model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
   model.profile = make_profile<Dim>(parameters, site, model.origin);
   model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile);
+  model.substrates = make_substrates(parameters, site);
   set_layer_thickness(parameters, site, model);
   return model;
 }

@@ -58,7 +58,7 @@ void Simulation<Dim, Real>::find_particles_cells() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_ground() {
   if (model_.ground && grid_.blocks_changed()) {
-    ground_.update(*model_.ground, grid_);
+    ground_.update(*model_.ground, grid_, model_.substrates.get());
   }
 }
 

@@ -85,7 +85,7 @@ void take_columns_state(const Record& state, bool pore_pressure, std::size_t c, 
 
 template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
-                      const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
+                      const ContactModel<Dim, Real>& model, const GroundAtNode<Dim, Real>& ground,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
   using mpm::NodalState;
   const auto& known = nodes.state(b, k);
@@ -102,6 +102,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   contact.node[c] = k;
   contact.area[c] = area;
   contact.state[c] = state;
+  basal.substrate[c] = ground.substrate;
   basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
       model.pore_pressure ? average(known[NodalState::pore_pressure], NearGround::pore_pressure) : Real(0);
@@ -113,7 +114,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   if (model.band_columns) {
     take_columns_state(nodes.base_state(b, k), model.pore_pressure, c, basal);
   }
-  basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
+  basal.speed[c] = (state.momentum - state.momentum.dot(ground.normal) * ground.normal).norm() / state.mass;
 }
 
 // How much of the space that belongs to a node slide fills, 0 to 1.
@@ -300,7 +301,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       }
       const auto state = trial_state(on_block, k, dt, model.mass_damping, nodes.momentum(b, k));
       if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
-        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k].normal, state, contact);
+        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k], state, contact);
       } else {
         finish(state, k);
       }

@@ -125,9 +125,7 @@ def expect_within(limits: dict[str, int], used: dict[str, tuple[int, int]]) -> N
 
 def basal_laws() -> list[str]:
     """Return the kernels of the laws of the base, as their list has them."""
-    listed = re.findall(
-        r"using (Friction|Cohesion)Law = std::variant<(.*?)>;", BASAL_LAWS.read_text(), flags=re.DOTALL
-    )
+    listed = re.findall(r"using (Friction|Cohesion)Law = std::variant<(.*?)>;", BASAL_LAWS.read_text(), flags=re.DOTALL)
     assert len(listed) == 2
     return [
         f"{kind.lower()}_law<basal::{law}<double>>" for kind, laws in listed for law in re.findall(r"(\w+)<Real>", laws)

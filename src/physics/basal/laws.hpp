@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "physics/basal/bonds_cohesion.hpp"
+#include "physics/basal/coefficient_friction.hpp"
 #include "physics/basal/constant_cohesion.hpp"
 #include "physics/basal/constant_friction.hpp"
 #include "physics/basal/ice_cohesion.hpp"
@@ -18,7 +19,8 @@ namespace thawslide::physics::basal {
 template <class Real>
 using FrictionLaw = std::variant<  //
     ConstantFriction<Real>,        //
-    LubricatedFriction<Real>>;
+    LubricatedFriction<Real>,      //
+    CoefficientFriction<Real>>;
 
 template <class Real>
 using CohesionLaw = std::variant<  //

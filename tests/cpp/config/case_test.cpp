@@ -85,7 +85,9 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   std::string of_surface = sound_on_dem;
   const std::string number = "thickness = 10.0";
   of_surface.replace(of_surface.find(number), number.size(), "thickness = { surface = \"map.tif\" }");
-  for (const std::string& text : {sound + wall, sound + noise, sound_on_dem, of_surface}) {
+  const std::string ice = "[substrate.ice]\nfriction_angle = 5.0\n";
+  for (const std::string& text : {sound + wall + ice + "x_min = 50.0\n", sound + noise, sound_on_dem, of_surface,
+                                  sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = resolved_toml(found, "inputs");
     for (const auto& table : tables()) {

@@ -9,7 +9,8 @@ using namespace case_messages;
 
 const std::string all_tables =
     "[case], [time], [grid], [grid.boundary], [terrain], [checkpoint], [maps], [probe.NAME], [report], [phases], "
-    "[freezing], [material.NAME], [body.NAME], [frame.NAME], [initial], [mechanics], [basal], [mechanisms], [band], "
+    "[freezing], [material.NAME], [body.NAME], [frame.NAME], [initial], [mechanics], [basal], [substrate.NAME], "
+    "[mechanisms], [band], "
     "[heat], [heat.boundary], [pressure], [block].";
 
 TEST(Mistakes, SoundCaseHasNone) { EXPECT_EQ(error_of_text(sound), "no error"); }
@@ -190,8 +191,9 @@ TEST(Mistakes, MissingKey) {
             "FOLDER/case.toml:1:1: key 'time.step' is missing: it is needed when time.stepping is \"fixed\". Add 'step "
             "= ...' to [time]: the fixed time step, or the largest adaptive one, a number, > 0 [s].");
   EXPECT_EQ(error_of_changed({{"[basal]\nfriction_angle = 20.0\n", ""}}),
-            "FOLDER/case.toml: key 'basal.friction_angle' is missing: it is needed when there is a terrain. Add "
-            "'friction_angle = ...' to [basal]: basal friction angle phi_f, a number, >= 0 and < 90 [degrees].");
+            "FOLDER/case.toml: key 'basal.friction_angle' is missing: it is needed when there is a terrain and "
+            "basal.friction is \"constant\" or \"lubricated\". Add 'friction_angle = ...' to [basal]: basal friction "
+            "angle phi_f, a number, >= 0 and < 90 [degrees].");
   EXPECT_EQ(error_of_changed({{"[basal]", "[basal]\ncohesion = 1.0"}}),
             "FOLDER/case.toml:20:1: key 'basal.slip_distance' is missing: it is needed when basal.cohesion > 0 and "
             "basal.cohesion_law is \"slip\" or \"bonds\". Add 'slip_distance = ...' to [basal]: slip over which the "

@@ -131,6 +131,19 @@ cohesion_law = "time"
 residual_cohesion = 150000.0
 slip_distance = 400.0
 cohesion_loss_time = 20.0
+[substrate.ice]
+x_min = 5.0
+x_max = 50.0
+friction = "constant"
+friction_angle = 15.0
+lubrication_exponent = 4.0
+min_solid_fraction = 0.15
+max_solid_fraction = 0.95
+cohesion = 30000.0
+cohesion_law = "bonds"
+residual_cohesion = 15000.0
+slip_distance = 40.0
+cohesion_loss_time = 30.0
 [mechanisms]
 deformation = false
 lubrication = false
@@ -198,7 +211,8 @@ velocity = [1.5, -0.5, 0.25]
 [mechanics]
 slope_shear = true
 [basal]
-friction_angle = 25.0
+friction = "coefficient"
+friction_coefficient = 0.125
 [heat]
 advection_form = "conservative"
 [heat.boundary]
@@ -249,11 +263,20 @@ saturation = { raster = "inputs/saturation.tif" }
 ice_content = { attribute = "ice" }
 [basal]
 friction_angle = 25.0
+[substrate.ice]
+outline = "inputs/release.shp"
+polygons = ["glacier"]
+name_attribute = "kind"
+friction = "coefficient"
+friction_coefficient = 0.125
 )";
 
-// The same release between two surfaces.
+// The same release between two surfaces, and the substrate from a raster.
 std::string release_of_a_surface() {
-  std::string text = release_on_dem;
+  std::string text =
+      changed({{"outline = \"inputs/release.shp\"\npolygons = [\"glacier\"]\nname_attribute = \"kind\"\n",
+                "raster = \"inputs/codes.tif\"\ncode = 3\n"}},
+              release_on_dem);
   const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");
   return text.replace(begin, end - begin, "thickness = { surface = \"inputs/before.tif\" }\nsurface_tolerance = 0.5\n");
 }
@@ -277,8 +300,8 @@ Lines lines_of(const std::string& text) {
 Case read_with_inputs(const std::string& text) {
   write_beside_the_case("inputs/profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,-1\n");
   write_beside_the_case("inputs/targets.csv", "quantity,time_s,value,unit,source\n");
-  for (const std::string name :
-       {"dem.tif", "path.geojson", "section.geojson", "release.shp", "thickness.tif", "saturation.tif", "before.tif"}) {
+  for (const std::string name : {"dem.tif", "path.geojson", "section.geojson", "release.shp", "thickness.tif",
+                                 "saturation.tif", "before.tif", "codes.tif"}) {
     write_beside_the_case("inputs/" + name, "");
   }
   return case_from_text(text);
@@ -287,7 +310,7 @@ Case read_with_inputs(const std::string& text) {
 // The name in the case of what the reference calls [body.NAME].
 std::string own_name(const TableDeclaration& table) {
   const std::map<std::string, std::string> names{
-      {"material", "rock"}, {"body", "block"}, {"frame", "wall"}, {"probe", "gauge"}};
+      {"material", "rock"}, {"body", "block"}, {"frame", "wall"}, {"probe", "gauge"}, {"substrate", "ice"}};
   return table.is_named() ? table.name + "." + names.at(table.name) : table.name;
 }
 

@@ -6,6 +6,7 @@
 
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
+#include "base/portability.hpp"
 #include "sim/block.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -77,6 +78,45 @@ TEST(Bonds, CostTheirEnergyOnce) {
   record.explain("the material point method: nodes at the ends of the block share its base to half a per cent");
   record.expect_near("energy over c_0 d_c", found.mpm / (initial * distance), 1.0, 1e-2);
   record.expect_near("the same of the rigid block", found.block / (initial * distance), 1.0, 2e-3);
+}
+
+struct Distance {
+  double mpm, block;
+};
+
+Distance distance_on(const std::string& text, const std::vector<std::string>& sets) {
+  sim::Simulation<2, double> simulation(case_from_text(text, sets));
+  run_until(simulation, simulation.parameters().time.end);
+  const auto row = sim::history_row(simulation);
+  EXPECT_LT(value_of(row, "mean_velocity_m_s"), 1e-2) << "it still slides";
+  const auto rows = sim::run_block(case_from_text(text, sets));
+  const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
+  EXPECT_LT(last.at("velocity_m_s"), 1e-9) << "it still slides";
+  return {value_of(row, "mean_displacement_m"), last.at("displacement_m")};
+}
+
+// From rock onto a glacier: while the block crosses the border, friction falls in proportion to what is across.
+TEST(Substrates, SlidingDistanceOverTwo) {
+  constexpr double on_rock = 0.3, on_ice = 0.15, start = 20.0, border = 52.5, gravity = 9.81;
+  const double to_border = border - length;
+  const double left =
+      start * start / (2.0 * gravity) - on_rock * to_border - 0.5 * (on_rock + on_ice) * length;  // m, of v^2/2g
+  const double expected = to_border + length + left / on_ice;
+  Record record(
+      "Sliding distance over two substrates",
+      "A block of 40 m is thrown along level ground: at first on rock, with friction 0.3, and from 12.5 m "
+      "before its front on over a glacier, with friction 0.15 in place of the rock's. It comes to rest on the "
+      "glacier.",
+      "v^2/(2 g) = mu_rock b + (mu_rock + mu_ice) L/2 + mu_ice (d - b - L)", "energy of a rigid block");
+  const std::string text =
+      thrown + fmt::format(
+                   "friction = \"constant\"\nfriction_angle = {:.15g}\n[substrate.glacier]\nx_min = {}\n"
+                   "friction = \"coefficient\"\nfriction_coefficient = {}\n",
+                   std::atan(on_rock) * 180.0 / pi<double>, border, on_ice);
+  const std::vector<std::string> sets{"body.block.velocity=[20.0,0.0]", "time.end=12.0"};
+  const Distance found = distance_on(text, sets);
+  record.expect_near("distance over exact", found.mpm / expected, 1.0, 1e-2);
+  record.expect_near("the same of the rigid block", found.block / expected, 1.0, 1e-3);
 }
 
 }  // namespace
