@@ -17,6 +17,7 @@ from thawslide.figures.motion import motion
 from thawslide.figures.probes import probes
 from thawslide.figures.slide_on_map import slide_speed, slide_temperature, slide_thickness
 from thawslide.figures.snapshots import plastic_strain, pore_pressure, temperature, velocity
+from thawslide.figures.water import water
 from thawslide.maps import on_map
 from thawslide.run import Run
 
@@ -29,6 +30,11 @@ class FigureKind:
     caption: str
     draw: Callable[[Run], Figure | Film]
     suits: Callable[[Run], bool] = lambda run: True
+    of_columns: str = ""  # the caption where the band is of columns, if it is another
+
+    def caption_of(self, run: Run) -> str:
+        """Return the caption for a run."""
+        return self.of_columns if self.of_columns and run.has_band_columns else self.caption
 
 
 _PANELS = (
@@ -103,10 +109,21 @@ FIGURES: dict[str, FigureKind] = {
         "Means over the particles next to the ground; the friction coefficient is the mean over nodes in contact. "
         "Gaps: no particle there at that time.",
         band,
+        of_columns="Means over the base by area, as its columns have it. The shear traction is what the base resists "
+        "with, cohesion and friction, over the area in contact. Under its own N no column's water gets hotter than "
+        "where it boils; the line is for the mean N. P and N of each column are compared with N averaged over "
+        "band.load_time.",
     ),
     "energy": FigureKind(
         "Energy ledger",
         "Every account as its change since the start; the residual is what the accounts of a ledger leave over.",
         energy,
+    ),
+    "water": FigureKind(
+        "Water of the band",
+        "What water the band's columns hold, took in and lost, as changes since the start; the volume that water at "
+        "P = N has opened along the base, and that of pores which water has left.",
+        water,
+        lambda run: run.has_band_columns,
     ),
 }
