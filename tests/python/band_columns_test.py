@@ -60,7 +60,8 @@ def columns_run(make_run: MakeRun) -> Path:
 # Of the C++ formula, compiled alone: thawslide::physics::boiling_temperature(P).
 @pytest.mark.parametrize(
     ("pressure", "temperature"),
-    [(0.0, 100.0), (2.0e5, 134.381906373124), (1.0e6, 187.243587897609), (2.0e6, 220.820904072478), (-3e4, 90.341987651245)],
+    [(0.0, 100.0), (2.0e5, 134.381906373124), (1.0e6, 187.243587897609), (2.0e6, 220.820904072478),
+     (-3.0e4, 90.341987651245)],
 )  # fmt: skip
 def test_boiling_temperature_is_that_of_the_simulator(pressure: float, temperature: float) -> None:
     assert boiling_temperature(pressure) == pytest.approx(temperature, abs=1e-8)
