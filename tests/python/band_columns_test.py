@@ -114,7 +114,7 @@ def test_thermal_accounts_take_in_columns(columns_run: Path) -> None:
     run = Run(columns_run)
     thermal = titled(FIGURES["energy"].draw(run), "(b)")
     t = run.history["time_s"]
-    np.testing.assert_allclose(line(thermal, "taken in by columns")[1], -0.1 * t, atol=1e-9)
+    np.testing.assert_allclose(line(thermal, "laid and taken in by columns")[1], -0.1 * t, atol=1e-9)
     np.testing.assert_allclose(line(thermal, "out with steam, columns")[1], 0.15 * t, atol=1e-9)
     assert any("left with columns" in text for text in texts(thermal))  # zero throughout
     columns = column_history()
@@ -127,15 +127,19 @@ def test_water_accounts(columns_run: Path) -> None:
     run = Run(columns_run)
     figure = FIGURES["water"].draw(run)
     t = run.history["time_s"]
-    masses = titled(figure, "(a)")
-    assert masses.get_ylabel() == "mass (thousand t)"
-    np.testing.assert_allclose(line(masses, "taken in")[1], 40.0 * t, atol=1e-9)
-    np.testing.assert_allclose(line(masses, "gone as steam")[1], 10.0 * t, atol=1e-9)
-    np.testing.assert_allclose(line(titled(figure, "(b)"), "opened along the base")[1], 50.0 * t)
+    held, lost, spaces = (titled(figure, f"({letter})") for letter in "abc")
+    assert [axes.get_ylabel() for axes in (held, lost, spaces)] == [
+        "mass (million t)",
+        "mass (thousand t)",
+        "volume (thousand m³)",
+    ]
+    np.testing.assert_allclose(line(held, "laid and taken in")[1], 3.0 + 0.04 * t)
+    np.testing.assert_allclose(line(lost, "gone as steam")[1], 10.0 * t)
+    np.testing.assert_allclose(line(spaces, "opened along the base")[1], 0.05 * t)
     residual = relative_water_residual(run)
     assert residual is not None
     np.testing.assert_allclose(residual, 1e-3 * t / 3.4e9)
-    assert titled(figure, "(c)").get_yscale() == "log"
+    assert titled(figure, "(d)").get_yscale() == "log"
 
 
 def test_runs_without_columns_look_as_before(make_run: MakeRun) -> None:
@@ -151,6 +155,7 @@ def test_runs_without_columns_look_as_before(make_run: MakeRun) -> None:
 
 
 def test_report_of_columns(columns_run: Path) -> None:
+    assert figures_of(Run(columns_run)) == ["motion", "velocity", "plastic_strain", "force", "band", "energy", "water"]
     report = make_report(Run(columns_run), names=["band", "energy", "water"], dpi=40)
     page = report.page.read_text(encoding="utf-8")
     assert "Nothing in the model boils" not in page and "heat.steam is false" not in page
@@ -177,7 +182,7 @@ def test_columns_before_any_contact_draw(columns_run: Path, tmp_path: Path) -> N
     for name in ("band", "energy", "water"):
         FIGURES[name].draw(run).savefig(tmp_path / "figure.png")
     assert texts(titled(FIGURES["band"].draw(run), "(d)")) == ["never in contact"]
-    assert texts(titled(FIGURES["water"].draw(run), "(c)")) == ["no residual: no water yet, or it is exactly zero"]
+    assert texts(titled(FIGURES["water"].draw(run), "(d)")) == ["no residual: no water yet, or it is exactly zero"]
 
 
 def test_a_stop_below_a_speed(make_run: MakeRun) -> None:

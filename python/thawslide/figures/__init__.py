@@ -52,6 +52,11 @@ def _in_section(run: Run) -> bool:
     return not on_map(run)
 
 
+def _with_heat_in_section(run: Run) -> bool:
+    """Where particles heat up; with band columns these do, and particles stay as they were."""
+    return _in_section(run) and not run.has_band_columns
+
+
 FIGURES: dict[str, FigureKind] = {
     "extent_maps": FigureKind(
         "Extent of the slide",
@@ -97,8 +102,8 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "velocity": FigureKind("Velocity", _PANELS, velocity, _in_section),
     "plastic_strain": FigureKind("Equivalent plastic strain", _PANELS, plastic_strain, _in_section),
-    "temperature": FigureKind("Temperature", _PANELS, temperature, _in_section),
-    "pore_pressure": FigureKind("Pore pressure", _PANELS, pore_pressure, _in_section),
+    "temperature": FigureKind("Temperature", _PANELS, temperature, _with_heat_in_section),
+    "pore_pressure": FigureKind("Pore pressure", _PANELS, pore_pressure, _with_heat_in_section),
     "force": FigureKind(
         "Seismic force and plastic strain",
         "The force of the slide on the ground less its static weight, which is what seismic waves are inverted for.",
@@ -121,8 +126,8 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "water": FigureKind(
         "Water of the band",
-        "What water the band's columns hold, took in and lost, as changes since the start; the volume that water at "
-        "P = N has opened along the base, and that of pores which water has left.",
+        "Ice and water of the band's columns: what they hold, took in and lost; the volume that water at P = N has "
+        "opened along the base, and that of pores which water has left.",
         water,
         lambda run: run.has_band_columns,
     ),

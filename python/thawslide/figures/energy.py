@@ -52,7 +52,7 @@ THERMAL = {
 # Of band columns: their own heat, and what came into them and left besides friction heat.
 COLUMNS = {
     "column_heat_J": ("heat in band columns", "#8C564B"),
-    "column_intake_J": ("taken in by columns", SKY),
+    "column_intake_J": ("laid and taken in by columns", SKY),
     "column_vented_J": ("out with water, columns", "#17BECF"),
     "column_steam_J": ("out with steam, columns", "#E377C2"),
     "column_left_J": ("left with columns", "#7F7F7F"),
