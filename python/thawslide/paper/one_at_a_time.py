@@ -124,7 +124,7 @@ def commit_of(program: Path) -> str:
 
 
 def is_of_commit(folder: Path, words: Sequence[str], commit: str) -> bool:
-    """Return whether a folder holds an ended run of these words by this very commit, of inputs that are as they were."""
+    """Return whether a folder holds an ended run of these words and of inputs as they are now, by this very commit."""
     facts = _facts(folder)
     ended = facts.get("status") in ("done", "failed") or _stopped_at_rest(folder, facts)
     if not ended or facts.get("command") != " ".join(words) or facts.get("commit") != commit:
