@@ -42,12 +42,17 @@ def shown(value: float, unit: str = "") -> str:
     return f"{text} {unit}".strip()
 
 
-def stop_time(run: Run) -> float | None:
-    """Return when [s] the mean velocity falls below 1 % of its peak for good, None where it does not."""
+def stop_time(run: Run, below: float | None = None) -> float | None:
+    """Return when [s] the mean velocity falls below a speed [m/s] for good, None where it does not or never passed it.
+
+    Without `below` that is 1 % of its peak.
+    """
     speed = run.history["mean_velocity_m_s"]
     if not np.isfinite(speed).any() or np.nanmax(speed) <= 0.0:
         return None
-    moving = np.flatnonzero(~(speed < STOPPED_SHARE * np.nanmax(speed)))
+    moving = np.flatnonzero(~(speed < (STOPPED_SHARE * np.nanmax(speed) if below is None else below)))
+    if not moving.size:
+        return None
     last = int(moving[-1])
     return float(run.history["time_s"][last + 1]) if last + 1 < len(speed) else None
 
@@ -116,17 +121,18 @@ def found_for(run: Run, target: Target) -> str:
 
 
 def boiling_note(run: Run) -> str:
-    """Return a plain sentence where the band passes 100 °C, "" otherwise."""
-    if "band_temperature_C" not in run.history:
+    """Return a plain sentence where a band that does not boil passes 100 °C, "" otherwise."""
+    if "band_temperature_C" not in run.history or (run.has_band_columns and run.section("heat").get("steam", True)):
         return ""
     values = run.history["band_temperature_C"]
     if not np.any(values > BOILING):
         return ""
     first = float(run.history["time_s"][int(np.argmax(values > BOILING))])
     highest = shown(float(np.nanmax(values)), "°C")
+    nothing = "Nothing boils, as heat.steam is false" if run.has_band_columns else "Nothing in the model boils"
     return (
-        f"The mean band temperature passes 100 °C at {shown(first, 's')} and reaches {highest}. Nothing in the model "
-        "boils: where the pressure is low, read temperatures and pressures of the band beyond this with care."
+        f"The mean band temperature passes 100 °C at {shown(first, 's')} and reaches {highest}. {nothing}: where the "
+        "pressure is low, read temperatures and pressures of the band beyond this with care."
     )
 
 
@@ -192,7 +198,9 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
     rows = []
     for words, column, unit in (
         ("Highest mean band temperature", "band_temperature_C", "°C"),
+        ("Hottest column of the band", "band_hottest_C", "°C"),
         ("Highest mean band pore pressure", "band_pore_pressure_Pa", "Pa"),
+        ("Largest pore pressure over its N", "band_largest_pressure_ratio", ""),
     ):
         if column in run.history:
             values = run.history[column]
@@ -202,4 +210,14 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
                 rows.append(KeyNumber(words, shown(float(values[at]), unit), when))
             else:
                 rows.append(KeyNumber(words, "none", "no particle was ever in the band"))
+    return rows + _water_numbers(run)
+
+
+def _water_numbers(run: Run) -> list[KeyNumber]:
+    """Return what water the columns of a band lost."""
+    rows = []
+    for words, column in (("Water vented by the band", "column_vented_kg"), ("Water gone as steam", "column_steam_kg")):
+        if column in run.history:
+            unit = "t/m of width" if run.per_metre else "t"
+            rows.append(KeyNumber(words, shown(float(run.history[column][-1]) / 1e3, unit), "by the end"))
     return rows

@@ -95,7 +95,7 @@ def _page(run: Run, report: Report) -> str:
             shown_as = f'<video controls loop muted src="{link}" aria-label="{heading}"></video>'
         else:
             shown_as = f'<a href="{link}"><img src="{link}" alt="{heading}"></a>'
-        caption = f"<figcaption>{html.escape(kind.caption)}</figcaption>"
+        caption = f"<figcaption>{html.escape(kind.caption_of(run))}</figcaption>"
         parts.append(f'<h2 id="{name}">{heading}</h2>\n<figure>{shown_as}\n{caption}</figure>')
     if maps := _map_files(run, report.page.parent):
         parts += [f'<h2 id="maps">Maps to open in a GIS</h2>\n{maps}']
