@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "physics/band_column_step.hpp"
 #include "physics/basal/laws.hpp"
 #include "physics/basal_friction.hpp"
 #include "physics/clapeyron.hpp"
@@ -120,6 +121,19 @@ __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results,
 }
 template __global__ void heat<PowerLawCurve<Real>>(HeatContent<Real, PowerLawCurve<Real>>, Real*, Real*, std::size_t);
 template __global__ void heat<LinearCurve<Real>>(HeatContent<Real, LinearCurve<Real>>, Real*, Real*, std::size_t);
+
+template <class Curve>
+__global__ void band_column(ColumnModel<Real, Curve> model, const ColumnDrive<Real>* drives, BandColumn<Real>* columns,
+                            ColumnAccount<Real>* accounts, BandMeans<Real>* means) {
+  const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
+  accounts[k] = step_column(model, drives[k], columns[k]);
+  means[k] = band_means(model, drives[k].normal_pressure, columns[k]);
+}
+template __global__ void band_column<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>,
+                                                          const ColumnDrive<Real>*, BandColumn<Real>*,
+                                                          ColumnAccount<Real>*, BandMeans<Real>*);
+template __global__ void band_column<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const ColumnDrive<Real>*,
+                                                        BandColumn<Real>*, ColumnAccount<Real>*, BandMeans<Real>*);
 
 __global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
