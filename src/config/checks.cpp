@@ -96,6 +96,54 @@ void check_materials(const Case& checked, Reading& reading) {
   }
 }
 
+<<<<<<< HEAD
+=======
+void check_basal(const Case& checked, Reading& reading) {
+  const Basal& basal = checked.basal;
+  if (reading.sound({"basal.min_solid_fraction", "basal.max_solid_fraction"}) &&
+      basal.min_solid_fraction >= basal.max_solid_fraction) {
+    reading.report_misfit(
+        {"basal.max_solid_fraction", "basal.min_solid_fraction"},
+        fmt::format("basal.max_solid_fraction is {}, not above basal.min_solid_fraction, which is {}; Eq. 25 "
+                    "divides by their difference. Make the one larger or the other smaller.",
+                    basal.max_solid_fraction, basal.min_solid_fraction));
+  }
+  if (reading.sound({"basal.cohesion", "basal.residual_cohesion"}) && basal.residual_cohesion > basal.cohesion) {
+    reading.report_misfit(
+        {"basal.residual_cohesion", "basal.cohesion"},
+        fmt::format("basal.residual_cohesion is {} Pa, above basal.cohesion, which is {} Pa; cohesion along the "
+                    "ground is only lost. Give a residual at most the cohesion.",
+                    basal.residual_cohesion, basal.cohesion));
+  }
+}
+
+void check_filter(const Case& checked, Reading& reading) {
+  const Mechanics& mechanics = checked.mechanics;
+  if (!reading.sound({"mechanics.transfer", "mechanics.fmpm_order", "mechanics.fmpm_interval"})) {
+    return;
+  }
+  if (mechanics.transfer != Transfer::fmpm) {
+    const Mechanics usual;
+    for (const auto& [key, is_given] :
+         {std::pair("mechanics.fmpm_interval", mechanics.fmpm_interval != usual.fmpm_interval),
+          std::pair("mechanics.fmpm_order", mechanics.fmpm_order != usual.fmpm_order)}) {
+      if (is_given) {
+        reading.report_misfit({key, "mechanics.transfer"},
+                              fmt::format("{} is given, and mechanics.transfer is not \"fmpm\"; no other transfer has "
+                                          "it. Set mechanics.transfer = \"fmpm\", or remove {}.",
+                                          key, key));
+      }
+    }
+  } else if (checked.time.stepping == Stepping::fixed && reading.sound({"time.step"}) &&
+             mechanics.fmpm_interval < checked.time.step) {
+    reading.report_misfit({"mechanics.fmpm_interval", "time.step"},
+                          fmt::format("mechanics.fmpm_interval is {} s, shorter than time.step, which is {} s; "
+                                      "velocities are filtered once a step at most. Make the interval longer.",
+                                      mechanics.fmpm_interval, checked.time.step));
+  }
+}
+
+>>>>>>> matter
 // Keys that take each other's meaning away.
 void check_switches(const Case& checked, Reading& reading) {
   const bool has_ground = checked.terrain.kind != TerrainKind::none;
@@ -271,8 +319,12 @@ void check_case(const Case& checked, Reading& reading) {
   check_materials(checked, reading);
   check_grounds(checked, reading);
   check_switches(checked, reading);
+<<<<<<< HEAD
   check_band_switches(checked, reading);
   check_band_columns(checked, reading);
+=======
+  check_filter(checked, reading);
+>>>>>>> matter
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
 }

@@ -17,6 +17,7 @@
 #include "physics/pore_water.hpp"
 #include "physics/pressurization.hpp"
 #include "physics/principal.hpp"
+#include "physics/rigid_motion.hpp"
 #include "physics/tension_gap.hpp"
 
 namespace thawslide::physics {
@@ -105,6 +106,17 @@ __global__ void yield_and_gap(MohrCoulomb<Real> law, Elastic<Real> elastic, Real
 }
 template __global__ void yield_and_gap<2>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
 template __global__ void yield_and_gap<3>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
+
+template <int Dim>
+__global__ void rigid_motion(Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Vector<Real, Dim> place = row.take_vector<Dim>();
+  result.put<rotations<Dim>>(moment_of<Dim>(place, row.take_vector<Dim>()));
+  result.put<Dim>(turned<Dim>(row.take_vector<rotations<Dim>>(), place));
+  result.put<squares<Dim>>(squares_of<Dim>(place));
+}
+template __global__ void rigid_motion<2>(Real*, Real*, std::size_t);
+template __global__ void rigid_motion<3>(Real*, Real*, std::size_t);
 
 template <class Curve>
 __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results, std::size_t particles) {

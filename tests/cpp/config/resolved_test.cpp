@@ -209,6 +209,9 @@ min = [0.0, 0.0, 1.0]
 max = [40.0, 5.0, 20.0]
 velocity = [1.5, -0.5, 0.25]
 [mechanics]
+transfer = "fmpm"
+fmpm_order = 3
+fmpm_interval = 0.5
 slope_shear = true
 [basal]
 friction = "coefficient"
