@@ -55,6 +55,11 @@ class Quantity:
     form: str
     everywhere: bool = False  # not the median alone but every member has to be inside
 
+    @property
+    def name_in_text(self) -> str:
+        """The words without what explains them."""
+        return self.words.partition(":")[0]
+
     def inside(self, value: float) -> bool:
         """Return whether a value lies in the interval."""
         return self.least <= value <= self.most + ROUND_OFF
@@ -62,7 +67,7 @@ class Quantity:
     def text(self, value: float, end: float = float("nan")) -> str:
         """Write a value; one that a run did not come to by its `end` says so."""
         if np.isposinf(value):
-            return f"not by {end:.0f}" if np.isfinite(end) else "not"
+            return f"not by {end:.0f}" if np.isfinite(end) else "not reached"
         return f"{value:{self.form}}".replace("-", "−") if np.isfinite(value) else "none"
 
 
@@ -198,20 +203,26 @@ def members_table(found: Sequence[Observed]) -> str:
 
 def verdict(found: Sequence[Observed]) -> str:
     """Say plainly which rows are met and which are not, and which members broke off."""
-    met = [each.words for each in QUANTITIES if is_met(found, each)]
-    parts = [f"Met ({len(met)} of {len(QUANTITIES)} rows): {'; '.join(met) or 'none'}."]
-    missed = []
-    for each in QUANTITIES:
-        if not is_met(found, each):
-            value = max(_values(found, each), default=float("nan")) if each.everywhere else median(found, each)
-            which = "the most" if each.everywhere else "the median"
-            found_words = f"{each.words}: {which} is {each.text(value)} {each.unit}".strip()
-            missed.append(f"{found_words} where {each.wanted} is wanted")
-    parts.append(f"Not met: {'; '.join(missed) or 'none'}.")
+    met = [each.name_in_text for each in QUANTITIES if is_met(found, each)]
+    parts = [f"Met, {len(met)} of {len(QUANTITIES)} rows: {'; '.join(met) or 'none'}."]
+    missed = [f"- {_miss(found, each)}" for each in QUANTITIES if not is_met(found, each)]
+    parts.append("Not met:\n\n" + "\n".join(missed) if missed else "Not met: none.")
     broken = [f"seed {seed} ({' '.join(each.failure.split())})" for seed, each in enumerate(found, 1) if each.failure]
     if broken:
         parts.append(f"Left out of median and range, as they did not come to their end: {'; '.join(broken)}.")
     return "\n\n".join(parts)
+
+
+def _miss(found: Sequence[Observed], quantity: Quantity) -> str:
+    """Say what a row that is not met has."""
+    values = _values(found, quantity)
+    if not values.size:
+        return f"{quantity.name_in_text}: no member has it; {quantity.wanted} is wanted"
+    which, value = ("most", float(values.max())) if quantity.everywhere else ("median", median(found, quantity))
+    if not np.isfinite(value):
+        return f"{quantity.name_in_text}: half of the members or more do not come to it; {quantity.wanted} is wanted"
+    number = f"{quantity.text(value)} {quantity.unit}".strip()
+    return f"{quantity.name_in_text}: the {which} is {number}; {quantity.wanted} is wanted"
 
 
 def middle_member(found: Sequence[Observed]) -> int:
