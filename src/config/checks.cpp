@@ -96,27 +96,6 @@ void check_materials(const Case& checked, Reading& reading) {
   }
 }
 
-<<<<<<< HEAD
-=======
-void check_basal(const Case& checked, Reading& reading) {
-  const Basal& basal = checked.basal;
-  if (reading.sound({"basal.min_solid_fraction", "basal.max_solid_fraction"}) &&
-      basal.min_solid_fraction >= basal.max_solid_fraction) {
-    reading.report_misfit(
-        {"basal.max_solid_fraction", "basal.min_solid_fraction"},
-        fmt::format("basal.max_solid_fraction is {}, not above basal.min_solid_fraction, which is {}; Eq. 25 "
-                    "divides by their difference. Make the one larger or the other smaller.",
-                    basal.max_solid_fraction, basal.min_solid_fraction));
-  }
-  if (reading.sound({"basal.cohesion", "basal.residual_cohesion"}) && basal.residual_cohesion > basal.cohesion) {
-    reading.report_misfit(
-        {"basal.residual_cohesion", "basal.cohesion"},
-        fmt::format("basal.residual_cohesion is {} Pa, above basal.cohesion, which is {} Pa; cohesion along the "
-                    "ground is only lost. Give a residual at most the cohesion.",
-                    basal.residual_cohesion, basal.cohesion));
-  }
-}
-
 void check_filter(const Case& checked, Reading& reading) {
   const Mechanics& mechanics = checked.mechanics;
   if (!reading.sound({"mechanics.transfer", "mechanics.fmpm_order", "mechanics.fmpm_interval"})) {
@@ -143,7 +122,6 @@ void check_filter(const Case& checked, Reading& reading) {
   }
 }
 
->>>>>>> matter
 // Keys that take each other's meaning away.
 void check_switches(const Case& checked, Reading& reading) {
   const bool has_ground = checked.terrain.kind != TerrainKind::none;
@@ -319,12 +297,9 @@ void check_case(const Case& checked, Reading& reading) {
   check_materials(checked, reading);
   check_grounds(checked, reading);
   check_switches(checked, reading);
-<<<<<<< HEAD
   check_band_switches(checked, reading);
   check_band_columns(checked, reading);
-=======
   check_filter(checked, reading);
->>>>>>> matter
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
 }

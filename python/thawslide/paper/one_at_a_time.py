@@ -189,16 +189,22 @@ def run_rows(
             tell(f"{done} of {len(waiting)}, about {left / 60:.0f} min left: {row.key}{why}")
 
 
+def why_not_whole(folder: Path) -> str:
+    """Return why a run did not come to its end or to rest, "" where it did."""
+    facts = _facts(folder)
+    if facts.get("status") == "done" or _stopped_at_rest(folder, facts):
+        return ""
+    if facts.get("status") == "stopped":
+        return "stopped before its end"
+    return str(facts.get("message") or "not at its end yet")
+
+
 def outcome(folder: Path) -> Outcome:
     """Return the numbers of a run folder; one that is not there or broke off says so."""
     if not (folder / "history.csv").is_file():
         note = refusal(folder)
         return Outcome(failure=note.read_text(encoding="utf-8") if note.is_file() else "not run")
-    facts = _facts(folder)
-    whole = facts.get("status") == "done" or _stopped_at_rest(folder, facts)
-    failure = "" if whole else str(facts.get("message") or "not at its end yet")
-    if not whole and facts.get("status") == "stopped":
-        failure = "stopped before its end"
+    failure = why_not_whole(folder)
     run = Run(folder)
     time_s, speed = run.history["time_s"], run.history["mean_velocity_m_s"]
     peak = int(np.nanargmax(speed))

@@ -1,0 +1,61 @@
+"""Members of starting noise over time, on the clock that the reported values have."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from thawslide.figures.motion import draw_targets
+from thawslide.figures.style import BLUE, GREEN, NOTE, letters, styled
+from thawslide.paper.members import QUANTITIES, SET_TIME
+from thawslide.run import Numbers, Run
+
+STEP = 0.1  # s, of the median's curve
+
+
+def on_one_clock(runs: Sequence[Run], starts: Sequence[float], column: str) -> tuple[Numbers, Numbers]:
+    """Return times [s] on the clock set that all runs have, and a column of each at them, shape (runs, times)."""
+    clocks = [run.history["time_s"] + SET_TIME - start for run, start in zip(runs, starts, strict=True)]
+    time = np.arange(max(clock[0] for clock in clocks), min(clock[-1] for clock in clocks), STEP)
+    values = [np.interp(time, clock, run.history[column]) for run, clock in zip(runs, clocks, strict=True)]
+    return time, np.array(values)
+
+
+@styled
+def members_over_time(runs: Sequence[Run], starts: Sequence[float]) -> Figure:
+    """Draw mean velocity and mean displacement of all members and their median, with the reported values."""
+    figure = Figure(figsize=(10.0, 4.6), layout="constrained")
+    speed, way = figure.subplots(1, 2)
+    for axes, column, divisor, colour, reported in (
+        (speed, "mean_velocity_m_s", 1.0, BLUE, ("mean_velocity",)),
+        (way, "mean_displacement_m", 1e3, GREEN, ("mean_displacement",)),
+    ):
+        time, values = on_one_clock(runs, starts, column)
+        thin = axes.plot(time, values.T / divisor, color=colour, linewidth=0.5, alpha=0.45)
+        thin[0].set_label(f"{len(runs)} members")
+        axes.plot(time, np.median(values, axis=0) / divisor, color=colour, linewidth=2.4, label="their median")
+        draw_targets(axes, runs[0], reported, divisor, NOTE)
+        axes.set_xlim(min(0.0, float(time[0])), max(205.0, float(time[-1])))
+        axes.set_xlabel("time (s), 8 m/s at 40 s")
+        axes.set_ylim(bottom=0.0)
+        axes.grid(True)
+    speed.set_ylabel("mean velocity (m/s)")
+    way.set_ylabel("mean displacement (km)")
+    _draw_wanted(speed)
+    for axes in (speed, way):
+        axes.legend(loc="best")
+    letters((speed, way), ("mean velocity", "mean displacement"))
+    return figure
+
+
+def _draw_wanted(axes: Axes) -> None:
+    """Shade where the peak is wanted, and mark by when the slide is reported to stand."""
+    wanted = {each.name: each for each in QUANTITIES}
+    peak, rise, stop = wanted["peak"], wanted["rise"], wanted["stop"]
+    box = (SET_TIME + rise.least, peak.least), rise.most - rise.least, peak.most - peak.least
+    axes.add_patch(Rectangle(*box, facecolor=NOTE, alpha=0.15, linewidth=0, label="where the peak is wanted"))
+    axes.axvline(stop.most, color=NOTE, linewidth=0.9, linestyle=":", label="at rest before")
