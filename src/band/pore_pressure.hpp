@@ -32,8 +32,8 @@ WaterLoss<Real> drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, cons
                                     mpm::Particles<Dim, Real>& particles);
 
 // What mixing makes of the water of a particle's part of the band, of which `kept` is the share that was there before
-// matter as it was at t = 0 joined; its temperature [C] before and that of what joins. What is melted swells or contracts
-// on the way to the mixture's temperature.
+// matter as it was at t = 0 joined; its temperature [C] before and that of what joins. What is melted swells or
+// contracts on the way to the mixture's temperature.
 template <int Dim, class Real>
 void mix_water(const BandModel<Dim, Real>& model, Real kept, Real before, Real joining, std::uint32_t p,
                mpm::Particles<Dim, Real>& particles);
