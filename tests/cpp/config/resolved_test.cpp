@@ -341,7 +341,6 @@ TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
     }
   }
 }
-
 TEST(Resolved, WritesDefaultsUnitsAndNoKeyWithoutMeaning) {
   const std::string text = resolved_toml(case_from_text(sound), "inputs");
   const Lines lines = lines_of(text);
