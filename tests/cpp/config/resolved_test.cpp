@@ -13,7 +13,6 @@ namespace fs = std::filesystem;
 using namespace case_messages;
 using testing_support::case_from_text;
 using Lines = std::map<std::string, std::map<std::string, std::string>>;  // value by table and key
-
 // Every key of a plane case, none at its default, written as the program writes it. What only a 3D case can show is in
 // the other texts.
 const std::string every_key = R"([case]
