@@ -219,7 +219,8 @@ TEST(Mistakes, SeveralInOrderOfTheirPlaces) {
             "--set basal.friction_angle=95: basal.friction_angle is 95; allowed: >= 0 and < 90 degrees (basal friction "
             "angle phi_f).\n"
             "--set band.thicknes=0.1: key 'band.thicknes' is not known in [band]; did you mean 'thickness'? Allowed "
-            "here: thickness, region, cut_cells, thickness_change.");
+            "here: model, thickness, region, cut_cells, thickness_change, growth, grain_size, inertial_number, "
+            "growth_per_slip, load_time, column_step, ground_temperature.");
 }
 
 TEST(Mistakes, SeveralThatDoNotFitTogether) {
