@@ -55,16 +55,6 @@ NodeState<Dim, Real> trial_state(
   return state;
 }
 
-// Average of a band quantity at a node: from its sum by the linear shape functions, or by mass with the momentum shape
-// functions where the node has GIMP mass but no linear weight.
-template <int Dim, class Real>
-Real at_base(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real sum_by_linear,
-             std::size_t by_mass) {
-  const Real volume = nodes.averages(b, k)[Averages::volume];
-  return volume > Real(0) ? sum_by_linear / volume
-                          : nodes.near_ground(b, k)[by_mass] / nodes.momentum(b, k)[MomentumLayout<Dim>::mass];
-}
-
 // The contact nodes of one block, with what the basal law needs of them.
 template <int Dim, class Real>
 struct BlockContact {
@@ -81,10 +71,13 @@ template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
                       const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
-  const auto& linear = nodes.averages(b, k);
+  using mpm::NodalState;
+  const auto& known = nodes.state(b, k);
   const auto& near_ground = nodes.near_ground(b, k);
-  const auto average = [&](Real sum_by_linear, std::size_t by_mass) {
-    return at_base(nodes, b, k, sum_by_linear, by_mass);
+  const Real volume = nodes.averages(b, k)[Averages::volume];
+  // A node may have GIMP mass but no linear weight: then its averages are by mass.
+  const auto average = [&](Real by_linear, std::size_t by_mass) {
+    return volume > Real(0) ? by_linear : near_ground[by_mass] / state.mass;
   };
   BasalNodes<Real>& basal = contact.basal;
   const std::size_t c = basal.count++;
@@ -95,10 +88,11 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   contact.state[c] = state;
   basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
-      model.pore_pressure ? average(linear[Averages::pore_pressure], NearGround::pore_pressure) : Real(0);
-  basal.saturation[c] = average(near_ground[NearGround::saturation_by_linear], NearGround::saturation);
-  basal.solid_fraction[c] = average(near_ground[NearGround::solid_fraction_by_linear], NearGround::solid_fraction);
-  basal.temperature[c] = average(linear[Averages::temperature], NearGround::temperature);
+      model.pore_pressure ? average(known[NodalState::pore_pressure], NearGround::pore_pressure) : Real(0);
+  basal.saturation[c] = average(near_ground[NearGround::saturation_by_linear] / volume, NearGround::saturation);
+  basal.solid_fraction[c] =
+      average(near_ground[NearGround::solid_fraction_by_linear] / volume, NearGround::solid_fraction);
+  basal.temperature[c] = average(known[NodalState::temperature], NearGround::temperature);
   basal.slip[c] = near_ground[NearGround::slip] / state.mass;
   basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
 }

@@ -52,7 +52,7 @@ struct ContactModel {
 };
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null.
-// nodes.averages and, with ground, nodes.near_ground must hold the sums of this step.
+// nodes.averages, nodes.state and, with ground, nodes.near_ground must hold what this step made.
 template <int Dim, class Real>
 ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                                        const mpm::Constraints<Dim, Real>& constraints,
