@@ -33,7 +33,8 @@ from thawslide.run import Numbers
 
 _BODY_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
 _PATH = "#0B3C8C"
-_HATCHES = ("///", "...", "xxx", "---")  # of substrates
+_HATCHES = ("//", "..", "xx", "--")  # of substrates
+_HATCH = "#5B7F95"
 
 
 @dataclass(frozen=True)
@@ -185,7 +186,9 @@ def _hatch(axes: Axes, substrates: Substrates) -> None:
         there = (substrates.numbers.values == number + 1).astype(np.float64)
         if there.any():
             hatches = [_HATCHES[number % len(_HATCHES)]]
-            axes.contourf(x, y, there, levels=[0.5, 1.5], colors="none", hatches=hatches, zorder=3)
+            areas = axes.contourf(x, y, there, levels=[0.5, 1.5], colors="none", hatches=hatches, zorder=3)
+            areas.set_edgecolor(_HATCH)
+            areas.set_linewidth(0.0)
 
 
 def each_cell_once(thicknesses: list[Map]) -> list[Map]:
@@ -258,7 +261,9 @@ def _legend(setup: SetupOnMap) -> list[Patch | Line2D]:
             label += f", up to {number_text(float(np.nanmax(release.thickness.values)))} m thick"
         handles.append(Line2D([], [], color=_BODY_COLOURS[number % len(_BODY_COLOURS)], linewidth=1.2, label=label))
     for number, name in enumerate(setup.substrates.names if setup.substrates is not None else []):
-        handles.append(Patch(fill=False, hatch=_HATCHES[number % len(_HATCHES)], label=f"substrate {name}"))
+        handles.append(
+            Patch(fill=False, edgecolor=_HATCH, hatch=_HATCHES[number % len(_HATCHES)], label=f"substrate {name}")
+        )
     handles.append(Line2D([], [], color=BLACK, linestyle="--", linewidth=1.4, label="domain"))
     if setup.path is not None:
         handles.append(Line2D([], [], color=_PATH, linewidth=1.2, label="path"))

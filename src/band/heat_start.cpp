@@ -24,23 +24,21 @@ void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Rea
 
 namespace {
 
-// Matter as it was at t = 0 joins a particle's part of the band, at its own heat and with its own void; `kept`: share
+// Matter as it was at t = 0 joins a particle's part of the band, at its own heat and with its own water; `kept`: share
 // of the band's matter in the mixture. The porosity follows the temperature as in a step.
 template <int Dim, class Real>
 void mix_in(const BandModel<Dim, Real>& model, Real kept, std::uint32_t p, mpm::Particles<Dim, Real>& particles) {
   const mpm::One<Real> one{{p}};
   const Real before = particles.temperature(p);
-  particles.heat_content(p) = physics::mixed(particles.heat_content(p), particles.initial_heat_content(p), kept);
+  Real joining = 0;
   with_particle_heat(model, [&](const auto& law) {
+    joining = law.temperature(particles, one, particles.initial_heat_content(p), before);
+    particles.heat_content(p) = physics::mixed(particles.heat_content(p), particles.initial_heat_content(p), kept);
     particles.temperature(p) = law.temperature(particles, one, particles.heat_content(p), before);
     follow_temperature(model.phases, law, particles, one, true, before);
   });
-  if (model.balances_water()) {
-    particles.pore_void(p) = physics::mixed(particles.pore_void(p), void_at_start(model, particles, p), kept);
-  }
-  if (model.pressure && before < model.reference_temperature &&
-      particles.temperature(p) >= model.reference_temperature) {
-    particles.liquid_pressure(p) = particles.pore_pressure(p) = thawing_pressure(model, particles, one);
+  if (model.pressure) {
+    mix_water(model, kept, before, joining, p, particles);
   }
 }
 

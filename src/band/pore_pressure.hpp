@@ -31,6 +31,13 @@ WaterLoss<Real> drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, cons
                                     const FlowDepth<Dim, Real>& depth, Real dt, mpm::Nodes<Dim, Real>& nodes,
                                     mpm::Particles<Dim, Real>& particles);
 
+// What mixing makes of the water of a particle's part of the band, of which `kept` is the share that was there before
+// matter as it was at t = 0 joined; its temperature [C] before and that of what joins. What is melted swells or
+// contracts on the way to the mixture's temperature.
+template <int Dim, class Real>
+void mix_water(const BandModel<Dim, Real>& model, Real kept, Real before, Real joining, std::uint32_t p,
+               mpm::Particles<Dim, Real>& particles);
+
 // Pressures of particles that begin, from temperature and flow depth; of those that stand in memory from `first` on. A
 // melted particle starts from P_L = P_I / r.
 template <int Dim, class Real>

@@ -28,7 +28,7 @@ enum class ThicknessAlong { vertical, normal };
 enum class Placement { on_top, cut };
 enum class Leaving { stop, remove };
 enum class ShapeFunction { ugimp, linear, quadratic };
-enum class Transfer { flip, blend, apic };
+enum class Transfer { flip, blend, apic, fmpm };
 enum class InitialStress { geostatic, none, settle };
 enum class FrictionClamp { keep_cohesion, joint };
 enum class BandRegion { all, first_layer };
@@ -167,7 +167,9 @@ struct Mechanics {
   bool enabled = true;
   ShapeFunction shape_function = ShapeFunction::ugimp;
   Transfer transfer = Transfer::flip;
-  double pic_share = 0.0;  // Transfer::blend
+  double pic_share = 0.0;      // Transfer::blend
+  int fmpm_order = 2;          // Transfer::fmpm
+  double fmpm_interval = 0.0;  // s, Transfer::fmpm
   InitialStress initial_stress = InitialStress::geostatic;
   double k0 = -1.0;  // negative: nu / (1 - nu)
   bool slope_shear = false;

@@ -96,6 +96,32 @@ void check_materials(const Case& checked, Reading& reading) {
   }
 }
 
+void check_filter(const Case& checked, Reading& reading) {
+  const Mechanics& mechanics = checked.mechanics;
+  if (!reading.sound({"mechanics.transfer", "mechanics.fmpm_order", "mechanics.fmpm_interval"})) {
+    return;
+  }
+  if (mechanics.transfer != Transfer::fmpm) {
+    const Mechanics usual;
+    for (const auto& [key, is_given] :
+         {std::pair("mechanics.fmpm_interval", mechanics.fmpm_interval != usual.fmpm_interval),
+          std::pair("mechanics.fmpm_order", mechanics.fmpm_order != usual.fmpm_order)}) {
+      if (is_given) {
+        reading.report_misfit({key, "mechanics.transfer"},
+                              fmt::format("{} is given, and mechanics.transfer is not \"fmpm\"; no other transfer has "
+                                          "it. Set mechanics.transfer = \"fmpm\", or remove {}.",
+                                          key, key));
+      }
+    }
+  } else if (checked.time.stepping == Stepping::fixed && reading.sound({"time.step"}) &&
+             mechanics.fmpm_interval < checked.time.step) {
+    reading.report_misfit({"mechanics.fmpm_interval", "time.step"},
+                          fmt::format("mechanics.fmpm_interval is {} s, shorter than time.step, which is {} s; "
+                                      "velocities are filtered once a step at most. Make the interval longer.",
+                                      mechanics.fmpm_interval, checked.time.step));
+  }
+}
+
 // Keys that take each other's meaning away.
 void check_switches(const Case& checked, Reading& reading) {
   const bool has_ground = checked.terrain.kind != TerrainKind::none;
@@ -273,6 +299,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_switches(checked, reading);
   check_band_switches(checked, reading);
   check_band_columns(checked, reading);
+  check_filter(checked, reading);
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
 }

@@ -24,6 +24,17 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
                                         .text = "share of the node velocities in a particle's; 0: FLIP, 1: PIC"})
           .required_if("when mechanics.transfer is \"blend\"",
                        [](const Case&, const Mechanics& mechanics) { return mechanics.transfer == Transfer::blend; }),
+      parameter(&Mechanics::fmpm_order,
+                {.key = "fmpm_order",
+                 .range = between(2, 4),
+                 .text = "order m of the filter of transfer \"fmpm\": the higher, the less it takes of long waves",
+                 .source = "Hammerquist and Nairn 2017"}),
+      parameter(&Mechanics::fmpm_interval, {.key = "fmpm_interval",
+                                            .unit = "s",
+                                            .range = above(0),
+                                            .text = "simulated time from one filtering to the next"})
+          .required_if("when mechanics.transfer is \"fmpm\"",
+                       [](const Case&, const Mechanics& mechanics) { return mechanics.transfer == Transfer::fmpm; }),
       parameter(&Mechanics::initial_stress,
                 {.key = "initial_stress", .text = "stress at t = 0, of which the paper says nothing"}),
       parameter(&Mechanics::k0, {.key = "k0",

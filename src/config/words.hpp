@@ -69,7 +69,8 @@ inline std::vector<Choice<ShapeFunction>> choices(ShapeFunction) {
 inline std::vector<Choice<Transfer>> choices(Transfer) {
   return {{Transfer::flip, "flip", "particles take the changes of node velocities (Eq. 13)"},
           {Transfer::blend, "blend", "FLIP, and a share of the node velocities themselves (PIC)"},
-          {Transfer::apic, "apic", "the node velocities, and an affine velocity about the particle"}};
+          {Transfer::apic, "apic", "the node velocities, and an affine velocity about the particle"},
+          {Transfer::fmpm, "fmpm", "FLIP, and now and then a filter that takes out what the grid cannot see (FMPM)"}};
 }
 inline std::vector<Choice<InitialStress>> choices(InitialStress) {
   return {

@@ -28,6 +28,11 @@ struct Nodes {
   RecordsOf<Averages, Dim, Real> averages{room};
   RecordsOf<NodalState, Dim, Real> state;
   RecordsOf<HeatRates, Dim, Real> heat_rates{room};
+  // In the steps that filter velocities.
+  RecordsOf<FilterMoments, Dim, Real> filter_moments{room};
+  RecordsOf<FilterMomentum, Dim, Real> filter_momentum{room};
+  RecordsOf<FilterIncrement, Dim, Real> filter_increment;
+  RecordsOf<FilterTotal, Dim, Real> filter_total;
   // Of blocks with candidate nodes.
   SparseRecords<Dim, Real, BaseLayout::size> base;
   SparseRecordsOf<Contact, Dim, Real> contact;

@@ -6,6 +6,7 @@
 
 #include "base/select.hpp"
 #include "mpm/kernel.hpp"
+#include "physics/rigid_motion.hpp"
 
 namespace thawslide::mpm {
 
@@ -198,6 +199,32 @@ struct Velocity {
   static constexpr int size = Dim;
   static constexpr int flux = no_flux;
   static auto& in(auto& nodes) { return nodes.velocity; }
+};
+
+// Sums over particles for the filter of velocities (mpm/velocity_filter.hpp), about the domain's lower corner.
+struct FilterMoments {
+  using Functions = MomentumFunctions;
+  static constexpr std::size_t first = 0;  // sum S m x [kg m]; after it sum S m x x [kg m2]
+  template <int Dim>
+  static constexpr int size = Dim + physics::squares<Dim>;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.filter_moments; }
+};
+struct FilterMomentum {
+  using Functions = MomentumFunctions;
+  static constexpr std::size_t momentum = 0;  // sum S m v [kg m/s]; after it sum S m x x v [kg m2/s]
+  template <int Dim>
+  static constexpr int size = Dim + physics::rotations<Dim>;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.filter_momentum; }
+};
+// What of the nodes' rigid motions the last sweep brought, and all of them: the velocity at the domain's lower corner
+// [m/s], after it the rotation [1/s].
+struct FilterIncrement : FilterMomentum {
+  static auto& in(auto& nodes) { return nodes.filter_increment; }
+};
+struct FilterTotal : FilterMomentum {
+  static auto& in(auto& nodes) { return nodes.filter_total; }
 };
 
 // The same records as APIC's weights see them.

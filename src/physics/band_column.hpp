@@ -11,8 +11,8 @@
 // from w, so that no water is lost. Melting makes a void: n (1 - rho_I/rho_L) of the volume. A void holds steam at the
 // pressure P_steam at which the water boils, less that of the air, and none below 100 C; steam that carries the load
 // escapes. Frozen matter has P = 0 and lets no water through; on thawing P is P_thaw = max(0, N - s0) less what the
-// void takes. As the piece stretches or the band grows, the cells take in what lies above them, and the body gives the
-// rest.
+// void takes (Morgenstern and Nixon 1971). As the piece stretches or the band grows, the cells take in what lies above
+// them, and the body gives the rest. In place of Eqs. 19 and 23; docs/theory, chapter 16.
 #pragma once
 
 #include "physics/boiling.hpp"
@@ -98,20 +98,18 @@ class ColumnGrid {
   THAWSLIDE_HD ColumnGrid(Real thickness, Real ground_cell, Real growth) {
     const Real cell = thickness / ColumnCells::band;
     face_[0] = Real(0);
-    for (int f = 1; f <= ColumnCells::band; ++f) {
-      face_[f] = cell * static_cast<Real>(f);
-    }
+    THAWSLIDE_ROLLED for (int f = 1; f <= ColumnCells::band; ++f) { face_[f] = cell * static_cast<Real>(f); }
     Real height = cell;
-    for (int f = ColumnCells::band + 1; f <= ColumnCells::slide; ++f) {
+    THAWSLIDE_ROLLED for (int f = ColumnCells::band + 1; f <= ColumnCells::slide; ++f) {
       height *= growth;
       face_[f] = face_[f - 1] + height;
     }
     Real depth = ground_cell;
-    for (int k = ColumnCells::ground - 1; k >= 0; --k) {
+    THAWSLIDE_ROLLED for (int k = ColumnCells::ground - 1; k >= 0; --k) {
       height_[k] = depth;
       depth *= growth;
     }
-    for (int k = 0; k < ColumnCells::slide; ++k) {
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
       height_[ColumnCells::ground + k] = face_[k + 1] - face_[k];
     }
   }

@@ -1,4 +1,4 @@
-// Heat of a column (band_column.hpp): conduction, friction heat, boiling.
+// Heat of a column (band_column.hpp): conduction, friction heat, boiling (docs/theory, chapter 16).
 #pragma once
 
 #include <cmath>
@@ -43,7 +43,7 @@ THAWSLIDE_HD bool is_melted(const ColumnModel<Real, Curve>& model, const BandCol
 template <class Real, class Curve>
 THAWSLIDE_HD void temperatures_from_heat(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
                                          BandColumn<Real>& column) {
-  for (int k = 0; k < ColumnCells::all; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) {
     column.temperature[k] = temperature_of_enthalpy(model.curve, cell_coefficients(model, grid, column, k),
                                                     column.heat[k], column.temperature[k]);
   }
@@ -57,7 +57,7 @@ struct ColumnConductance {
   THAWSLIDE_HD ColumnConductance(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
                                  const BandColumn<Real>& column) {
     Real below = half_resistance(model, grid, column, 0);
-    for (int k = 0; k + 1 < ColumnCells::all; ++k) {
+    THAWSLIDE_ROLLED for (int k = 0; k + 1 < ColumnCells::all; ++k) {
       const Real above = half_resistance(model, grid, column, k + 1);
       between[k] = Real(1) / (below + above);
       below = above;
@@ -78,13 +78,13 @@ struct ColumnConductance {
 // neighbours.
 template <int Count, class Real>
 THAWSLIDE_HD void solve_tridiagonal(const Real* below, Real* diagonal, const Real* above, Real* right) {
-  for (int k = 1; k < Count; ++k) {
+  THAWSLIDE_ROLLED for (int k = 1; k < Count; ++k) {
     const Real factor = below[k] / diagonal[k - 1];
     diagonal[k] -= factor * above[k - 1];
     right[k] -= factor * right[k - 1];
   }
   right[Count - 1] /= diagonal[Count - 1];
-  for (int k = Count - 2; k >= 0; --k) {
+  THAWSLIDE_ROLLED for (int k = Count - 2; k >= 0; --k) {
     right[k] = (right[k] - above[k] * right[k + 1]) / diagonal[k];
   }
 }
@@ -99,16 +99,14 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Real, Curve>& model, const
   constexpr Real close = by_precision<Real>(1e-7, 1e-3);  // [K]
   const ColumnConductance<Real, Curve> conductance(model, grid, column);
   Real guess[count], flow[count + 1];  // enthalpies; heat through the lower face of each cell [J/m2]
-  for (int k = 0; k < count; ++k) {
-    guess[k] = column.heat[k];
-  }
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { guess[k] = column.heat[k]; }
+  THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Real below[count], diagonal[count], above[count], change[count], capacity[count];
     flow[0] = flow[count] = Real(0);
-    for (int k = 1; k < count; ++k) {
+    THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
       flow[k] = dt * conductance.between[k - 1] * (column.temperature[k - 1] - column.temperature[k]);
     }
-    for (int k = 0; k < count; ++k) {
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
       capacity[k] =
           physics::apparent_capacity(model.curve, cell_coefficients(model, grid, column, k), column.temperature[k]);
       below[k] = k > 0 ? -dt * conductance.between[k - 1] : Real(0);
@@ -118,7 +116,7 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Real, Curve>& model, const
     }
     solve_tridiagonal<count>(below, diagonal, above, change);
     Real largest = 0;
-    for (int k = 0; k < count; ++k) {
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
       guess[k] += capacity[k] * change[k];
       largest = max(largest, std::abs(change[k]));
       column.temperature[k] = temperature_of_enthalpy(model.curve, cell_coefficients(model, grid, column, k), guess[k],
@@ -128,12 +126,10 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Real, Curve>& model, const
       break;
     }
   }
-  for (int k = 1; k < count; ++k) {
+  THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
     flow[k] = dt * conductance.between[k - 1] * (column.temperature[k - 1] - column.temperature[k]);
   }
-  for (int k = 0; k < count; ++k) {
-    column.heat[k] += flow[k] - flow[k + 1];
-  }
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { column.heat[k] += flow[k] - flow[k + 1]; }
 }
 
 // Gives a cell's water off as steam, with its heat [kg/m2].
@@ -154,7 +150,7 @@ template <class Real, class Curve>
 THAWSLIDE_HD void boil(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real normal_pressure,
                        BandColumn<Real>& column, ColumnAccount<Real>& account) {
   Real boiling = 0;  // [C], 0: not known yet
-  for (int k = 0; k < ColumnCells::slide; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     Real& temperature = column.temperature[ColumnCells::ground + k];
     if (!(temperature > Steam<Real>::boiling_at_atmosphere) || !(column.water[k] > Real(0))) {
       continue;

@@ -1,4 +1,4 @@
-// One step of a column (band_column.hpp), and how it begins.
+// One step of a column (band_column.hpp), and how it begins (docs/theory, chapter 16).
 #pragma once
 
 #include "physics/band_column_heat.hpp"
@@ -23,7 +23,7 @@ THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGri
   constexpr int count = ColumnCells::slide;
   const Real left = Real(1) / (Real(1) + drive.stretching * drive.dt);        // old area over new
   Real heat[count + 1] = {}, water[count + 1] = {}, thawing[count + 1] = {};  // that go down through each lower face
-  for (int f = 1; f <= count; ++f) {
+  THAWSLIDE_ROLLED for (int f = 1; f <= count; ++f) {
     const Real swept = after.face(f) - left * before.face(f);  // [m]
     if (swept > Real(0) && f == count) {
       heat[f] = swept * drive.body_heat;
@@ -37,14 +37,15 @@ THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGri
       thawing[f] = swept * column.thawing[from];
     }
   }
-  for (int k = 0; k < count; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
     Real& of_cell = column.heat[ColumnCells::ground + k];
     of_cell = left * of_cell + heat[k + 1] - heat[k];
     column.water[k] = left * column.water[k] + water[k + 1] - water[k];
     column.thawing[k] =
         (left * before.slide_height(k) * column.thawing[k] + thawing[k + 1] - thawing[k]) / after.slide_height(k);
   }
-  for (int k = 0; k < ColumnCells::ground; ++k) {  // the ground that the piece comes to cover is as warm as its own
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground;
+                        ++k) {  // the ground that the piece comes to cover is as warm as its own
     account.ground_heat += (Real(1) - left) * column.heat[k];
   }
   column.thickness = drive.thickness;
@@ -64,11 +65,9 @@ THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& mod
   if (drive.stretching != Real(0) || drive.thickness != column.thickness) {
     take_in(model, grid_of(model, column.thickness), grid, drive, column, account);
   }
-  for (int k = 0; k < ColumnCells::slide; ++k) {
-    was_melted[k] = is_melted(model, column, k);
-  }
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { was_melted[k] = is_melted(model, column, k); }
   account.friction_heat = drive.heat_flux * drive.dt;
-  for (int k = 0; k < ColumnCells::band; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
     column.heat[ColumnCells::ground + k] += account.friction_heat / ColumnCells::band;
   }
   if (model.conduction) {
@@ -92,17 +91,13 @@ THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& mod
 template <class Real>
 THAWSLIDE_HD Real heat_of(const BandColumn<Real>& column) {
   Real sum = 0;
-  for (const Real heat : column.heat) {
-    sum += heat;
-  }
+  THAWSLIDE_ROLLED for (const Real heat : column.heat) { sum += heat; }
   return sum;
 }
 template <class Real>
 THAWSLIDE_HD Real water_of(const BandColumn<Real>& column) {
   Real sum = 0;
-  for (const Real water : column.water) {
-    sum += water;
-  }
+  THAWSLIDE_ROLLED for (const Real water : column.water) { sum += water; }
   return sum;
 }
 
@@ -114,10 +109,8 @@ THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model
   column.thickness = thickness;
   const ColumnGrid<Real> grid = grid_of(model, thickness);
   const Real water = water_of_full_pores(model, temperature);
-  for (int k = 0; k < ColumnCells::slide; ++k) {
-    column.water[k] = water * grid.slide_height(k);
-  }
-  for (int k = 0; k < ColumnCells::all; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { column.water[k] = water * grid.slide_height(k); }
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) {
     column.temperature[k] = k < ColumnCells::ground ? ground_temperature : temperature;
     column.heat[k] = enthalpy(model.curve, cell_coefficients(model, grid, column, k), column.temperature[k]);
   }
@@ -125,7 +118,7 @@ THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model
   fill_pores(model, grid, normal_pressure, was_melted, column);
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
   const Real full = thawing_surplus(storage, normal_pressure, model.residual_stress, Real(0));
-  for (int k = 0; k < ColumnCells::slide; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     if (is_melted(model, column, k)) {  // warmth that was there from the start presses on nothing
       column.thawing[k] += full - column.surplus[k];
       column.surplus[k] = full;
@@ -148,7 +141,7 @@ THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, R
   BandMeans<Real> means{};
   const ColumnGrid<Real> grid = grid_of(model, column.thickness);
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
-  for (int k = 0; k < ColumnCells::slide; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     if (is_melted(model, column, k)) {
       const auto filling = pore_filling(column.surplus[k], storage, normal_pressure);
       means.opening += grid.slide_height(k) * filling.opening;
@@ -156,7 +149,7 @@ THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, R
     }
   }
   constexpr Real share = Real(1) / ColumnCells::band;
-  for (int k = 0; k < ColumnCells::band; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
     const Real temperature = column.temperature[ColumnCells::ground + k];
     const Real saturation = model.curve.saturation(temperature);
     means.temperature += share * temperature;

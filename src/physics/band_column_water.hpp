@@ -1,4 +1,4 @@
-// Water of a column (band_column.hpp): how full its pores are, and what seeps.
+// Water of a column (band_column.hpp): how full its pores are, and what seeps (docs/theory, chapter 16).
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ THAWSLIDE_HD void fill_pores(const ColumnModel<Real, Curve>& model, const Column
   const Real on_thawing = thawing_surplus(storage, normal_pressure, model.residual_stress, Real(0)) -
                           model.skeleton_compressibility * normal_pressure;
   const Real reference = model.curve.reference_temperature;
-  for (int k = 0; k < ColumnCells::slide; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const bool melted = is_melted(model, column, k);
     if (!melted || !was_melted[k]) {
       column.thawing[k] = on_thawing;
@@ -46,7 +46,7 @@ THAWSLIDE_HD ColumnMobility<Real> mobilities(const ColumnModel<Real, Curve>& mod
     return min(Real(1), column.water[k] / (model.phases.water_density * grid.slide_height(k) * model.porosity));
   };
   ColumnMobility<Real> result{};
-  for (int k = 0; k < ColumnCells::slide; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     if (!is_melted(model, column, k)) {
       continue;
     }
@@ -75,7 +75,7 @@ struct PressureBounds {
   THAWSLIDE_HD PressureBounds(const ColumnModel<Real, Curve>& model, Real normal_pressure,
                               const BandColumn<Real>& column)
       : upper(normal_pressure) {
-    for (int k = 0; k < ColumnCells::slide; ++k) {
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
       lower[k] = min(upper, steam_pressure(model, column, k));
     }
   }
@@ -85,7 +85,7 @@ template <class Real, class Curve>
 THAWSLIDE_HD void set_pressures(const ColumnModel<Real, Curve>& model, const PressureBounds<Real>& bounds,
                                 BandColumn<Real>& column) {
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
-  for (int k = 0; k < ColumnCells::slide; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const bool acts = model.pressurization && is_melted(model, column, k);
     column.pressure[k] = acts ? min(max(column.surplus[k] / storage, bounds.lower[k]), bounds.upper) : Real(0);
   }
@@ -99,19 +99,19 @@ THAWSLIDE_HD void carry_water(const ColumnModel<Real, Curve>& model, const Real*
   constexpr int count = ColumnCells::slide;
   const Real density = model.phases.water_density;
   Real share[count], water[count + 1] = {}, heat[count + 1] = {};
-  for (int k = 0; k < count; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
     const Real out = density * (max(flow[k + 1], Real(0)) + max(-flow[k], Real(0)) + to_air[k]);
     share[k] = out > column.water[k] ? max(column.water[k], Real(0)) / out : Real(1);
   }
   const auto enthalpy_in = [&](int k) { return water_enthalpy(model, column.temperature[ColumnCells::ground + k]); };
-  for (int k = 1; k < count; ++k) {
+  THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
     if (flow[k] != Real(0)) {
       const int from = flow[k] > Real(0) ? k - 1 : k;
       water[k] = density * flow[k] * share[from];
       heat[k] = water[k] * enthalpy_in(from);
     }
   }
-  for (int k = 0; k < count; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
     const Real vented = density * to_air[k] * share[k];
     const Real vented_heat = vented > Real(0) ? vented * enthalpy_in(k) : Real(0);
     column.water[k] += water[k] - water[k + 1] - vented;
@@ -125,7 +125,7 @@ THAWSLIDE_HD void carry_water(const ColumnModel<Real, Curve>& model, const Real*
 template <class Real, class Curve>
 THAWSLIDE_HD void vent_steam(const ColumnModel<Real, Curve>& model, const ColumnMobility<Real>& mobility, Real dt,
                              BandColumn<Real>& column, ColumnAccount<Real>& account) {
-  for (int k = 0; k < ColumnCells::slide; ++k) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const Real pressure = mobility.to_air[k] > Real(0) ? steam_pressure(model, column, k) : Real(0);
     if (pressure > Real(0)) {
       const Real absolute = column.temperature[ColumnCells::ground + k] + celsius_to_kelvin<Real>;
@@ -148,20 +148,18 @@ THAWSLIDE_HD void seep_in_column(const ColumnModel<Real, Curve>& model, const Co
   const Real close = by_precision<Real>(1e-12, 1e-5) * storage * max(normal_pressure, Real(1));
   Real before[count], flow[count + 1],
       to_air[count];  // volumes per area, upward through the lower face of each cell [m]
-  for (int k = 0; k < count; ++k) {
-    before[k] = column.surplus[k];
-  }
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { before[k] = column.surplus[k]; }
   flow[0] = flow[count] = Real(0);
-  for (int iteration = 0; iteration <= most_iterations; ++iteration) {
+  THAWSLIDE_ROLLED for (int iteration = 0; iteration <= most_iterations; ++iteration) {
     set_pressures(model, bounds, column);
-    for (int k = 0; k < count; ++k) {
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
       if (k > 0) {
         flow[k] = dt * mobility.between[k] * (column.pressure[k - 1] - column.pressure[k]);
       }
       to_air[k] = dt * mobility.to_air[k] * column.pressure[k];
     }
     Real below[count], diagonal[count], above[count], change[count], largest = 0;
-    for (int k = 0; k < count; ++k) {
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
       change[k] = before[k] - column.surplus[k] + (flow[k] - flow[k + 1] - to_air[k]) / grid.slide_height(k);
       largest = max(largest, std::abs(change[k]));
     }
@@ -172,7 +170,7 @@ THAWSLIDE_HD void seep_in_column(const ColumnModel<Real, Curve>& model, const Co
       const Real pressure = column.surplus[k] / storage;
       return pressure > bounds.lower[k] && pressure < bounds.upper ? Real(1) / storage : Real(0);
     };
-    for (int k = 0; k < count; ++k) {
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
       const Real per_height = dt / grid.slide_height(k);
       below[k] = k > 0 ? -per_height * mobility.between[k] * follows(k - 1) : Real(0);
       above[k] = k + 1 < count ? -per_height * mobility.between[k + 1] * follows(k + 1) : Real(0);
@@ -180,9 +178,7 @@ THAWSLIDE_HD void seep_in_column(const ColumnModel<Real, Curve>& model, const Co
           Real(1) + per_height * (mobility.between[k] + mobility.between[k + 1] + mobility.to_air[k]) * follows(k);
     }
     solve_tridiagonal<count>(below, diagonal, above, change);
-    for (int k = 0; k < count; ++k) {
-      column.surplus[k] += change[k];
-    }
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { column.surplus[k] += change[k]; }
   }
   carry_water(model, flow, to_air, column, account);
   vent_steam(model, mobility, dt, column, account);

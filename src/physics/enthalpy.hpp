@@ -1,4 +1,4 @@
-// Enthalpy of matter that freezes along a curve, whatever it is counted per: volume, or area of the base.
+// Enthalpy of matter that freezes along a curve (Eq. 9), whatever it is counted per: volume, or area of the base.
 //   H(T) = C_f (T - Tref) + C_r integral of S dT from Tref + L S(T)       0 for frozen matter at Tref
 //   dH/dT = C_f + C_r S + L dS/dT
 // C_f: capacity of frozen matter; C_r: what melting adds to it; L: what melting takes. H rises strictly with T and is

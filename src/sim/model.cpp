@@ -83,6 +83,7 @@ void set_transfer(const config::Case& parameters, mpm::MotionModel<Dim, Real>& m
   motion.transfer =
       mechanics.transfer == config::Transfer::apic ? mpm::TransferKind::apic : mpm::TransferKind::flip_pic;
   motion.pic_share = static_cast<Real>(mechanics.pic_share);
+  motion.filter_order = mechanics.transfer == config::Transfer::fmpm ? mechanics.fmpm_order : 0;
   for (std::size_t a = 0; a < Dim; ++a) {
     const double length = parameters.grid.max[a] - parameters.grid.min[a];
     if (parameters.grid.boundary[2 * a] != config::BoundaryKind::open) {

@@ -7,6 +7,7 @@
 #include "band/averages.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "mpm/velocity_filter.hpp"
 #include "sim/bodies.hpp"
 #include "terrain/band_marks.hpp"
 #include "terrain/map_back.hpp"
@@ -104,8 +105,19 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::move_particles() {
   const auto work = mpm::move_particles(grid_, particles_, model_.motion, dt_, nodes_);
   ledger_.numerical += work.particle_kinetic - contact_.node_kinetic;
+  if (filters_in_this_step()) {
+    ledger_.numerical += mpm::filter_velocities(grid_, particles_, model_.motion, nodes_);
+  }
   ledger_.numerical += terrain::constrain_mapped_back(grid_, ground(), model_.constraints, model_.contact,
                                                       model_.motion.gravity, static_cast<Real>(time_), dt_, nodes_);
+}
+
+// In one that reaches or passes a multiple of the interval; never by round-off of the time.
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::filters_in_this_step() const {
+  const double interval = parameters_.mechanics.fmpm_interval;
+  const auto intervals = [&](double time) { return std::floor(time / interval * (1.0 + 1e-12)); };
+  return model_.motion.filter_order > 0 && intervals(time_ + static_cast<double>(dt_)) > intervals(time_);
 }
 
 template <int Dim, class Real>

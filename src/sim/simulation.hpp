@@ -93,6 +93,7 @@ class Simulation {
   void average_band_on_grid();
   void resolve_contact();
   void move_particles();
+  [[nodiscard]] bool filters_in_this_step() const;
   void update_stress_and_porosity();
   void conduct_heat();
   void drain_pore_pressure();

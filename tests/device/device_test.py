@@ -28,12 +28,16 @@ REGISTERS_OF_PHYSICS = {
     "strain_and_stress<MohrCoulomb<double, true>, 3>": 98,  # 88
     "yield_and_gap<2>": 50,  # 44
     "yield_and_gap<3>": 80,  # 72
+    "rigid_motion<2>": 32,  # 24
+    "rigid_motion<3>": 40,  # 32
     "heat<PowerLawCurve<double>>": 60,  # 54
     "heat<LinearCurve<double>>": 56,  # 50
     "mixture": 40,  # 32
     "pore_water": 44,  # 38
     "water_balance": 50,  # 44
     "basal_contact": 30,  # 24
+    "band_column<PowerLawCurve<double>>": 130,  # 118; the cells' numbers lie in local memory
+    "band_column<LinearCurve<double>>": 130,  # 116
 }
 REGISTERS_OF_BASAL_LAW = 36  # 30
 
@@ -47,6 +51,10 @@ REGISTERS_OF_STEP = {
     "leave_band": (16, 16),  # 8, 8
     "move": (48, 152),  # 42, 138
     "move_affine": (80, 144),  # 72, 130
+    "filter_moments": (26, 34),  # 18, 26
+    "filter_momentum": (28, 34),  # 20, 26
+    "sweep_filter": (50, 182),  # 42, 166
+    "take_filtered": (48, 158),  # 40, 144
     "deform, LinearElastic<double>": (74, 104),  # 66, 95
     "deform, MohrCoulomb<double, false>": (140, 164),  # 128, 148
     "deform, MohrCoulomb<double, true>": (124, 144),  # 112, 130

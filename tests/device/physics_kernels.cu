@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "physics/band_column_step.hpp"
 #include "physics/basal/laws.hpp"
 #include "physics/basal_friction.hpp"
 #include "physics/clapeyron.hpp"
@@ -16,6 +17,7 @@
 #include "physics/pore_water.hpp"
 #include "physics/pressurization.hpp"
 #include "physics/principal.hpp"
+#include "physics/rigid_motion.hpp"
 #include "physics/tension_gap.hpp"
 
 namespace thawslide::physics {
@@ -105,6 +107,17 @@ __global__ void yield_and_gap(MohrCoulomb<Real> law, Elastic<Real> elastic, Real
 template __global__ void yield_and_gap<2>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
 template __global__ void yield_and_gap<3>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
 
+template <int Dim>
+__global__ void rigid_motion(Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Vector<Real, Dim> place = row.take_vector<Dim>();
+  result.put<rotations<Dim>>(moment_of<Dim>(place, row.take_vector<Dim>()));
+  result.put<Dim>(turned<Dim>(row.take_vector<rotations<Dim>>(), place));
+  result.put<squares<Dim>>(squares_of<Dim>(place));
+}
+template __global__ void rigid_motion<2>(Real*, Real*, std::size_t);
+template __global__ void rigid_motion<3>(Real*, Real*, std::size_t);
+
 template <class Curve>
 __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
@@ -120,6 +133,19 @@ __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results,
 }
 template __global__ void heat<PowerLawCurve<Real>>(HeatContent<Real, PowerLawCurve<Real>>, Real*, Real*, std::size_t);
 template __global__ void heat<LinearCurve<Real>>(HeatContent<Real, LinearCurve<Real>>, Real*, Real*, std::size_t);
+
+template <class Curve>
+__global__ void band_column(ColumnModel<Real, Curve> model, const ColumnDrive<Real>* drives, BandColumn<Real>* columns,
+                            ColumnAccount<Real>* accounts, BandMeans<Real>* means) {
+  const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
+  accounts[k] = step_column(model, drives[k], columns[k]);
+  means[k] = band_means(model, drives[k].normal_pressure, columns[k]);
+}
+template __global__ void band_column<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>,
+                                                          const ColumnDrive<Real>*, BandColumn<Real>*,
+                                                          ColumnAccount<Real>*, BandMeans<Real>*);
+template __global__ void band_column<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const ColumnDrive<Real>*,
+                                                        BandColumn<Real>*, ColumnAccount<Real>*, BandMeans<Real>*);
 
 __global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);

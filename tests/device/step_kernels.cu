@@ -8,6 +8,7 @@
 #include "band/columns_of_tile.hpp"
 #include "band/heat_kernels.hpp"
 #include "band/pressure_kernels.hpp"
+#include "mpm/filter_kernels.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/one_particle.hpp"
 #include "mpm/particle_view.hpp"
@@ -157,6 +158,26 @@ __global__ void move_affine(TileOnDevice<Dim> tile, Results<Dim, mpm::MoveAffine
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
+template <int Dim>
+__global__ void filter_moments(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMoments<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMoments<Dim, Real>{});
+}
+
+template <int Dim>
+__global__ void filter_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMomentum<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMomentum<Dim, Real>{});
+}
+
+template <int Dim>
+__global__ void sweep_filter(TileOnDevice<Dim> tile, Results<Dim, mpm::SweepFilter<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::SweepFilter<Dim, Real>{});
+}
+
+template <int Dim>
+__global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::TakeFiltered<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::TakeFiltered<Dim, Real>{});
+}
+
 template <int Dim, class Law>
 __global__ void deform(TileOnDevice<Dim> tile, Results<Dim, mpm::Deform<Dim, Real, Law>> to, Law law,
                        physics::Elastic<Real> elastic, physics::Phases<Real> phases, bool gaps, Real viscosity_time,
@@ -273,6 +294,10 @@ void instantiate() {
   take_position<Dim><<<1, 128>>>(tile, {}, {});
   move<Dim><<<1, 128>>>(tile, {}, {});
   move_affine<Dim><<<1, 128>>>(tile, {}, {});
+  filter_moments<Dim><<<1, 128>>>(tile, {});
+  filter_momentum<Dim><<<1, 128>>>(tile, {});
+  sweep_filter<Dim><<<1, 128>>>(tile, {});
+  take_filtered<Dim><<<1, 128>>>(tile, {});
   deform<Dim, Elastic><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   deform<Dim, Coulomb><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   deform<Dim, physics::MohrCoulomb<Real, true>><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);

@@ -48,6 +48,7 @@ THERMAL = {
     "advection_J": ("advection", PURPLE),
     "capacity_heat_J": ("made by the old capacity", YELLOW),
     "porosity_heat_J": ("made by changed masses", "#999999"),
+    "drained_heat_J": ("out with drained water", SKY),
 }
 # Of band columns: their own heat, and what came into them and left besides friction heat.
 COLUMNS = {

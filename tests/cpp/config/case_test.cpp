@@ -73,6 +73,8 @@ TEST(CaseFile, DefaultsAreThoseOfThePaper) {
   EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::ugimp);
   EXPECT_EQ(found.materials.at("rock").softening_strain, 1.0);
   EXPECT_FALSE(found.block.bends);
+  EXPECT_EQ(found.mechanics.transfer, Transfer::flip);
+  EXPECT_EQ(found.mechanics.fmpm_order, 2);
   EXPECT_EQ(found.bodies.at("block").porosity.at(0.0, 0.0), 0.375);
 }
 

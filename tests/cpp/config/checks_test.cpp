@@ -256,6 +256,24 @@ TEST(Values, FitOneAnother) {
             "soften, else plastic flow makes energy.");
 }
 
+TEST(Values, OfTheFilterBelongToItsTransfer) {
+  const std::string rest =
+      " is given, and mechanics.transfer is not \"fmpm\"; no other transfer has it. Set "
+      "mechanics.transfer = \"fmpm\", or remove mechanics.";
+  EXPECT_EQ(error_of_changed({{"[basal]", "[mechanics]\nfmpm_order = 3\n[basal]"}}),
+            "FOLDER/case.toml:21:14: mechanics.fmpm_order" + rest + "fmpm_order.");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[mechanics]\nfmpm_interval = 0.5\n[basal]"}}),
+            "FOLDER/case.toml:21:17: mechanics.fmpm_interval" + rest + "fmpm_interval.");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[mechanics]\ntransfer = \"fmpm\"\nfmpm_interval = 1e-4\n[basal]"}}),
+            "FOLDER/case.toml:22:17: mechanics.fmpm_interval is 0.0001 s, shorter than time.step, which is 0.001 s; "
+            "velocities are filtered once a step at most. Make the interval longer.");
+  EXPECT_EQ(
+      error_of_text(sound, {"mechanics.transfer=fmpm"}),
+      "--set mechanics.transfer=fmpm: key 'mechanics.fmpm_interval' is missing: it is needed when "
+      "mechanics.transfer is \"fmpm\". Add 'fmpm_interval = ...' to [mechanics]: simulated time from one filtering "
+      "to the next, a number, > 0 [s].");
+}
+
 TEST(Values, GiveOneAnotherAMeaning) {
   EXPECT_EQ(
       error_of_text(sound, {"heat.enabled=false", "pressure.enabled=false", "mechanics.enabled=false"}),

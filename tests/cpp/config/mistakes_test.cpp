@@ -144,7 +144,7 @@ TEST(Mistakes, UnknownKey) {
   EXPECT_EQ(with_key("colour"), "FOLDER/case.toml:6:1: key 'grid.colour' is not known in [grid]." + here);
   EXPECT_EQ(with_key("cohesion"),
             "FOLDER/case.toml:6:1: key 'grid.cohesion' is not known in [grid]; it belongs in [material.NAME] or "
-            "[basal]." +
+            "[basal] or [substrate.NAME]." +
                 here);
   EXPECT_EQ(
       error_of_changed({{"cell = 5.0", "cel = 5.0"}}),
@@ -160,7 +160,7 @@ TEST(Mistakes, UnknownTable) {
                 "\nFOLDER/case.toml:21:2: table [bandd] is not known; did you mean 'band'? Allowed: " + all_tables);
   EXPECT_EQ(error_of_changed({{"[time]", "friction_angle = 3.0\n[time]"}}),
             "FOLDER/case.toml:1:1: key 'friction_angle' outside of a table is not known; it belongs in [material.NAME] "
-            "or [basal]. Allowed: " +
+            "or [basal] or [substrate.NAME]. Allowed: " +
                 all_tables);
 }
 

@@ -13,7 +13,6 @@ namespace fs = std::filesystem;
 using namespace case_messages;
 using testing_support::case_from_text;
 using Lines = std::map<std::string, std::map<std::string, std::string>>;  // value by table and key
-
 // Every key of a plane case, none at its default, written as the program writes it. What only a 3D case can show is in
 // the other texts.
 const std::string every_key = R"([case]
@@ -209,6 +208,9 @@ min = [0.0, 0.0, 1.0]
 max = [40.0, 5.0, 20.0]
 velocity = [1.5, -0.5, 0.25]
 [mechanics]
+transfer = "fmpm"
+fmpm_order = 3
+fmpm_interval = 0.5
 slope_shear = true
 [basal]
 friction = "coefficient"
@@ -338,7 +340,6 @@ TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
     }
   }
 }
-
 TEST(Resolved, WritesDefaultsUnitsAndNoKeyWithoutMeaning) {
   const std::string text = resolved_toml(case_from_text(sound), "inputs");
   const Lines lines = lines_of(text);

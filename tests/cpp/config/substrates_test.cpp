@@ -11,7 +11,7 @@ using namespace case_messages;
 using testing_support::case_from_text;
 
 const std::string coefficient = "friction = \"coefficient\"\nfriction_coefficient = 0.1\n";
-// Its first line is line 21 of the case.
+// Its first line is line 22 of the case.
 std::string on_glacier(const std::string& place) { return sound + "[substrate.ice]\n" + place + coefficient; }
 std::string on_map(const std::string& place) { return sound_on_dem + "[substrate.ice]\n" + place + coefficient; }
 
@@ -37,8 +37,8 @@ TEST(Substrates, ComeBackFromTheResolvedCase) {
   for (const std::string& text :
        {on_glacier("x_min = 50.0\n"), on_map("outline = \"release.geojson\"\npolygons = [\"a\"]\n"),
         on_map("raster = \"map.tif\"\ncode = 3\n")}) {
-    const std::string resolved = resolved_toml(case_from_text(text), "");
-    EXPECT_EQ(resolved_toml(case_from_text(resolved), ""), resolved);
+    const std::string resolved = resolved_toml(case_from_text(text), ".");
+    EXPECT_EQ(resolved_toml(case_from_text(resolved), "."), resolved);
   }
   const std::string resolved = resolved_toml(case_from_text(on_glacier("x_min = 50.0\n")), "inputs");
   EXPECT_NE(resolved.find("\n[substrate.ice]\nx_min = 50.0  # m\nfriction = \"coefficient\"\nlubrication_exponent"),
@@ -49,7 +49,7 @@ TEST(Substrates, ComeBackFromTheResolvedCase) {
 
 TEST(Substrates, MustSayWhereTheyLie) {
   EXPECT_EQ(error_of_text(on_glacier("")),
-            "FOLDER/case.toml:21:1: [substrate.ice] does not say where it lies. Give x_min, x_max or both; what holds "
+            "FOLDER/case.toml:22:1: [substrate.ice] does not say where it lies. Give x_min, x_max or both; what holds "
             "everywhere else stands in [basal].");
   write_map_files();
   EXPECT_EQ(error_of_text(on_map("")),
@@ -59,13 +59,13 @@ TEST(Substrates, MustSayWhereTheyLie) {
 
 TEST(Substrates, MustLieInTheDomain) {
   EXPECT_EQ(error_of_text(on_glacier("x_min = 50.0\nx_max = 50.0\n")),
-            "FOLDER/case.toml:23:9: substrate.ice.x_max is 50 m, not above substrate.ice.x_min, which is 50 m; a "
+            "FOLDER/case.toml:24:9: substrate.ice.x_max is 50 m, not above substrate.ice.x_min, which is 50 m; a "
             "substrate lies between them. Make the one larger or the other smaller.");
   EXPECT_EQ(error_of_text(on_glacier("x_min = 1000.0\n")),
-            "FOLDER/case.toml:22:9: substrate.ice.x_min is 1000 m, and the domain reaches from x = 0 to 100 m; the "
+            "FOLDER/case.toml:23:9: substrate.ice.x_min is 1000 m, and the domain reaches from x = 0 to 100 m; the "
             "substrate lies outside. Check the number, or widen the domain.");
   EXPECT_EQ(error_of_text(on_glacier("x_max = 0.0\n")),
-            "FOLDER/case.toml:22:9: substrate.ice.x_max is 0 m, and the domain reaches from x = 0 to 100 m; the "
+            "FOLDER/case.toml:23:9: substrate.ice.x_max is 0 m, and the domain reaches from x = 0 to 100 m; the "
             "substrate lies outside. Check the number, or widen the domain.");
 }
 
@@ -74,11 +74,11 @@ TEST(Substrates, MayNotOverlapNorLeaveAGapBelowACell) {
     return on_glacier("x_max = 50.0\n") + fmt::format("[substrate.snow]\nx_min = {}\n{}", x_min, coefficient);
   };
   EXPECT_EQ(error_of_text(with(49.0)),
-            "FOLDER/case.toml:26:9: the substrates ice and snow overlap: substrate.snow.x_min is 49 m, and "
+            "FOLDER/case.toml:27:9: the substrates ice and snow overlap: substrate.snow.x_min is 49 m, and "
             "substrate.ice.x_max is 50 m; a place has one substrate. End the one where the other begins.");
   EXPECT_EQ(
       error_of_text(with(50.5)),
-      "FOLDER/case.toml:26:9: between the substrates ice and snow there is a gap of 0.5 m, less than a cell of the "
+      "FOLDER/case.toml:27:9: between the substrates ice and snow there is a gap of 0.5 m, less than a cell of the "
       "grid: substrate.ice.x_max is 50 m, and substrate.snow.x_min is 50.5 m. Let them meet, or leave a gap of "
       "at least 5 m.");
   EXPECT_TRUE(notes_on_gaps(case_from_text(with(50.0))).empty());
@@ -96,10 +96,10 @@ TEST(Substrates, OnMapsNeedADem) {
                                         {"max = [40.0, 20.0]", "max = [40.0, 20.0, 10.0]"}});
   EXPECT_EQ(
       error_of_text(in_space + "[substrate.ice]\noutline = \"release.geojson\"\n" + coefficient),
-      "FOLDER/case.toml:24:11: substrate.ice.outline is given, and terrain.type is not \"dem\"; maps lie on a DEM. "
+      "FOLDER/case.toml:25:11: substrate.ice.outline is given, and terrain.type is not \"dem\"; maps lie on a DEM. "
       "Give x_min and x_max instead, or set terrain.type = \"dem\" and terrain.file.");
   EXPECT_EQ(error_of_text(on_map("outline = \"release.geojson\"\nraster = \"map.tif\"\ncode = 1\n")),
-            "FOLDER/case.toml:26:10: substrate.ice.raster and substrate.ice.outline are both given; allowed: one of "
+            "FOLDER/case.toml:26:10: substrate.ice.outline and substrate.ice.raster are both given; allowed: one of "
             "them, since each says where the substrate lies. Remove one.");
   EXPECT_EQ(
       error_of_text(on_map("raster = \"map.tif\"\n")),
@@ -117,19 +117,19 @@ TEST(Substrates, OnMapsNeedADem) {
 TEST(Substrates, NeedATerrainAndTheNumbersOfTheirLaws) {
   EXPECT_EQ(error_of_changed({{"type = \"flat\"\nelevation = 0.0\n", ""},
                               {"[basal]\n", "[substrate.ice]\nx_min = 50.0\n" + coefficient + "[basal]\n"}}),
-            "FOLDER/case.toml:17:1: [substrate.ice] says what bodies slide on, and the case has no terrain. Remove it, "
+            "FOLDER/case.toml:18:1: [substrate.ice] says what bodies slide on, and the case has no terrain. Remove it, "
             "or give terrain.type.");
   EXPECT_EQ(error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction = \"coefficient\"\n"),
-            "FOLDER/case.toml:21:1: key 'substrate.ice.friction_coefficient' is missing: it is needed when there is a "
+            "FOLDER/case.toml:22:1: key 'substrate.ice.friction_coefficient' is missing: it is needed when there is a "
             "terrain and friction is \"coefficient\". Add 'friction_coefficient = ...' to [substrate.ice]: friction "
             "over the normal stress N, mu, of the law \"coefficient\"; 0.05 to 0.15 on a glacier (not checked), a "
             "number, >= 0.");
   EXPECT_EQ(error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction_coefficient = 0.1\nfriction_angle = 5.0\n"),
-            "FOLDER/case.toml:23:24: substrate.ice.friction_coefficient has a meaning only when friction is "
+            "FOLDER/case.toml:24:24: substrate.ice.friction_coefficient has a meaning only when friction is "
             "\"coefficient\". Remove it, or change substrate.ice.friction.");
   EXPECT_EQ(
       error_of_text(on_glacier("x_min = 50.0\n") + "cohesion = 1.0\nresidual_cohesion = 2.0\nslip_distance = 1.0\n"),
-      "FOLDER/case.toml:26:21: substrate.ice.residual_cohesion is 2 Pa, above substrate.ice.cohesion, which is 1 "
+      "FOLDER/case.toml:27:21: substrate.ice.residual_cohesion is 2 Pa, above substrate.ice.cohesion, which is 1 "
       "Pa; cohesion along the ground is only lost. Give a residual at most the cohesion.");
 }
 

@@ -29,7 +29,7 @@ config::Case valley_case(const std::string& substrate) {
   geojson("release.geojson", {{"", box_at(35.0, 35.0, 75.0, 65.0)}});
   geojson("areas.geojson", {{R"("name":"glacier")", box_at(border, -50.0, 400.0, 150.0)},
                             {R"("name":"lake")", box_at(0.0, 0.0, 20.0, 20.0)}});
-  geotiff("codes.tif", raster_of([](double x, double) { return x - west > border ? 7.0 : 2.0; }, west + 2.5,
+  geotiff("codes.tif", raster_of([](double x, double) { return x - west > border ? 7.0 : 2.0; }, west - 2.5,
                                  south + 2.5, 10.0, 30, 10));
   const std::string text =
       fmt::format(

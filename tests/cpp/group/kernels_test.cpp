@@ -25,6 +25,7 @@
 #include "band/averages_kernel.hpp"
 #include "band/heat_kernels.hpp"
 #include "band/pore_pressure_of_tile.hpp"
+#include "mpm/filter_kernels.hpp"
 #include "mpm/group_pass.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/position_kernel.hpp"
@@ -80,6 +81,8 @@ class Scene {
     fill<mpm::NodalState>({1.0, 1e5, 0.1, 1e3}, random);
     fill<mpm::Velocity>({1.0, 2.0, 0.5}, random);
     fill<mpm::Motion>({10.0, 5.0, 8.0, 1.0, 2.0, 3.0}, random);
+    fill<mpm::FilterIncrement>({1.0, 2.0, 0.5, 0.2, 0.1, 0.3}, random);
+    fill<mpm::FilterTotal>({10.0, 5.0, 2.0, 0.4, 0.3, 0.1}, random);
     fill<mpm::OrphanHeat>({2.0}, random);
     fill<mpm::Contact>({1.0, 1.0, 3.0, 1e3}, random);
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
@@ -323,6 +326,10 @@ void expect_all_kernels_agree() {
   expect_the_bits_of_lanes("move", scene, ugimp, mpm::Move<Dim, double>{0.1, dt});
   expect_the_bits_of_lanes("move, linear", scene, linear, mpm::Move<Dim, double>{0.1, dt});
   expect_the_bits_of_lanes("move, affine", scene, affine, mpm::MoveAffine<Dim, double>{dt});
+  expect_the_bits_of_lanes("moments", scene, ugimp, mpm::AddFilterMoments<Dim, double>{});
+  expect_the_bits_of_lanes("momentum to filter", scene, ugimp, mpm::AddFilterMomentum<Dim, double>{});
+  expect_the_bits_of_lanes("sweep", scene, quadratic, mpm::SweepFilter<Dim, double>{});
+  expect_the_bits_of_lanes("filtered", scene, ugimp, mpm::TakeFiltered<Dim, double>{});
   expect_the_bits_near_the_ground(scene, ugimp, dt);
   expect_the_bits_near_the_ground(scene, quadratic, dt);
   expect_the_bits_of_lanes("stress", scene, ugimp, stress);

@@ -111,21 +111,48 @@ TEST(ThicknessChange, AsPrintedMakesTheHeatThatItsColumnShows) {
   EXPECT_NEAR(value_of(found.thick, "thermal_residual_J") - found.stirred, 0.0, 1e-9 * found.stirred);
 }
 
-// What the void of melt was, is shared with matter that has none yet but will.
-TEST(ThicknessChange, ConservingMixesTheVoidToo) {
+// Matter at 400 C and under pressure, without a void, after e grew to `thickness` [m]; rock does not expand.
+struct Mixture {
+  double temperature, pressure, gas_void, void_of_melt;
+};
+Mixture mixture(const std::string& melt_contraction, double thickness) {
   Simulation<2, double> simulation(case_from_text(
-      column, {jumps, "band.thickness_change=conserving", "pressure.melt_contraction=true", "pressure.seepage=false"}));
+      column, {fmt::format("band.thickness={{time=[0.0,0.5,0.5,9.0],value=[0.05,0.05,{0},{0}]}}", thickness),
+               "band.thickness_change=conserving", "phases.rock_expansion=0.0", "pressure.seepage=false",
+               "pressure.melt_contraction=" + melt_contraction}));
   auto& particles = simulation.particles();
-  const double all = particles.pore_void(3);
+  const bool holds = particles.pore_void.is_kept();
+  const double all = holds ? particles.pore_void(3) : 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     heat_to(simulation, p, 400.0);
-    particles.pore_void(p) = particles.liquid_pressure(p) = particles.pore_pressure(p) = 0.0;
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = 5e8;
+    if (holds) {
+      particles.pore_void(p) = 0.0;
+    }
   }
   simulation.step(1.0);
   simulation.step(1.0);
-  EXPECT_GT(all, 0.03);
-  EXPECT_LT(particles.temperature(3), 0.0) << "0.1 of the heat melts part of it";
-  EXPECT_NEAR(particles.pore_void(3), 0.9 * all, 1e-15);
+  return {particles.temperature(3), particles.pore_pressure(3), holds ? particles.pore_void(3) : 0.0, all};
+}
+
+// Water of both swells or contracts on its way to the mixture's temperature, and what both store is shared.
+TEST(ThicknessChange, ConservingMixesTheWaterToo) {
+  constexpr double porosity = 0.375, storage = porosity / 1e9, per_kelvin = porosity * 2.75e-4, kept = 1.0 / 1.2;
+  const Mixture full = mixture("false", 0.06);
+  ASSERT_GT(full.temperature, 200.0);
+  const double own = 5e8 * storage + per_kelvin * (full.temperature - 400.0), joins = per_kelvin * full.temperature;
+  EXPECT_NEAR(full.pressure * storage, kept * own + (1.0 - kept) * joins, 1e-12);
+  const Mixture contracted = mixture("true", 0.06);
+  EXPECT_EQ(contracted.temperature, full.temperature);
+  EXPECT_GT(contracted.void_of_melt, 0.03);
+  const double surplus = kept * own + (1.0 - kept) * (joins - contracted.void_of_melt);
+  EXPECT_NEAR(contracted.pressure * storage, std::max(0.0, surplus), 1e-12);
+  EXPECT_NEAR(contracted.gas_void, std::max(0.0, -surplus), 1e-12);
+  // Frozen by what joins: hot water contracts to the freezing point, and has all the void of what will melt.
+  const Mixture frozen = mixture("true", 0.5);
+  ASSERT_LT(frozen.temperature, 0.0);
+  const double open = std::max(0.0, 400.0 * per_kelvin - 5e8 * storage);
+  EXPECT_NEAR(frozen.gas_void, 0.1 * open + 0.9 * frozen.void_of_melt, 1e-12);
 }
 
 const std::vector<std::string> seeping{"body.column.temperature=25.0", "heat.advection_form=conservative"};

@@ -161,7 +161,8 @@ class ScalarContact {
     const double solid =
         average(node, sums_.near_ground_by_linear, solid_fraction_by_linear, NearGround::solid_fraction);
     const physics::basal::ContactNode<double> state{.solid_fraction = solid};
-    const double friction = std::get<physics::basal::LubricatedFriction<double>>(law.grounds[0].friction).coefficient(state);
+    const double friction =
+        std::get<physics::basal::LubricatedFriction<double>>(law.grounds[0].friction).coefficient(state);
     const double cohesion = std::get<physics::basal::ConstantCohesion<double>>(law.grounds[0].cohesion).initial;
     return physics::sliding_strength(friction, normal_pressure, pore, cohesion, law.clamp, law.cap_pressure);
   }
