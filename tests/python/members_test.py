@@ -15,7 +15,7 @@ from conftest import MakeRun, write_history
 from thawslide import Run
 from thawslide.figures.force import force_in_band
 from thawslide.paper.lamplugh import INVERSION
-from thawslide.paper.member_figures import members_over_time, on_one_clock
+from thawslide.paper.member_figures import members_over_time, on_clock_set, on_one_clock
 from thawslide.paper.members import (
     QUANTITIES,
     Observed,
@@ -85,6 +85,7 @@ def test_a_row_is_met_by_the_median_but_pressure_by_every_member() -> None:
     pressed = [*found[:4], changed(ratio=1.01)]
     assert not is_met(pressed, WANTED["ratio"])
     assert not is_met([changed(failure="bad"), GOOD], WANTED["ratio"])
+    assert "- largest P over averaged N: not every member came to its end" in verdict([changed(failure="bad"), GOOD])
     table = members_table(found).splitlines()
     peak = "| peak of the mean velocity [m/s] | 80 | 72 to 88 | 80.0 | 60.0 to 120.0 | 3 of 5 | yes |"
     assert peak in table
@@ -157,10 +158,14 @@ def test_members_are_drawn_on_one_clock(make_run: MakeRun) -> None:
     np.testing.assert_allclose(values[0], values[1], atol=0.05)
     np.testing.assert_allclose(np.interp(40.0, time, values[0]), 8.0, atol=0.05)
     speed, way = members_over_time(runs, [START, START + 1.0]).axes
-    assert [label.get_text() for label in speed.get_legend().get_texts()][:2] == ["2 members", "their median"]
-    middle = next(line for line in speed.lines if line.get_label() == "their median")
+    middle = next(line for line in speed.lines if line.get_label() == "median of 2 members")
+    thin = [line.get_ydata() for line in speed.lines if len(line.get_xdata()) == len(time)][1:]
+    np.testing.assert_allclose(thin, values)
     np.testing.assert_allclose(middle.get_ydata(), np.median(values, axis=0))
     assert way.get_ylabel() == "mean displacement (km)"
+    moved = on_clock_set(runs[1], START + 1.0)
+    assert np.interp(40.0, moved.history["time_s"], moved.history["mean_velocity_m_s"]) == pytest.approx(8.0, abs=0.05)
+    assert runs[1].history["time_s"][0] == 0.0
 
 
 def test_runs_of_the_same_commit_and_files_are_kept(tmp_path: Path) -> None:

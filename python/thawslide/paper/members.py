@@ -218,6 +218,8 @@ def _miss(found: Sequence[Observed], quantity: Quantity) -> str:
     values = _values(found, quantity)
     if not values.size:
         return f"{quantity.name_in_text}: no member has it; {quantity.wanted} is wanted"
+    if quantity.everywhere and all(quantity.inside(value) for value in values):
+        return f"{quantity.name_in_text}: not every member came to its end; {quantity.wanted} is wanted of each"
     which, value = ("most", float(values.max())) if quantity.everywhere else ("median", median(found, quantity))
     if not np.isfinite(value):
         return f"{quantity.name_in_text}: half of the members or more do not come to it; {quantity.wanted} is wanted"
