@@ -7,12 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from thawslide.figures.energy import relative_residual
-from thawslide.figures.force import seismic_force
+from thawslide.figures.force import band_of, force_in_band, reported_bands, reported_forces, seismic_force
 from thawslide.figures.style import area_text, prefixed, volume_text
-from thawslide.run import Run
+from thawslide.run import Run, Target
 
 STOPPED_SHARE = 0.01  # of the peak mean velocity
 BOILING = 100.0  # C, at one atmosphere
+# Reported quantities that are a column of the history at the time of the report.
+COLUMN_OF_TARGET = {
+    "mean_velocity": "mean_velocity_m_s",
+    "mean_displacement": "mean_displacement_m",
+    "front_distance": "runout_m",
+    "band_SL": "band_saturation",
+}
 
 
 @dataclass(frozen=True)
@@ -35,12 +42,17 @@ def shown(value: float, unit: str = "") -> str:
     return f"{text} {unit}".strip()
 
 
-def stop_time(run: Run) -> float | None:
-    """Return when [s] the mean velocity falls below 1 % of its peak for good, None where it does not."""
+def stop_time(run: Run, below: float | None = None) -> float | None:
+    """Return when [s] the mean velocity falls below a speed [m/s] for good, None where it does not or never passed it.
+
+    Without `below` that is 1 % of its peak.
+    """
     speed = run.history["mean_velocity_m_s"]
     if not np.isfinite(speed).any() or np.nanmax(speed) <= 0.0:
         return None
-    moving = np.flatnonzero(~(speed < STOPPED_SHARE * np.nanmax(speed)))
+    moving = np.flatnonzero(~(speed < (STOPPED_SHARE * np.nanmax(speed) if below is None else below)))
+    if not moving.size:
+        return None
     last = int(moving[-1])
     return float(run.history["time_s"][last + 1]) if last + 1 < len(speed) else None
 
@@ -86,15 +98,7 @@ def key_numbers(run: Run) -> list[KeyNumber]:
     rows += _map_numbers(run)
     rows += _band_numbers(run)
     if "seismic_force_x_N" in history:
-        _, magnitude = seismic_force(run)
-        if np.isfinite(magnitude).any():
-            at = int(np.nanargmax(magnitude))
-            unit = "N/m of width" if run.per_metre else "N"
-            rows.append(
-                KeyNumber(
-                    "Largest seismic force", shown(float(magnitude[at]), unit), f"at {shown(float(time[at]), 's')}"
-                )
-            )
+        rows += _force_numbers(run)
     for words, column in (("Mechanical", "mechanical_residual_J"), ("Thermal", "thermal_residual_J")):
         if column in history:
             residual = relative_residual(run, column)
@@ -103,18 +107,32 @@ def key_numbers(run: Run) -> list[KeyNumber]:
     return rows
 
 
+def found_for(run: Run, target: Target) -> str:
+    """Return what a run has for a reported value, with its unit; "" where it has nothing to compare."""
+    history = run.history
+    column = COLUMN_OF_TARGET.get(target.quantity, "")
+    if column in history and target.time <= history["time_s"][-1]:
+        return shown(float(np.interp(target.time, history["time_s"], history[column])), target.unit.strip("-"))
+    if target in reported_forces(run) and "seismic_force_x_N" in history and not run.per_metre:
+        band = band_of(target)
+        magnitude = seismic_force(run)[1] if band is None else force_in_band(run, band)
+        return shown(float(np.nanmax(magnitude)), "N") if np.isfinite(magnitude).any() else ""
+    return ""
+
+
 def boiling_note(run: Run) -> str:
-    """Return a plain sentence where the band passes 100 °C, "" otherwise."""
-    if "band_temperature_C" not in run.history:
+    """Return a plain sentence where a band that does not boil passes 100 °C, "" otherwise."""
+    if "band_temperature_C" not in run.history or (run.has_band_columns and run.section("heat").get("steam", True)):
         return ""
     values = run.history["band_temperature_C"]
     if not np.any(values > BOILING):
         return ""
     first = float(run.history["time_s"][int(np.argmax(values > BOILING))])
     highest = shown(float(np.nanmax(values)), "°C")
+    nothing = "Nothing boils, as heat.steam is false" if run.has_band_columns else "Nothing in the model boils"
     return (
-        f"The mean band temperature passes 100 °C at {shown(first, 's')} and reaches {highest}. Nothing in the model "
-        "boils: where the pressure is low, read temperatures and pressures of the band beyond this with care."
+        f"The mean band temperature passes 100 °C at {shown(first, 's')} and reaches {highest}. {nothing}: where the "
+        "pressure is low, read temperatures and pressures of the band beyond this with care."
     )
 
 
@@ -146,6 +164,20 @@ def _along_path(words: str, value: float, remark: str) -> KeyNumber:
     )
 
 
+def _force_numbers(run: Run) -> list[KeyNumber]:
+    """Return the largest force on the ground, as it is and as those who inverted seismic waves would have it."""
+    unit = "N/m of width" if run.per_metre else "N"
+    forces = {"": seismic_force(run)[1]}
+    forces |= {f", band-passed {band.words}": force_in_band(run, band) for band in reported_bands(run)}
+    rows = []
+    for words, magnitude in forces.items():
+        if np.isfinite(magnitude).any():
+            at = int(np.nanargmax(magnitude))
+            when = f"at {shown(float(run.history['time_s'][at]), 's')}"
+            rows.append(KeyNumber(f"Largest seismic force{words}", shown(float(magnitude[at]), unit), when))
+    return rows
+
+
 def _map_numbers(run: Run) -> list[KeyNumber]:
     """Return what run.json says of a slide on a DEM."""
     rows = []
@@ -166,7 +198,9 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
     rows = []
     for words, column, unit in (
         ("Highest mean band temperature", "band_temperature_C", "°C"),
+        ("Hottest column of the band", "band_hottest_C", "°C"),
         ("Highest mean band pore pressure", "band_pore_pressure_Pa", "Pa"),
+        ("Largest pore pressure over its N", "band_largest_pressure_ratio", ""),
     ):
         if column in run.history:
             values = run.history[column]
@@ -176,4 +210,14 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
                 rows.append(KeyNumber(words, shown(float(values[at]), unit), when))
             else:
                 rows.append(KeyNumber(words, "none", "no particle was ever in the band"))
+    return rows + _water_numbers(run)
+
+
+def _water_numbers(run: Run) -> list[KeyNumber]:
+    """Return what water the columns of a band lost."""
+    rows = []
+    for words, column in (("Water vented by the band", "column_vented_kg"), ("Water gone as steam", "column_steam_kg")):
+        if column in run.history:
+            unit = "t/m of width" if run.per_metre else "t"
+            rows.append(KeyNumber(words, shown(float(run.history[column][-1]) / 1e3, unit), "by the end"))
     return rows

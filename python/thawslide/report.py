@@ -12,7 +12,7 @@ from typing import Any
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures import FIGURES
 from thawslide.figures.animation import Film
-from thawslide.key_numbers import boiling_note, key_numbers, shown
+from thawslide.key_numbers import boiling_note, found_for, key_numbers, shown
 from thawslide.maps import Maps, on_map
 from thawslide.run import Run
 
@@ -81,9 +81,13 @@ def _page(run: Run, report: Report) -> str:
         "<h2>Key numbers</h2>",
         _table(((row.words, row.value, row.remark) for row in key_numbers(run)), "numbers"),
     ]
-    targets = [(t.quantity.replace("_", " "), f"{t.time:g} s", f"{t.value:g} {t.unit}", t.source) for t in run.targets]
-    if targets:
-        parts.append(_details("Reported values to compare with", _table(targets, "facts")))
+    if run.targets:
+        rows = (
+            (t.quantity.replace("_", " "), f"{t.time:g} s", f"{t.value:g} {t.unit}", found_for(run, t), t.source)
+            for t in run.targets
+        )
+        head = ("quantity", "time", "reported", "this run", "source of the report")
+        parts.append(_details("Reported values to compare with", _table(rows, "facts", head)))
     for name, path in report.figures.items():
         kind = FIGURES[name]
         heading, link = html.escape(kind.heading), f"figures/{path.name}"
@@ -91,7 +95,7 @@ def _page(run: Run, report: Report) -> str:
             shown_as = f'<video controls loop muted src="{link}" aria-label="{heading}"></video>'
         else:
             shown_as = f'<a href="{link}"><img src="{link}" alt="{heading}"></a>'
-        caption = f"<figcaption>{html.escape(kind.caption)}</figcaption>"
+        caption = f"<figcaption>{html.escape(kind.caption_of(run))}</figcaption>"
         parts.append(f'<h2 id="{name}">{heading}</h2>\n<figure>{shown_as}\n{caption}</figure>')
     if maps := _map_files(run, report.page.parent):
         parts += [f'<h2 id="maps">Maps to open in a GIS</h2>\n{maps}']
@@ -129,9 +133,11 @@ def _status_note(facts: dict[str, Any]) -> str:
     return f"This run did not come to its end ({words}){message}. The figures show what it has written."
 
 
-def _table(rows: Any, style: str) -> str:
+def _table(rows: Any, style: str, head: Sequence[str] = ()) -> str:
     """Return a table; the first cell of each row is its heading."""
     lines = []
+    if head:
+        lines.append("<tr>" + "".join(f'<th scope="col">{html.escape(cell)}</th>' for cell in head) + "</tr>")
     for first, *rest in rows:
         cells = "".join(f"<td>{html.escape(str(cell))}</td>" for cell in rest)
         lines.append(f'<tr><th scope="row">{html.escape(str(first))}</th>{cells}</tr>')

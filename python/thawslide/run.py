@@ -158,6 +158,11 @@ class Run:
         """The history; a last row cut off while it was written is left out, with a warning."""
         return _read_history(self.folder / "history.csv", self.warnings)
 
+    @property
+    def has_band_columns(self) -> bool:
+        """Whether the band is of columns: its figures are then means over the base by area."""
+        return "band_normal_pressure_Pa" in self.history
+
     @cached_property
     def probes(self) -> History | None:
         """What probes saw through time, None for a run without any."""

@@ -33,6 +33,8 @@ from thawslide.run import Numbers
 
 _BODY_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
 _PATH = "#0B3C8C"
+_HATCHES = ("//", "..", "xx", "--")  # of substrates
+_HATCH = "#5B7F95"
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,14 @@ class Release:
 
 
 @dataclass(frozen=True)
+class Substrates:
+    """Names of the substrates, and which lies where: its place among the names from 1, 0 for none."""
+
+    names: list[str]
+    numbers: Map
+
+
+@dataclass(frozen=True)
 class SetupOnMap:
     """What a case on a DEM sets up; lines are of shape (n, 2) [m]."""
 
@@ -57,6 +67,7 @@ class SetupOnMap:
     releases: list[Release]
     path: Numbers | None
     probes: dict[str, Numbers]
+    substrates: Substrates | None = None
 
 
 def setup_on_map(data: dict[str, Any]) -> SetupOnMap:
@@ -82,7 +93,12 @@ def setup_on_map(data: dict[str, Any]) -> SetupOnMap:
         releases,
         _line(data["path"]) if data.get("path") else None,
         {str(name): _line(probe) for name, probe in (data.get("probes") or {}).items()},
+        _substrates(data["substrates"], crs) if data.get("substrates") else None,
     )
+
+
+def _substrates(data: dict[str, Any], crs: str) -> Substrates:
+    return Substrates([str(name) for name in data["names"]], _raster(data["numbers"], crs))
 
 
 def _line(points: Any) -> Numbers:
@@ -146,6 +162,8 @@ def _draw_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -
     if painter is not None:
         for thickness in each_cell_once([each.thickness for each in setup.releases if each.thickness is not None]):
             paint(axes, Map(thickness.grid, np.where(thickness.values > 0.0, thickness.values, np.nan)), painter)
+    if setup.substrates is not None:
+        _hatch(axes, setup.substrates)
     for number, release in enumerate(setup.releases):
         for outline in release.outlines:
             axes.plot(*outline.T, color=_BODY_COLOURS[number % len(_BODY_COLOURS)], linewidth=1.2, zorder=5)
@@ -158,6 +176,19 @@ def _draw_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -
             linewidth=1.6, path_effects=None if len(points) == 1 else HALO, zorder=7,
         )  # fmt: skip
         name_place(axes, name, (float(points[-1][0]), float(points[-1][1])))
+
+
+def _hatch(axes: Axes, substrates: Substrates) -> None:
+    grid = substrates.numbers.grid
+    x = grid.x0 + grid.cell_x * np.arange(grid.columns)
+    y = grid.y0 + grid.cell_y * np.arange(grid.rows)
+    for number in range(len(substrates.names)):
+        there = (substrates.numbers.values == number + 1).astype(np.float64)
+        if there.any():
+            hatches = [_HATCHES[number % len(_HATCHES)]]
+            areas = axes.contourf(x, y, there, levels=[0.5, 1.5], colors="none", hatches=hatches, zorder=3)
+            areas.set_edgecolor(_HATCH)
+            areas.set_linewidth(0.0)
 
 
 def each_cell_once(thicknesses: list[Map]) -> list[Map]:
@@ -229,6 +260,10 @@ def _legend(setup: SetupOnMap) -> list[Patch | Line2D]:
         if release.thickness is not None and np.isfinite(release.thickness.values).any():
             label += f", up to {number_text(float(np.nanmax(release.thickness.values)))} m thick"
         handles.append(Line2D([], [], color=_BODY_COLOURS[number % len(_BODY_COLOURS)], linewidth=1.2, label=label))
+    for number, name in enumerate(setup.substrates.names if setup.substrates is not None else []):
+        handles.append(
+            Patch(fill=False, edgecolor=_HATCH, hatch=_HATCHES[number % len(_HATCHES)], label=f"substrate {name}")
+        )
     handles.append(Line2D([], [], color=BLACK, linestyle="--", linewidth=1.4, label="domain"))
     if setup.path is not None:
         handles.append(Line2D([], [], color=_PATH, linewidth=1.2, label="path"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +32,7 @@ from thawslide.run import Numbers
 from thawslide.setup_map import SetupOnMap, draw_setup_on_map, setup_on_map
 
 _BODY_COLOURS = (BLUE, ORANGE, GREEN, PURPLE, SKY)
+_SUBSTRATE_COLOURS = (SKY, RED, GREEN, PURPLE)
 _SIDE_LINES: dict[str, Any] = {"fixed": "-", "roller": "--", "open": ":"}
 _SMALLEST_CELL = 0.05  # inches: where cells are smaller on the page, lines are left out
 _SMALLEST_GAP = 0.05  # inches between particles: where they are closer they are drawn touching
@@ -72,6 +73,8 @@ class Setup:
     terrain: tuple[Numbers, Numbers] | None
     bodies: list[Body]
     frames: list[Frame]
+    substrates: list[str] = field(default_factory=list)
+    substrate_numbers: Numbers | None = None  # of the terrain's points: places among the names from 1, 0 for none
 
 
 def read_setup(path: Path) -> Setup | SetupOnMap:
@@ -104,6 +107,8 @@ def read_setup(path: Path) -> Setup | SetupOnMap:
                 Frame(f["name"], _pair(f["min"]), _pair(f["max"]), str(f["axis"]), float(f["velocity"]))
                 for f in data.get("frames") or []
             ],
+            [str(name) for name in (data.get("substrates") or {}).get("names", [])],
+            np.array(data["substrates"]["numbers"], float) if data.get("substrates") else None,
         )
     except KeyError as error:
         raise ReportError(f"{path}: no key {error}; this is not a set-up the simulator wrote") from error
@@ -185,6 +190,7 @@ def _draw_section(axes: Axes, setup: Setup, window: Window, inches: tuple[float,
         particles = squares(body.points[:, 0], body.points[:, 1], size, window, inches)
         particles.set_facecolor(_BODY_COLOURS[number % len(_BODY_COLOURS)])
         axes.add_collection(particles, autolim=False)
+    _draw_substrates(axes, setup)
     for frame in setup.frames:
         corner = (frame.low[0], frame.low[1])
         size_of_frame = (frame.high[0] - frame.low[0], frame.high[1] - frame.low[1])
@@ -202,6 +208,15 @@ def _draw_section(axes: Axes, setup: Setup, window: Window, inches: tuple[float,
         (x0, z0), (x1, z1) = ends
         axes.plot([x0, x1], [z0, z1], color="black", linewidth=1.4, linestyle=_SIDE_LINES.get(kind, "-."), zorder=6)
     window.apply(axes)
+
+
+def _draw_substrates(axes: Axes, setup: Setup) -> None:
+    if setup.terrain is None or setup.substrate_numbers is None:
+        return
+    x, z = setup.terrain
+    for number in range(len(setup.substrates)):
+        there = np.where(setup.substrate_numbers == number + 1, z, np.nan)
+        axes.plot(x, there, color=_SUBSTRATE_COLOURS[number % len(_SUBSTRATE_COLOURS)], linewidth=3.0, zorder=4)
 
 
 def _draw_grid(axes: Axes, setup: Setup, window: Window, inches: tuple[float, float]) -> str:
@@ -244,6 +259,9 @@ def _legend(setup: Setup) -> list[Patch | Line2D]:
         handles.append(Patch(facecolor=colour, label=label))
     if setup.terrain is not None:
         handles.append(Patch(facecolor=GROUND, edgecolor=GROUND_LINE, label="terrain"))
+    for number, name in enumerate(setup.substrates):
+        colour = _SUBSTRATE_COLOURS[number % len(_SUBSTRATE_COLOURS)]
+        handles.append(Line2D([], [], color=colour, linewidth=3.0, label=f"substrate {name}"))
     for frame in setup.frames:
         label = f"frame {frame.name}, {frame.velocity:g} m/s along {frame.axis}"
         handles.append(Patch(fill=False, edgecolor=PURPLE, hatch="///", label=label))

@@ -16,6 +16,7 @@
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
 #include "app/setup_json.hpp"
+#include "app/substrate_list.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/case_proposal.hpp"
@@ -151,6 +152,7 @@ int check_case(const CheckOptions& options) {
     sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
     records.start(simulation);
     print_map_note(parameters, simulation.site());
+    print_notices(parameters);
     const Json setup = options.draws ? setup_json<Dim>(simulation) : Json();
     const auto limit = simulation.step_limit();
     const double dt = simulation.next_step(parameters.time.end);
@@ -161,6 +163,7 @@ int check_case(const CheckOptions& options) {
     }
     fmt::print("{}: the case is sound\n", parameters.file);
     print_releases(parameters, simulation.site());
+    print_substrates(parameters, simulation.site());
     fmt::print("  particles   {}\n", simulation.particles().size());
     fmt::print("  cells       {:.0f} in the domain; blocks of {} nodes held: {}\n", cells, mpm::Tile<Dim>::nodes,
                simulation.grid().blocks().size());

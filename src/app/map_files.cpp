@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "config/notices.hpp"
 #include "sim/map_grid.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
@@ -36,6 +37,12 @@ config::Site read_map_files(const config::Case& parameters) {
 void print_map_note(const config::Case& parameters, const config::Site& site) {
   if (const std::string note = sim::note_on_map_cell(parameters, site); !note.empty()) {
     fmt::print("note: {}\n", note);
+  }
+}
+
+void print_notices(const config::Case& parameters) {
+  for (const std::string& notice : config::notices(parameters)) {
+    fmt::print("note: {}\n", notice);
   }
 }
 

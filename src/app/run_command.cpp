@@ -43,6 +43,7 @@ int run_case(const RunOptions& options) {
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
     const sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written
     print_map_note(parameters, simulation.site());
+    print_notices(parameters);
     io::make_run_folder(folder, options.overwrite);
     fmt::print("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
                parameters.general.title.empty() ? parameters.name : parameters.general.title,
@@ -69,6 +70,9 @@ int resume_run(const ResumeOptions& options) {
     const NamedNumbers blocks =
         io::read_checkpoint<Dim, double>(folder / "checkpoint.bin", simulation.particles(), scalars);
     simulation.restore(scalars);
+    if (simulation.band_columns() != nullptr) {
+      simulation.restore_band_columns(blocks.at("band_columns"));
+    }
     if (simulation.time() >= parameters.time.end - 0.5 * simulation.last_step()) {
       fmt::print("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
       return static_cast<int>(ExitCode::done);

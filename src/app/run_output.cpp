@@ -224,6 +224,9 @@ void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
     if constexpr (Dim == 3) {
       blocks[fronts_block] = numbers_of(fronts_);
     }
+    if (const auto* columns = simulation.band_columns()) {
+      blocks["band_columns"] = columns->state();
+    }
     io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(),
                                       simulation.particles_at_start(), simulation.scalars(), blocks);
   });

@@ -34,6 +34,36 @@ Json thinned(const Raster& raster) {
           {"heights", values}};
 }
 
+// The names of the substrates, and the number of the one at each of some places: 0 where none lies. Null where the case
+// has none.
+template <int Dim>
+Json substrates_json(const sim::Simulation<Dim, double>& simulation, const Json& numbers) {
+  if (numbers.is_null()) {
+    return {};
+  }
+  Json names = Json::array();
+  for (const auto& [name, substrate] : simulation.parameters().substrates) {
+    names.push_back(name);
+  }
+  return {{"names", names}, {"numbers", numbers}};
+}
+
+Json numbers_on_map(const sim::Simulation<3, double>& simulation) {
+  const auto& substrates = simulation.model().substrates;
+  if (!substrates) {
+    return {};
+  }
+  Raster numbers = *simulation.site().ground;
+  const auto& origin = simulation.model().origin;
+  for (int row = 0; row < numbers.rows; ++row) {
+    for (int column = 0; column < numbers.columns; ++column) {
+      numbers.values[numbers.index(column, row)] =
+          substrates->at(numbers.x_of(column) - origin[0], numbers.y_of(row) - origin[1]);
+    }
+  }
+  return thinned(numbers);
+}
+
 Json map_json(const sim::Simulation<3, double>& simulation) {
   const config::Case& parameters = simulation.parameters();
   const config::Site& site = simulation.site();
@@ -55,6 +85,7 @@ Json map_json(const sim::Simulation<3, double>& simulation) {
     }
     json["bodies"].push_back(entry);
   }
+  json["substrates"] = substrates_json<3>(simulation, numbers_on_map(simulation));
   json["path"] = site.path;
   json["probes"] = site.probes;
   return json;
@@ -83,6 +114,7 @@ Json section_json(const sim::Simulation<Dim, double>& simulation) {
     json["boundary"][faces[f]] = kinds[static_cast<std::size_t>(parameters.grid.boundary[face])];
   }
   json["terrain"] = nullptr;
+  Json numbers;
   if (model.profile) {
     constexpr int samples = 1000;
     Json x = Json::array();
@@ -91,9 +123,13 @@ Json section_json(const sim::Simulation<Dim, double>& simulation) {
       const double place = model.constraints.extent[0] * k / samples;
       x.push_back(place + model.origin[0]);
       z.push_back(model.profile->height(place) + model.origin[Dim - 1]);
+      if (model.substrates) {
+        numbers.push_back(model.substrates->at(place, 0.0));
+      }
     }
     json["terrain"] = {{"x", x}, {"z", z}};
   }
+  json["substrates"] = substrates_json<Dim>(simulation, numbers);
   for (std::size_t b = 0; b < model.body_names.size(); ++b) {
     const auto& body = parameters.bodies.at(model.body_names[b]);
     Json points = Json::array();

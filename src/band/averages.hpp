@@ -13,4 +13,10 @@ template <int Dim, class Real>
 void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                      mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes);
 
+// Where frozen rows are sealed or vented: the pressure of the water that seeps takes the place of the mean over all
+// matter in nodes.state, for the stages after contact, conduct_heat and drain_pore_pressure. Elsewhere it is that mean.
+template <int Dim, class Real>
+void average_seeping_water(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
+                           mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes);
+
 }  // namespace thawslide::band

@@ -57,19 +57,29 @@ void FlowDepth<Dim, Real>::Extent::add(const Extent& part) {
   }
 }
 
-// Remembered, as tiles change in nearly every step; begun anew when the slide has left most of the columns.
 template <int Dim, class Real>
-Real FlowDepth<Dim, Real>::cosine_of(std::uint64_t key, Real cell, const SlopeCosine& slope_cosine) {
-  const auto k = static_cast<std::size_t>(cosine_index_.insert(key));
-  if (k == cosines_.size()) {
+Real FlowDepth<Dim, Real>::AtColumns::at(std::uint64_t key, Real cell,
+                                         const std::function<Real(const Vector<Real, Dim - 1>&)>& of) {
+  const auto k = static_cast<std::size_t>(index.insert(key));
+  if (k == values.size()) {
     Vector<Real, Dim - 1> middle;
     for (int a = 0; a + 1 < Dim; ++a) {
       const auto number = static_cast<std::int64_t>(key >> (32 * a) & 0xffffffffu) - column_origin;
       middle[a] = (static_cast<Real>(number) + Real(0.5)) * cell;
     }
-    cosines_.push_back(slope_cosine(middle));
+    values.push_back(of(middle));
   }
-  return cosines_[k];
+  return values[k];
+}
+
+// Begun anew when the slide has left most of the columns.
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::AtColumns::forget_if_many(std::size_t columns) {
+  constexpr std::size_t held_per_column = 4;
+  if (values.size() > held_per_column * columns) {
+    index.clear();
+    values.clear();
+  }
 }
 
 // Numbers every column that particles of the tiles might overlap; holds until there are other tiles.
@@ -90,18 +100,15 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
     }
   }
   columns_.assign(column_keys_.size(), {});
-  constexpr std::size_t held_per_column = 4;
-  if (cosines_.size() > held_per_column * columns_.size()) {
-    cosine_index_.clear();
-    cosines_.clear();
-  }
+  cosines_.forget_if_many(columns_.size());
+  normal_gravities_.forget_if_many(columns_.size());
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
       columns_[c].beside[2 * a] = column_index_.find(neighbour(column_keys_[c], a, -1));
       columns_[c].beside[2 * a + 1] = column_index_.find(neighbour(column_keys_[c], a, 1));
     }
     if (slope_cosine) {
-      columns_[c].cosine = cosine_of(column_keys_[c], grid.cell(), slope_cosine);
+      columns_[c].cosine = cosines_.at(column_keys_[c], grid.cell(), slope_cosine);
     }
   }
 }
@@ -257,6 +264,71 @@ void FlowDepth<Dim, Real>::depth_to_particles(const mpm::SparseGrid<Dim, Real>& 
     const OfTile columns = of_tile(grid, t);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       particles.flow_depth.store(batch, columns.flow_depth(particles, batch));
+    }
+  });
+}
+
+// Particle after particle and tile after tile, as volumes are summed.
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::sum_masses(const mpm::SparseGrid<Dim, Real>& grid,
+                                      const mpm::Particles<Dim, Real>& particles) {
+  constexpr std::size_t corners = static_cast<std::size_t>(1) << (Dim - 1);
+  tile_masses_.resize(tiles_.size());
+  parallel_for(tiles_.size(), [&](std::size_t t) {
+    auto& masses = tile_masses_[t];
+    masses.fill(Real(0));
+    const auto first_cell = first_cells(grid, t);
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
+      const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
+      std::array<Lanes<Real>, corners> places, shares;
+      std::size_t corner = 0;
+      for_columns<Dim>(along, [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) {
+        places[corner] = place;
+        shares[corner++] = share;
+      });
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        for (std::size_t k = 0; k < corners; ++k) {
+          if (shares[k][lane] > Real(0)) {
+            masses[static_cast<std::size_t>(places[k][lane])] += shares[k][lane] * particles.mass(batch.particle[lane]);
+          }
+        }
+      }
+    }
+  });
+  masses_.assign(columns_.size(), Real(0));
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    for (std::size_t place = 0; place < OfTile::count; ++place) {
+      masses_[static_cast<std::size_t>(tiles_[t].number[place])] += tile_masses_[t][place];
+    }
+  }
+}
+
+template <int Dim, class Real>
+void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& grid,
+                                             const NormalGravity& normal_gravity, mpm::Particles<Dim, Real>& particles,
+                                             std::size_t first) {
+  sum_masses(grid, particles);
+  load_per_depth_.assign(columns_.size(), Real(0));
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    if (columns_[c].volume > Real(0)) {
+      load_per_depth_[c] =
+          masses_[c] / columns_[c].volume * normal_gravities_.at(column_keys_[c], grid.cell(), normal_gravity);
+    }
+  }
+  parallel_for(tiles_.size(), [&](std::size_t t) {
+    OfTile columns = of_tile(grid, t);
+    for (std::size_t place = 0; place < OfTile::count; ++place) {
+      columns.cosine_[place] = load_per_depth_[static_cast<std::size_t>(tiles_[t].number[place])];
+    }
+    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
+      const Lanes<Real> load = columns.flow_depth(particles, batch);
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        const std::uint32_t p = batch.particle[lane];
+        if (p >= first) {
+          particles.load_change(p) = load[lane] - particles.normal_load(p);
+          particles.normal_load(p) = load[lane];
+        }
+      }
     }
   });
 }

@@ -24,12 +24,21 @@ class FlowDepth {
  public:
   // Of the terrain at a horizontal place [m].
   using SlopeCosine = std::function<Real(const Vector<Real, Dim - 1>&)>;
+  // What of gravity presses a column of mass over footprint on its ground at a horizontal place [m/s2]: the part into
+  // the ground, g.n, times the slope's cosine, since the ground below is larger than the footprint by that.
+  using NormalGravity = std::function<Real(const Vector<Real, Dim - 1>&)>;
 
   // The columns from positions and volumes. slope_cosine may be empty: level ground; it must be the same in every call.
   void update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
               const SlopeCosine& slope_cosine, const mpm::Particles<Dim, Real>& particles);
   // particles.flow_depth from the columns and in_band.
   void depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid, mpm::Particles<Dim, Real>& particles) const;
+
+  // particles.normal_load, and in load_change by how much it changed, from the columns of the last update: N of the
+  // whole column in the band, elsewhere of what lies above, at the column's mean density. normal_gravity must be the
+  // same in every call. Only of the particles that stand in memory from `first` on.
+  void load_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const NormalGravity& normal_gravity,
+                         mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
 
   [[nodiscard]] ColumnsOfTile<Dim, Real> of_tile(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) const;
 
@@ -59,13 +68,22 @@ class FlowDepth {
     std::array<std::int32_t, OfTile::count> number;
   };
 
-  [[nodiscard]] Real cosine_of(std::uint64_t key, Real cell, const SlopeCosine& slope_cosine);
+  // What a function has at columns, remembered: tiles change in nearly every step.
+  struct AtColumns {
+    KeyIndex index;  // column key -> place in values
+    std::vector<Real> values;
+
+    [[nodiscard]] Real at(std::uint64_t key, Real cell, const std::function<Real(const Vector<Real, Dim - 1>&)>& of);
+    void forget_if_many(std::size_t columns);
+  };
+
   void number_columns(const mpm::SparseGrid<Dim, Real>& grid, const SlopeCosine& slope_cosine);
   void add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
   void add_extents(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
   void sum_columns();
   void find_edge();
   void set_footprints(Real cell);
+  void sum_masses(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles);
   static std::uint64_t column_key(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, std::size_t place);
   // Key of the neighbour column `cells` further along a horizontal axis.
   static std::uint64_t neighbour(std::uint64_t key, std::size_t axis, int cells);
@@ -73,12 +91,15 @@ class FlowDepth {
   std::vector<std::uint64_t> numbered_;  // the tiles that columns, their numbers and sizes_ are of
   KeyIndex column_index_;
   std::vector<std::uint64_t> column_keys_;
-  KeyIndex cosine_index_;  // column key -> place in cosines_
-  std::vector<Real> cosines_;
+  AtColumns cosines_, normal_gravities_;
   std::vector<Column> columns_;
   std::vector<TilePart> tiles_;
   std::vector<std::size_t> edge_tiles_;
   mpm::BodySizes<Real> sizes_;  // of particles [m]
+  // Where the load is asked for: the mass of tiles' columns by place and of columns [kg], and their load per depth
+  // [Pa/m].
+  std::vector<std::array<Real, OfTile::count>> tile_masses_;
+  std::vector<Real> masses_, load_per_depth_;
 };
 
 }  // namespace thawslide::band

@@ -54,7 +54,16 @@ struct HeatFlows {
     particles.conduction_in_cell.store(at, in_cell);
     const auto melted = particles.temperature.load(at) >= model.reference_temperature;
     if (model.advection && model.seepage && model.thermal_pressurization && any(melted)) {
-      rates.value[mpm::HeatRates::advection] = select(melted, advection(particles, at, seen, gradient), Value(Real(0)));
+      if (model.conservative_advection) {
+        const auto flux = carried_heat(particles, at, seen);
+        for (std::size_t a = 0; a < Dim; ++a) {
+          rates.flux[a][mpm::HeatRates::conduction] =
+              rates.flux[a][mpm::HeatRates::conduction] + select(melted, flux[static_cast<int>(a)], Value(Real(0)));
+        }
+      } else {
+        rates.value[mpm::HeatRates::advection] =
+            select(melted, advection(particles, at, seen, gradient), Value(Real(0)));
+      }
     }
     rates.value[mpm::HeatRates::capacity] = capacity;
     rates.value[mpm::HeatRates::subgrid] = capacity * in_cell;
@@ -72,6 +81,21 @@ struct HeatFlows {
         particles.thermal_scaling.load(at) * hydraulic(particles, at) / model.phases.water_unit_weight;
     const Real capacity = model.phases.water_density * model.phases.water_heat_capacity;
     return particles.volume.load(at) * capacity * mobility * pressure_gradient.dot(temperature_gradient);
+  }
+
+  // The same as a flux, V xi rho_L C_L q_L (T - Tref) with q_L = -(k_L/gamma_w) grad P [W m].
+  template <class Particles, class At, class Seen>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto carried_heat(const Particles& particles, const At& at,
+                                                         const Seen& seen) const {
+    using Value = typename At::Value;
+    const auto pressure_gradient =
+        gradient_of(seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure), 0);
+    const Value mobility =
+        particles.thermal_scaling.load(at) * hydraulic(particles, at) / model.phases.water_unit_weight;
+    const Real capacity = model.phases.water_density * model.phases.water_heat_capacity;
+    const Value carried = particles.volume.load(at) * capacity * mobility *
+                          (particles.temperature.load(at) - model.reference_temperature);
+    return Vector<Value, Dim>(-carried * pressure_gradient);
   }
 };
 

@@ -1,6 +1,7 @@
 // What heat and pore pressure need to know, the same for every step.
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "band/physics.hpp"
 #include "base/linear.hpp"
 #include "mpm/body_sizes.hpp"
+#include "mpm/particles.hpp"
 #include "mpm/transfer.hpp"
 #include "physics/freezing.hpp"
 #include "physics/heat_content.hpp"
@@ -51,6 +53,12 @@ struct BandModel : BandPhysics<Real> {
     return {hydraulic_conductivity.data(), hydraulic_conductivity.size() == 1};
   }
 
+  [[nodiscard]] bool lets_water_seep() const {
+    return pressure && this->seepage && this->thermal_pressurization &&
+           std::any_of(hydraulic_conductivity.begin(), hydraulic_conductivity.end(),
+                       [](Real k) { return k > Real(0); });
+  }
+
   // Calls work(content) with the heat content law of the run.
   template <class Work>
   decltype(auto) with_heat_content(const Work& work) const {
@@ -68,6 +76,17 @@ decltype(auto) with_particle_heat(const BandModel<Dim, Real>& model, const Work&
     }
     return work(ParticleHeat<Content, InitialMasses>{content});
   });
+}
+
+// Which fields of particles heat and pore pressure need; before the particles get their number.
+template <int Dim, class Real>
+void keep_fields(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+  particles.volume_strain.keep(model.volumetric_term);
+  particles.initial_heat_content.keep(model.rescaling_mixes);
+  particles.pore_void.keep(model.balances_water());
+  particles.normal_load.keep(model.needs_normal_load());
+  particles.load_change.keep(model.needs_normal_load());
+  particles.seeped_water.keep(model.lets_water_seep());
 }
 
 }  // namespace thawslide::band

@@ -6,8 +6,16 @@
 
 #include "base/portability.hpp"
 #include "physics/mixture.hpp"
+#include "physics/pore_water.hpp"
 
 namespace thawslide::band {
+
+// What frozen matter is to water that seeps towards it.
+enum class FrozenRows {
+  draining,  // its pores take part, at the pressure of its ice
+  sealed,    // no water passes: it takes no part
+  vented     // its pores take part, at the pressure of the air
+};
 
 template <class Real>
 struct BandPhysics {
@@ -22,6 +30,22 @@ struct BandPhysics {
   bool seepage = true;
   bool seepage_as_printed = false;  // Eq. 23 with one xi over the whole pore space
   bool thickness_each_step = true;
+  FrozenRows frozen_rows = FrozenRows::draining;
+  bool ice_presses = true;              // P is that of ice and liquid while frozen; off: 0
+  bool melt_contracts = false;          // melting leaves a void
+  Real residual_stress = 0;             // s0, on thawing where ice does not press [Pa]
+  Real skeleton_compressibility = 0;    // m_v [1/Pa]
+  physics::WaterExpansion<Real> water;  // beta_L
+  bool conservative_advection = false;  // heat that water carries is a flux; off: rho_L C_L q.grad T, as Eq. 9 has it
+  bool rescaling_mixes = false;         // a band that thickens takes in matter as it was at t = 0
+
+  // Where the surplus of water in a pore decides (physics/pore_water.hpp), and not Eq. 23 as printed.
+  [[nodiscard]] THAWSLIDE_HD bool balances_water() const {
+    return !ice_presses || melt_contracts || skeleton_compressibility > Real(0) ||
+           water.law != physics::WaterExpansionLaw::constant;
+  }
+  // Where the normal load N on particles is asked for.
+  [[nodiscard]] bool needs_normal_load() const { return !ice_presses || skeleton_compressibility > Real(0); }
 };
 
 // Hydraulic conductivities [m/s] of particles, by their material.

@@ -7,9 +7,9 @@
 
 namespace thawslide::band {
 
-template <int Dim, class Real, bool Seeps>
+template <int Dim, class Real, bool Seeps, bool Balances>
 struct UpdatePorePressure {
-  using OfTile = PorePressure<Real, ColumnsOfTile<Dim, Real>, Seeps>;
+  using OfTile = PorePressure<Real, ColumnsOfTile<Dim, Real>, Seeps, Balances>;
   using Reads = typename OfTile::Reads;
   using Adds = typename OfTile::Adds;
   using Account = typename OfTile::Account;

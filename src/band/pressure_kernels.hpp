@@ -32,18 +32,27 @@ THAWSLIDE_HD Pressures<Value> frozen_pressures(const BandPhysics<Real>& model, V
   return {liquid, physics::pore_pressure(saturation, liquid, ice_pressure)};
 }
 
-// Pressure at which the liquid starts when the last ice melts, continuous with Eq. 4 at Tref.
+// Pressure at which the liquid starts when the last ice melts, before it fills a void: continuous with Eq. 4 at Tref,
+// or, where ice does not press, what the water takes over of the load.
 template <class Real, class Value>
 THAWSLIDE_HD Value melting_pressure(const BandPhysics<Real>& model, Value ice_pressure) {
   return ice_pressure * model.phases.water_density / model.phases.ice_density;
+}
+template <class Real, class Particles, class At>
+THAWSLIDE_HD typename At::Value thawing_pressure(const BandPhysics<Real>& model, const Particles& particles,
+                                                 const At& at) {
+  if (model.ice_presses) {
+    return melting_pressure(model, particles.ice_pressure.load(at));
+  }
+  return physics::thawing_pressure(particles.normal_load.load(at), typename At::Value(model.residual_stress));
 }
 
 // Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or whole as printed); frozen particles
 // keep their pressure and act as sinks. Differences within a cell, which nodes do not see, diffuse between particle and
 // nodes by themselves, and what this changes at the nodes is taken off there (Gerya and Yuen 2003). Particles without
-// hydraulic conductivity count for nothing; frozen ones count with their pores, as they do in the nodal pressure: the
-// share that reaches them is lost to the sink. Left out, a node with few melted particles would drive these to
-// pressures without bound.
+// hydraulic conductivity count for nothing. Frozen ones count with their pores where these stand in the nodal pressure
+// (FrozenRows): the share that reaches them is lost to the sink. Left out of one and not the other, a node with few
+// melted particles would drive these to pressures without bound.
 template <int Dim, class Real>
 struct SeepageFlows {
   using Reads = mpm::RecordList<mpm::NodalState>;
@@ -62,14 +71,16 @@ struct SeepageFlows {
     const Value hydraulic = hydraulic_conductivity(particles, at);
     const Value scaling = particles.thermal_scaling.load(at);
     const Value pore_scaling = physics::pore_space_scaling(scaling, model.seepage_as_printed);
-    const Value porosity = particles.porosity.load(at), volume = particles.volume.load(at);
+    const Value volume = particles.volume.load(at);
+    const Value storing =
+        physics::storing_porosity(model.phases, particles.porosity.load(at), model.skeleton_compressibility);
     const auto flows = melted_before(model, particles, at) & (hydraulic > Real(0));
     auto& seepage = added.template of<mpm::Seepage>();
     Value in_cell = zero;
     if (any(flows)) {
       const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure);
       const Value diffusivity =
-          scaling * pore_scaling * physics::hydraulic_diffusivity(model.phases, porosity, Value(Real(1)), hydraulic);
+          scaling * pore_scaling * physics::hydraulic_diffusivity(model.phases, storing, Value(Real(1)), hydraulic);
       const Value share = physics::share_of_subgrid_diffusion(diffusivity, Value(inverse_cell), Dim, dt);
       in_cell = select(flows, (state.value[0] - particles.pore_pressure.load(at)) * share, zero);
       const Value mobility = hydraulic / model.phases.water_unit_weight;
@@ -79,20 +90,34 @@ struct SeepageFlows {
       }
     }
     particles.seepage_in_cell.store(at, in_cell);
-    const Value pore_space = select(hydraulic > Real(0), volume / pore_scaling * porosity, zero);
+    const auto takes_part = model.frozen_rows == FrozenRows::sealed ? flows : hydraulic > Real(0);
+    const Value pore_space = select(takes_part, volume / pore_scaling * storing, zero);
     seepage.value[mpm::Seepage::pore_space] = pore_space;
+    seepage.value[mpm::Seepage::seeping] = select(flows, pore_space, zero);
     seepage.value[mpm::Seepage::subgrid] = pore_space * in_cell;
+  }
+};
+
+// Water that leaves the body at its surface, and the heat that it takes along.
+template <class Real>
+struct DrainedWater {
+  Real mass = 0, heat = 0;  // [kg], [J]
+
+  THAWSLIDE_HD DrainedWater& operator+=(const DrainedWater& part) {
+    mass += part.mass;
+    heat += part.heat;
+    return *this;
   }
 };
 
 // Depth, ice pressure, and the pressures of liquid and pore: Clapeyron while ice and water coexist, then thermal
 // pressurization and seepage. Columns: of the slide, with the flow depth of a particle and its depth below the top.
-// Seeps: somewhere water seeps.
-template <class Real, class Columns, bool Seeps>
+// Seeps: somewhere water seeps. Balances: BandPhysics::balances_water().
+template <class Real, class Columns, bool Seeps, bool Balances>
 struct PorePressure {
   using Reads = std::conditional_t<Seeps, mpm::RecordList<mpm::NodalState>, mpm::RecordList<>>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::NoAccount;
+  using Account = DrainedWater<Real>;
 
   const BandPhysics<Real>& model;
   HydraulicConductivity<Real> hydraulic_conductivity;
@@ -101,7 +126,7 @@ struct PorePressure {
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& /*account*/) const {
+                                                       Added& /*added*/, Account& drained) const {
     using Value = typename At::Value;
     if (model.thickness_each_step) {
       particles.flow_depth.store(at, columns.flow_depth(particles, at));
@@ -111,11 +136,12 @@ struct PorePressure {
     particles.ice_pressure.store(at, ice);
     const auto frozen = temperature < model.reference_temperature;
     Pressures<Value> now{};
-    if (any(frozen)) {
+    if (any(frozen) && (!Balances || model.ice_presses)) {
       now = frozen_pressures(model, ice, temperature, particles.liquid_saturation.load(at));
     }
-    if (any(!frozen)) {
-      const Value melted = melted_pressure(particles, at, seen);
+    // What has just frozen still contracts down to Tref.
+    if (any(!frozen) || (Balances && any(melted_before(model, particles, at)))) {
+      const Value melted = melted_pressure(particles, at, seen, !frozen, drained);
       now = {select(frozen, now.liquid, melted), select(frozen, now.pore, melted)};
     }
     particles.liquid_pressure.store(at, now.liquid);
@@ -123,10 +149,10 @@ struct PorePressure {
   }
 
  private:
-  // Undrained heating and seepage; 0 near the free surface of a drained body.
-  template <class Particles, class At, class Seen>
-  THAWSLIDE_HD typename At::Value melted_pressure(const Particles& particles, const At& at,
-                                                  [[maybe_unused]] const Seen& seen) const {
+  // Heating, load and seepage; 0 near the free surface of a drained body.
+  template <class Particles, class At, class Seen, class Mask>
+  THAWSLIDE_HD typename At::Value melted_pressure(Particles& particles, const At& at, [[maybe_unused]] const Seen& seen,
+                                                  const Mask& melted, Account& drained) const {
     using Value = typename At::Value;
     const Value zero = Real(0);
     const bool seepage = model.seepage && model.thermal_pressurization;
@@ -137,17 +163,22 @@ struct PorePressure {
       if (any(was_melted & permeable)) {
         const auto change = seen.template read<mpm::NodalState, 1>(mpm::NodalState::pressure_change).value[0];
         seeped = select(was_melted & permeable, particles.seepage_in_cell.load(at) + change, zero);
+        take_water(particles, at, water_of(particles, at, seeped));
       }
     }
-    const Value pressure = pressurized(particles, at, was_melted, seeped);
+    const Value pressure =
+        Balances ? balanced(particles, at, melted, was_melted, seeped) : pressurized(particles, at, was_melted, seeped);
     if (seepage && any(permeable)) {
-      const auto at_surface = columns.below_top(particles, at) < drained_depth;
-      return select(at_surface & permeable, zero, pressure);
+      const auto at_surface = (columns.below_top(particles, at) < drained_depth) & permeable;
+      if (any(at_surface & melted)) {
+        drain(particles, at, select(at_surface & melted, pressure, zero), drained);
+      }
+      return select(at_surface, zero, pressure);
     }
     return pressure;
   }
 
-  // `seeped`: what seepage changes [Pa].
+  // Eq. 23 as printed. `seeped`: what seepage changes [Pa].
   template <class Particles, class At, class Mask>
   THAWSLIDE_HD typename At::Value pressurized(const Particles& particles, const At& at, const Mask& was_melted,
                                               const typename At::Value& seeped) const {
@@ -167,6 +198,71 @@ struct PorePressure {
     }
     const Value stiffness = physics::pore_stiffness(model.phases, porosity, Value(Real(1)));
     return select(was_melted, pressure - stiffness * particles.volume_strain.load(at), pressure);
+  }
+
+  // The same by the balance of the pore's water, whose surplus is a pressure or a void.
+  template <class Particles, class At, class Mask>
+  THAWSLIDE_HD typename At::Value balanced(Particles& particles, const At& at, const Mask& melted,
+                                           const Mask& was_melted, const typename At::Value& seeped) const {
+    using Value = typename At::Value;
+    const Value porosity = particles.porosity.load(at), held = particles.pore_void.load(at), none = Real(0);
+    const Value storage = physics::pore_storage(model.phases, porosity, model.skeleton_compressibility);
+    const Value start = thawing_pressure(model, particles, at);
+    if (!model.thermal_pressurization) {
+      return max(start - held / storage, none);
+    }
+    const Value from = select(was_melted, particles.previous_temperature.load(at), Value(model.reference_temperature));
+    const Value to = max(particles.temperature.load(at), Value(model.reference_temperature));
+    Value gained = physics::melted_swelling(model.phases, model.water, porosity, from, to);
+    if (model.skeleton_compressibility > Real(0)) {
+      gained += select(was_melted, model.skeleton_compressibility * particles.load_change.load(at), none);
+    }
+    if (model.volumetric_term) {
+      gained -= select(was_melted, particles.volume_strain.load(at), none);
+    }
+    const Value before = select(was_melted, particles.liquid_pressure.load(at), start);
+    const Value surplus = physics::pore_surplus<Value>({before + seeped, held, none}, storage) + gained;
+    const auto filling = physics::pore_filling(surplus, storage);
+    particles.pore_void.store(at, select(melted | was_melted, filling.gas_void, held));
+    return filling.pressure;
+  }
+
+  // Mass of water that a change of pressure [Pa] stores in the particle's own part of the band [kg].
+  template <class Particles, class At>
+  THAWSLIDE_HD typename At::Value water_of(const Particles& particles, const At& at,
+                                           const typename At::Value& pressure) const {
+    using Value = typename At::Value;
+    const Value storage =
+        physics::pore_storage(model.phases, particles.porosity.load(at), model.skeleton_compressibility);
+    const Value scaling = physics::pore_space_scaling(particles.thermal_scaling.load(at), model.seepage_as_printed);
+    return model.phases.water_density * storage * pressure * particles.volume.load(at) / scaling;
+  }
+
+  template <class Particles, class At>
+  THAWSLIDE_HD static void take_water(Particles& particles, const At& at, const typename At::Value& mass) {
+    particles.seeped_water.store(at, particles.seeped_water.load(at) + mass);
+  }
+
+  // The water that a pressure [Pa] stores leaves the body, with its heat where this goes along with it: from the
+  // content of melted matter, which is linear.
+  template <class Particles, class At>
+  THAWSLIDE_HD void drain(Particles& particles, const At& at, const typename At::Value& pressure,
+                          Account& drained) const {
+    using Value = typename At::Value;
+    const Value mass = water_of(particles, at, pressure);
+    take_water(particles, at, -mass);
+    at.add_to(drained.mass, mass);
+    if (model.conservative_advection) {
+      const Value temperature = particles.temperature.load(at),
+                  of_band = particles.initial_volume.load(at) / particles.thermal_scaling.load(at);
+      const Value heat =
+          max(mass, Value(Real(0))) * model.phases.water_heat_capacity * (temperature - model.reference_temperature);
+      const Value capacity =
+          physics::heat_capacity(model.phases, particles.initial_porosity.load(at), Value(Real(1))) * of_band;
+      particles.heat_content.store(at, particles.heat_content.load(at) - heat / of_band);
+      particles.temperature.store(at, temperature - heat / capacity);
+      at.add_to(drained.heat, heat);
+    }
   }
 };
 

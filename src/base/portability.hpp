@@ -11,6 +11,13 @@
 #define THAWSLIDE_HD
 #endif
 
+// Before a loop that a device's compiler shall not unroll: what lies in memory there would come to need registers.
+#if defined(__CUDACC__)
+#define THAWSLIDE_ROLLED _Pragma("unroll 1")
+#else
+#define THAWSLIDE_ROLLED
+#endif
+
 // A small function of the innermost loops that g++ leaves out of line on its own, at the price of passing its result
 // through memory; the second one stands after a lambda's parameters. Builds that check and need no speed say otherwise.
 #ifndef THAWSLIDE_ALWAYS_INLINE

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/table.hpp"
+#include "physics/basal/parameter.hpp"
 
 namespace thawslide::config {
 
@@ -27,13 +28,19 @@ enum class ThicknessAlong { vertical, normal };
 enum class Placement { on_top, cut };
 enum class Leaving { stop, remove };
 enum class ShapeFunction { ugimp, linear, quadratic };
-enum class Transfer { flip, blend, apic };
+enum class Transfer { flip, blend, apic, fmpm };
 enum class InitialStress { geostatic, none, settle };
-enum class FrictionLaw { constant, lubricated };
-enum class CohesionLaw { constant, slip, ice, time };
 enum class FrictionClamp { keep_cohesion, joint };
 enum class BandRegion { all, first_layer };
 enum class CutCells { as_they_are, equal_thickness };
+enum class BandKind { scaled, columns };
+enum class BandGrowth { none, inertial, slip };
+enum class EndOfWater { sealed, vented };
+enum class ThicknessChange { as_printed, conserving };
+enum class AdvectionForm { as_printed, conservative };
+enum class WaterExpansionLaw { constant, by_temperature };
+enum class FrozenRows { draining, sealed, vented };
+enum class FrozenPressure { ice_pressure, none };
 enum class HeatUpdate { enthalpy, apparent_capacity };
 enum class HeatMasses { initial, current };
 enum class ClapeyronSign { usual, printed };
@@ -87,6 +94,7 @@ struct Phases {
   double rock_heat_capacity = 858, ice_heat_capacity = 2040, water_heat_capacity = 4180;
   double rock_conductivity = 3.0, ice_conductivity = 2.22, water_conductivity = 0.58;
   double rock_expansion = 3e-5, ice_expansion = 5.1e-5, water_expansion = 2.75e-4;
+  WaterExpansionLaw water_expansion_law = WaterExpansionLaw::constant;
   double water_bulk_modulus = 1e9;
   double latent_heat = 333.5e3;
   double water_unit_weight = 9810;
@@ -103,8 +111,9 @@ struct Freezing {
 struct Material {
   LawKind law = LawKind::mohr_coulomb;
   double youngs_modulus = 0, poisson_ratio = 0;
-  double friction_angle = 0, dilation_angle = 0;
-  double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps); equal: none
+  double friction_angle = 0, residual_friction_angle = 0, dilation_angle = 0;
+  double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps/eps_c); equal: none
+  double softening_strain = 1.0;               // eps_c, Sec. 4
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
   bool gaps_close_first = false;                                    // torn matter bears nothing until its gap is closed
   double viscosity_time = 0;                                        // s, Kelvin-Voigt
@@ -158,7 +167,9 @@ struct Mechanics {
   bool enabled = true;
   ShapeFunction shape_function = ShapeFunction::ugimp;
   Transfer transfer = Transfer::flip;
-  double pic_share = 0.0;  // Transfer::blend
+  double pic_share = 0.0;      // Transfer::blend
+  int fmpm_order = 2;          // Transfer::fmpm
+  double fmpm_interval = 0.0;  // s, Transfer::fmpm
   InitialStress initial_stress = InitialStress::geostatic;
   double k0 = -1.0;  // negative: nu / (1 - nu)
   bool slope_shear = false;
@@ -168,20 +179,38 @@ struct Mechanics {
   double mass_damping = 0.0;      // 1/s, during the run
 };
 
-struct Basal {
-  FrictionLaw friction = FrictionLaw::lubricated;
-  double friction_angle = 0;  // degrees
-  double lubrication_exponent = 2.0;
-  double min_solid_fraction = 0.05, max_solid_fraction = 0.85;
-  double cohesion = 0;
-  CohesionLaw cohesion_law = CohesionLaw::slip;
-  double residual_cohesion = 0;
-  double slip_distance = 0;       // m, d_c of the slip law
-  double cohesion_loss_time = 0;  // s, the time law
+// Numbers that laws of the base take, by key; one that is not here has its default.
+struct LawNumbers {
+  std::map<std::string, double> by_key;
+
+  [[nodiscard]] double operator()(const physics::basal::Parameter& number) const;
+  [[nodiscard]] double& operator[](const physics::basal::Parameter& number);
+};
+
+// What one kind of ground bears: words of physics/basal/laws.hpp, and the numbers of these laws.
+struct GroundStrength {
+  std::string friction = "lubricated";
+  std::string cohesion_law = "slip";
+  LawNumbers numbers;
+};
+
+struct Basal : GroundStrength {
   FrictionClamp clamp = FrictionClamp::keep_cohesion;
   bool cap_pressure = false;   // P <= N
   double heat_fraction = 1.0;  // energy conversion coefficient
   bool distance_check = true;
+};
+
+// A kind of ground of its own, and where it lies: along x, within polygons, or where a raster has its code.
+struct Substrate : GroundStrength {
+  double x_min = -std::numeric_limits<double>::infinity(), x_max = std::numeric_limits<double>::infinity();
+  std::string outline;                // file of polygons; absolute once read; empty: none
+  std::vector<std::string> polygons;  // names of those of the file that bound it; empty: all
+  std::string name_attribute = "name";
+  std::string raster;  // of codes; absolute once read; empty: none
+  int code = 0;
+
+  [[nodiscard]] bool is_strip() const { return outline.empty() && raster.empty(); }
 };
 
 struct Mechanisms {  // Sec. 3.3
@@ -189,9 +218,18 @@ struct Mechanisms {  // Sec. 3.3
 };
 
 struct Band {
+  BandKind model = BandKind::scaled;
   Table thickness;  // m over time; empty: no band, xi = 1
   BandRegion region = BandRegion::all;
   CutCells cut_cells = CutCells::as_they_are;
+  ThicknessChange thickness_change = ThicknessChange::as_printed;
+  BandGrowth growth = BandGrowth::none;
+  double grain_size = 0.05;      // m, BandGrowth::inertial
+  double inertial_number = 0.3;  // BandGrowth::inertial
+  double growth_per_slip = 0;    // BandGrowth::slip
+  double load_time = 1.0;        // s, over which N is averaged
+  double column_step = 0.05;     // s, largest time between the steps of a column
+  double ground_temperature = std::numeric_limits<double>::quiet_NaN();  // C; not a number: that of the body's base
 };
 
 struct HeatBoundary {
@@ -204,8 +242,10 @@ struct Heat {
   HeatUpdate update = HeatUpdate::enthalpy;
   HeatMasses masses = HeatMasses::initial;
   bool latent = true;
+  bool steam = true;
   bool conduction = true;
   bool advection = true;
+  AdvectionForm advection_form = AdvectionForm::as_printed;
   std::array<HeatBoundary, 6> boundary{};
 };
 
@@ -214,10 +254,21 @@ struct Pressure {
   bool thermal_pressurization = true;  // off: once melted the liquid keeps r^-1 P_I
   ClapeyronSign clapeyron = ClapeyronSign::usual;
   bool volumetric_term = false;
+  FrozenPressure frozen = FrozenPressure::ice_pressure;
+  double residual_stress = std::numeric_limits<double>::infinity();  // Pa, s0; infinity: no excess pressure on thawing
+  bool melt_contraction = false;                                     // melt leaves a void, filled before P rises
+  double skeleton_compressibility = 0;                               // 1/Pa, m_v; 0: rigid pore
   bool seepage = true;
+  FrozenRows frozen_rows = FrozenRows::draining;
+  EndOfWater column_top = EndOfWater::vented;
+  double water_to_steam_viscosity = 0;  // ratio; 0: steam does not seep
   SeepageScaling seepage_scaling = SeepageScaling::consistent;
   ThicknessDirection thickness_direction = ThicknessDirection::normal;
   ThicknessUpdate thickness_update = ThicknessUpdate::each_step;
+};
+
+struct Block {
+  bool bends = false;  // their pressure counts
 };
 
 struct Checkpoint {
@@ -258,10 +309,12 @@ struct Case {
   Initial initial;
   Mechanics mechanics;
   Basal basal;
+  std::map<std::string, Substrate> substrates;
   Mechanisms mechanisms;
   Band band;
   Heat heat;
   Pressure pressure;
+  Block block;
   Checkpoint checkpoint;
   Maps maps;
   std::map<std::string, Probe> probes;

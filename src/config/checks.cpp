@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 
@@ -53,6 +54,25 @@ void check_grid(const Case& checked, Reading& reading) {
   }
 }
 
+void check_residual_friction(const std::string& table, const Material& material, Reading& reading) {
+  const double residual = material.residual_friction_angle;
+  if (reading.sound({table + ".residual_friction_angle", table + ".friction_angle"}) &&
+      residual > material.friction_angle) {
+    reading.report_misfit(
+        {table + ".residual_friction_angle", table + ".friction_angle"},
+        fmt::format("{}.residual_friction_angle is {} degrees, above {}.friction_angle, which is {} degrees; softening "
+                    "takes friction away. Give a residual at most the friction angle.",
+                    table, residual, table, material.friction_angle));
+  } else if (reading.sound({table + ".residual_friction_angle", table + ".dilation_angle"}) &&
+             residual < material.dilation_angle && material.dilation_angle <= material.friction_angle) {
+    reading.report_misfit(
+        {table + ".residual_friction_angle", table + ".dilation_angle"},
+        fmt::format("{}.residual_friction_angle is {} degrees, below {}.dilation_angle, which is {} degrees; allowed: "
+                    "at least the dilation angle, which does not soften, else plastic flow makes energy.",
+                    table, residual, table, material.dilation_angle));
+  }
+}
+
 void check_materials(const Case& checked, Reading& reading) {
   for (const auto& [name, material] : checked.materials) {
     const std::string table = "material." + name;
@@ -72,25 +92,33 @@ void check_materials(const Case& checked, Reading& reading) {
                       "most the friction angle, else plastic flow makes energy.",
                       table, material.dilation_angle, table, material.friction_angle));
     }
+    check_residual_friction(table, material, reading);
   }
 }
 
-void check_basal(const Case& checked, Reading& reading) {
-  const Basal& basal = checked.basal;
-  if (reading.sound({"basal.min_solid_fraction", "basal.max_solid_fraction"}) &&
-      basal.min_solid_fraction >= basal.max_solid_fraction) {
-    reading.report_misfit(
-        {"basal.max_solid_fraction", "basal.min_solid_fraction"},
-        fmt::format("basal.max_solid_fraction is {}, not above basal.min_solid_fraction, which is {}; Eq. 25 "
-                    "divides by their difference. Make the one larger or the other smaller.",
-                    basal.max_solid_fraction, basal.min_solid_fraction));
+void check_filter(const Case& checked, Reading& reading) {
+  const Mechanics& mechanics = checked.mechanics;
+  if (!reading.sound({"mechanics.transfer", "mechanics.fmpm_order", "mechanics.fmpm_interval"})) {
+    return;
   }
-  if (reading.sound({"basal.cohesion", "basal.residual_cohesion"}) && basal.residual_cohesion > basal.cohesion) {
-    reading.report_misfit(
-        {"basal.residual_cohesion", "basal.cohesion"},
-        fmt::format("basal.residual_cohesion is {} Pa, above basal.cohesion, which is {} Pa; cohesion along the "
-                    "ground is only lost. Give a residual at most the cohesion.",
-                    basal.residual_cohesion, basal.cohesion));
+  if (mechanics.transfer != Transfer::fmpm) {
+    const Mechanics usual;
+    for (const auto& [key, is_given] :
+         {std::pair("mechanics.fmpm_interval", mechanics.fmpm_interval != usual.fmpm_interval),
+          std::pair("mechanics.fmpm_order", mechanics.fmpm_order != usual.fmpm_order)}) {
+      if (is_given) {
+        reading.report_misfit({key, "mechanics.transfer"},
+                              fmt::format("{} is given, and mechanics.transfer is not \"fmpm\"; no other transfer has "
+                                          "it. Set mechanics.transfer = \"fmpm\", or remove {}.",
+                                          key, key));
+      }
+    }
+  } else if (checked.time.stepping == Stepping::fixed && reading.sound({"time.step"}) &&
+             mechanics.fmpm_interval < checked.time.step) {
+    reading.report_misfit({"mechanics.fmpm_interval", "time.step"},
+                          fmt::format("mechanics.fmpm_interval is {} s, shorter than time.step, which is {} s; "
+                                      "velocities are filtered once a step at most. Make the interval longer.",
+                                      mechanics.fmpm_interval, checked.time.step));
   }
 }
 
@@ -172,6 +200,53 @@ void check_switches(const Case& checked, Reading& reading) {
   }
 }
 
+// Band columns have none of the forms that make heat or water from nothing.
+void check_band_columns(const Case& checked, Reading& reading) {
+  if (!reading.sound({"band.model"}) || checked.band.model != BandKind::columns) {
+    return;
+  }
+  const auto require = [&](bool met, const char* key, const char* found, const char* allowed) {
+    if (reading.sound({key}) && !met) {
+      reading.report_misfit({key, "band.model"},
+                            fmt::format("band.model is \"columns\", and {} is {}; allowed with it: {}. Set {} so, or "
+                                        "band.model = \"scaled\".",
+                                        key, found, allowed, key));
+    }
+  };
+  require(checked.terrain.kind != TerrainKind::none, "terrain.type", "\"none\"", "any terrain");
+  require(!checked.band.thickness.value.empty(), "band.thickness", "not given",
+          "a thickness in m, constant or over time");
+  require(checked.heat.enabled, "heat.enabled", "false", "true");
+  require(checked.pressure.frozen == FrozenPressure::none, "pressure.frozen", "\"ice_pressure\"", "\"none\"");
+  require(checked.pressure.frozen_rows != FrozenRows::draining, "pressure.frozen_rows", "\"draining\"",
+          "\"sealed\" or \"vented\"");
+  require(checked.pressure.melt_contraction, "pressure.melt_contraction", "false", "true");
+  require(checked.band.thickness_change == ThicknessChange::conserving, "band.thickness_change", "\"as_printed\"",
+          "\"conserving\"");
+}
+
+// The same of heat and water in the band.
+void check_band_switches(const Case& checked, Reading& reading) {
+  if (reading.sound({"heat.advection_form", "heat.update", "heat.masses"}) &&
+      checked.heat.advection_form == AdvectionForm::conservative &&
+      (checked.heat.update != HeatUpdate::enthalpy || checked.heat.masses != HeatMasses::initial)) {
+    reading.report_misfit(
+        {"heat.advection_form", "heat.update", "heat.masses"},
+        "heat.advection_form is \"conservative\", and heat.update or heat.masses is as printed, which makes heat all "
+        "the same; allowed with it: heat.update = \"enthalpy\" and heat.masses = \"initial\". Set both so, or "
+        "heat.advection_form = \"as_printed\".");
+  }
+  if (reading.sound({"pressure.residual_stress", "pressure.frozen"}) &&
+      checked.pressure.residual_stress < std::numeric_limits<double>::infinity() &&
+      checked.pressure.frozen != FrozenPressure::none) {
+    reading.report_misfit(
+        {"pressure.residual_stress", "pressure.frozen"},
+        fmt::format("pressure.residual_stress is {} Pa, and pressure.frozen is not \"none\"; where ice presses, water "
+                    "starts from its pressure. Set pressure.frozen = \"none\", or remove pressure.residual_stress.",
+                    checked.pressure.residual_stress));
+  }
+}
+
 void check_times(const Case& checked, Reading& reading) {
   const Time& time = checked.time;
   if (!reading.sound({"time.end"})) {
@@ -220,8 +295,11 @@ void check_case(const Case& checked, Reading& reading) {
   check_grid(checked, reading);
   check_times(checked, reading);
   check_materials(checked, reading);
-  check_basal(checked, reading);
+  check_grounds(checked, reading);
   check_switches(checked, reading);
+  check_band_switches(checked, reading);
+  check_band_columns(checked, reading);
+  check_filter(checked, reading);
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
 }

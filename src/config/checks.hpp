@@ -13,6 +13,9 @@ void check_case(const Case& checked, Reading& reading);
 // The part on terrain, bodies and frames. `profile` is empty where there is none, or it could not be read.
 void check_bodies(const Case& checked, const ProfileTable& profile, Reading& reading);
 
+// The part on what bodies slide on: [basal], and [substrate.NAME] with where it lies.
+void check_grounds(const Case& checked, Reading& reading);
+
 // The part on a DEM, releases, what maps give to bodies, and probes. Whether the maps hold what is asked of them is not
 // known here.
 void check_maps(const Case& checked, Reading& reading);

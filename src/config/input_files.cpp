@@ -46,6 +46,9 @@ std::vector<std::string> map_files(const Case& parameters) {
       }
     }
   }
+  for (const auto& [name, substrate] : parameters.substrates) {
+    files.insert(files.end(), {substrate.outline, substrate.raster});
+  }
   for (const auto& [name, probe] : parameters.probes) {
     files.push_back(probe.line);
   }

@@ -34,6 +34,10 @@ std::vector<Parameter<Phases>> phase_parameters() {
             "volumetric thermal expansion of ice, beta_I"),
       phase(&Phases::water_expansion, "water_expansion", "1/K", not_negative,
             "volumetric thermal expansion of water, beta_L"),
+      parameter(&Phases::water_expansion_law,
+                {.key = "water_expansion_law",
+                 .text = "water's expansion beta_L over temperature, in pore pressure (source of the four values: not "
+                         "checked)"}),
       phase(&Phases::water_bulk_modulus, "water_bulk_modulus", "Pa", positive, "bulk modulus of water, K_L"),
       phase(&Phases::latent_heat, "latent_heat", "J/kg", not_negative,
             "latent heat of melting, L_f; Table 1 prints its unit as J/m3"),
@@ -108,10 +112,24 @@ std::vector<Parameter<Material>> material_parameters() {
                 {.key = "residual_cohesion",
                  .unit = "Pa",
                  .range = at_least(0),
-                 .text = "cohesion after large plastic strain eps, c_f: c = c_f + (c_0 - c_f) exp(-eps)",
+                 .text = "cohesion after large plastic strain eps, c_f: c = c_f + (c_0 - c_f) exp(-eps/eps_c)",
                  .source = "Sec. 4"})
           .otherwise("cohesion, that is no softening",
                      [](const Case&, Material& material) { material.residual_cohesion = material.cohesion; }),
+      parameter(&Material::residual_friction_angle,
+                {.key = "residual_friction_angle",
+                 .unit = "degrees",
+                 .range = {.low = 0, .high = 90, .high_open = true},
+                 .text = "friction angle after large plastic strain, phi_f; its sine falls with the cohesion"})
+          .otherwise(
+              "friction_angle, that is no softening of friction",
+              [](const Case&, Material& material) { material.residual_friction_angle = material.friction_angle; }),
+      parameter(&Material::softening_strain,
+                {.key = "softening_strain",
+                 .range = above(0),
+                 .text = "plastic strain eps_c over which what softens of cohesion and friction falls to 1/e; the "
+                         "paper's is 1",
+                 .source = "Sec. 4"}),
       parameter(&Material::tension_cutoff,
                 {.key = "tension_cutoff",
                  .unit = "Pa",

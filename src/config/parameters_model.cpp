@@ -1,4 +1,4 @@
-// The parameters of the model: [mechanics], [basal], [mechanisms], [band], [heat], [pressure].
+// The parameters of the model: [mechanics], [mechanisms], [band], [heat], [pressure], [block].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -24,6 +24,17 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
                                         .text = "share of the node velocities in a particle's; 0: FLIP, 1: PIC"})
           .required_if("when mechanics.transfer is \"blend\"",
                        [](const Case&, const Mechanics& mechanics) { return mechanics.transfer == Transfer::blend; }),
+      parameter(&Mechanics::fmpm_order,
+                {.key = "fmpm_order",
+                 .range = between(2, 4),
+                 .text = "order m of the filter of transfer \"fmpm\": the higher, the less it takes of long waves",
+                 .source = "Hammerquist and Nairn 2017"}),
+      parameter(&Mechanics::fmpm_interval, {.key = "fmpm_interval",
+                                            .unit = "s",
+                                            .range = above(0),
+                                            .text = "simulated time from one filtering to the next"})
+          .required_if("when mechanics.transfer is \"fmpm\"",
+                       [](const Case&, const Mechanics& mechanics) { return mechanics.transfer == Transfer::fmpm; }),
       parameter(&Mechanics::initial_stress,
                 {.key = "initial_stress", .text = "stress at t = 0, of which the paper says nothing"}),
       parameter(&Mechanics::k0, {.key = "k0",
@@ -54,93 +65,6 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
   };
 }
 
-bool loses_cohesion(const Case& whole, const Basal& basal, CohesionLaw law) {
-  return whole.terrain.kind != TerrainKind::none && basal.cohesion_law == law && basal.cohesion > 0;
-}
-
-std::vector<Parameter<Basal>> friction_parameters() {
-  return {
-      parameter(&Basal::friction,
-                {.key = "friction", .text = "law of the friction coefficient mu_e", .source = "Eqs. 17, 25"}),
-      parameter(&Basal::friction_angle, {.key = "friction_angle",
-                                         .unit = "degrees",
-                                         .range = {.low = 0, .high = 90, .high_open = true},
-                                         .text = "basal friction angle phi_f",
-                                         .source = "Eq. 25, Tables 2, 3"})
-          .required_if("when there is a terrain",
-                       [](const Case& whole, const Basal&) {
-                         return whole.terrain.kind != TerrainKind::none && whole.mechanics.enabled;
-                       }),
-      parameter(&Basal::lubrication_exponent,
-                {.key = "lubrication_exponent",
-                 .range = above(0),
-                 .text = "exponent omega: the larger, the later friction falls as solid is lost",
-                 .source = "Eq. 25"}),
-      parameter(&Basal::min_solid_fraction, {.key = "min_solid_fraction",
-                                             .range = between(0, 1),
-                                             .text = "effective solid fraction at which friction vanishes, n_min",
-                                             .source = "Eq. 25"}),
-      parameter(&Basal::max_solid_fraction, {.key = "max_solid_fraction",
-                                             .range = between(0, 1),
-                                             .text = "effective solid fraction at which friction is whole, n_max",
-                                             .source = "Eq. 25"}),
-      parameter(&Basal::clamp,
-                {.key = "clamp",
-                 .text = "strength S_slide of the ground where the pore pressure P passes the normal stress N",
-                 .source = "Eq. 17"}),
-      parameter(&Basal::cap_pressure, {.key = "cap_pressure",
-                                       .text = "the pore pressure P counts as N, the normal stress, at most",
-                                       .source = "Eq. 17"}),
-      parameter(&Basal::heat_fraction,
-                {.key = "heat_fraction",
-                 .range = between(0, 1),
-                 .text = "energy conversion coefficient: share of the friction work that heats the slide",
-                 .source = "Eq. 20, Secs. 3.3, 4"}),
-      parameter(&Basal::distance_check,
-                {.key = "distance_check",
-                 .text = "contact waits until the particles' own edges reach the ground; off: it acts as soon as nodes "
-                         "feel the slide approach, up to a cell early",
-                 .source = "Nairn 2013"}),
-  };
-}
-
-std::vector<Parameter<Basal>> cohesion_parameters() {
-  return {
-      parameter(&Basal::cohesion, {.key = "cohesion",
-                                   .unit = "Pa",
-                                   .range = at_least(0),
-                                   .text = "cohesion along the ground at t = 0, c_0",
-                                   .source = "Eq. 17"}),
-      parameter(&Basal::cohesion_law, {.key = "cohesion_law", .text = "how the cohesion c_S along the ground is lost"}),
-      parameter(&Basal::residual_cohesion, {.key = "residual_cohesion",
-                                            .unit = "Pa",
-                                            .range = at_least(0),
-                                            .text = "cohesion that is left, c_r, of the laws \"slip\" and \"time\""}),
-      parameter(&Basal::slip_distance, {.key = "slip_distance",
-                                        .unit = "m",
-                                        .range = above(0),
-                                        .text = "slip over which the cohesion falls to 1/e, d_c, of the law \"slip\""})
-          .required_if(
-              "when basal.cohesion > 0 and basal.cohesion_law is \"slip\"",
-              [](const Case& whole, const Basal& basal) { return loses_cohesion(whole, basal, CohesionLaw::slip); }),
-      parameter(&Basal::cohesion_loss_time, {.key = "cohesion_loss_time",
-                                             .unit = "s",
-                                             .range = at_least(0),
-                                             .text = "time at which the cohesion is lost, of the law \"time\""})
-          .required_if(
-              "when basal.cohesion > 0 and basal.cohesion_law is \"time\"",
-              [](const Case& whole, const Basal& basal) { return loses_cohesion(whole, basal, CohesionLaw::time); }),
-  };
-}
-
-std::vector<Parameter<Basal>> basal_parameters() {
-  std::vector<Parameter<Basal>> result = friction_parameters();
-  for (auto& cohesion : cohesion_parameters()) {
-    result.push_back(std::move(cohesion));
-  }
-  return result;
-}
-
 std::vector<Parameter<Mechanisms>> mechanism_parameters() {
   return {
       parameter(
@@ -162,7 +86,11 @@ std::vector<Parameter<Mechanisms>> mechanism_parameters() {
 }
 
 std::vector<Parameter<Band>> band_parameters() {
+  const auto grows = [](BandGrowth growth) {
+    return [growth](const Case&, const Band& band) { return band.model == BandKind::columns && band.growth == growth; };
+  };
   return {
+      parameter(&Band::model, {.key = "model", .text = "what carries heat and pore pressure along the ground"}),
       parameter(
           &Band::thickness,
           {.key = "thickness",
@@ -175,6 +103,35 @@ std::vector<Parameter<Band>> band_parameters() {
       parameter(&Band::region,
                 {.key = "region", .text = "particles that the scaling xi acts on", .source = "Sec. 2.3"}),
       parameter(&Band::cut_cells, {.key = "cut_cells", .text = "the band where the ground cuts through cells"}),
+      parameter(&Band::thickness_change,
+                {.key = "thickness_change",
+                 .text = "what becomes of heat where e changes over time, or with band.cut_cells along the ground, and "
+                         "where particles leave the first layer"}),
+      parameter(&Band::growth, {.key = "growth", .text = "how the band of columns grows thicker"}),
+      parameter(&Band::grain_size, {.key = "grain_size",
+                                    .unit = "m",
+                                    .range = above(0),
+                                    .text = "size d of grains, of growth \"inertial\"",
+                                    .source = "Jop et al. 2006 (not checked)"}),
+      parameter(&Band::inertial_number, {.key = "inertial_number",
+                                         .range = above(0),
+                                         .text = "inertial number I up to which the band stays, of growth \"inertial\"",
+                                         .source = "Jop et al. 2006 (not checked)"}),
+      parameter(&Band::growth_per_slip,
+                {.key = "growth_per_slip", .range = above(0), .text = "thickness gained over slip, of growth \"slip\""})
+          .required_if("when band.growth is \"slip\"", grows(BandGrowth::slip)),
+      parameter(&Band::load_time, {.key = "load_time",
+                                   .unit = "s",
+                                   .range = above(0),
+                                   .text = "time over which columns average the normal pressure N, which switches on "
+                                           "and off at nodes"}),
+      parameter(&Band::column_step,
+                {.key = "column_step", .unit = "s", .range = above(0), .text = "largest time step of columns"}),
+      parameter(&Band::ground_temperature, {.key = "ground_temperature",
+                                            .unit = "C",
+                                            .range = {.low = -100, .high = 100},
+                                            .text = "temperature of the ground below columns at the start"})
+          .otherwise("that of the body's base"),
   };
 }
 
@@ -191,6 +148,10 @@ std::vector<Parameter<Heat>> heat_parameters() {
           {.key = "latent",
            .text = "melting takes and freezing gives latent heat; false: ice melts all the same, at no cost of heat",
            .source = "Eq. 9"}),
+      parameter(&Heat::steam,
+                {.key = "steam",
+                 .text = "water of band columns boils where its steam lifts the slide, and leaves; false: "
+                         "it stays liquid"}),
       parameter(&Heat::conduction, {.key = "conduction",
                                     .text = "heat is conducted, q_T = -k grad T; false: it stays where it is made",
                                     .source = "Eq. 18"}),
@@ -198,6 +159,8 @@ std::vector<Parameter<Heat>> heat_parameters() {
                 {.key = "advection",
                  .text = "seeping water carries heat; needs pressure.enabled and a hydraulic conductivity",
                  .source = "Eq. 9"}),
+      parameter(&Heat::advection_form,
+                {.key = "advection_form", .text = "form of the heat that seeping water carries", .source = "Eq. 9"}),
   };
 }
 
@@ -221,9 +184,37 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
                 {.key = "volumetric_term",
                  .text = "compressing the body presses on melted pore water too: -div v in Eq. 8, which Eq. 23 drops",
                  .source = "Eq. 8"}),
+      parameter(&Pressure::frozen, {.key = "frozen", .text = "pore pressure of frozen and partly frozen matter"}),
+      parameter(
+          &Pressure::residual_stress,
+          {.key = "residual_stress",
+           .unit = "Pa",
+           .range = {.low = 0, .infinity_allowed = true},
+           .text = "effective stress s0 that thawing leaves of the load N, with frozen = \"none\": the water then "
+                   "starts at N - s0; inf: at no excess pressure"}),
+      parameter(&Pressure::melt_contraction,
+                {.key = "melt_contraction",
+                 .text = "melt fills r = rho_I/rho_L of the pore that its ice filled: water has to fill the void "
+                         "n (1 - r) by expansion or inflow before its pressure rises; false: as if it were full"}),
+      parameter(&Pressure::skeleton_compressibility,
+                {.key = "skeleton_compressibility",
+                 .unit = "1/Pa",
+                 .range = at_least(0),
+                 .text = "volume by which the skeleton gives way per volume and effective stress, m_v: pores store "
+                         "n/K_L + m_v per pressure, and P follows the load above; 0: rigid pore"}),
       parameter(
           &Pressure::seepage,
           {.key = "seepage", .text = "Darcy flow of melted pore water (Eq. 22); false: undrained", .source = "Eq. 22"}),
+      parameter(&Pressure::frozen_rows,
+                {.key = "frozen_rows", .text = "frozen matter towards water that seeps to it; water lost is counted"}),
+      parameter(
+          &Pressure::column_top,
+          {.key = "column_top", .text = "what water meets at the top of a band column that has thawed throughout"}),
+      parameter(&Pressure::water_to_steam_viscosity,
+                {.key = "water_to_steam_viscosity",
+                 .range = at_least(0),
+                 .text = "viscosity of water over that of steam, by which steam of band columns seeps into vented "
+                         "matter; 0: it does not seep"}),
       parameter(&Pressure::seepage_scaling,
                 {.key = "seepage_scaling", .text = "how seepage is scaled in the band", .source = "Eq. 23"}),
       parameter(&Pressure::thickness_direction,
@@ -234,13 +225,22 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
   };
 }
 
+std::vector<Parameter<Block>> block_parameters() {
+  return {
+      parameter(
+          &Block::bends,
+          {.key = "bends",
+           .text = "where the ground bends, the slide presses on it by v^2 kappa more, or less; false: its weight "
+                   "alone does"}),
+  };
+}
+
 }  // namespace
 
 void declare_model(Tables& tables) {
   tables.push_back(std::make_unique<SingleTable<Mechanics>>("mechanics", "Momentum and stress", &Case::mechanics,
                                                             mechanics_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Basal>>("basal", "Friction and cohesion along the ground", &Case::basal,
-                                                        basal_parameters()));
+  declare_basal(tables);
   tables.push_back(std::make_unique<SingleTable<Mechanisms>>("mechanisms", "The mechanisms of Sec. 3.3, on or off",
                                                              &Case::mechanisms, mechanism_parameters()));
   tables.push_back(
@@ -252,6 +252,8 @@ void declare_model(Tables& tables) {
                                                        six_sides(&Heat::boundary, "heat condition")));
   tables.push_back(
       std::make_unique<SingleTable<Pressure>>("pressure", "Pore pressure", &Case::pressure, pressure_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Block>>("block", "The rigid-block model of `thawslide block`",
+                                                        &Case::block, block_parameters()));
 }
 
 }  // namespace thawslide::config

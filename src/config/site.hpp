@@ -28,16 +28,32 @@ struct Release {
   Raster claim;  // share of each point's cell that the outline covers; beyond all outlines, that its taper spreads to
 };
 
+// Where a substrate lies, as maps tell it.
+struct SubstrateArea {
+  std::vector<Polyline2> rings;         // closed: outlines and their holes; empty where a raster tells
+  std::shared_ptr<const Raster> codes;  // null where polygons tell
+  double code = 0.0;                    // of the raster
+  double area = 0.0;                    // horizontal, within the domain [m2]
+};
+
+// A part of a section in which a substrate lies, from one x to another [m].
+struct SubstrateStretch {
+  std::string name;
+  double from, to;
+};
+
 struct Site {
   std::shared_ptr<const Raster> ground;  // what bodies slide on, less what is cut out of it; null: no raster
   // Outermost points of the terrain model that the ground was cropped from [m]; empty: it was not cropped.
   std::optional<std::array<std::array<double, 2>, 2>> terrain_model;  // south-west, north-east
   std::map<std::string, Release> releases;                            // by name of the body
   ProfileTable profile;  // of a 2D case cut out of maps, instead of terrain.file; empty: there is the file
-  Polyline2 path;        // along which the front is measured; empty: none given
-  std::map<std::string, Polyline2> probes;  // by name: one point, or a line
-  std::string crs;                          // of all of them, as WKT
-  std::string crs_name;                     // "EPSG:31287", or its title; empty: none is known
+  std::map<std::string, SubstrateArea> substrates;  // by name, those that maps give
+  std::vector<SubstrateStretch> stretches;          // of a 2D case cut out of maps, in place of all substrates' own
+  Polyline2 path;                                   // along which the front is measured; empty: none given
+  std::map<std::string, Polyline2> probes;          // by name: one point, or a line
+  std::string crs;                                  // of all of them, as WKT
+  std::string crs_name;                             // "EPSG:31287", or its title; empty: none is known
 };
 
 // The profile of a case with terrain.type "profile": the site's, or else what terrain.file holds.

@@ -69,24 +69,14 @@ inline std::vector<Choice<ShapeFunction>> choices(ShapeFunction) {
 inline std::vector<Choice<Transfer>> choices(Transfer) {
   return {{Transfer::flip, "flip", "particles take the changes of node velocities (Eq. 13)"},
           {Transfer::blend, "blend", "FLIP, and a share of the node velocities themselves (PIC)"},
-          {Transfer::apic, "apic", "the node velocities, and an affine velocity about the particle"}};
+          {Transfer::apic, "apic", "the node velocities, and an affine velocity about the particle"},
+          {Transfer::fmpm, "fmpm", "FLIP, and now and then a filter that takes out what the grid cannot see (FMPM)"}};
 }
 inline std::vector<Choice<InitialStress>> choices(InitialStress) {
   return {
       {InitialStress::geostatic, "geostatic", "the weight above across the ground, and k0 times it along the ground"},
       {InitialStress::none, "none", "stress-free: gravity acts suddenly"},
       {InitialStress::settle, "settle", "gravity acts on the damped body, held by its base, before t = 0"}};
-}
-inline std::vector<Choice<FrictionLaw>> choices(FrictionLaw) {
-  return {
-      {FrictionLaw::constant, "constant", "tan(friction_angle)"},
-      {FrictionLaw::lubricated, "lubricated", "tan(friction_angle) times a factor that falls as ice melts (Eq. 25)"}};
-}
-inline std::vector<Choice<CohesionLaw>> choices(CohesionLaw) {
-  return {{CohesionLaw::constant, "constant", "cohesion, for ever"},
-          {CohesionLaw::slip, "slip", "c_r + (c_0 - c_r) exp(-slip/slip_distance)"},
-          {CohesionLaw::ice, "ice", "cohesion (1 - S_L): in proportion to the ice"},
-          {CohesionLaw::time, "time", "cohesion before cohesion_loss_time, residual_cohesion from then on"}};
 }
 inline std::vector<Choice<FrictionClamp>> choices(FrictionClamp) {
   return {{FrictionClamp::keep_cohesion, "keep_cohesion", "mu_e max(0, N - P) + c_S: cohesion is kept"},
@@ -99,6 +89,49 @@ inline std::vector<Choice<BandRegion>> choices(BandRegion) {
 inline std::vector<Choice<CutCells>> choices(CutCells) {
   return {{CutCells::as_they_are, "as_they_are", "its cells hold what lies in them: xi = grid.cell / e everywhere"},
           {CutCells::equal_thickness, "equal_thickness", "xi is such that what lies in them counts as thick as e"}};
+}
+inline std::vector<Choice<BandKind>> choices(BandKind) {
+  return {{BandKind::scaled, "scaled", "the lowest rows of particles, their heat and seepage scaled by xi"},
+          {BandKind::columns, "columns",
+           "columns of cells through ground, band and body, of the band's true thickness, that move with the base"}};
+}
+inline std::vector<Choice<BandGrowth>> choices(BandGrowth) {
+  return {{BandGrowth::none, "none", "the band is as thick as thickness says"},
+          {BandGrowth::inertial, "inertial",
+           "e = v d sqrt(rho_S/(N - P))/I where that is more, with N - P at least 0.02 N"},
+          {BandGrowth::slip, "slip", "thickness plus growth_per_slip times the slip"}};
+}
+inline std::vector<Choice<EndOfWater>> choices(EndOfWater) {
+  return {{EndOfWater::sealed, "sealed", "nothing passes"}, {EndOfWater::vented, "vented", "air, at P = 0"}};
+}
+inline std::vector<Choice<ThicknessChange>> choices(ThicknessChange) {
+  return {{ThicknessChange::as_printed, "as_printed",
+           "temperatures stay: the heat that a thicker band then holds, or a thinner one lacks, is band_rescale_J"},
+          {ThicknessChange::conserving, "conserving",
+           "a band that thickens takes in matter as it was at t = 0 and mixes with it; one that thins leaves its own "
+           "behind: what comes and goes is band_rescale_J"}};
+}
+inline std::vector<Choice<AdvectionForm>> choices(AdvectionForm) {
+  return {
+      {AdvectionForm::as_printed, "as_printed", "rho_L C_L q_L.grad T, as Eq. 9 has it: what it makes is advection_J"},
+      {AdvectionForm::conservative, "conservative",
+       "-div(rho_L C_L q_L (T - Tref)): nothing is made, and water that drains takes its heat along"}};
+}
+inline std::vector<Choice<WaterExpansionLaw>> choices(WaterExpansionLaw) {
+  return {{WaterExpansionLaw::constant, "constant", "water_expansion"},
+          {WaterExpansionLaw::by_temperature, "by_temperature",
+           "-0.7e-4 at 0 C, 2.1e-4 at 20, 4.6e-4 at 50, 7.5e-4 1/K at 100, linear between and beyond"}};
+}
+inline std::vector<Choice<FrozenRows>> choices(FrozenRows) {
+  return {{FrozenRows::draining, "draining", "its pores take up water at the pressure of their ice: a sink"},
+          {FrozenRows::sealed, "sealed", "no water passes, as through ice"},
+          {FrozenRows::vented, "vented", "its pores lead to the air: P = 0 there"}};
+}
+inline std::vector<Choice<FrozenPressure>> choices(FrozenPressure) {
+  return {{FrozenPressure::ice_pressure, "ice_pressure",
+           "P_I = rho_I g H and Clapeyron's P_L, and from P_I/r on once melted (Eqs. 4, 21)"},
+          {FrozenPressure::none, "none",
+           "P = 0: ice carries load as a solid does; on thawing P starts at N - residual_stress, never below 0"}};
 }
 inline std::vector<Choice<HeatUpdate>> choices(HeatUpdate) {
   return {{HeatUpdate::enthalpy, "enthalpy", "heat content with its secant capacity: closes to round-off"},

@@ -15,10 +15,10 @@ Raster read_map(const config::Case& parameters, const MapRequest& request, std::
     }
     const bool same_place = Reprojection(system.wkt, request.crs).changes_nothing();
     if (same_place && request.area && !request.area->touches(span_of_points(file.layout()))) {
-      throw UserError(
-          fmt::format("{}: the raster ({}) does not reach the release ({}). Check that both are in the same "
-                      "place and reference system.",
-                      request.file, range_words(span_of_points(file.layout())), range_words(*request.area)));
+      throw UserError(fmt::format(
+          "{}: the raster ({}) does not reach {} ({}). Check that both are in the same place and reference "
+          "system.",
+          request.file, range_words(span_of_points(file.layout())), request.reason, range_words(*request.area)));
     }
     Raster raster = file.read(same_place ? request.area : std::nullopt);
     raster.crs = system.wkt;

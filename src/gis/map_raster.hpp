@@ -14,8 +14,9 @@ namespace thawslide::gis {
 struct MapRequest {
   std::string key;  // that named the file
   std::string file;
-  std::string crs;                // of the ground
-  std::optional<Rectangle> area;  // where it is needed, in the ground's coordinates; without one all of it is read
+  std::string crs;                     // of the ground
+  std::optional<Rectangle> area;       // where it is needed, in the ground's coordinates; without one all of it is read
+  std::string reason = "the release";  // what it is needed for there
 };
 
 // Its reference system is the one that the file tells, or the ground's where the file tells none, or one that its

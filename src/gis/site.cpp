@@ -8,6 +8,7 @@
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/release.hpp"
+#include "gis/substrates.hpp"
 #include "gis/told_at.hpp"
 #include "gis/touching.hpp"
 #include "gis/vector_file.hpp"
@@ -106,6 +107,7 @@ SiteAndNotes load_site(const config::Case& parameters) {
     site.releases[name] = std::move(release.release);
   }
   if (!dem.raster.empty()) {
+    site.substrates = load_substrates(parameters, dem, loaded.notes);
     site.terrain_model = {{{dem.span.min_x, dem.span.min_y}, {dem.span.max_x, dem.span.max_y}}};
     site.ground = std::make_shared<const Raster>(less_what_is_cut(parameters, site.releases, std::move(dem.raster)));
   }

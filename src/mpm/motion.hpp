@@ -29,6 +29,7 @@ struct MotionModel {
   HeldSides<Dim> sides;
   TransferKind transfer = TransferKind::flip_pic;
   Real pic_share = 0;         // of TransferKind::flip_pic; 0: FLIP
+  int filter_order = 0;       // of the filter of velocities (mpm/velocity_filter.hpp); 0: none
   Vector<Real, Dim> gravity;  // [m/s2]
   Real mass_damping = 0;      // [1/s]
   BodySizes<Real> sizes;      // of particles, in cells

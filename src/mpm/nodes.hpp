@@ -28,13 +28,20 @@ struct Nodes {
   RecordsOf<Averages, Dim, Real> averages{room};
   RecordsOf<NodalState, Dim, Real> state;
   RecordsOf<HeatRates, Dim, Real> heat_rates{room};
+  // In the steps that filter velocities.
+  RecordsOf<FilterMoments, Dim, Real> filter_moments{room};
+  RecordsOf<FilterMomentum, Dim, Real> filter_momentum{room};
+  RecordsOf<FilterIncrement, Dim, Real> filter_increment;
+  RecordsOf<FilterTotal, Dim, Real> filter_total;
   // Of blocks with candidate nodes.
   SparseRecords<Dim, Real, BaseLayout::size> base;
   SparseRecordsOf<Contact, Dim, Real> contact;
   SparseRecordsOf<NearGround, Dim, Real> near_ground{room};
   SparseRecordsOf<OrphanHeat, Dim, Real> orphan_heat;
+  SparseRecordsOf<BaseState, Dim, Real> base_state;    // where band columns lie under the slide
   SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
   SparseRecordsOf<Seepage, Dim, Real> seepage{room};   // of blocks to whose nodes water seeps
+  SparseRecordsOf<SeepingWater, Dim, Real> seeping_water{room};
   ActivityMarks marks;
 
   template <class Name>

@@ -23,12 +23,13 @@ struct ParticleView {
   VectorField displacement;
   Scalar path_length;
   TensorField stress, viscous_stress;
-  Scalar plastic_strain, gap, temperature, heat_content, liquid_saturation, porosity, initial_porosity;
-  Scalar initial_saturation, ice_pressure, liquid_pressure, pore_pressure, flow_depth, thermal_scaling;
+  Scalar plastic_strain, gap, temperature, heat_content, initial_heat_content, liquid_saturation, porosity;
+  Scalar initial_porosity, initial_saturation, ice_pressure, liquid_pressure, pore_pressure, pore_void, normal_load;
+  Scalar seeped_water, flow_depth, thermal_scaling;
   Scalar contact_offset, slip;
   FieldView<std::int32_t, 1> in_band;
   VectorField step_displacement;
-  Scalar volume_strain, previous_temperature, secant_capacity, conduction_in_cell, seepage_in_cell;
+  Scalar volume_strain, previous_temperature, secant_capacity, conduction_in_cell, seepage_in_cell, load_change;
 };
 
 // Holds until there are more or fewer particles.
@@ -52,6 +53,7 @@ ParticleView<Dim, Real> view_of(Particles<Dim, Real>& particles) {
           p.gap.view(),
           p.temperature.view(),
           p.heat_content.view(),
+          p.initial_heat_content.view(),
           p.liquid_saturation.view(),
           p.porosity.view(),
           p.initial_porosity.view(),
@@ -59,6 +61,9 @@ ParticleView<Dim, Real> view_of(Particles<Dim, Real>& particles) {
           p.ice_pressure.view(),
           p.liquid_pressure.view(),
           p.pore_pressure.view(),
+          p.pore_void.view(),
+          p.normal_load.view(),
+          p.seeped_water.view(),
           p.flow_depth.view(),
           p.thermal_scaling.view(),
           p.contact_offset.view(),
@@ -69,7 +74,8 @@ ParticleView<Dim, Real> view_of(Particles<Dim, Real>& particles) {
           p.previous_temperature.view(),
           p.secant_capacity.view(),
           p.conduction_in_cell.view(),
-          p.seepage_in_cell.view()};
+          p.seepage_in_cell.view(),
+          p.load_change.view()};
 }
 
 }  // namespace thawslide::mpm

@@ -39,6 +39,7 @@ class Particles {
   Scalar gap{fields, {"gap", "1", FieldShape::scalar, true}};  // volumetric strain torn open, to close again
   Scalar temperature{fields, {"temperature", "C", FieldShape::scalar, true}};
   Scalar heat_content{fields, {"heat_content", "J/m3"}};        // per initial volume, 0 for frozen matter at Tref
+  Scalar initial_heat_content{fields, {"initial_heat_content", "J/m3"}};
   Scalar liquid_saturation{fields, {"liquid_saturation", "1", FieldShape::scalar, true}};
   Scalar porosity{fields, {"porosity", "1", FieldShape::scalar, true}};
   Scalar initial_porosity{fields, {"initial_porosity", "1"}};
@@ -46,19 +47,23 @@ class Particles {
   Scalar ice_pressure{fields, {"ice_pressure", "Pa", FieldShape::scalar, true}};
   Scalar liquid_pressure{fields, {"liquid_pressure", "Pa", FieldShape::scalar, true}};
   Scalar pore_pressure{fields, {"pore_pressure", "Pa", FieldShape::scalar, true}};
+  Scalar pore_void{fields, {"pore_void", "1"}};  // that the water leaves when all of it is melted, share of the volume
+  Scalar normal_load{fields, {"normal_load", "Pa"}};            // N of the column above
+  Scalar seeped_water{fields, {"seeped_water", "kg"}};          // that seepage brought, less what it took
   Scalar flow_depth{fields, {"flow_depth", "m"}};               // H of P_I = rho_I g H
   Scalar thermal_scaling{fields, {"thermal_scaling", "1"}};     // xi in force
   Scalar contact_offset{fields, {"contact_offset", "m"}};  // distance from the ground at which it touches
   Scalar slip{fields, {"slip", "m", FieldShape::scalar, true}};
   Field<std::int32_t, 1> in_band{fields, {"in_band", "1", FieldShape::scalar, true}};
   // Within a step only: the displacement to come, its volumetric strain, the temperature before it, the capacity along
-  // it, and what conduction and seepage within the cell bring.
+  // it, what conduction and seepage within the cell bring, and the change of N.
   VectorField step_displacement{fields, {"step_displacement", "m", FieldShape::vector, false, false}};
   Scalar volume_strain{fields, {"volume_strain", "1", FieldShape::scalar, false, false}};
   Scalar previous_temperature{fields, {"previous_temperature", "C", FieldShape::scalar, false, false}};
   Scalar secant_capacity{fields, {"secant_capacity", "J/m3/K", FieldShape::scalar, false, false}};
   Scalar conduction_in_cell{fields, {"conduction_in_cell", "K", FieldShape::scalar, false, false}};
   Scalar seepage_in_cell{fields, {"seepage_in_cell", "Pa", FieldShape::scalar, false, false}};
+  Scalar load_change{fields, {"load_change", "Pa", FieldShape::scalar, false, false}};
   // clang-format on
 
   Particles() = default;

@@ -6,6 +6,7 @@
 
 #include "base/select.hpp"
 #include "mpm/kernel.hpp"
+#include "physics/rigid_motion.hpp"
 
 namespace thawslide::mpm {
 
@@ -96,10 +97,25 @@ struct Contact {
   static constexpr std::size_t touching = 1;       // 1 in contact, 0 not
   static constexpr std::size_t slip_speed = 2;     // [m/s], tangential, at mid-step; 0 where not in contact
   static constexpr std::size_t friction_heat = 3;  // [W], after the conversion coefficient
+  static constexpr std::size_t normal_force = 4;   // on the ground [N]
+  static constexpr std::size_t area = 5;           // [m2]
   template <int Dim>
-  static constexpr int size = 4;
+  static constexpr int size = 6;
   static constexpr int flux = no_flux;
   static auto& in(auto& nodes) { return nodes.contact; }
+};
+
+// What contact nodes see of the band columns about them: sums over pieces of base of their weight and area [m2] times
+// each quantity.
+struct BaseState {
+  static constexpr std::size_t area = 0;
+  static constexpr std::size_t temperature = 1;
+  static constexpr std::size_t pressure_ratio = 2;  // pore pressure over averaged normal pressure
+  static constexpr std::size_t saturation = 3;
+  static constexpr std::size_t solid_fraction = 4;  // effective, n_e of Eq. 2
+  static constexpr std::size_t slip = 5;            // [m]
+  template <int Dim>
+  static constexpr int size = 6;
 };
 
 // What particles see of heat and pore pressure: the averages, or a prescribed temperature, and what
@@ -144,10 +160,22 @@ struct Seepage {
   static constexpr std::size_t inflow = 0;      // times K_L [Pa m3/s]
   static constexpr std::size_t pore_space = 1;  // [m3]
   static constexpr std::size_t subgrid = 2;     // pore space times subgrid diffusion [Pa m3]
+  static constexpr std::size_t seeping = 3;     // pore space of particles that water seeps from and to [m3]
   template <int Dim>
-  static constexpr int size = 3;
+  static constexpr int size = 4;
   static constexpr int flux = 0;
   static auto& in(auto& nodes) { return nodes.seepage; }
+};
+
+// Sums over the particles whose pores take part in seepage, where these are not all.
+struct SeepingWater {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t volume = 0;         // sum S V [m3]
+  static constexpr std::size_t pore_pressure = 1;  // sum S V P
+  template <int Dim>
+  static constexpr int size = 2;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.seeping_water; }
 };
 
 // The records of MomentumLayout and MotionLayout, and the velocity mapped back from the moved particles (MUSL) [m/s].
@@ -171,6 +199,32 @@ struct Velocity {
   static constexpr int size = Dim;
   static constexpr int flux = no_flux;
   static auto& in(auto& nodes) { return nodes.velocity; }
+};
+
+// Sums over particles for the filter of velocities (mpm/velocity_filter.hpp), about the domain's lower corner.
+struct FilterMoments {
+  using Functions = MomentumFunctions;
+  static constexpr std::size_t first = 0;  // sum S m x [kg m]; after it sum S m x x [kg m2]
+  template <int Dim>
+  static constexpr int size = Dim + physics::squares<Dim>;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.filter_moments; }
+};
+struct FilterMomentum {
+  using Functions = MomentumFunctions;
+  static constexpr std::size_t momentum = 0;  // sum S m v [kg m/s]; after it sum S m x x v [kg m2/s]
+  template <int Dim>
+  static constexpr int size = Dim + physics::rotations<Dim>;
+  static constexpr int flux = no_flux;
+  static auto& in(auto& nodes) { return nodes.filter_momentum; }
+};
+// What of the nodes' rigid motions the last sweep brought, and all of them: the velocity at the domain's lower corner
+// [m/s], after it the rotation [1/s].
+struct FilterIncrement : FilterMomentum {
+  static auto& in(auto& nodes) { return nodes.filter_increment; }
+};
+struct FilterTotal : FilterMomentum {
+  static auto& in(auto& nodes) { return nodes.filter_total; }
 };
 
 // The same records as APIC's weights see them.

@@ -1,12 +1,12 @@
 // Heat content of the mixture and its inverse: the enthalpy form of Eq. 9.
 //   H(T) = integral of C dT from Tref + rho_I n L_f S(T)    [J/m3], 0 for frozen matter at Tref
 //   dH/dT = C + rho_I n L_f dS/dT                            apparent capacity [J/m3/K]
-// L_f is per kilogram (Table 1 prints J/m3). H rises strictly with T and is convex below Tref, linear above.
+// L_f is per kilogram (Table 1 prints J/m3).
 #pragma once
 
 #include <cmath>
 
-#include "physics/freezing.hpp"
+#include "physics/enthalpy.hpp"
 #include "physics/mixture.hpp"
 
 namespace thawslide::physics {
@@ -20,17 +20,13 @@ struct HeatContent {
   // H [J/m3] at temperature [C].
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value content(Value temperature, Value porosity) const {
-    const CurveValues<Value> values = curve.at(temperature);
-    return frozen_capacity(porosity) * (temperature - curve.reference_temperature) +
-           capacity_rise(porosity) * values.integral + melting_heat(porosity) * values.saturation;
+    return enthalpy(curve, coefficients(porosity), temperature);
   }
 
   // dH/dT [J/m3/K], at Tref the one of the frozen side.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value apparent_capacity(Value temperature, Value porosity) const {
-    const CurveValues<Value> values = curve.at(temperature);
-    return frozen_capacity(porosity) + capacity_rise(porosity) * values.saturation +
-           melting_heat(porosity) * values.derivative;
+    return physics::apparent_capacity(curve, coefficients(porosity), temperature);
   }
 
   // Whether a change of temperature [K] is too small to show in the content's digits.
@@ -50,44 +46,19 @@ struct HeatContent {
     return select(negligible, apparent_capacity(temperature, porosity), rise / select(negligible, Value(1), change));
   }
 
-  // The temperature [C] at which the content is H, from a guess near it: closed above Tref, Newton's iteration below,
-  // where convexity makes it converge from any start.
+  // The temperature [C] at which the content is H, from a guess near it.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD Value temperature(Value heat, Value porosity, Value guess) const {
-    using std::abs;
-    const Value frozen = frozen_capacity(porosity);
-    const Value rise = capacity_rise(porosity);
-    const Value melting = melting_heat(porosity);
-    const auto melted = heat >= melting;
-    constexpr int most_iterations = 100;
-    constexpr Real close = by_precision<Real>(1e-6, 1e-3);  // converges quadratically: the next change is round-off
-    Value below = min(guess - curve.reference_temperature, Value(0));
-    auto open = !melted;
-    for (int k = 0; k < most_iterations && any(open); ++k) {
-      const CurveValues<Value> values = curve.at(curve.reference_temperature + below);
-      const Value excess = frozen * below + rise * values.integral + melting * values.saturation - heat;
-      const Value change = -excess / (frozen + rise * values.saturation + melting * values.derivative);
-      below = select(open, min(below + change, Value(0)), below);
-      open = open & (abs(change) >= close);
-    }
-    return curve.reference_temperature + select(melted, (heat - melting) / (frozen + rise), below);
+    return temperature_of_enthalpy(curve, coefficients(porosity), heat, guess);
   }
 
-  // rho_I n L_f: what melting takes [J/m3].
+  // Per volume [J/m3/K] and [J/m3]; rho_I n L_f is what melting takes.
   template <class Value>
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melting_heat(Value porosity) const {
-    return latent ? phases.ice_density * porosity * phases.latent_heat : Value(0);
-  }
-
- private:
-  template <class Value>
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value frozen_capacity(Value porosity) const {
-    return heat_capacity(phases, porosity, Value(0));
-  }
-  template <class Value>
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value capacity_rise(Value porosity) const {
-    return porosity *
-           (phases.water_density * phases.water_heat_capacity - phases.ice_density * phases.ice_heat_capacity);
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE EnthalpyCoefficients<Value> coefficients(Value porosity) const {
+    return {
+        heat_capacity(phases, porosity, Value(0)),
+        porosity * (phases.water_density * phases.water_heat_capacity - phases.ice_density * phases.ice_heat_capacity),
+        latent ? phases.ice_density * porosity * phases.latent_heat : Value(0)};
   }
 };
 

@@ -63,13 +63,25 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value conductivity(const Phases<Real>& phas
          porosity * (saturation * phases.water_conductivity + (Real(1) - saturation) * phases.ice_conductivity);
 }
 
-// beta_m of Eq. 8 [1/K], with r = rho_I/rho_L (the paper prints rho_L/rho_L).
+// beta_m of Eq. 8 [1/K], with r = rho_I/rho_L (the paper prints rho_L/rho_L); water's expansion [1/K] as it is there.
 template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases, Value porosity, Value saturation) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases, Value porosity, Value saturation,
+                                                     Value water_expansion) {
   const Real ratio = phases.ice_density / phases.water_density;
   return (Real(1) - porosity) * (saturation + (Real(1) - saturation) * ratio) * phases.rock_expansion +
-         porosity * saturation * phases.water_expansion +
-         porosity * (Real(1) - saturation) * ratio * phases.ice_expansion;
+         porosity * saturation * water_expansion + porosity * (Real(1) - saturation) * ratio * phases.ice_expansion;
+}
+
+// The same with the constant expansion of Table 1.
+template <class Real, class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases, Value porosity, Value saturation) {
+  return expansion(phases, porosity, saturation, Value(phases.water_expansion));
+}
+
+// A quantity per volume of two matters mixed by volume, of which `share` is of the first.
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value mixed(Value first, Value second, Value share) {
+  return share * first + (Value(1) - share) * second;
 }
 
 // exp(x) - 1; for the small arguments of a step by its series, which is exact to round-off there and much faster.

@@ -2,7 +2,9 @@
 //   F = (s1 - s3)/2 + (s1 + s3)/2 sin(phi) - c cos(phi) = 0           (Eq. 11, whose c and one sign the paper's print
 //   lost) in the form used here  k s1 - s3 = 2 c sqrt(k),  k = (1 + sin phi)/(1 - sin phi);  cut-off  s1 = sigma_t
 //   flow: m s1 - s3 with m from the dilation angle (the paper gives none; default 0); cut-off: associated
-//   softening: c = c_f + (c_0 - c_f) exp(-eps), eps the sum of sqrt(2/3 de_p:de_p); c is held within a step
+//   softening, with w = exp(-eps/eps_c), eps the sum of sqrt(2/3 de_p:de_p); c and phi are held within a step
+//     c = c_f + (c_0 - c_f) w              (the paper's, whose eps_c is 1)
+//     sin phi = sin phi_f + (sin phi_0 - sin phi_f) w              (not in the paper)
 // Return to faces, edges and apex in principal space: among the sets of at most three active planes, the one whose
 // multipliers are not negative and whose stress is admissible (Koiter's flow rule; Clausen, Damkilde and Andersen 2006
 // and de Souza Neto, Peric and Owen 2008, ch. 8, name the same regions). Where no set answers, the apex does: without
@@ -17,62 +19,48 @@
 #include "base/select.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/principal.hpp"
+#include "physics/return_result.hpp"
 
 namespace thawslide::physics {
 
-template <class Value>
-struct ReturnResult {
-  using Condition = decltype(Value() < Value());
-
-  SymmetricTensor<Value> stress;                  // [Pa]
-  Value equivalent_plastic_strain_increment = 0;  // sqrt(2/3 de_p:de_p)
-  Value plastic_work_density = 0;                 // stress : de_p [J/m3]
-  Value opening = 0;  // volumetric plastic strain at the apex or the cut-off: a gap torn open
-  Condition yielded = Value(0) < Value(0);
+// Angles in degrees.
+template <class Real>
+struct Strength {
+  Real friction_angle, dilation_angle;
+  Real cohesion, residual_cohesion;               // c_0, c_f [Pa]
+  Real tension_cutoff;                            // sigma_t [Pa]; infinity: none
+  Real softening_strain = 1;                      // eps_c
+  Real residual_friction_angle = friction_angle;  // phi_f, at least the dilation angle
 };
 
-template <class Real>
-struct LinearElastic {
-  static constexpr bool yields = false;
-
-  template <int Dim = 3, class Value>
-  [[nodiscard]] THAWSLIDE_HD ReturnResult<Value> update(const SymmetricTensor<Value>& trial,
-                                                        Value /*plastic_strain*/) const {
-    return {trial};
-  }
-};
-
-template <class Real>
+// friction_falls: the friction angle softens too. Where it does not, what depends on it alone is known once for all.
+template <class Real, bool friction_falls = false>
 class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming): clang copying its arrays
  public:
-  // Angles in degrees, cohesions c_0 and c_f [Pa], tension cut-off sigma_t [Pa] (infinity: none).
-  static MohrCoulomb make(const Elastic<Real>& elastic, Real friction_angle, Real dilation_angle, Real cohesion,
-                          Real residual_cohesion, Real tension_cutoff) {
+  static MohrCoulomb make(const Elastic<Real>& elastic, const Strength<Real>& strength) {
     MohrCoulomb law;
-    law.ratio_ = pressure_ratio(friction_angle);
+    law.sine_ = sine_of(strength.friction_angle);
+    law.residual_sine_ = sine_of(strength.residual_friction_angle);
+    law.ratio_ = pressure_ratio(law.sine_);
     law.root_of_ratio_ = std::sqrt(law.ratio_);
-    const Real flow_ratio = pressure_ratio(dilation_angle);
-    law.cohesion_ = cohesion;
-    law.residual_cohesion_ = residual_cohesion;
-    law.tension_cutoff_ = tension_cutoff;
+    const Real flow_ratio = pressure_ratio(sine_of(strength.dilation_angle));
+    law.cohesion_ = strength.cohesion;
+    law.residual_cohesion_ = strength.residual_cohesion;
+    law.softening_rate_ = Real(1) / strength.softening_strain;
+    law.tension_cutoff_ = strength.tension_cutoff;
     law.elastic_ = elastic;
     for (int j = 0; j < planes; ++j) {
       const Vector<Real, 3> flow = normal(j, flow_ratio);
       law.relaxation_[j] =
           Real(2) * elastic.shear_modulus * flow + Vector<Real, 3>::Constant(elastic.lame_lambda * flow.sum());
     }
-    for (int i = 0; i < planes; ++i) {
-      law.normal_[i] = normal(i, law.ratio_);
-    }
-    for (int s = 0; s < set_count; ++s) {
-      const ActiveSet& set = active_set(s);
-      Matrix<Real, 3> coupling = Matrix<Real, 3>::Identity();
-      for (int a = 0; a < set.count; ++a) {
-        for (int b = 0; b < set.count; ++b) {
-          coupling(a, b) = law.normal_[set.plane[a]].dot(law.relaxation_[set.plane[b]]);
-        }
+    if constexpr (!friction_falls) {
+      for (int i = 0; i < planes; ++i) {
+        law.of_angle_.normal[i] = normal(i, law.ratio_);
       }
-      law.inverse_coupling_[s] = coupling.inverse();
+      for (int s = 0; s < set_count; ++s) {
+        law.of_angle_.inverse_coupling[s] = law.coupling(s, law.ratio_).inverse();
+      }
     }
     return law;
   }
@@ -84,8 +72,8 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     if (residual_cohesion_ == cohesion_ || !any(has_yielded)) {
       return cohesion_;
     }
-    const Value share = each_lane(plastic_strain, [](Real strain) { return std::exp(-strain); });
-    return select(has_yielded, residual_cohesion_ + (cohesion_ - residual_cohesion_) * share, Value(cohesion_));
+    return select(has_yielded, residual_cohesion_ + (cohesion_ - residual_cohesion_) * share_left(plastic_strain),
+                  Value(cohesion_));
   }
 
   // Whether an elastic trial stress [Pa] may be beyond the yield surface: yes only if it is, to round-off, for intact
@@ -94,17 +82,16 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   template <int Dim, class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto may_yield(const SymmetricTensor<Value>& trial,
                                                                     Value plastic_strain) const {
-    using std::sqrt;
-    // exp(-eps) is nowhere below 1 - eps.
-    const Value lowest_cohesion = min(cohesion_, residual_cohesion_) + max(cohesion_ - residual_cohesion_, Real(0)) *
-                                                                           max(Real(1) - plastic_strain, Value(0));
-    const Value shear_limit = Real(2) * root_of_ratio_ * lowest_cohesion;
-    if constexpr (Dim == 2) {
-      const Value centre = Real(0.5) * (trial[0] + trial[1]), half_difference = Real(0.5) * (trial[0] - trial[1]);
-      const Value radius = sqrt(half_difference * half_difference + trial[3] * trial[3]);
-      return !is_elastic(max(centre + radius, trial[2]), min(centre - radius, trial[2]), shear_limit);
+    // exp(-x) is nowhere below 1 - x.
+    const Value lowest_share = max(Real(1) - softening_rate_ * plastic_strain, Value(0));
+    const Value lowest_cohesion =
+        min(cohesion_, residual_cohesion_) + max(cohesion_ - residual_cohesion_, Real(0)) * lowest_share;
+    const Surface<Value> of_intact_angle{ratio_, Real(2) * root_of_ratio_ * lowest_cohesion};
+    if constexpr (friction_falls) {
+      // Over phi, F falls and then rises: a stress within the surface at both ends is so in between.
+      return is_beyond<Dim>(trial, of_intact_angle) | is_beyond<Dim>(trial, surface_of(lowest_share, lowest_cohesion));
     } else {
-      return !surely_elastic(trial, shear_limit);
+      return is_beyond<Dim>(trial, of_intact_angle);
     }
   }
 
@@ -113,19 +100,20 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   [[nodiscard]] THAWSLIDE_HD ReturnResult<Value> update(const SymmetricTensor<Value>& trial,
                                                         Value plastic_strain) const {
     using std::abs, std::sqrt;
-    const Value shear_limit = Real(2) * root_of_ratio_ * cohesion(plastic_strain);
-    if (!any(!surely_elastic(trial, shear_limit))) {
+    const Surface<Value> surface = surface_after(plastic_strain);
+    if (!any(!surely_elastic(trial, surface))) {
       return {trial};
     }
     Principal<Value> state = principal<Dim>(trial);
     const Vector<Value, 3> trial_values = state.values;
-    const Value tolerance = round_off * (ratio_ * max(abs(trial_values[0]), abs(trial_values[2])) + shear_limit);
-    const auto yielded = !is_elastic(trial_values[0], trial_values[2], shear_limit, tolerance);
+    const Value tolerance =
+        round_off * (surface.ratio * max(abs(trial_values[0]), abs(trial_values[2])) + surface.shear_limit);
+    const auto yielded = !is_elastic(trial_values[0], trial_values[2], surface, tolerance);
     if (!any(yielded)) {
       return {trial};
     }
     Value torn = 0;
-    state.values = returned(trial_values, shear_limit, tolerance, yielded, torn);
+    state.values = returned(trial_values, surface, tolerance, yielded, torn);
     const Vector<Value, 3> plastic = elastic_strain(Vector<Value, 3>(trial_values - state.values));
     const SymmetricTensor<Value> stress = from_principal(state);
     const auto if_yielded = [&](Value value) { return select(yielded, value, Value(0)); };
@@ -146,6 +134,13 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   static constexpr int planes = 6;
   static constexpr Real round_off = by_precision<Real>(1e-12, 1e-6);
 
+  // k s1 - s3 = shear limit: k and 2 c sqrt(k) [Pa].
+  template <class Value>
+  struct Surface {
+    std::conditional_t<friction_falls, Value, Real> ratio;
+    Value shear_limit;
+  };
+
   struct ActiveSet {
     int count;
     int plane[3];
@@ -160,32 +155,74 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return sets[number];
   }
 
+  // w: the share of the strength that softens which is left.
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_left(Value plastic_strain) const {
+    return each_lane(softening_rate_ * plastic_strain, [](Real strains) { return std::exp(-strains); });
+  }
+
+  // Of a share of the friction's sine and of a cohesion [Pa].
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Surface<Value> surface_of(Value share, Value cohesion) const {
+    using std::sqrt;
+    const Value ratio = pressure_ratio<Value>(residual_sine_ + (sine_ - residual_sine_) * share);
+    return {ratio, Real(2) * sqrt(ratio) * cohesion};
+  }
+
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Surface<Value> surface_after(Value plastic_strain) const {
+    if constexpr (friction_falls) {
+      const Value share = share_left(plastic_strain);
+      return surface_of<Value>(share, residual_cohesion_ + (cohesion_ - residual_cohesion_) * share);
+    } else {
+      return {ratio_, Real(2) * root_of_ratio_ * cohesion(plastic_strain)};
+    }
+  }
+
   // Of the largest and the smallest principal stress, or of bounds on them.
   template <class Value>
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_elastic(Value largest, Value smallest, Value shear_limit,
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_elastic(Value largest, Value smallest,
+                                                                     const Surface<Value>& surface,
                                                                      Value tolerance = 0) const {
-    return (ratio_ * largest - smallest <= shear_limit + tolerance) & (largest <= tension_cutoff_ + tolerance);
+    return (surface.ratio * largest - smallest <= surface.shear_limit + tolerance) &
+           (largest <= tension_cutoff_ + tolerance);
+  }
+
+  // No only if the stress is within the surface; in plane strain yes only if it is beyond.
+  template <int Dim, class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_beyond(const SymmetricTensor<Value>& trial,
+                                                                    const Surface<Value>& surface) const {
+    using std::sqrt;
+    if constexpr (Dim == 2) {
+      const Value centre = Real(0.5) * (trial[0] + trial[1]), half_difference = Real(0.5) * (trial[0] - trial[1]);
+      const Value radius = sqrt(half_difference * half_difference + trial[3] * trial[3]);
+      return !is_elastic(max(centre + radius, trial[2]), min(centre - radius, trial[2]), surface);
+    } else {
+      return !surely_elastic(trial, surface);
+    }
   }
 
   // Whether the stress is within the surface whatever its Lode angle: no principal stress lies further from the mean m
   // than r = 2 sqrt(J2/3). Spares most particles their principal stresses.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto surely_elastic(const SymmetricTensor<Value>& s,
-                                                                         Value shear_limit) const {
+                                                                         const Surface<Value>& surface) const {
     using std::sqrt;
     const Value mean = (s[0] + s[1] + s[2]) / Value(3);
     const Value a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
     const Value second_invariant = Real(0.5) * (a * a + b * b + c * c) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
     const Value reach = Real(2) * sqrt(second_invariant / Real(3));
-    return is_elastic(mean + reach, mean - reach, shear_limit);
+    return is_elastic(mean + reach, mean - reach, surface);
   }
 
-  static Real pressure_ratio(Real angle) {
-    const Real sine = std::sin(angle * pi<Real> / Real(180));
+  static Real sine_of(Real degrees) { return std::sin(degrees * pi<Real> / Real(180)); }
+
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static Value pressure_ratio(Value sine) {
     return (Real(1) + sine) / (Real(1) - sine);
   }
 
-  static Vector<Real, 3> normal(int plane, Real ratio) {
+  [[nodiscard]] THAWSLIDE_HD static Vector<Real, 3> normal(int plane, Real ratio) {
     switch (plane) {
       case 0:
         return {ratio, Real(0), Real(-1)};
@@ -201,22 +238,25 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   // Principal stresses on the yield surface for those that yielded; torn: 1 at the apex or on the cut-off, else 0. Most
   // return to the face; the others one by one.
   template <class Value, class Condition>
-  [[nodiscard]] THAWSLIDE_HD Vector<Value, 3> returned(const Vector<Value, 3>& trial, Value shear_limit,
+  [[nodiscard]] THAWSLIDE_HD Vector<Value, 3> returned(const Vector<Value, 3>& trial, const Surface<Value>& surface,
                                                        Value tolerance, const Condition& yielded, Value& torn) const {
-    const Value multiplier = inverse_coupling_[0](0, 0) * (ratio_ * trial[0] - trial[2] - shear_limit);
+    const auto ratio = surface.ratio;
+    const Value shear_limit = surface.shear_limit;
+    const Value multiplier = inverse_coupling_of_face(ratio) * (ratio * trial[0] - trial[2] - shear_limit);
     Vector<Value, 3> values;
     for (int k = 0; k < 3; ++k) {
       values[k] = trial[k] - multiplier * relaxation_[0][k];
     }
-    const auto in_order = (ratio_ * values[0] - values[1] <= shear_limit + tolerance) &
-                          (ratio_ * values[1] - values[2] <= shear_limit + tolerance);
+    const auto in_order = (ratio * values[0] - values[1] <= shear_limit + tolerance) &
+                          (ratio * values[1] - values[2] <= shear_limit + tolerance);
     const auto below_cutoff = (values[0] <= tension_cutoff_ + tolerance) & (values[1] <= tension_cutoff_ + tolerance) &
                               (values[2] <= tension_cutoff_ + tolerance);
     const auto elsewhere = yielded & !((multiplier >= Value(0)) & in_order & below_cutoff);
     for_each_lane(elsewhere, [&](std::size_t lane) {
       bool torn_here = false;
       const Vector<Real, 3> one(in_lane(trial[0], lane), in_lane(trial[1], lane), in_lane(trial[2], lane));
-      const Vector<Real, 3> found = returned_one(one, in_lane(shear_limit, lane), in_lane(tolerance, lane), torn_here);
+      const Vector<Real, 3> found =
+          returned_one(one, in_lane(ratio, lane), in_lane(shear_limit, lane), in_lane(tolerance, lane), torn_here);
       for (int k = 0; k < 3; ++k) {
         set_lane(values[k], lane, found[k]);
       }
@@ -226,7 +266,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   }
 
   // Of one, by all sets of active planes.
-  [[nodiscard]] THAWSLIDE_HD Vector<Real, 3> returned_one(const Vector<Real, 3>& trial, Real shear_limit,
+  [[nodiscard]] THAWSLIDE_HD Vector<Real, 3> returned_one(const Vector<Real, 3>& trial, Real ratio, Real shear_limit,
                                                           Real tolerance, bool& torn) const {
     Vector<Real, planes> limits;
     limits << Vector<Real, 3>::Constant(shear_limit), Vector<Real, 3>::Constant(tension_cutoff_);
@@ -234,21 +274,22 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     for (int s = 0; s < set_count; ++s) {
       const ActiveSet& set = active_set(s);
       Vector<Real, 3> values = trial;
-      if (set.plane[set.count - 1] < with_cutoff && relax(s, limits, values) && admissible(values, limits, tolerance)) {
+      if (set.plane[set.count - 1] < with_cutoff && relax(s, ratio, limits, values) &&
+          admissible(values, ratio, limits, tolerance)) {
         torn = set.plane[set.count - 1] >= 3 || set.plane[0] >= 3;
         return values;
       }
     }
     torn = true;
     // k s - s = limit on the hydrostatic axis.
-    const Real apex = ratio_ > Real(1) ? limits[0] / (ratio_ - Real(1)) : trial.mean();
+    const Real apex = ratio > Real(1) ? limits[0] / (ratio - Real(1)) : trial.mean();
     return Vector<Real, 3>::Constant(apex < tension_cutoff_ ? apex : tension_cutoff_);
   }
 
-  [[nodiscard]] THAWSLIDE_HD bool admissible(const Vector<Real, 3>& values, const Vector<Real, planes>& limits,
-                                             Real tolerance) const {
+  [[nodiscard]] THAWSLIDE_HD bool admissible(const Vector<Real, 3>& values, Real ratio,
+                                             const Vector<Real, planes>& limits, Real tolerance) const {
     for (int i = 0; i < planes; ++i) {
-      if (normal_[i].dot(values) - limits[i] > tolerance) {
+      if (normal_at(i, ratio).dot(values) - limits[i] > tolerance) {
         return false;
       }
     }
@@ -256,13 +297,14 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   }
 
   // Takes the plastic strain of an active set of planes off the trial stress; false if a multiplier is negative.
-  [[nodiscard]] THAWSLIDE_HD bool relax(int number, const Vector<Real, planes>& limits, Vector<Real, 3>& values) const {
+  [[nodiscard]] THAWSLIDE_HD bool relax(int number, Real ratio, const Vector<Real, planes>& limits,
+                                        Vector<Real, 3>& values) const {
     const ActiveSet& set = active_set(number);
     Vector<Real, 3> excess = Vector<Real, 3>::Zero();
     for (int a = 0; a < 3 && a < set.count; ++a) {
-      excess[a] = normal_[set.plane[a]].dot(values) - limits[set.plane[a]];
+      excess[a] = normal_at(set.plane[a], ratio).dot(values) - limits[set.plane[a]];
     }
-    const Vector<Real, 3> multipliers = inverse_coupling_[number] * excess;
+    const Vector<Real, 3> multipliers = inverse_coupling(number, ratio) * excess;
     for (int a = 0; a < 3 && a < set.count; ++a) {
       if (!(multipliers[a] >= Real(0))) {
         return false;
@@ -281,17 +323,62 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return compliance * (stress - Vector<Value, 3>::Constant(mean));
   }
 
-  Real ratio_ = 1;          // k
-  Real root_of_ratio_ = 1;  // of k
+  // Of the planes of a set: normal . relaxation; 1 on the diagonal of what is no plane.
+  [[nodiscard]] THAWSLIDE_HD Matrix<Real, 3> coupling(int number, Real ratio) const {
+    const ActiveSet& set = active_set(number);
+    Matrix<Real, 3> coupling = Matrix<Real, 3>::Identity();
+    for (int a = 0; a < 3 && a < set.count; ++a) {
+      for (int b = 0; b < 3 && b < set.count; ++b) {
+        coupling(a, b) = normal_at(set.plane[a], ratio).dot(relaxation_[set.plane[b]]);
+      }
+    }
+    return coupling;
+  }
+
+  // Of the face of s1 and s3.
+  template <class Ratio>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Ratio inverse_coupling_of_face(Ratio ratio) const {
+    if constexpr (friction_falls) {
+      return Real(1) / (ratio * relaxation_[0][0] - relaxation_[0][2]);
+    } else {
+      return of_angle_.inverse_coupling[0](0, 0);
+    }
+  }
+
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE decltype(auto) normal_at(int plane, Real ratio) const {
+    if constexpr (friction_falls) {
+      return normal(plane, ratio);
+    } else {
+      return (of_angle_.normal[plane]);
+    }
+  }
+
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE decltype(auto) inverse_coupling(int number, Real ratio) const {
+    if constexpr (friction_falls) {
+      return Matrix<Real, 3>(coupling(number, ratio).inverse());
+    } else {
+      return (of_angle_.inverse_coupling[number]);
+    }
+  }
+
+  // What follows from a friction angle that stays.
+  struct OfAngle {
+    Vector<Real, 3> normal[planes];
+    Matrix<Real, 3> inverse_coupling[set_count];
+  };
+  struct Nothing {};
+
+  Real sine_ = 0, residual_sine_ = 0;   // of phi_0 and phi_f
+  Real ratio_ = 1, root_of_ratio_ = 1;  // of phi_0: k, sqrt(k)
   Real cohesion_ = 0, residual_cohesion_ = 0, tension_cutoff_ = 0;
+  Real softening_rate_ = 1;  // 1/eps_c
   Elastic<Real> elastic_;
-  Vector<Real, 3> normal_[planes];
-  Vector<Real, 3> relaxation_[planes];           // elastic stress of a plane's flow [Pa per unit multiplier]
-  Matrix<Real, 3> inverse_coupling_[set_count];  // of the planes of a set: normal_[i] . relaxation_[j]
+  Vector<Real, 3> relaxation_[planes];  // elastic stress of a plane's flow [Pa per unit multiplier]
+  std::conditional_t<friction_falls, Nothing, OfAngle> of_angle_;
 };
 
 // Chosen once per run of particles of one material, never per particle.
 template <class Real>
-using ConstitutiveLaw = std::variant<LinearElastic<Real>, MohrCoulomb<Real>>;
+using ConstitutiveLaw = std::variant<LinearElastic<Real>, MohrCoulomb<Real>, MohrCoulomb<Real, true>>;
 
 }  // namespace thawslide::physics

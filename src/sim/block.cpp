@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <variant>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "physics/bend.hpp"
 #include "physics/contact.hpp"
+#include "sim/block_band_column.hpp"
 #include "sim/block_column.hpp"
 #include "sim/bodies.hpp"
 #include "sim/initial_state.hpp"
@@ -28,6 +31,11 @@ class Path {
   }
   [[nodiscard]] double length_at(double x) const { return map(line_->x(), length_, x); }
   [[nodiscard]] double x_at(double length) const { return map(length_, line_->x(), length); }
+  // Mean over a span of the way [1/m], positive where the ground is hollow.
+  [[nodiscard]] double curvature(double length, double span) const {
+    const auto angle = [&](double at) { return std::atan(line_->gradient(x_at(at))); };
+    return (angle(length + 0.5 * span) - angle(length - 0.5 * span)) / span;
+  }
 
  private:
   static double map(const std::vector<double>& from, const std::vector<double>& to, double value) {
@@ -84,16 +92,22 @@ Vector<double, 2> normal_below(const Model<2, double>& model, double x) {
 }
 
 struct Forces {
-  double along = 0, normal = 0;  // of gravity, downhill and into the ground [N per m of width]
+  double along = 0, normal = 0;  // of gravity downhill, and into the ground [N per m of width]
 };
 
-Forces gravity_on_slices(const Model<2, double>& model, const Path& path, const Slices& slices, double displacement) {
+// speed: with which the slices follow the bends of the ground [m/s].
+Forces forces_on_slices(const Model<2, double>& model, const Path& path, const Slices& slices, double displacement,
+                        double speed) {
   Forces forces;
   for (const Slice& slice : slices.all) {
-    const Vector<double, 2> normal = normal_below(model, path.x_at(slice.path + displacement));
+    const double place = slice.path + displacement;
+    const Vector<double, 2> normal = normal_below(model, path.x_at(place));
     const Vector<double, 2> tangent(-normal[1], normal[0]);  // towards +x
     forces.along += slice.mass * model.motion.gravity.dot(tangent);
-    forces.normal += std::max(0.0, slice.mass * model.motion.gravity.dot(normal));
+    // A slide bridges bends shorter than it is thick; over less than a slice its neighbours would miss some of a kink.
+    const double span = std::max(slice.base, slices.thickness);
+    forces.normal +=
+        physics::load_in_bend(slice.mass, model.motion.gravity.dot(normal), speed, path.curvature(place, span));
   }
   return forces;
 }
@@ -106,7 +120,7 @@ class Block {
         model_(model),
         path_(*model.profile),
         slices_(make_slices(parameters, model, path_, particles)),
-        column_(model_.band, initial_column(particles.material(0))) {
+        column_(make_column(particles.material(0))) {
     const auto& start = parameters.bodies.begin()->second.velocity;
     const Vector<double, 2> into = normal_below(model, slices_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
@@ -114,10 +128,9 @@ class Block {
   }
 
   void step(double dt) {
-    const Forces gravity = evaluate_base();
-    const double trial = slices_.mass * velocity_ + dt * gravity.along;
-    const auto impulse =
-        physics::contact_impulse(dt * gravity.normal, std::abs(trial), slices_.base, dt, basal_.strength[0]);
+    const Forces forces = evaluate_base();
+    const double trial = slices_.mass * velocity_ + dt * forces.along;
+    const auto impulse = physics::contact_impulse(dt * forces.normal, std::abs(trial), slices_.base, dt, strength_);
     const double old_velocity = velocity_;
     velocity_ = (trial - std::copysign(impulse.tangential, trial)) / slices_.mass;
     const double middle = 0.5 * (old_velocity + velocity_);
@@ -127,25 +140,16 @@ class Block {
     friction_heat_ += heat;
     displacement_ += middle * dt;
     slip_ += impulse.slides ? std::abs(middle) * dt : 0.0;
-    const Table& thickness = parameters_.band.thickness;
-    heat_gain_ += column_.step(heat / dt, thickness.value.empty() ? 0.0 : thickness.at(time_), dt);
+    const BlockDrive drive{heat / dt, basal_.normal_pressure[0], std::abs(middle), slip_, band_thickness(), dt};
+    heat_gain_ += std::visit([&](auto& column) { return column.step(drive); }, column_);
     time_ += dt;
   }
 
   [[nodiscard]] double time() const { return time_; }
 
   HistoryRow row() {
-    const Forces gravity = evaluate_base();
-    const mpm::Particles<2, double>& rows = column_.rows();
-    double count = 0.0, temperature = 0.0, saturation = 0.0, pressure = 0.0;
-    for (std::size_t p = 0; p < rows.size(); ++p) {
-      if (rows.in_band(p) != 0) {
-        count += 1.0;
-        temperature += rows.temperature(p);
-        saturation += rows.liquid_saturation(p);
-        pressure += rows.pore_pressure(p);
-      }
-    }
+    const Forces forces = evaluate_base();
+    const BlockBand band = std::visit([](const auto& column) { return column.band(); }, column_);
     const double front = path_.x_at(slices_.all.back().path + displacement_) + model_.origin[0];
     return {{"time_s", time_},
             {"velocity_m_s", velocity_},
@@ -153,18 +157,39 @@ class Block {
             {"front_position_m", front + 0.5 * parameters_.grid.cell},
             {"normal_pressure_Pa", basal_.normal_pressure[0]},
             {"pore_pressure_Pa", basal_.pore_pressure[0]},
-            {"sliding_strength_Pa", basal_.strength[0]},
-            {"driving_traction_Pa", gravity.along / slices_.base},
-            {"band_temperature_C", temperature / count},
-            {"band_saturation", saturation / count},
-            {"band_pore_pressure_Pa", pressure / count},
-            {"band_friction_coefficient", basal_.friction[0]},
+            {"sliding_strength_Pa", strength_},
+            {"driving_traction_Pa", forces.along / slices_.base},
+            {"band_temperature_C", band.temperature},
+            {"band_saturation", band.saturation},
+            {"band_pore_pressure_Pa", band.pore_pressure},
+            {"band_friction_coefficient", friction_},
             {"friction_work_J_m2", friction_work_},
             {"friction_heat_J_m2", friction_heat_},
             {"heat_gain_J_m2", heat_gain_}};
   }
 
  private:
+  using AnyColumn = std::variant<BlockColumn, BlockBandColumn>;
+
+  [[nodiscard]] double band_thickness() const {
+    const Table& thickness = parameters_.band.thickness;
+    return thickness.value.empty() ? 0.0 : thickness.at(time_);
+  }
+
+  [[nodiscard]] AnyColumn make_column(std::int32_t material) const {
+    const BlockColumn::Initial rows = initial_column(material);
+    if (!model_.contact.band_columns) {
+      return AnyColumn(std::in_place_type<BlockColumn>, model_.band, rows);
+    }
+    const double temperature = rows.temperature(rows.thickness);
+    const double saturation =
+        model_.band.with_heat_content([&](const auto& content) { return content.curve.saturation(temperature); });
+    const double conductivity = model_.band.hydraulic_conductivity[static_cast<std::size_t>(material)];
+    const ColumnMatter matter{temperature, rows.porosity(rows.thickness, saturation), conductivity, rows.thickness};
+    return AnyColumn(std::in_place_type<BlockBandColumn>, make_columns_model(parameters_, model_, matter),
+                     band_thickness(), rows.normal_pressure, parameters_.band.column_step);
+  }
+
   [[nodiscard]] BlockColumn::Initial initial_column(std::int32_t material) const {
     const config::Body& body = parameters_.bodies.begin()->second;
     const auto seed_at = [this](double depth) {
@@ -172,6 +197,7 @@ class Block {
     };
     return {slices_.thickness,
             parameters_.grid.cell,
+            forces_on_slices(model_, path_, slices_, 0.0, 0.0).normal / slices_.base,
             body.particles_per_axis,
             material,
             [&, seed_at](double depth) { return initial_temperature(model_, body, nullptr, seed_at(depth)); },
@@ -180,29 +206,56 @@ class Block {
             }};
   }
 
-  // The law's view of the base now; returns gravity's forces.
+  // The law's view of the base now, averaged over what the slices stand on; returns the forces on the slices.
   Forces evaluate_base() {
-    const Forces gravity = gravity_on_slices(model_, path_, slices_, displacement_);
-    const BlockBase base = column_.base();
+    const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
+    const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
+    const BlockBase base = std::visit([](const auto& column) { return column.base(); }, column_);
     basal_.count = 1;
-    basal_.normal_pressure[0] = gravity.normal / slices_.base;
+    basal_.normal_pressure[0] = forces.normal / slices_.base;
     basal_.pore_pressure[0] = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
     basal_.temperature[0] = base.temperature;
     basal_.saturation[0] = base.saturation;
     basal_.solid_fraction[0] = base.solid_fraction;
     basal_.slip[0] = slip_;
     basal_.speed[0] = std::abs(velocity_);
-    evaluate_basal_law(model_.contact.law, time_, basal_);
-    return gravity;
+    strength_ = friction_ = 0.0;
+    const std::vector<double> shares = mass_on_substrates();
+    for (std::size_t number = 0; number < shares.size(); ++number) {
+      if (shares[number] > 0.0) {
+        basal_.substrate[0] = static_cast<int>(number);
+        evaluate_basal_law(model_.contact.law, time_, basal_);
+        strength_ += shares[number] * basal_.strength[0];
+        friction_ += shares[number] * basal_.friction[0];
+      }
+    }
+    return forces;
+  }
+
+  // By number of the substrate: the share of the mass whose slices stand on it.
+  [[nodiscard]] std::vector<double> mass_on_substrates() const {
+    if (!model_.substrates) {
+      return {1.0};
+    }
+    std::vector<double> shares(model_.contact.law.grounds.size(), 0.0);
+    for (const Slice& slice : slices_.all) {
+      const int number = model_.substrates->at(path_.x_at(slice.path + displacement_), 0.0);
+      shares[static_cast<std::size_t>(number)] += slice.mass;
+    }
+    for (double& share : shares) {
+      share /= slices_.mass;
+    }
+    return shares;
   }
 
   const config::Case& parameters_;
   const Model<2, double>& model_;
   Path path_;
   Slices slices_;
-  BlockColumn column_;
-  terrain::BasalNodes<double> basal_;
   double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;
+  AnyColumn column_;
+  terrain::BasalNodes<double> basal_;
+  double strength_ = 0, friction_ = 0;  // of the base now: [Pa]; mu_e
   double friction_work_ = 0, friction_heat_ = 0, heat_gain_ = 0;
 };
 

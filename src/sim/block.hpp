@@ -1,8 +1,9 @@
 // The rigid-block model: the same case without deformation. The body, cut into vertical slices, keeps its shape and
 // slides along the terrain; under it one column of particle rows carries the band's heat and pore pressure, through the
 // stages of the MPM's own step. The rows stand where the MPM's particles stand on flat ground, so that on a plane
-// aligned with the grid the two agree. What it leaves out: deformation, the bends' centrifugal pressure, differences of
-// the band along the base. Of a 3D case on a DEM it slides the section along a path (path_section.hpp).
+// aligned with the grid the two agree. What it leaves out: deformation, differences of the band along the base, and,
+// unless block.bends is on, the pressure of bends. Of a 3D case on a DEM it slides the section along a path
+// (path_section.hpp).
 #pragma once
 
 #include "config/site.hpp"

@@ -24,8 +24,9 @@ band::BandModel<2, double> of_a_rigid_body(band::BandModel<2, double> model) {
 }  // namespace
 
 BlockColumn::BlockColumn(const band::BandModel<2, double>& model, const Initial& initial)
-    : model_(of_a_rigid_body(model)), grid_(initial.cell) {
+    : model_(of_a_rigid_body(model)), grid_(initial.cell), thickness_(initial.thickness) {
   const double row_height = initial.cell / initial.rows_per_cell;
+  band::keep_fields(model_, rows_);
   rows_.resize(static_cast<std::size_t>(std::max(1.0, std::round(initial.thickness / row_height))));
   for (std::size_t p = 0; p < rows_.size(); ++p) {
     const double height = (static_cast<double>(p) + 0.5) * row_height;
@@ -43,6 +44,7 @@ BlockColumn::BlockColumn(const band::BandModel<2, double>& model, const Initial&
     rows_.porosity(p) = rows_.initial_porosity(p) = initial.porosity(depth, saturation);
   }
   band::set_heat_content(model_, rows_);
+  set_normal_load(initial.normal_pressure);
   band::set_pore_pressure(model_, rows_);
   grid_.update(rows_, 0);
   flow_depth_.update(grid_, model_, {}, rows_);
@@ -63,23 +65,34 @@ void BlockColumn::find_base_nodes() {
   }
   nodes_.contact.hold(grid_.blocks().size(), [&](std::size_t b) { return is_base[b] != 0; });
   for (const mpm::NodeAt& node : base_nodes_) {
-    std::fill_n(nodes_.contact.of_block(node.block), mpm::Tile<2>::nodes, std::array<double, 4>{});
+    std::fill_n(nodes_.contact.of_block(node.block), mpm::Tile<2>::nodes,
+                mpm::RecordsOf<mpm::Contact, 2, double>::Record{});
   }
 }
 
-double BlockColumn::step(double flux, double band_thickness, double dt) {
-  band::rescale_band<2, double>(grid_, model_, band_thickness, {}, rows_);
+void BlockColumn::set_normal_load(double normal_pressure) {
+  for (std::size_t p = 0; model_.needs_normal_load() && p < rows_.size(); ++p) {
+    const double load = normal_pressure * rows_.flow_depth(p) / thickness_;
+    rows_.load_change(p) = load - rows_.normal_load(p);
+    rows_.normal_load(p) = load;
+  }
+}
+
+double BlockColumn::step(const BlockDrive& drive) {
+  band::rescale_band<2, double>(grid_, model_, drive.band_thickness, {}, rows_);
   band::average_on_grid(grid_, model_, rows_, nodes_);
+  band::average_seeping_water(grid_, model_, rows_, nodes_);
   const double before = heat();
   if (model_.heat) {
     for (const mpm::NodeAt& node : base_nodes_) {
       nodes_.contact.of_block(node.block)[node.node][mpm::Contact::friction_heat] =
-          flux / static_cast<double>(base_nodes_.size());
+          drive.heat_flux / static_cast<double>(base_nodes_.size());
     }
-    band::conduct_heat(grid_, model_, dt, false, nodes_, rows_);
+    band::conduct_heat(grid_, model_, drive.dt, false, nodes_, rows_);
   }
   if (model_.pressure) {
-    band::drain_pore_pressure(grid_, model_, flow_depth_, dt, nodes_, rows_);
+    set_normal_load(drive.normal_pressure);
+    band::drain_pore_pressure(grid_, model_, flow_depth_, drive.dt, nodes_, rows_);
   }
   return heat() - before;
 }
@@ -106,6 +119,20 @@ BlockBase BlockColumn::base() const {
   }
   return {base.pore_pressure / weights, base.saturation / weights, base.solid_fraction / weights,
           base.temperature / weights};
+}
+
+BlockBand BlockColumn::band() const {
+  double count = 0.0;
+  BlockBand band{};
+  for (std::size_t p = 0; p < rows_.size(); ++p) {
+    if (rows_.in_band(p) != 0) {
+      count += 1.0;
+      band.temperature += rows_.temperature(p);
+      band.saturation += rows_.liquid_saturation(p);
+      band.pore_pressure += rows_.pore_pressure(p);
+    }
+  }
+  return {band.temperature / count, band.saturation / count, band.pore_pressure / count};
 }
 
 }  // namespace thawslide::sim

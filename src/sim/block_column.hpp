@@ -16,12 +16,22 @@ namespace thawslide::sim {
 struct BlockBase {
   double pore_pressure, saturation, solid_fraction, temperature;
 };
+// Means over the band.
+struct BlockBand {
+  double temperature, saturation, pore_pressure;
+};
+// What one step does to the base: heat flux into it [W/m2], normal pressure on it [Pa], speed of slip [m/s], slip [m],
+// thickness of the band as the case has it [m], 0: no band.
+struct BlockDrive {
+  double heat_flux, normal_pressure, speed, slip, band_thickness, dt;
+};
 
 class BlockColumn {
  public:
   // Rows of an initially uniform body of given normal thickness [m]; fields of depth come in through `initial`.
   struct Initial {
     double thickness, cell;
+    double normal_pressure;  // on the base [Pa]
     int rows_per_cell;
     std::int32_t material;                                            // number, as in Model
     std::function<double(double depth)> temperature;                  // [C]
@@ -29,16 +39,18 @@ class BlockColumn {
   };
   BlockColumn(const band::BandModel<2, double>& model, const Initial& initial);
 
-  // One step with a heat flux into the base [W/m2] and a band that is so thick [m], 0: no band. Returns the heat that
-  // rows gained per base area [J/m2].
-  double step(double flux, double band_thickness, double dt);
+  // Returns the heat that rows gained per base area [J/m2].
+  double step(const BlockDrive& drive);
 
   // Per base area; heights above the base, in the MPM's unscaled cells.
   [[nodiscard]] const mpm::Particles<2, double>& rows() const { return rows_; }
   [[nodiscard]] BlockBase base() const;
+  [[nodiscard]] BlockBand band() const;
 
  private:
   void find_base_nodes();
+  // The load on rows, in proportion to what lies above them.
+  void set_normal_load(double normal_pressure);
   [[nodiscard]] double heat() const;
 
   band::BandModel<2, double> model_;
@@ -47,6 +59,7 @@ class BlockColumn {
   mpm::Nodes<2, double> nodes_;
   band::FlowDepth<2, double> flow_depth_;
   std::vector<mpm::NodeAt> base_nodes_;
+  double thickness_;
 };
 
 }  // namespace thawslide::sim

@@ -1,4 +1,6 @@
 // Sums over the particles of a run: energies, masses, momentum.
+#include <algorithm>
+
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"
 
@@ -39,6 +41,19 @@ PhaseMasses<Real> current_masses(const mpm::Particles<Dim, Real>& particles, con
           pore * saturation * phases.water_density};
 }
 
+// Void in the pores of a particle's own part of the band [m3]; what is still frozen leaves less of it than its water.
+template <int Dim, class Real>
+Real void_in_pores(const band::BandModel<Dim, Real>& band, const mpm::Particles<Dim, Real>& particles,
+                   std::uint32_t p) {
+  if (!particles.pore_void.is_kept()) {
+    return Real(0);
+  }
+  const Real frozen = band.melt_contracts ? physics::melting_void(band.phases, particles.initial_porosity(p),
+                                                                  Real(1) - particles.liquid_saturation(p))
+                                          : Real(0);
+  return std::max(particles.pore_void(p) - frozen, Real(0)) * particles.volume(p) / particles.thermal_scaling(p);
+}
+
 }  // namespace
 
 template <int Dim, class Real>
@@ -72,6 +87,8 @@ BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation, const
     sums.rock += masses.rock;
     sums.ice += masses.ice;
     sums.water += masses.water;
+    sums.seeped += particles.seeped_water.is_kept() ? particles.seeped_water(p) : Real(0);
+    sums.gas += void_in_pores(model.band, particles, p);
   }
   return sums;
 }

@@ -15,6 +15,58 @@ struct Means {
   double band_mass = 0.0, band_temperature = 0.0, band_saturation = 0.0, band_pore_pressure = 0.0;
 };
 
+// What the band's figures are: means over its particles, or over the base where it is of columns.
+template <int Dim, class Real>
+void add_band(const Simulation<Dim, Real>& simulation, const Means& means, HistoryRow& row) {
+  const auto add = [&](const char* name, double value) { row.emplace_back(name, value); };
+  if (const auto* columns = simulation.band_columns()) {
+    const band::BaseMeans<Real> base = columns->means();
+    add("band_temperature_C", static_cast<double>(base.temperature));
+    add("band_saturation", static_cast<double>(base.saturation));
+    add("band_pore_pressure_Pa", static_cast<double>(base.pore_pressure));
+    add("band_normal_pressure_Pa", static_cast<double>(base.load));
+    add("band_shear_Pa", static_cast<double>(simulation.contact().shear_force / simulation.contact().area));
+    add("band_thickness_m", static_cast<double>(base.thickness));
+    add("band_hottest_C", static_cast<double>(base.hottest));
+    add("band_largest_pressure_ratio", static_cast<double>(base.largest_pressure_ratio));
+    return;
+  }
+  const double mass = means.band_mass > 0.0 ? means.band_mass : std::nan("");
+  add("band_temperature_C", means.band_temperature / mass);
+  add("band_saturation", means.band_saturation / mass);
+  add("band_pore_pressure_Pa", means.band_pore_pressure / mass);
+}
+
+// The balances of heat and water in band columns; returns the heat that columns hold less what they got.
+template <int Dim, class Real, class Add>
+Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
+  const auto* columns = simulation.band_columns();
+  if (columns == nullptr) {
+    return Real(0);
+  }
+  const band::ColumnSums<Real> sums = columns->sums();
+  const band::ColumnLedger<Real>& ledger = columns->ledger();
+  const Real heat_in = ledger.laid_heat + ledger.body_heat + ledger.ground_heat;
+  const Real heat_out = ledger.vented_heat + ledger.steam_heat + ledger.left_heat;
+  const Real water_in = ledger.laid_water + ledger.body_water;
+  const Real water_out = ledger.vented_water + ledger.steam + ledger.left_water;
+  add("base_area_m2", sums.area);
+  add("column_heat_J", sums.heat);
+  add("column_intake_J", heat_in);
+  add("column_vented_J", ledger.vented_heat);
+  add("column_steam_J", ledger.steam_heat);
+  add("column_left_J", ledger.left_heat);
+  add("column_water_kg", sums.water);
+  add("column_intake_kg", water_in);
+  add("column_vented_kg", ledger.vented_water);
+  add("column_steam_kg", ledger.steam);
+  add("column_left_kg", ledger.left_water);
+  add("column_water_residual_kg", sums.water + water_out - water_in);
+  add("column_opening_m3", sums.opening);
+  add("column_void_m3", sums.gas_void);
+  return sums.heat + heat_out - heat_in;
+}
+
 // Mass-weighted sums over the body and over the band, in canonical order.
 template <int Dim, class Real>
 Means means_over_body(const Simulation<Dim, Real>& simulation) {
@@ -69,16 +121,24 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("advection_J", ledger.advection);
   add("capacity_heat_J", ledger.capacity_heat);
   add("porosity_heat_J", ledger.porosity_heat);
+  add("drained_heat_J", ledger.drained_heat);
   add("numerical_J", ledger.numerical);
   add("mechanical_residual_J", stored + dissipated + ledger.pore_work - ledger.frame_work - ledger.numerical +
                                    ledger.left_mechanical - ledger.joined_mechanical - ledger.initial_mechanical);
-  add("thermal_residual_J", sums.sensible + sums.latent - ledger.initial_thermal - ledger.friction_heat -
+  const Real in_columns = add_columns(simulation, add);
+  add("thermal_residual_J", in_columns + sums.sensible + sums.latent - ledger.initial_thermal - ledger.friction_heat -
                                 ledger.boundary_heat - ledger.band_rescale - ledger.advection - ledger.capacity_heat -
-                                ledger.porosity_heat + ledger.left_thermal - ledger.joined_thermal);
+                                ledger.porosity_heat + ledger.drained_heat + ledger.left_thermal -
+                                ledger.joined_thermal);
   add("mass_kg", sums.mass);
   add("rock_kg", sums.rock);
   add("ice_kg", sums.ice);
   add("water_kg", sums.water);
+  add("pore_water_kg", sums.water + sums.seeped);
+  add("drained_water_kg", ledger.drained_water);
+  add("vented_water_kg", ledger.vented_water);
+  add("seepage_residual_kg", sums.seeped + ledger.left_seeped + ledger.drained_water + ledger.vented_water);
+  add("pore_void_m3", sums.gas);
   add("mass_residual_kg", sums.mass + ledger.left_mass - ledger.joined_mass - ledger.initial_mass);
   add("left_mass_kg", ledger.left_mass);
   add("left_mechanical_J", ledger.left_mechanical);
@@ -126,7 +186,6 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow
   const Means means = means_over_body(simulation);
   const auto& contact = simulation.contact();
   const double width = Dim == 2 && parameters.general.width > 0.0 ? parameters.general.width : 1.0;
-  const double band_mass = means.band_mass > 0.0 ? means.band_mass : std::nan("");
   HistoryRow row;
   row.emplace_back("time_s", simulation.time());
   row.emplace_back("step", static_cast<double>(simulation.step_number()));
@@ -139,9 +198,7 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow
   row.emplace_back("mean_displacement_m", means.displacement / means.mass);
   row.emplace_back("front_position_m", front.position);
   row.emplace_back("runout_m", front.runout);
-  row.emplace_back("band_temperature_C", means.band_temperature / band_mass);
-  row.emplace_back("band_saturation", means.band_saturation / band_mass);
-  row.emplace_back("band_pore_pressure_Pa", means.band_pore_pressure / band_mass);
+  add_band(simulation, means, row);
   row.emplace_back("band_friction_coefficient",
                    contact.area > Real(0) ? static_cast<double>(contact.friction_area / contact.area) : std::nan(""));
   row.emplace_back("mean_plastic_strain", means.plastic_strain / means.mass);

@@ -16,7 +16,9 @@ struct Ledger {
   Real numerical = 0;
   // Thermal.
   Real friction_heat = 0, converted = 0, boundary_heat = 0, band_rescale = 0, advection = 0, capacity_heat = 0,
-       porosity_heat = 0;
+       porosity_heat = 0, drained_heat = 0;
+  // Water that seepage took [kg]: at the surface, to frozen pores, and what particles that left had gained by it.
+  Real drained_water = 0, vented_water = 0, left_seeped = 0;
   // Impulses on the slide [N s]: of gravity, of the ground, of walls, frames and mass damping.
   Vector<Real, Dim> gravity_impulse = Vector<Real, Dim>::Zero();
   Vector<Real, Dim> ground_impulse = Vector<Real, Dim>::Zero();
@@ -39,7 +41,7 @@ struct Ledger {
           &frame_work,   &numerical,       &pore_work,     &friction_heat, &converted,          &boundary_heat,
           &band_rescale, &advection,       &capacity_heat, &porosity_heat, &initial_mechanical, &initial_thermal,
           &initial_mass, &left_mechanical, &left_thermal,  &left_mass,     &joined_mechanical,  &joined_thermal,
-          &joined_mass}) {
+          &joined_mass,  &drained_heat,    &drained_water, &vented_water,  &left_seeped}) {
       visit(*account);
     }
     for (Vector<Real, Dim>* impulse : {&gravity_impulse, &ground_impulse, &constraint_impulse, &initial_momentum,

@@ -67,6 +67,7 @@ void Simulation<Dim, Real>::handle_left_particles() {
   ledger_.left_mechanical += sums.kinetic + sums.potential;
   ledger_.left_thermal += sums.sensible + sums.latent;
   ledger_.left_momentum += sums.momentum;
+  ledger_.left_seeped += sums.seeped;
   grid_.remove(particles_, particles_.remove(left_));
   update_ground();
 }

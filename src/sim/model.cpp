@@ -4,6 +4,8 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "config/basal_laws.hpp"
+#include "sim/substrates.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/layer_thickness.hpp"
 #include "terrain/profile_surface.hpp"
@@ -45,10 +47,19 @@ mpm::MaterialModel<Real> make_material(const config::Material& material, bool de
   model.viscosity_time = static_cast<Real>(material.viscosity_time);
   model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
   if (material.law == config::LawKind::mohr_coulomb && deformation) {
-    model.law = physics::MohrCoulomb<Real>::make(
-        model.elastic, static_cast<Real>(material.friction_angle), static_cast<Real>(material.dilation_angle),
-        static_cast<Real>(material.cohesion), static_cast<Real>(material.residual_cohesion),
-        static_cast<Real>(material.tension_cutoff));
+    const physics::Strength<Real> strength{
+        .friction_angle = static_cast<Real>(material.friction_angle),
+        .dilation_angle = static_cast<Real>(material.dilation_angle),
+        .cohesion = static_cast<Real>(material.cohesion),
+        .residual_cohesion = static_cast<Real>(material.residual_cohesion),
+        .tension_cutoff = static_cast<Real>(material.tension_cutoff),
+        .softening_strain = static_cast<Real>(material.softening_strain),
+        .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
+    if (strength.residual_friction_angle < strength.friction_angle) {
+      model.law = physics::MohrCoulomb<Real, true>::make(model.elastic, strength);
+    } else {
+      model.law = physics::MohrCoulomb<Real>::make(model.elastic, strength);
+    }
   } else {
     model.law = physics::LinearElastic<Real>{};
   }
@@ -72,6 +83,7 @@ void set_transfer(const config::Case& parameters, mpm::MotionModel<Dim, Real>& m
   motion.transfer =
       mechanics.transfer == config::Transfer::apic ? mpm::TransferKind::apic : mpm::TransferKind::flip_pic;
   motion.pic_share = static_cast<Real>(mechanics.pic_share);
+  motion.filter_order = mechanics.transfer == config::Transfer::fmpm ? mechanics.fmpm_order : 0;
   for (std::size_t a = 0; a < Dim; ++a) {
     const double length = parameters.grid.max[a] - parameters.grid.min[a];
     if (parameters.grid.boundary[2 * a] != config::BoundaryKind::open) {
@@ -110,37 +122,14 @@ mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, con
   return constraints;
 }
 
-terrain::CohesionLoss make_cohesion_loss(const config::Basal& basal) {
-  if (basal.cohesion <= 0.0) {
-    return terrain::CohesionLoss::constant;  // nothing to lose: the other laws' parameters may be absent
-  }
-  switch (basal.cohesion_law) {
-    case config::CohesionLaw::slip:
-      return terrain::CohesionLoss::slip;
-    case config::CohesionLaw::ice:
-      return terrain::CohesionLoss::ice;
-    case config::CohesionLaw::time:
-      return terrain::CohesionLoss::time;
-    case config::CohesionLaw::constant:
-      break;
-  }
-  return terrain::CohesionLoss::constant;
-}
-
 template <class Real>
 terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
   const config::Basal& basal = parameters.basal;
   terrain::BasalLaw<Real> law;
-  law.friction_coefficient = static_cast<Real>(std::tan(radians(basal.friction_angle)));
-  law.lubricated = basal.friction == config::FrictionLaw::lubricated;
-  law.lubrication_exponent = static_cast<Real>(basal.lubrication_exponent);
-  law.min_solid_fraction = static_cast<Real>(basal.min_solid_fraction);
-  law.max_solid_fraction = static_cast<Real>(basal.max_solid_fraction);
-  law.cohesion = static_cast<Real>(basal.cohesion);
-  law.residual_cohesion = static_cast<Real>(basal.residual_cohesion);
-  law.cohesion_loss = make_cohesion_loss(basal);
-  law.slip_distance = static_cast<Real>(basal.slip_distance);
-  law.cohesion_loss_time = static_cast<Real>(basal.cohesion_loss_time);
+  law.grounds = {{config::friction_of<Real>(basal), config::cohesion_of<Real>(basal)}};
+  for (const auto& [name, substrate] : parameters.substrates) {
+    law.grounds.push_back({config::friction_of<Real>(substrate), config::cohesion_of<Real>(substrate)});
+  }
   law.clamp = basal.clamp == config::FrictionClamp::joint ? physics::FrictionClamp::joint
                                                           : physics::FrictionClamp::keep_cohesion;
   law.cap_pressure = basal.cap_pressure;
@@ -159,6 +148,26 @@ band::AnyHeatContent<Real> make_heat_content(const config::Case& parameters, con
   }
   return physics::HeatContent<Real, physics::PowerLawCurve<Real>>{
       phases, {reference, static_cast<Real>(freezing.exponent)}, latent};
+}
+
+template <class Real>
+void set_water_balance(const config::Case& parameters, band::BandPhysics<Real>& band) {
+  const config::Pressure& pressure = parameters.pressure;
+  band.frozen_rows = pressure.frozen_rows == config::FrozenRows::sealed   ? band::FrozenRows::sealed
+                     : pressure.frozen_rows == config::FrozenRows::vented ? band::FrozenRows::vented
+                                                                          : band::FrozenRows::draining;
+  band.ice_presses = pressure.frozen == config::FrozenPressure::ice_pressure;
+  band.melt_contracts = pressure.melt_contraction;
+  band.residual_stress = static_cast<Real>(pressure.residual_stress);
+  band.skeleton_compressibility = static_cast<Real>(pressure.skeleton_compressibility);
+  band.water.law = parameters.phases.water_expansion_law == config::WaterExpansionLaw::by_temperature
+                       ? physics::WaterExpansionLaw::by_temperature
+                       : physics::WaterExpansionLaw::constant;
+  band.water.constant = static_cast<Real>(parameters.phases.water_expansion);
+  band.conservative_advection =
+      parameters.heat.enabled && parameters.heat.advection_form == config::AdvectionForm::conservative;
+  band.rescaling_mixes =
+      parameters.heat.enabled && parameters.band.thickness_change == config::ThicknessChange::conserving;
 }
 
 template <int Dim, class Real>
@@ -193,6 +202,7 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   band.normal_thickness = parameters.pressure.thickness_direction == config::ThicknessDirection::normal;
   band.thickness_each_step = parameters.pressure.thickness_update == config::ThicknessUpdate::each_step;
   band.gravity = static_cast<Real>(parameters.general.gravity);
+  set_water_balance(parameters, band);
   for (const auto& material : motion.materials) {
     band.hydraulic_conductivity.push_back(material.hydraulic_conductivity);
   }
@@ -316,10 +326,12 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
   model.contact.law = make_basal_law<Real>(parameters);
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
+  model.contact.band_columns = parameters.band.model == config::BandKind::columns;
   model.contact.distance_check = parameters.basal.distance_check;
   model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
   model.profile = make_profile<Dim>(parameters, site, model.origin);
   model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile);
+  model.substrates = make_substrates(parameters, site);
   set_layer_thickness(parameters, site, model);
   return model;
 }

@@ -13,6 +13,7 @@
 #include "mpm/motion.hpp"
 #include "terrain/contact.hpp"
 #include "terrain/polyline.hpp"
+#include "terrain/substrates.hpp"
 #include "terrain/surface.hpp"
 
 namespace thawslide::sim {
@@ -24,8 +25,9 @@ struct Model {
   mpm::Constraints<Dim, Real> constraints;
   terrain::ContactModel<Dim, Real> contact;
   band::BandModel<Dim, Real> band;
-  std::shared_ptr<const terrain::Surface<Dim>> ground;  // null: none
-  std::optional<terrain::Polyline> profile;             // the ground, where it is a line over x
+  std::shared_ptr<const terrain::Surface<Dim>> ground;    // null: none
+  std::shared_ptr<const terrain::Substrates> substrates;  // null: it is all of one kind
+  std::optional<terrain::Polyline> profile;               // the ground, where it is a line over x
   // Of the cells that make up the band, over horizontal places, both in [m]; empty: one cell. The largest counts for
   // the step.
   std::function<Real(const Vector<Real, Dim - 1>&)> layer_thickness;

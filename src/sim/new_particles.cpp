@@ -46,12 +46,16 @@ void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& jo
     particles_.mass(p) = particles_.volume(p) * physics::mixture_density(model_.motion.phases, particles_.porosity(p),
                                                                          particles_.liquid_saturation(p));
   }
+  grid_.update(particles_, 0);  // with no sorting: the new ones still stand last
+  update_ground();
+  if (model_.band.pressure && model_.band.needs_normal_load()) {
+    update_columns();
+    update_normal_load(first);
+  }
   band::set_pore_pressure(model_.band, particles_, first);
   if (model_.motion.effective_stress) {
     mpm::split_total_stress(particles_, first);
   }
-  grid_.update(particles_, 0);  // with no sorting: the new ones still stand last
-  update_ground();
   if (model_.ground) {
     terrain::set_contact_offset(grid_, ground_, model_.band.sizes, particles_, first);
   }

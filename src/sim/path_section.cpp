@@ -10,6 +10,7 @@
 #include "sim/release_body.hpp"
 #include "sim/section.hpp"
 #include "sim/steepest_descent.hpp"
+#include "sim/substrates.hpp"
 
 namespace thawslide::sim {
 
@@ -153,6 +154,33 @@ std::vector<double> stations_about(const PathLine& line, const ReleaseOnPath& re
   return stations;
 }
 
+// What lies below the path, from the middle between two stations to the next.
+std::vector<config::SubstrateStretch> stretches_along(const config::Case& parameters, const config::Site& site,
+                                                      const PathLine& line, const std::vector<double>& stations) {
+  std::vector<config::SubstrateStretch> stretches;
+  const auto substrates = make_substrates(parameters, site);
+  std::vector<std::string> names{""};
+  for (const auto& [name, substrate] : parameters.substrates) {
+    names.push_back(name);
+  }
+  for (std::size_t k = 0; substrates && k < stations.size(); ++k) {
+    const Place2 place = line.point_at(stations[k]);
+    const int number = substrates->at(place[0] - parameters.grid.min[0], place[1] - parameters.grid.min[1]);
+    const double from = k == 0 ? -HUGE_VAL : 0.5 * (stations[k - 1] + stations[k]);
+    const double to = k + 1 == stations.size() ? HUGE_VAL : 0.5 * (stations[k] + stations[k + 1]);
+    if (number == 0) {
+      continue;
+    }
+    const std::string& name = names[static_cast<std::size_t>(number)];
+    if (!stretches.empty() && stretches.back().name == name && stretches.back().to == from) {
+      stretches.back().to = to;
+    } else {
+      stretches.push_back({name, from, to});
+    }
+  }
+  return stretches;
+}
+
 void set_domain(config::Grid& grid, const config::ProfileTable& profile) {
   const auto [lowest, unused] = std::minmax_element(profile.terrain.begin(), profile.terrain.end());
   const double highest = *std::max_element(profile.surface.begin(), profile.surface.end());
@@ -205,6 +233,8 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
   for (std::size_t k = 0; k < profile.distance.size(); ++k) {
     profile.surface.push_back(profile.terrain[k] + on_path.at(profile.distance[k]));
   }
+
+  section.site.stretches = stretches_along(parameters, site, line, profile.distance);
 
   section.parameters = parameters;
   config::Case& flat = section.parameters;

@@ -6,7 +6,8 @@
 // as thick as it is in the mean across the path: its points are counted at the nearest place of the path, over lengths
 // of a cell of the grid, or two of the DEM where these are longer; volume over area is the thickness. Initial fields
 // from maps become their mean over the release's volume, those over x their value at its centre; the velocity becomes
-// its parts along the path and upwards. Sides and frames are left out: the block never meets them.
+// its parts along the path and upwards. Substrates become stretches of the path, to a quarter of the distance of the
+// DEM's points. Sides and frames are left out: the block never meets them.
 #pragma once
 
 #include <optional>

@@ -7,6 +7,7 @@
 #include "band/averages.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "mpm/velocity_filter.hpp"
 #include "sim/bodies.hpp"
 #include "terrain/band_marks.hpp"
 #include "terrain/map_back.hpp"
@@ -58,12 +59,15 @@ void Simulation<Dim, Real>::find_particles_cells() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_ground() {
   if (model_.ground && grid_.blocks_changed()) {
-    ground_.update(*model_.ground, grid_);
+    ground_.update(*model_.ground, grid_, model_.substrates.get());
   }
 }
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::average_band_on_grid() {
+  if (model_.band.rescaling_mixes) {
+    rescale_band();  // which changes temperatures
+  }
   if (model_.ground || model_.band.heat || model_.band.pressure) {
     band::average_on_grid(grid_, model_.band, particles_, nodes_);
   }
@@ -79,6 +83,7 @@ void Simulation<Dim, Real>::resolve_contact() {
   if (model_.ground) {
     terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
   }
+  band_columns_to_nodes();
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_);
   ledger_.friction_work += contact_.friction_work;
@@ -93,14 +98,26 @@ void Simulation<Dim, Real>::resolve_contact() {
   if (model_.ground) {
     terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
   }
+  band_columns_follow();
 }
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::move_particles() {
   const auto work = mpm::move_particles(grid_, particles_, model_.motion, dt_, nodes_);
   ledger_.numerical += work.particle_kinetic - contact_.node_kinetic;
+  if (filters_in_this_step()) {
+    ledger_.numerical += mpm::filter_velocities(grid_, particles_, model_.motion, nodes_);
+  }
   ledger_.numerical += terrain::constrain_mapped_back(grid_, ground(), model_.constraints, model_.contact,
                                                       model_.motion.gravity, static_cast<Real>(time_), dt_, nodes_);
+}
+
+// In one that reaches or passes a multiple of the interval; never by round-off of the time.
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::filters_in_this_step() const {
+  const double interval = parameters_.mechanics.fmpm_interval;
+  const auto intervals = [&](double time) { return std::floor(time / interval * (1.0 + 1e-12)); };
+  return model_.motion.filter_order > 0 && intervals(time_ + static_cast<double>(dt_)) > intervals(time_);
 }
 
 template <int Dim, class Real>
@@ -113,7 +130,10 @@ void Simulation<Dim, Real>::update_stress_and_porosity() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::conduct_heat() {
+void Simulation<Dim, Real>::rescale_band() {
+  if (model_.contact.band_columns) {
+    return;
+  }
   Real added = 0;
   const bool depends_on_place = model_.band.region != band::ScaledRegion::all || model_.layer_thickness;
   if (depends_on_place || band_thickness() != thickness_in_force_) {
@@ -121,10 +141,22 @@ void Simulation<Dim, Real>::conduct_heat() {
     added = band::rescale_band(grid_, model_.band, static_cast<Real>(thickness_in_force_), model_.layer_thickness,
                                particles_);
   }
+  ledger_.band_rescale += model_.band.heat ? added : Real(0);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::conduct_heat() {
+  if (!model_.band.rescaling_mixes) {
+    rescale_band();
+  }
+  if (band_columns_) {  // the body keeps its temperature
+    ledger_.friction_heat += contact_.friction_work - contact_.converted;
+    return;
+  }
+  band::average_seeping_water(grid_, model_.band, particles_, nodes_);
   if (!model_.band.heat) {
     return;
   }
-  ledger_.band_rescale += added;
   const auto gain = band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_);
   ledger_.friction_heat += gain.friction;
   ledger_.boundary_heat += gain.boundary;
@@ -135,11 +167,15 @@ void Simulation<Dim, Real>::conduct_heat() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::drain_pore_pressure() {
-  if (!model_.band.pressure) {
+  if (!model_.band.pressure || band_columns_) {
     return;
   }
   update_columns();
-  band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, particles_);
+  update_normal_load();
+  const auto loss = band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, particles_);
+  ledger_.drained_water += loss.drained.mass;
+  ledger_.drained_heat += loss.drained.heat;
+  ledger_.vented_water += loss.vented;
 }
 
 template <int Dim, class Real>
@@ -191,10 +227,14 @@ void Simulation<Dim, Real>::begin() {
     terrain::set_contact_offset(grid_, ground_, model_.band.sizes, particles_);
   }
   mark_band();
-  band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);
+  if (!model_.contact.band_columns) {
+    band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_);
+  }
   update_columns();
   flow_depth_.depth_to_particles(grid_, particles_);
+  update_normal_load();
   band::set_pore_pressure(model_.band, particles_);
+  start_band_columns();
   start_ledger();
 }
 
@@ -214,6 +254,8 @@ void Simulation<Dim, Real>::settle() {
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
   model_.contact.base_holds = true;
+  model_.contact.band_columns = false;
+  band_columns_.reset();
   model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
   const config::Leaving leaving = std::exchange(parameters_.grid.leaving, config::Leaving::stop);  // nothing may go
   const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
@@ -243,7 +285,7 @@ void Simulation<Dim, Real>::seed() {
   const auto& materials = model_.motion.materials;
   particles_.affine_velocity.keep(model_.motion.transfer == mpm::TransferKind::apic);
   particles_.viscous_stress.keep(model_.motion.viscous());
-  particles_.volume_strain.keep(model_.band.volumetric_term);
+  band::keep_fields(model_.band, particles_);
   particles_.gap.keep(
       std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.gaps_close_first; }));
   fill_bodies(parameters_, site_, model_, particles_);
@@ -316,8 +358,9 @@ double Simulation<Dim, Real>::next_step(double until) const {
 
 template <int Dim, class Real>
 std::vector<double> Simulation<Dim, Real>::scalars() const {
-  std::vector<double> numbers{time_, last_step_, rear_at_start_, static_cast<double>(step_number_),
-                              static_cast<double>(next_id_)};
+  std::vector<double> numbers{
+      time_,       last_step_, rear_at_start_, static_cast<double>(step_number_), static_cast<double>(next_id_),
+      column_time_};
   Ledger<Dim, Real> ledger = ledger_;
   ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
   return numbers;
@@ -333,6 +376,7 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   rear_at_start_ = scalars[k++];
   step_number_ = static_cast<std::int64_t>(scalars[k++]);
   next_id_ = static_cast<std::int64_t>(scalars[k++]);
+  column_time_ = scalars[k++];
   ledger_.for_each([&](Real& account) { account = static_cast<Real>(scalars[k++]); });
   // Rows came back in order of id: nothing of the former order may be trusted.
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));

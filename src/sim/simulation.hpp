@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "band/base_columns.hpp"
 #include "band/heat.hpp"
 #include "band/pore_pressure.hpp"
 #include "base/stopwatch.hpp"
@@ -65,6 +67,11 @@ class Simulation {
   [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
   [[nodiscard]] const Ledger<Dim, Real>& ledger() const { return ledger_; }
   [[nodiscard]] const terrain::ContactWork<Dim, Real>& contact() const { return contact_; }
+  // Null where the band is not of columns.
+  [[nodiscard]] const band::BaseColumns<Dim, Real>* band_columns() const {
+    return band_columns_ ? &*band_columns_ : nullptr;
+  }
+  void restore_band_columns(const std::vector<double>& state) { band_columns_->restore(state); }
   [[nodiscard]] const Stopwatch& stopwatch() const { return stopwatch_; }
   [[nodiscard]] double rear_at_start() const { return rear_at_start_; }
   [[nodiscard]] std::size_t particles_at_start() const { return particles_at_start_; }
@@ -86,6 +93,7 @@ class Simulation {
   void average_band_on_grid();
   void resolve_contact();
   void move_particles();
+  [[nodiscard]] bool filters_in_this_step() const;
   void update_stress_and_porosity();
   void conduct_heat();
   void drain_pore_pressure();
@@ -99,6 +107,11 @@ class Simulation {
   [[nodiscard]] std::string way_ahead(std::size_t particle) const;
   void mark_band();
   void update_columns();
+  void update_normal_load(std::size_t first = 0);
+  void rescale_band();
+  void start_band_columns();
+  void band_columns_to_nodes();
+  void band_columns_follow();
   void start_ledger();
   void stop_if_bad();
   [[nodiscard]] double band_thickness() const;
@@ -111,12 +124,14 @@ class Simulation {
   mpm::Nodes<Dim, Real> nodes_;
   terrain::GroundOnGrid<Dim, Real> ground_;
   band::FlowDepth<Dim, Real> flow_depth_;
+  std::optional<band::BaseColumns<Dim, Real>> band_columns_;
   terrain::ContactWork<Dim, Real> contact_;
   Ledger<Dim, Real> ledger_;
   mpm::BadParticle bad_;
   std::vector<std::uint8_t> left_;  // by particle, while those that have left are removed
   Stopwatch stopwatch_;
-  double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, thickness_in_force_ = -1.0;
+  double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, thickness_in_force_ = -1.0,
+         column_time_ = 0.0;  // since the last step of the band columns
   std::int64_t step_number_ = 0, next_id_ = 0;
   std::size_t particles_at_start_ = 0;
   int sorting_interval_ = 64;
@@ -128,6 +143,8 @@ template <int Dim, class Real>
 struct BodySums {
   Real kinetic = 0, potential = 0, sensible = 0, latent = 0;
   Real mass = 0, rock = 0, ice = 0, water = 0;
+  Real seeped = 0;  // water that seepage brought, less what it took [kg]
+  Real gas = 0;     // void in the pores of the band's own matter [m3]
   Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();
 };
 

@@ -47,12 +47,13 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
     largest_diffusivity = std::max(
         largest_diffusivity, static_cast<double>(physics::conductivity(model.motion.phases, porosity, saturation) /
                                                  physics::heat_capacity(model.motion.phases, porosity, saturation)));
+    const Real storing = physics::storing_porosity(model.motion.phases, porosity, model.band.skeleton_compressibility);
     pore_stiffness =
-        std::max(pore_stiffness, static_cast<double>(physics::pore_stiffness(model.motion.phases, porosity, Real(1))));
+        std::max(pore_stiffness, static_cast<double>(physics::pore_stiffness(model.motion.phases, storing, Real(1))));
     const auto material = static_cast<std::size_t>(particles.material(p));
     largest_seepage = std::max(
         largest_seepage, static_cast<double>(physics::hydraulic_diffusivity(
-                             model.motion.phases, porosity, Real(1), model.band.hydraulic_conductivity[material])));
+                             model.motion.phases, storing, Real(1), model.band.hydraulic_conductivity[material])));
   }
   if (!model.motion.effective_stress || !model.band.volumetric_term) {
     pore_stiffness = 0.0;  // the pore does not push back

@@ -1,27 +1,29 @@
 // The strength of the base, evaluated over arrays of contact nodes (Eqs. 17, 25 and the cohesion laws).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <variant>
+#include <vector>
 
 #include "mpm/tile.hpp"
+#include "physics/basal/laws.hpp"
 #include "physics/basal_friction.hpp"
-#include "physics/mixture.hpp"
 
 namespace thawslide::terrain {
 
-// How cohesion along the surface is lost.
-enum class CohesionLoss { constant, slip, ice, time };
+// The laws of one kind of ground.
+template <class Real>
+struct GroundLaw {
+  physics::basal::FrictionLaw<Real> friction;
+  physics::basal::CohesionLaw<Real> cohesion;
+};
 
 template <class Real>
 struct BasalLaw {
-  Real friction_coefficient = 0;  // tan(phi_f)
-  bool lubricated = false;        // Eq. 25
-  Real lubrication_exponent = 2, min_solid_fraction = 0, max_solid_fraction = 1;
-  Real cohesion = 0, residual_cohesion = 0;  // [Pa]
-  CohesionLoss cohesion_loss = CohesionLoss::constant;
-  Real slip_distance = 1;       // d_c [m]
-  Real cohesion_loss_time = 0;  // [s]
+  // By number of the substrate; the first holds where none lies.
+  std::vector<GroundLaw<Real>> grounds{1};
   physics::FrictionClamp clamp = physics::FrictionClamp::keep_cohesion;
   bool cap_pressure = false;  // P at most N
   Real heat_fraction = 1;     // share of the friction work that becomes heat (conversion coefficient)
@@ -35,37 +37,58 @@ struct BasalNodes {
   using Column = std::array<T, capacity>;
 
   std::size_t count = 0;
-  // In: normal pressure N [Pa], pore pressure P [Pa], temperature T [C], liquid saturation S, effective solid fraction
-  // n_e (Eq. 2), slip [m] and slip speed v [m/s].
+  // In: number of the substrate, normal pressure N [Pa], pore pressure P [Pa], temperature T [C], liquid saturation S,
+  // effective solid fraction n_e (Eq. 2), slip [m] and slip speed v [m/s].
+  Column<int> substrate;
   Column<Real> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed;
-  // Out: friction coefficient mu_e and sliding strength [Pa].
-  Column<Real> friction, strength;
+  // Out: friction coefficient mu_e, the pore pressure that relieves it [Pa], cohesion c_S [Pa] and sliding strength
+  // [Pa].
+  Column<Real> friction, relief, cohesion, strength;
+
+  [[nodiscard]] physics::basal::ContactNode<Real> node(std::size_t k, Real time) const {
+    return {normal_pressure[k], pore_pressure[k], temperature[k], saturation[k],
+            solid_fraction[k],  slip[k],          speed[k],       time};
+  }
 };
 
-// Fills friction and strength of all nodes. time [s].
+// Friction, its relief and cohesion of the nodes on one substrate. Each law is chosen once, outside the loop over
+// nodes.
+template <class Real>
+void evaluate_ground_law(const GroundLaw<Real>& law, int substrate, Real time, BasalNodes<Real>& nodes) {
+  std::visit(
+      [&]<class Friction>(const Friction& friction) {
+        for (std::size_t k = 0; k < nodes.count; ++k) {
+          if (nodes.substrate[k] == substrate) {
+            nodes.friction[k] = friction.coefficient(nodes.node(k, time));
+            nodes.relief[k] = Friction::feels_pore_pressure ? nodes.pore_pressure[k] : Real(0);
+          }
+        }
+      },
+      law.friction);
+  std::visit(
+      [&](const auto& cohesion) {
+        for (std::size_t k = 0; k < nodes.count; ++k) {
+          if (nodes.substrate[k] == substrate) {
+            nodes.cohesion[k] = cohesion.cohesion(nodes.node(k, time));
+          }
+        }
+      },
+      law.cohesion);
+}
+
+// Fills friction, cohesion and strength of all nodes. time [s].
 template <class Real>
 void evaluate_basal_law(const BasalLaw<Real>& law, Real time, BasalNodes<Real>& nodes) {
-  for (std::size_t k = 0; k < nodes.count; ++k) {
-    const Real factor = law.lubricated ? physics::lubrication_factor(nodes.solid_fraction[k], law.min_solid_fraction,
-                                                                     law.max_solid_fraction, law.lubrication_exponent)
-                                       : Real(1);
-    nodes.friction[k] = factor * law.friction_coefficient;
-    Real cohesion = law.cohesion;
-    switch (law.cohesion_loss) {
-      case CohesionLoss::constant:
-        break;
-      case CohesionLoss::slip:
-        cohesion = physics::cohesion_after_slip(law.cohesion, law.residual_cohesion, nodes.slip[k], law.slip_distance);
-        break;
-      case CohesionLoss::ice:
-        cohesion = physics::cohesion_of_ice(law.cohesion, nodes.saturation[k]);
-        break;
-      case CohesionLoss::time:
-        cohesion = physics::cohesion_until(law.cohesion, law.residual_cohesion, time, law.cohesion_loss_time);
-        break;
+  const auto end = nodes.substrate.begin() + static_cast<std::ptrdiff_t>(nodes.count);
+  for (std::size_t number = 0; number < law.grounds.size(); ++number) {
+    const int substrate = static_cast<int>(number);
+    if (std::find(nodes.substrate.begin(), end, substrate) != end) {
+      evaluate_ground_law(law.grounds[number], substrate, time, nodes);
     }
-    nodes.strength[k] = physics::sliding_strength(nodes.friction[k], nodes.normal_pressure[k], nodes.pore_pressure[k],
-                                                  cohesion, law.clamp, law.cap_pressure);
+  }
+  for (std::size_t k = 0; k < nodes.count; ++k) {
+    nodes.strength[k] = physics::sliding_strength(nodes.friction[k], nodes.normal_pressure[k], nodes.relief[k],
+                                                  nodes.cohesion[k], law.clamp, law.cap_pressure);
   }
 }
 

@@ -67,9 +67,25 @@ struct BlockContact {
   Column<NodeState<Dim, Real>> state;
 };
 
+// Where band columns lie under the slide, the base is as they have it; where none has been laid yet, as the body is.
+template <class Record, class Real>
+void take_columns_state(const Record& state, bool pore_pressure, std::size_t c, BasalNodes<Real>& basal) {
+  using mpm::BaseState;
+  const Real area = state[BaseState::area];
+  if (!(area > Real(0))) {
+    basal.pore_pressure[c] = Real(0);
+    return;
+  }
+  basal.pore_pressure[c] = pore_pressure ? state[BaseState::pressure_ratio] / area * basal.normal_pressure[c] : Real(0);
+  basal.saturation[c] = state[BaseState::saturation] / area;
+  basal.solid_fraction[c] = state[BaseState::solid_fraction] / area;
+  basal.temperature[c] = state[BaseState::temperature] / area;
+  basal.slip[c] = state[BaseState::slip] / area;
+}
+
 template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
-                      const ContactModel<Dim, Real>& model, const Vector<Real, Dim>& normal,
+                      const ContactModel<Dim, Real>& model, const GroundAtNode<Dim, Real>& ground,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
   using mpm::NodalState;
   const auto& known = nodes.state(b, k);
@@ -86,6 +102,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   contact.node[c] = k;
   contact.area[c] = area;
   contact.state[c] = state;
+  basal.substrate[c] = ground.substrate;
   basal.normal_pressure[c] = pressure;
   basal.pore_pressure[c] =
       model.pore_pressure ? average(known[NodalState::pore_pressure], NearGround::pore_pressure) : Real(0);
@@ -94,7 +111,10 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
       average(near_ground[NearGround::solid_fraction_by_linear] / volume, NearGround::solid_fraction);
   basal.temperature[c] = average(known[NodalState::temperature], NearGround::temperature);
   basal.slip[c] = near_ground[NearGround::slip] / state.mass;
-  basal.speed[c] = (state.momentum - state.momentum.dot(normal) * normal).norm() / state.mass;
+  if (model.band_columns) {
+    take_columns_state(nodes.base_state(b, k), model.pore_pressure, c, basal);
+  }
+  basal.speed[c] = (state.momentum - state.momentum.dot(ground.normal) * ground.normal).norm() / state.mass;
 }
 
 // How much of the space that belongs to a node slide fills, 0 to 1.
@@ -185,9 +205,12 @@ void apply_contact(const mpm::BlockConstraints<Dim, Real>& constraints, std::siz
   work.force -= total / dt;
   work.area += area;
   work.friction_area += friction * area;
+  work.shear_force += impulse.tangential / dt;
   left[Contact::touching] = Real(1);
   left[Contact::slip_speed] = impulse.slides ? slip_speed : Real(0);
   left[Contact::friction_heat] = heat_fraction * friction_work / dt;
+  left[Contact::normal_force] = impulse.normal / dt;
+  left[Contact::area] = area;
 }
 
 // Records the motion of a node and the energies that constraints, damping and FLIP take.
@@ -278,7 +301,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       }
       const auto state = trial_state(on_block, k, dt, model.mass_damping, nodes.momentum(b, k));
       if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
-        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k].normal, state, contact);
+        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k], state, contact);
       } else {
         finish(state, k);
       }

@@ -23,6 +23,7 @@ struct ContactWork {
   Real node_kinetic = 0;                                // sum m |a dt|^2 / 2 over nodes
   Real area = 0;                                        // in contact
   Real friction_area = 0;                               // sum mu_e A
+  Real shear_force = 0;                                 // of the ground on the slide, whichever way
   Vector<Real, Dim> force = Vector<Real, Dim>::Zero();  // on the ground
   // On the slide, of walls, frames and mass damping [N s].
   Vector<Real, Dim> constraint_impulse = Vector<Real, Dim>::Zero();
@@ -36,6 +37,7 @@ struct ContactWork {
     node_kinetic += part.node_kinetic;
     area += part.area;
     friction_area += part.friction_area;
+    shear_force += part.shear_force;
     force += part.force;
     constraint_impulse += part.constraint_impulse;
     return *this;
@@ -47,6 +49,7 @@ struct ContactModel {
   BasalLaw<Real> law;
   bool base_holds = false;      // no slip at all: while gravity is being settled in
   bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
+  bool band_columns = false;    // the base's state is that of nodes.base_state
   Real mass_damping = 0;        // [1/s]
   bool distance_check = false;  // a node may close its clearance before contact acts
 };

@@ -7,6 +7,7 @@
 
 #include "base/key_index.hpp"
 #include "mpm/nodes.hpp"
+#include "terrain/substrates.hpp"
 #include "terrain/surface.hpp"
 
 namespace thawslide::terrain {
@@ -19,8 +20,9 @@ class GroundOnGrid {
   using Block = std::array<GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)>;
 
   // Brings blocks and tiles up to date; to be called after the grid's blocks changed. What blocks know is kept for a
-  // while after the slide has left them.
-  void update(const Surface<Dim>& surface, const mpm::SparseGrid<Dim, Real>& grid) {
+  // while after the slide has left them. `substrates`: null where the ground is all of one kind.
+  void update(const Surface<Dim>& surface, const mpm::SparseGrid<Dim, Real>& grid,
+              const Substrates* substrates = nullptr) {
     forget_left_blocks(grid);
     number_.resize(grid.blocks().size());
     const std::size_t known_before = blocks_.size();
@@ -33,8 +35,9 @@ class GroundOnGrid {
     blocks_.resize(keys_.size());
     any_candidate_.resize(keys_.size());
     partly_unknown_.resize(keys_.size());
-    parallel_for(keys_.size() - known_before,
-                 [&](std::size_t k) { learn(surface, static_cast<double>(grid.cell()), known_before + k); });
+    parallel_for(keys_.size() - known_before, [&](std::size_t k) {
+      learn(surface, substrates, static_cast<double>(grid.cell()), known_before + k);
+    });
     near_.resize(grid.tiles().size());
     any_near_.resize(grid.tiles().size());
     parallel_for(grid.tiles().size(), [&](std::size_t t) { find_near(grid, t); });
@@ -93,7 +96,7 @@ class GroundOnGrid {
     partly_unknown_ = std::move(partly_unknown);
   }
 
-  void learn(const Surface<Dim>& surface, double cell, std::size_t k) {
+  void learn(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
     std::array<GroundAtNode<Dim, double>, static_cast<std::size_t>(T::nodes)> nodes;
     typename T::Index first = T::index(keys_[k]);
     typename Surface<Dim>::Place from, to;
@@ -110,12 +113,20 @@ class GroundOnGrid {
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       GroundAtNode<Dim, Real>& known = blocks_[k][n];
       known.candidate = nodes[n].candidate;
+      known.substrate = substrates != nullptr ? substrate_below(*substrates, first, static_cast<int>(n), cell) : 0;
       known.normal = nodes[n].normal.template cast<Real>();
       known.area = static_cast<Real>(nodes[n].area);
       known.space = static_cast<Real>(nodes[n].space);
       known.distance = static_cast<Real>(nodes[n].distance);
       any_candidate_[k] |= known.candidate ? 1 : 0;
     }
+  }
+
+  // Of node n of the block whose first node is `first`.
+  static int substrate_below(const Substrates& substrates, const typename T::Index& first, int n, double cell) {
+    const typename T::Index node = T::node({}, n);
+    const auto along = [&](std::size_t a) { return static_cast<double>(first[a] + node[a]) * cell; };
+    return substrates.at(along(0), Dim == 3 ? along(1) : 0.0);
   }
 
   void find_near(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) {

@@ -13,6 +13,7 @@ namespace thawslide::terrain {
 template <int Dim, class Real>
 struct GroundAtNode {
   bool candidate = false;    // the node's linear shape function overlaps the ground
+  int substrate = 0;         // number of what lies below the node (substrates.hpp)
   Vector<Real, Dim> normal;  // unit vector from the slide into the ground
   Real area = 0;             // integral of the shape function over the ground's surface [m2]; sums to that surface
   Real space = 0;            // integral of the shape function over the space above the ground [m3]

@@ -192,3 +192,13 @@ def test_report_says_what_it_needs(thawslide: Program) -> None:
 
 def test_case_may_be_a_folder_or_its_file(thawslide: Program) -> None:
     assert thawslide("block", LAMPLUGH / "case.toml", *sets(time__end=1)).returncode == 0
+
+
+def test_check_notes_what_is_unusual_of_broken_matter(thawslide: Program) -> None:
+    found = thawslide("check", LAMPLUGH, *sets(material__rock_ice__softening_strain=0.5))
+    assert found.returncode == 0, found.stderr
+    assert (
+        "note: --set material.rock_ice.softening_strain=0.5: material.rock_ice.softening_strain is 0.5, outside the "
+        "0.005 to 0.05 over which broken rock and ice usually lose their strength\n" in found.stdout
+    )
+    assert "softening_strain" not in thawslide("check", LAMPLUGH).stdout, "the paper's own softening"

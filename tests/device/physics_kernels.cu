@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "physics/band_column_step.hpp"
+#include "physics/basal/laws.hpp"
 #include "physics/basal_friction.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/contact.hpp"
@@ -12,8 +14,10 @@
 #include "physics/kinematics.hpp"
 #include "physics/mixture.hpp"
 #include "physics/mohr_coulomb.hpp"
+#include "physics/pore_water.hpp"
 #include "physics/pressurization.hpp"
 #include "physics/principal.hpp"
+#include "physics/rigid_motion.hpp"
 #include "physics/tension_gap.hpp"
 
 namespace thawslide::physics {
@@ -79,6 +83,11 @@ template __global__ void strain_and_stress<MohrCoulomb<Real>, 2>(MohrCoulomb<Rea
                                                                  std::size_t);
 template __global__ void strain_and_stress<MohrCoulomb<Real>, 3>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*,
                                                                  std::size_t);
+using SofteningFriction = MohrCoulomb<Real, true>;
+template __global__ void strain_and_stress<SofteningFriction, 2>(SofteningFriction, Elastic<Real>, Real*, Real*,
+                                                                 std::size_t);
+template __global__ void strain_and_stress<SofteningFriction, 3>(SofteningFriction, Elastic<Real>, Real*, Real*,
+                                                                 std::size_t);
 
 // What decides whether a particle needs its law at all, and what gaps take of its strain.
 template <int Dim>
@@ -98,6 +107,17 @@ __global__ void yield_and_gap(MohrCoulomb<Real> law, Elastic<Real> elastic, Real
 template __global__ void yield_and_gap<2>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
 template __global__ void yield_and_gap<3>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
 
+template <int Dim>
+__global__ void rigid_motion(Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Vector<Real, Dim> place = row.take_vector<Dim>();
+  result.put<rotations<Dim>>(moment_of<Dim>(place, row.take_vector<Dim>()));
+  result.put<Dim>(turned<Dim>(row.take_vector<rotations<Dim>>(), place));
+  result.put<squares<Dim>>(squares_of<Dim>(place));
+}
+template __global__ void rigid_motion<2>(Real*, Real*, std::size_t);
+template __global__ void rigid_motion<3>(Real*, Real*, std::size_t);
+
 template <class Curve>
 __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
@@ -109,10 +129,23 @@ __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results,
   result.put(warmer);
   result.put(law.curve.saturation(warmer));
   result.put(law.curve.temperature(row.take()));
-  result.put(law.melting_heat(porosity));
+  result.put(law.coefficients(porosity).melting);
 }
 template __global__ void heat<PowerLawCurve<Real>>(HeatContent<Real, PowerLawCurve<Real>>, Real*, Real*, std::size_t);
 template __global__ void heat<LinearCurve<Real>>(HeatContent<Real, LinearCurve<Real>>, Real*, Real*, std::size_t);
+
+template <class Curve>
+__global__ void band_column(ColumnModel<Real, Curve> model, const ColumnDrive<Real>* drives, BandColumn<Real>* columns,
+                            ColumnAccount<Real>* accounts, BandMeans<Real>* means) {
+  const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
+  accounts[k] = step_column(model, drives[k], columns[k]);
+  means[k] = band_means(model, drives[k].normal_pressure, columns[k]);
+}
+template __global__ void band_column<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>,
+                                                          const ColumnDrive<Real>*, BandColumn<Real>*,
+                                                          ColumnAccount<Real>*, BandMeans<Real>*);
+template __global__ void band_column<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const ColumnDrive<Real>*,
+                                                        BandColumn<Real>*, ColumnAccount<Real>*, BandMeans<Real>*);
 
 __global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
@@ -123,6 +156,7 @@ __global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::
   result.put(conductivity(phases, porosity, saturation));
   result.put(expansion(phases, porosity, saturation));
   result.put(updated_porosity(phases, porosity, row.take(), row.take()));
+  result.put(mixed(porosity, row.take(), row.take()));
 }
 
 __global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign, bool as_printed, Real* numbers,
@@ -139,14 +173,50 @@ __global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign
   result.put(share_of_subgrid_diffusion(diffusivity, row.take(), 3, dt));
 }
 
+__global__ void water_balance(Phases<Real> phases, WaterExpansion<Real> water, Real skeleton_compressibility,
+                              Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Real porosity = row.take(), from = row.take(), to = row.take(), load = row.take();
+  const Real storage = pore_storage(phases, porosity, skeleton_compressibility);
+  const Real gas_void = melting_void(phases, porosity, row.take());
+  result.put(expansion(phases, porosity, row.take(), water.at(to)));
+  result.put(undrained_loading(phases, porosity, skeleton_compressibility, row.take()));
+  const Real surplus =
+      thawing_surplus(storage, load, row.take(), gas_void) + melted_swelling(phases, water, porosity, from, to);
+  const PoreFilling<Real> filling = pore_filling(surplus, storage, load);
+  result.put(filling.pressure);
+  result.put(pore_surplus(filling, storage));
+  result.put(pore_filling(surplus, storage).gas_void);
+  result.put(storing_porosity(phases, porosity, skeleton_compressibility));
+}
+
+__device__ basal::ContactNode<Real> take_node(Row& row) {
+  return {row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take()};
+}
+
+template <class Law>
+__global__ void friction_law(Law law, Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  result.put(law.coefficient(take_node(row)));
+}
+template <class Law>
+__global__ void cohesion_law(Law law, Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  result.put(law.cohesion(take_node(row)));
+}
+
+// A kernel for each law of the lists.
+void use_every_law(void (*use)(const void* kernel)) {
+  basal::for_each_law<basal::FrictionLaw<Real>>(
+      [&]<class Law>(basal::OfType<Law>) { use(reinterpret_cast<const void*>(friction_law<Law>)); });
+  basal::for_each_law<basal::CohesionLaw<Real>>(
+      [&]<class Law>(basal::OfType<Law>) { use(reinterpret_cast<const void*>(cohesion_law<Law>)); });
+}
+
 __global__ void basal_contact(FrictionClamp clamp, bool cap_pressure, Real dt, Real* numbers, Real* results,
                               std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
-  const Real friction = lubrication_factor(row.take(), row.take(), row.take(), row.take());
-  const Real cohesion = cohesion_after_slip(row.take(), row.take(), row.take(), row.take());
-  const Real with_ice = cohesion_of_ice(cohesion, row.take());
-  const Real lasting = cohesion_until(with_ice, row.take(), row.take(), row.take());
-  const Real strength = sliding_strength(friction, row.take(), row.take(), lasting, clamp, cap_pressure);
+  const Real strength = sliding_strength(row.take(), row.take(), row.take(), row.take(), clamp, cap_pressure);
   const ContactImpulse<Real> impulse = contact_impulse(row.take(), row.take(), row.take(), dt, strength);
   result.put(impulse.normal);
   result.put(impulse.tangential);

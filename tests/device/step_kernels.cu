@@ -8,6 +8,7 @@
 #include "band/columns_of_tile.hpp"
 #include "band/heat_kernels.hpp"
 #include "band/pressure_kernels.hpp"
+#include "mpm/filter_kernels.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/one_particle.hpp"
 #include "mpm/particle_view.hpp"
@@ -157,6 +158,26 @@ __global__ void move_affine(TileOnDevice<Dim> tile, Results<Dim, mpm::MoveAffine
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
+template <int Dim>
+__global__ void filter_moments(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMoments<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMoments<Dim, Real>{});
+}
+
+template <int Dim>
+__global__ void filter_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMomentum<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMomentum<Dim, Real>{});
+}
+
+template <int Dim>
+__global__ void sweep_filter(TileOnDevice<Dim> tile, Results<Dim, mpm::SweepFilter<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::SweepFilter<Dim, Real>{});
+}
+
+template <int Dim>
+__global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::TakeFiltered<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::TakeFiltered<Dim, Real>{});
+}
+
 template <int Dim, class Law>
 __global__ void deform(TileOnDevice<Dim> tile, Results<Dim, mpm::Deform<Dim, Real, Law>> to, Law law,
                        physics::Elastic<Real> elastic, physics::Phases<Real> phases, bool gaps, Real viscosity_time,
@@ -221,13 +242,20 @@ __global__ void seepage(TileOnDevice<Dim> tile, Results<Dim, band::SeepageFlows<
 }
 
 template <int Dim>
-using Pressure = band::PorePressure<Real, const band::ColumnsOfTile<Dim, Real>&, true>;
+__global__ void seeping_water(TileOnDevice<Dim> tile, Results<Dim, band::AddSeepingWater<Dim, Real>> to,
+                              band::BandPhysics<Real> model, band::HydraulicConductivity<Real> hydraulic) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::AddSeepingWater<Dim, Real>{model, hydraulic});
+}
 
-template <int Dim>
-__global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim>> to, band::BandPhysics<Real> model,
-                              band::HydraulicConductivity<Real> hydraulic,
+template <int Dim, bool Balances>
+using Pressure = band::PorePressure<Real, const band::ColumnsOfTile<Dim, Real>&, true, Balances>;
+
+template <int Dim, bool Balances>
+__global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim, Balances>> to,
+                              band::BandPhysics<Real> model, band::HydraulicConductivity<Real> hydraulic,
                               const band::ColumnsOfTile<Dim, Real>* columns) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, Pressure<Dim>{model, hydraulic, Real(0.5) * tile.cell, *columns});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts,
+                    Pressure<Dim, Balances>{model, hydraulic, Real(0.5) * tile.cell, *columns});
 }
 
 template <int Dim>
@@ -266,8 +294,13 @@ void instantiate() {
   take_position<Dim><<<1, 128>>>(tile, {}, {});
   move<Dim><<<1, 128>>>(tile, {}, {});
   move_affine<Dim><<<1, 128>>>(tile, {}, {});
+  filter_moments<Dim><<<1, 128>>>(tile, {});
+  filter_momentum<Dim><<<1, 128>>>(tile, {});
+  sweep_filter<Dim><<<1, 128>>>(tile, {});
+  take_filtered<Dim><<<1, 128>>>(tile, {});
   deform<Dim, Elastic><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   deform<Dim, Coulomb><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
+  deform<Dim, physics::MohrCoulomb<Real, true>><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   heat_flows<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
   heat_flows<Dim, Line><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
   secant_capacity<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, 0);
@@ -278,7 +311,9 @@ void instantiate() {
   masses_anew<Dim, PowerLaw><<<1, 128>>>(tile, {}, {});
   orphan_heat<Dim><<<1, 128>>>(tile, {}, 0);
   seepage<Dim><<<1, 128>>>(tile, {}, {}, {}, 0);
-  pore_pressure<Dim><<<1, 128>>>(tile, {}, {}, {}, nullptr);
+  seeping_water<Dim><<<1, 128>>>(tile, {}, {}, {});
+  pore_pressure<Dim, false><<<1, 128>>>(tile, {}, {}, {}, nullptr);
+  pore_pressure<Dim, true><<<1, 128>>>(tile, {}, {}, {}, nullptr);
   sum_in_cell<mpm::Momentum, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
   sum_in_cell<mpm::HeatRates, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);
   sum_in_cell<mpm::Clearance, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);

@@ -19,6 +19,7 @@ mean_displacement,10,80,m,model
 front_distance,10,160,m,field
 band_SL,4,0.3,-,model
 max_seismic_force,5,2.8e11,N,seismic
+max_seismic_force_2_8_s,5,1.1e11,N,waves
 """
 SLOPE = 0.5
 

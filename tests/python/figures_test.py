@@ -14,6 +14,7 @@ from matplotlib.collections import FillBetweenPolyCollection, PolyCollection
 from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, Run
+from thawslide.band_pass import band_passed
 from thawslide.figures import FIGURES
 from thawslide.figures.bars import bars
 from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, normalisation
@@ -230,6 +231,10 @@ def test_seismic_force_and_its_reported_maximum(make_run: MakeRun) -> None:
     x, y = run.history["seismic_force_x_N"], run.history["seismic_force_y_N"]
     np.testing.assert_allclose(line(size, "run")[1] * 1e9, np.hypot(x, y))
     np.testing.assert_array_equal(line(size, "reported maximum 280 GN: seismic")[1], [280.0, 280.0])
+    t = run.history["time_s"]
+    passed = [band_passed(t, part, 2.0, 8.0) for part in (x, y)]
+    np.testing.assert_allclose(line(size, "run, band-passed 2 to 8 s")[1] * 1e9, np.hypot(*passed))
+    np.testing.assert_array_equal(line(size, "reported maximum 110 GN (2 to 8 s): waves")[1], [110.0, 110.0])
     np.testing.assert_allclose(line(parts, "x (along)")[1] * 1e9, x)
     np.testing.assert_allclose(line(parts, "y (up)")[1] * 1e9, y)
     assert size.get_ylabel() == "force (GN)"
@@ -242,7 +247,7 @@ def test_reported_force_needs_a_width_and_a_target(make_run: MakeRun) -> None:
     assert [found.get_label() for found in bare.lines] == ["run"]
     thin = titled(FIGURES["force"].draw(Run(make_run(name="thin", width=0.0))), "(a)")
     assert thin.get_ylabel() == "force (GN/m of width)"
-    assert [found.get_label() for found in thin.lines] == ["run"]
+    assert [found.get_label() for found in thin.lines] == ["run", "run, band-passed 2 to 8 s"]
     assert texts(thin) == ["reported force not drawn: the case states no width"]
 
 

@@ -34,7 +34,7 @@ def test_terrain_case_and_targets(make_run: MakeRun) -> None:
         ("mean_velocity", 4.0, 9.0),
         ("mean_velocity", 6.0, 11.0),
     ]
-    assert run.targets[-1].value == 2.8e11
+    assert run.targets[-1].value == 1.1e11
 
 
 def test_what_a_run_may_lack(make_run: MakeRun) -> None:

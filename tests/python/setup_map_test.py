@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 from map_runs import MIDDLE, SOUTH, WEST, centres, ground, slab
+from matplotlib.axes import Axes
+from matplotlib.contour import QuadContourSet
 from matplotlib.patches import Rectangle
 
 from thawslide.command_line import main
@@ -136,3 +138,21 @@ def test_faulty_set_ups(
 ) -> None:
     assert main(["--setup", str(write(setup(**changes))), "--picture", str(tmp_path / "out.png")]) == 2
     assert text in capsys.readouterr().err
+
+
+def test_substrates_are_hatched_where_they_lie(write: Any) -> None:
+    x, y = centres()
+    numbers = np.where(x > WEST + 300.0, 2.0, 0.0) + 0.0 * y
+    data = setup(substrates={"names": ["debris", "glacier"], "numbers": grid_form(numbers)})
+    figure = draw_setup_on_map(read(write(data)))
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "substrate debris" in labels and "substrate glacier" in labels
+    (hatched,) = hatched_areas(figure.axes[0])  # the debris lies nowhere on the map
+    ends = np.concatenate([path.vertices for path in hatched.get_paths() if len(path.vertices)])
+    assert ends[:, 0].min() == pytest.approx(WEST + 300.0, abs=10.0)
+    assert not hatched_areas(draw_setup_on_map(read(write(setup()))).axes[0])
+
+
+def hatched_areas(axes: Axes) -> list[QuadContourSet]:
+    contours = [each for each in axes.collections if isinstance(each, QuadContourSet)]
+    return [each for each in contours if any(each.hatches)]

@@ -124,3 +124,13 @@ def test_missing_set_up_and_unwritable_picture(write: Any, tmp_path: Path, capsy
     assert "none.json: cannot be read: No such file or directory" in capsys.readouterr().err
     assert main(["--setup", str(write(setup())), "--picture", str(tmp_path / "out.nothing")]) == 2
     assert "out.nothing: cannot be written: " in capsys.readouterr().err
+
+
+def test_substrates_are_drawn_along_the_ground(write: Any) -> None:
+    terrain = {"x": [-1.0, 1.0, 3.0, 6.0], "z": [0.0, 0.0, -1.0, -1.0]}
+    data = setup(terrain=terrain, substrates={"names": ["glacier"], "numbers": [0, 0, 1, 1]})
+    figure = draw_setup(read_setup(write(data)))
+    assert "substrate glacier" in [text.get_text() for text in figure.legends[0].get_texts()]
+    (line,) = [each for each in figure.axes[0].lines if each.get_linewidth() == 3.0]
+    shown = ~np.isnan(np.asarray(line.get_ydata(), float))
+    assert np.asarray(line.get_xdata())[shown].tolist() == [3.0, 6.0]

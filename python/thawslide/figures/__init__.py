@@ -17,6 +17,7 @@ from thawslide.figures.motion import motion
 from thawslide.figures.probes import probes
 from thawslide.figures.slide_on_map import slide_speed, slide_temperature, slide_thickness
 from thawslide.figures.snapshots import plastic_strain, pore_pressure, temperature, velocity
+from thawslide.figures.water import water
 from thawslide.maps import on_map
 from thawslide.run import Run
 
@@ -29,6 +30,11 @@ class FigureKind:
     caption: str
     draw: Callable[[Run], Figure | Film]
     suits: Callable[[Run], bool] = lambda run: True
+    of_columns: str = ""  # the caption where the band is of columns, if it is another
+
+    def caption_of(self, run: Run) -> str:
+        """Return the caption for a run."""
+        return self.of_columns if self.of_columns and run.has_band_columns else self.caption
 
 
 _PANELS = (
@@ -44,6 +50,11 @@ _FROM_ABOVE = (
 
 def _in_section(run: Run) -> bool:
     return not on_map(run)
+
+
+def _with_heat_in_section(run: Run) -> bool:
+    """Where particles heat up; with band columns these do, and particles stay as they were."""
+    return _in_section(run) and not run.has_band_columns
 
 
 FIGURES: dict[str, FigureKind] = {
@@ -91,8 +102,8 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "velocity": FigureKind("Velocity", _PANELS, velocity, _in_section),
     "plastic_strain": FigureKind("Equivalent plastic strain", _PANELS, plastic_strain, _in_section),
-    "temperature": FigureKind("Temperature", _PANELS, temperature, _in_section),
-    "pore_pressure": FigureKind("Pore pressure", _PANELS, pore_pressure, _in_section),
+    "temperature": FigureKind("Temperature", _PANELS, temperature, _with_heat_in_section),
+    "pore_pressure": FigureKind("Pore pressure", _PANELS, pore_pressure, _with_heat_in_section),
     "force": FigureKind(
         "Seismic force and plastic strain",
         "The force of the slide on the ground less its static weight, which is what seismic waves are inverted for.",
@@ -103,10 +114,21 @@ FIGURES: dict[str, FigureKind] = {
         "Means over the particles next to the ground; the friction coefficient is the mean over nodes in contact. "
         "Gaps: no particle there at that time.",
         band,
+        of_columns="Means over the base by area, as its columns have it. The shear traction is what the base resists "
+        "with, cohesion and friction, over the area in contact. Under its own N no column's water gets hotter than "
+        "where it boils; the line is for the mean N. P and N of each column are compared with N averaged over "
+        "band.load_time.",
     ),
     "energy": FigureKind(
         "Energy ledger",
         "Every account as its change since the start; the residual is what the accounts of a ledger leave over.",
         energy,
+    ),
+    "water": FigureKind(
+        "Water of the band",
+        "Ice and water of the band's columns: what they hold, took in and lost; the volume that water at P = N has "
+        "opened along the base, and that of pores which water has left.",
+        water,
+        lambda run: run.has_band_columns,
     ),
 }

@@ -1,4 +1,7 @@
-"""Temperature, pore pressure, saturation and friction of the shear band over time (paper Fig. 20)."""
+"""Temperature, pore pressure, saturation and friction of the shear band over time (paper Fig. 20).
+
+Of a band of columns: what presses on the base and what resists there, how hot it is and how near to boiling.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +9,24 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from thawslide.boiling import boiling_temperature
 from thawslide.figures.motion import draw_targets
-from thawslide.figures.style import BLUE, GREEN, NOTE, PURPLE, RED, letters, prefixed, say, styled, time_axis, time_line
+from thawslide.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    NOTE,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    letters,
+    prefixed,
+    say,
+    styled,
+    time_axis,
+    time_line,
+)
 from thawslide.run import Run
 
 # Column, words, unit, colour, names of the reported quantity.
@@ -21,7 +40,11 @@ _PANELS = (
 
 @styled
 def band(run: Run) -> Figure:
-    """Draw the four mass means over the band; a panel without data says why."""
+    """Draw the four mass means over the band, or the means over band columns; a panel without data says why."""
+    return _of_columns(run) if run.has_band_columns else _of_particles(run)
+
+
+def _of_particles(run: Run) -> Figure:
     time = run.history["time_s"]
     figure = Figure(figsize=(10.0, 6.4), layout="constrained")
     figure.suptitle(f"{run.title}: the shear band", x=0.01, ha="left", size=12)
@@ -44,6 +67,78 @@ def band(run: Run) -> Figure:
         _finish(axes, column, values / divisor)
     letters(panels, [words for _, words, *_ in _PANELS])
     return figure
+
+
+def _of_columns(run: Run) -> Figure:
+    figure = Figure(figsize=(10.0, 8.6), layout="constrained")
+    figure.suptitle(f"{run.title}: the band along the base", x=0.01, ha="left", size=12)
+    panels: list[Axes] = list(figure.subplots(3, 2, sharex=True).flat)
+    pressure, heat, saturation, thickness, ratio, friction = panels
+    _draw_stresses(pressure, run)
+    _draw_temperatures(heat, run)
+    _draw_mean(saturation, run, "band_saturation", "liquid saturation", GREEN, ("band_SL", "band_saturation"))
+    saturation.set_ylim(0.0, 1.02)
+    _draw_mean(thickness, run, "band_thickness_m", "thickness (m)", ORANGE)
+    _draw_mean(ratio, run, "band_largest_pressure_ratio", "largest P over N", BLUE)
+    ratio.axhline(1.0, color=NOTE, linewidth=0.8, linestyle=":")
+    _draw_mean(friction, run, "band_friction_coefficient", "friction coefficient", PURPLE)
+    for axes in (thickness, ratio, friction):
+        axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
+    for axes in panels:
+        time_axis(axes, run.history["time_s"], label=axes in panels[4:])
+    letters(
+        panels,
+        (
+            "what presses on the base and what resists",
+            "temperature",
+            "liquid saturation",
+            "thickness",
+            "largest pore pressure of any column, over its N",
+            "friction coefficient",
+        ),
+    )
+    return figure
+
+
+def _draw_mean(axes: Axes, run: Run, column: str, words: str, colour: str, quantities: tuple[str, ...] = ()) -> None:
+    """Draw one column of the history, or say why there is nothing to draw."""
+    axes.set_ylabel(words)
+    values = run.history[column]
+    if not np.isfinite(values).any():
+        say(axes, "never in contact")
+        return
+    time_line(axes, run.history["time_s"], values, color=colour, label="run")
+    if draw_targets(axes, run, quantities, 1.0, colour):
+        axes.legend(loc="best")
+
+
+def _draw_stresses(axes: Axes, run: Run) -> None:
+    """Draw N, P and the shear traction on one axis, so that the eye takes N - P and the strength that is left of it."""
+    lines = (
+        ("band_normal_pressure_Pa", "normal pressure N", BLACK),
+        ("band_pore_pressure_Pa", "pore pressure P", BLUE),
+        ("band_shear_Pa", "shear traction (effective strength)", RED),
+    )
+    values = {column: run.history[column] for column, *_ in lines}
+    divisor, unit = prefixed(np.concatenate(list(values.values())), "Pa")
+    axes.set_ylabel(f"stress ({unit})")
+    for column, words, colour in lines:
+        time_line(axes, run.history["time_s"], values[column] / divisor, color=colour, label=words)
+    draw_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
+    axes.set_ylim(bottom=0.0)
+    axes.legend(loc="best")
+
+
+def _draw_temperatures(axes: Axes, run: Run) -> None:
+    time = run.history["time_s"]
+    boiling = boiling_temperature(run.history["band_normal_pressure_Pa"])
+    axes.set_ylabel("temperature (°C)")
+    time_line(axes, time, run.history["band_hottest_C"], color=ORANGE, label="hottest of any column")
+    time_line(axes, time, run.history["band_temperature_C"], color=RED, label="mean")
+    time_line(axes, time, boiling, color=SKY, linestyle="--", label="water boils at the mean N")
+    axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
+    draw_targets(axes, run, ("band_temperature",), 1.0, RED)
+    axes.legend(loc="best")
 
 
 def _finish(axes: Axes, column: str, values: np.ndarray) -> None:

@@ -48,8 +48,17 @@ THERMAL = {
     "advection_J": ("advection", PURPLE),
     "capacity_heat_J": ("made by the old capacity", YELLOW),
     "porosity_heat_J": ("made by changed masses", "#999999"),
+    "drained_heat_J": ("out with drained water", SKY),
 }
-RESIDUALS = {"mechanical_residual_J": (MECHANICAL, BLUE), "thermal_residual_J": (THERMAL, RED)}
+# Of band columns: their own heat, and what came into them and left besides friction heat.
+COLUMNS = {
+    "column_heat_J": ("heat in band columns", "#8C564B"),
+    "column_intake_J": ("laid and taken in by columns", SKY),
+    "column_vented_J": ("out with water, columns", "#17BECF"),
+    "column_steam_J": ("out with steam, columns", "#E377C2"),
+    "column_left_J": ("left with columns", "#7F7F7F"),
+}
+RESIDUALS = {"mechanical_residual_J": (MECHANICAL, BLUE), "thermal_residual_J": (THERMAL | COLUMNS, RED)}
 
 
 def changes(run: Run, accounts: dict[str, tuple[str, str]]) -> dict[str, Numbers]:
@@ -76,7 +85,7 @@ def energy(run: Run) -> Figure:
     figure.suptitle(f"{run.title}: energy ledger", x=0.01, ha="left", size=12)
     mechanical, thermal, residual = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 0.8))
     _draw_accounts(mechanical, run, MECHANICAL)
-    _draw_accounts(thermal, run, THERMAL)
+    _draw_accounts(thermal, run, THERMAL | COLUMNS)
     _draw_residuals(residual, run)
     for axes in (mechanical, thermal, residual):
         time_axis(axes, time, label=axes is residual)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import dataclass
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from thawslide.errors import NotInRunError
+from thawslide.band_pass import band_passed
+from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
@@ -21,7 +25,45 @@ from thawslide.figures.style import (
     time_axis,
     time_line,
 )
-from thawslide.run import Numbers, Run
+from thawslide.run import Numbers, Run, Target
+
+_REPORTED = "max_seismic_force"
+_BAND = re.compile(_REPORTED + r"_(\d+(?:\.\d+)?)_(\d+(?:\.\d+)?)_s")
+
+
+@dataclass(frozen=True)
+class Band:
+    """Periods [s] between which a force was inverted from seismic waves."""
+
+    shortest: float
+    longest: float
+
+    @property
+    def words(self) -> str:
+        """The band as texts have it."""
+        return f"{self.shortest:g} to {self.longest:g} s"
+
+
+def band_of(target: Target) -> Band | None:
+    """Return the band of a reported largest force, max_seismic_force_35_150_s, say; None for a target without one."""
+    found = _BAND.fullmatch(target.quantity)
+    if found is None:
+        return None
+    band = Band(float(found[1]), float(found[2]))
+    if not 0.0 < band.shortest < band.longest:
+        raise ReportError(f"the target {target.quantity}: give the shorter period first, both above 0")
+    return band
+
+
+def reported_forces(run: Run) -> list[Target]:
+    """Return the reported largest forces, with a band or without."""
+    return [target for target in run.targets if target.quantity == _REPORTED or band_of(target) is not None]
+
+
+def reported_bands(run: Run) -> list[Band]:
+    """Return the bands that reported forces have, each once."""
+    bands = (band_of(target) for target in reported_forces(run))
+    return list(dict.fromkeys(band for band in bands if band is not None))
 
 
 def seismic_force(run: Run) -> tuple[dict[str, Numbers], Numbers]:
@@ -30,6 +72,13 @@ def seismic_force(run: Run) -> tuple[dict[str, Numbers], Numbers]:
     if not parts:
         raise NotInRunError("history.csv has no column seismic_force_x_N")
     return parts, np.sqrt(sum(np.square(values) for values in parts.values()))
+
+
+def force_in_band(run: Run, band: Band) -> Numbers:
+    """Return the magnitude [N, or N per metre of width] of the force with its components band-passed, shape (rows,)."""
+    parts, _ = seismic_force(run)
+    passed = (band_passed(run.history["time_s"], part, band.shortest, band.longest) for part in parts.values())
+    return np.asarray(np.sqrt(sum(np.square(part) for part in passed)))
 
 
 def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
@@ -49,7 +98,7 @@ def force(run: Run) -> Figure:
     """Draw the force on the ground less the static weight, (a) its size, (b) its components; (c) plastic strain."""
     time = run.history["time_s"]
     parts, magnitude = seismic_force(run)
-    reported = [target for target in run.targets if target.quantity == "max_seismic_force"]
+    reported = reported_forces(run)
     comparable = [] if run.per_metre else reported
     divisor, unit = prefixed([np.nanmax(np.abs(magnitude)), *(t.value for t in comparable)], "N")
     unit += "/m of width" if run.per_metre else ""
@@ -58,14 +107,19 @@ def force(run: Run) -> Figure:
     figure.suptitle(f"{run.title}: seismic force and internal deformation", x=0.01, ha="left", size=12)
     size, components, strain = panels = list(figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1.2, 1.0)))
     time_line(size, time, magnitude / divisor, color=BLACK, linewidth=1.1, label="run")
+    bands = reported_bands(run)
+    for band, colour in zip(bands, (BLUE, GREEN, PURPLE, ORANGE), strict=False):
+        words = f"run, band-passed {band.words}"
+        time_line(size, time, force_in_band(run, band) / divisor, color=colour, linewidth=1.3, label=words)
     for target in comparable:
-        label = f"reported maximum {target.value / divisor:g} {unit}: {target.source}"
+        of_band = f" ({found.words})" if (found := band_of(target)) else ""
+        label = f"reported maximum {target.value / divisor:g} {unit}{of_band}: {target.source}"
         size.axhline(target.value / divisor, color=RED, linestyle="--", linewidth=1.2, label=label)
     if reported and run.per_metre:
         note = "reported force not drawn: the case states no width"
         size.text(0.01, 0.96, note, transform=size.transAxes, va="top", size=8, color=NOTE)
     _mark_start(size, time, magnitude / divisor)
-    size.set_ylim(0.0, 1.25 * size.get_ylim()[1])  # room for the legend
+    size.set_ylim(0.0, (1.25 + 0.15 * len(bands)) * size.get_ylim()[1])  # room for the legend
 
     vertical = "xyz"[run.vertical]
     for (axis, values), colour in zip(parts.items(), (BLUE, ORANGE, PURPLE), strict=False):

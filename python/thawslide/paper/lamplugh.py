@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
-from thawslide.figures.force import seismic_force
+from thawslide.figures.force import Band, force_in_band, seismic_force
 from thawslide.figures.motion import draw_targets
 from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_axis, time_line
 from thawslide.key_numbers import STOPPED_SHARE, stop_time, time_of_speed
@@ -26,6 +26,8 @@ PHASE = 75.0  # s: the time of the peak in the paper
 FRONT = 10500.0  # m: the reported front
 COHESION = 6.0e5  # Pa: along the base at the start
 MARGIN = 1000.0  # m: what counts as the distal margin before it
+INVERSION = Band(35.0, 150.0)  # s: periods that inversions of long waves take; that of the report is not checked
+WIDER = Band(20.0, 150.0)
 
 History = dict[str, Numbers]
 _COLOURS = (RED, ORANGE, GREEN)
@@ -182,6 +184,8 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         "lamplugh_friction_75s": at(run, "band_friction_coefficient", PHASE),
         "lamplugh_force_TN": float(force[loudest]) / 1e12,
         "lamplugh_force_time": float(time[loudest]),
+        "lamplugh_force_inverted_TN": float(np.nanmax(force_in_band(run, INVERSION))) / 1e12,
+        "lamplugh_force_wider_TN": float(np.nanmax(force_in_band(run, WIDER))) / 1e12,
         "lamplugh_temperature_40s": at(run, "band_temperature_C", 40.0),
         "lamplugh_temperature_75s": at(run, "band_temperature_C", PHASE),
         "lamplugh_temperature_80s": at(run, "band_temperature_C", 80.0),

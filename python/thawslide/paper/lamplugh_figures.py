@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from thawslide.figures.force import seismic_force
+from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.snapshots import Stretch, plastic_strain, velocity
 from thawslide.figures.style import BLUE, NOTE, RED, letters, styled, time_axis, time_line
-from thawslide.paper.lamplugh import PHASE, zones
+from thawslide.paper.lamplugh import INVERSION, PHASE, zones
 from thawslide.run import Numbers, Run
 
 INVERTED = 0.28  # TN: the largest force inverted from seismic waves
@@ -73,6 +73,9 @@ def figure_17(runs: dict[str, Run]) -> Figure:
     strain = run.history["mean_plastic_strain"]
     words = ("force on the ground less the static weight (TN)", "mean equivalent plastic strain")
     other = _pair(axes, time, (force, words[0]), (strain, words[1]))
+    passed = force_in_band(run, INVERSION) / 1e12
+    time_line(axes, time, passed, color=RED, linewidth=1.0, linestyle="-.", label=f"band-passed {INVERSION.words}")
+    axes.legend(loc="upper left")
     axes.axhline(INVERTED, color=RED, linewidth=1.0, linestyle="--")
     axes.annotate("largest force inverted from seismic waves, 0.28 TN", (0.99, INVERTED), va="bottom", ha="right",
                   size=8, xycoords=("axes fraction", "data"), xytext=(0, 2), textcoords="offset points",

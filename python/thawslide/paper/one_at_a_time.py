@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import json
 import os
 import re
@@ -115,13 +116,34 @@ def is_current(folder: Path, words: Sequence[str], inputs: Iterable[Path]) -> bo
     return all(path.stat().st_mtime < written for path in inputs)
 
 
+def commit_of(program: Path) -> str:
+    """Return the commit that a program was built from."""
+    told = subprocess.run([program, "version"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    found = re.search(r"commit ([^,\s)]+)", told)
+    return found[1] if found else ""
+
+
+def is_of_commit(folder: Path, words: Sequence[str], commit: str) -> bool:
+    """Return whether a folder holds an ended run of these words and of inputs as they are now, by this very commit."""
+    facts = _facts(folder)
+    ended = facts.get("status") in ("done", "failed") or _stopped_at_rest(folder, facts)
+    if not ended or facts.get("command") != " ".join(words) or facts.get("commit") != commit:
+        return False
+    return not commit.endswith("-dirty") and all(_is_as_it_was(each) for each in facts.get("inputs", ()))
+
+
+def _is_as_it_was(file: Mapping[str, Any]) -> bool:
+    path = Path(file["path"])
+    return path.is_file() and hashlib.sha256(path.read_bytes()).hexdigest() == file["sha256"]
+
+
 def refusal(folder: Path) -> Path:
     """Return the file beside a run folder that says why the program would not begin the run."""
     return folder.parent / f"{folder.name}.refused.txt"
 
 
-def run_one(words: Sequence[str], folder: Path) -> str:
-    """Run to the end, or until the slide is at rest; return "" or the program's error."""
+def run_one(words: Sequence[str], folder: Path, until_rest: bool = True) -> str:
+    """Run to the end, or only until the slide is at rest; return "" or the program's error."""
     environment = os.environ | {"OMP_NUM_THREADS": "1"}
     pipe = subprocess.PIPE
     with subprocess.Popen(words, env=environment, stdout=subprocess.DEVNULL, stderr=pipe, text=True) as process:
@@ -130,26 +152,34 @@ def run_one(words: Sequence[str], folder: Path) -> str:
                 _, errors = process.communicate(timeout=2.0)
                 break
             except subprocess.TimeoutExpired:
-                if at_rest(*_speeds(folder / "history.csv")):
+                if until_rest and at_rest(*_speeds(folder / "history.csv")):
                     process.send_signal(signal.SIGTERM)
     return "" if process.returncode == 0 or at_rest(*_speeds(folder / "history.csv")) else errors.strip()
 
 
 def run_rows(
-    rows: Sequence[Row], program: Path, cases: Path, output: Path, common: Sequence[str], jobs: int, tell: Tell
-) -> None:
-    """Run what is not there yet, `jobs` at a time; tell of each with the time left. Failures stay in their folders."""
+    rows: Sequence[Row], program: Path, cases: Path, output: Path, common: Sequence[str], jobs: int, tell: Tell,
+    *, commit: str = "", until_rest: bool = True,
+) -> None:  # fmt: skip
+    """Run what is not there yet, `jobs` at a time; tell of each with the time left. Failures stay in their folders.
+
+    With a `commit` the runs of that very commit are there, without one those that are newer than program and inputs.
+    """
     inputs = [program, *cases.glob("*.csv")]
     waiting = []
     for row in rows:
         words = words_to_start(program, cases / row.case, output / row.key, (*common, *row.sets))
-        if not is_current(output / row.key, words, [*inputs, cases / row.case]):
+        folder = output / row.key
+        is_there = is_of_commit(folder, words, commit) or (
+            not commit and is_current(folder, words, [*inputs, cases / row.case])
+        )
+        if not is_there:
             waiting.append((row, words))
     tell(f"{len(rows)} runs, {len(rows) - len(waiting)} of them there already")
     output.mkdir(parents=True, exist_ok=True)
     started = time.monotonic()
     with ThreadPoolExecutor(max_workers=jobs) as pool:
-        futures = {pool.submit(run_one, words, output / row.key): row for row, words in waiting}
+        futures = {pool.submit(run_one, words, output / row.key, until_rest): row for row, words in waiting}
         for done, future in enumerate(as_completed(futures), 1):
             row, failure = futures[future], future.result()
             if not (output / row.key / "history.csv").is_file():
@@ -159,16 +189,22 @@ def run_rows(
             tell(f"{done} of {len(waiting)}, about {left / 60:.0f} min left: {row.key}{why}")
 
 
+def why_not_whole(folder: Path) -> str:
+    """Return why a run did not come to its end or to rest, "" where it did."""
+    facts = _facts(folder)
+    if facts.get("status") == "done" or _stopped_at_rest(folder, facts):
+        return ""
+    if facts.get("status") == "stopped":
+        return "stopped before its end"
+    return str(facts.get("message") or "not at its end yet")
+
+
 def outcome(folder: Path) -> Outcome:
     """Return the numbers of a run folder; one that is not there or broke off says so."""
     if not (folder / "history.csv").is_file():
         note = refusal(folder)
         return Outcome(failure=note.read_text(encoding="utf-8") if note.is_file() else "not run")
-    facts = _facts(folder)
-    whole = facts.get("status") == "done" or _stopped_at_rest(folder, facts)
-    failure = "" if whole else str(facts.get("message") or "not at its end yet")
-    if not whole and facts.get("status") == "stopped":
-        failure = "stopped before its end"
+    failure = why_not_whole(folder)
     run = Run(folder)
     time_s, speed = run.history["time_s"], run.history["mean_velocity_m_s"]
     peak = int(np.nanargmax(speed))

@@ -67,6 +67,43 @@ TEST(FlowDepth, IsThatOfTheBoxWhereverItStands) {
   }
 }
 
+// N of the columns, and by how much it changes, on ground that a slope's cosine of 0.8 and 0.6 of gravity press.
+template <int Dim>
+void expect_load(double from) {
+  constexpr std::size_t layers = 6;
+  mpm::Particles<Dim, double> box;
+  fill_box<Dim>(7, layers, from, 0.0, box);
+  for (std::size_t p = 0; p < box.size(); ++p) {
+    box.mass(p) = 2000.0 * box.volume(p);
+  }
+  mpm::SparseGrid<Dim, double> grid(cell);
+  grid.update(box, 1);
+  BandModel<Dim, double> model;
+  model.sizes = {0.5 * spacing / cell};
+  FlowDepth<Dim, double> depth;
+  const auto normal_gravity = [](const Vector<double, Dim - 1>& /*place*/) { return 0.8 * 0.6 * 9.81; };
+  for (const double thinning : {1.0, 0.25}) {
+    for (std::size_t p = 0; p < box.size(); ++p) {
+      box.mass(p) *= thinning;
+    }
+    depth.update(grid, model, {}, box);
+    depth.load_to_particles(grid, normal_gravity, box);
+    for (std::size_t p = 0; p < box.size(); ++p) {
+      const double above = box.in_band(p) != 0 ? layers * spacing : layers * spacing - box.position(p, Dim - 1);
+      const double load = thinning * 2000.0 * 0.48 * 9.81 * above;
+      EXPECT_NEAR(box.normal_load(p), load, 1e-6) << "box from " << from << ", particle " << p;
+      EXPECT_NEAR(box.load_change(p), thinning < 1.0 ? -3.0 * load : load, 1e-6);
+    }
+  }
+}
+
+TEST(FlowDepth, TellsTheLoadOfTheBoxWhereverItStands) {
+  for (const double from : {-3.0, 0.0, 0.7, 2.5, 5.0, 9.999}) {
+    expect_load<2>(from);
+    expect_load<3>(from);
+  }
+}
+
 // The foremost particle of the band alone stands in a column of its own when the front passes a line of the grid: it
 // must not take its own top for the surface.
 TEST(FlowDepth, SeesTheBodyAboveABandThatIsAhead) {

@@ -6,6 +6,7 @@
 #include "case_messages.hpp"
 #include "config/declaration.hpp"
 #include "config/describe.hpp"
+#include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -29,7 +30,7 @@ Case sound_over_initialisers() {
   Body& block = expected.bodies["block"];
   block.material = "rock";
   block.max = {40.0, 20.0, 0.0};
-  expected.basal.friction_angle = 20.0;
+  expected.basal.numbers[physics::basal::friction_angle] = 20.0;
   return expected;
 }
 
@@ -52,10 +53,28 @@ TEST(CaseFile, DefaultsAreThoseOfThePaper) {
   EXPECT_EQ(found.phases.ice_to_rock_density_ratio, 1.0 / 3.0);
   EXPECT_EQ(found.freezing.curve, CurveKind::power_law);
   EXPECT_EQ(found.freezing.exponent, 5.0);
-  EXPECT_EQ(found.basal.friction, FrictionLaw::lubricated);
+  EXPECT_EQ(found.basal.friction, "lubricated");
+  EXPECT_EQ(found.basal.numbers(physics::basal::lubrication_exponent), 2.0);
+  EXPECT_EQ(found.basal.numbers(physics::basal::min_solid_fraction), 0.05);
+  EXPECT_EQ(found.basal.numbers(physics::basal::max_solid_fraction), 0.85);
+  EXPECT_EQ(found.basal.cohesion_law, "slip");
+  EXPECT_EQ(found.basal.numbers(physics::basal::initial_cohesion), 0.0);
+  EXPECT_EQ(found.basal.numbers(physics::basal::residual_cohesion), 0.0);
   EXPECT_EQ(found.basal.clamp, FrictionClamp::keep_cohesion);
   EXPECT_EQ(found.pressure.clapeyron, ClapeyronSign::usual);
+  EXPECT_EQ(found.phases.water_expansion_law, WaterExpansionLaw::constant);
+  EXPECT_EQ(found.pressure.frozen, FrozenPressure::ice_pressure);
+  EXPECT_TRUE(std::isinf(found.pressure.residual_stress));
+  EXPECT_FALSE(found.pressure.melt_contraction);
+  EXPECT_EQ(found.pressure.skeleton_compressibility, 0.0);
+  EXPECT_EQ(found.pressure.frozen_rows, FrozenRows::draining);
+  EXPECT_EQ(found.band.thickness_change, ThicknessChange::as_printed);
+  EXPECT_EQ(found.heat.advection_form, AdvectionForm::as_printed);
   EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::ugimp);
+  EXPECT_EQ(found.materials.at("rock").softening_strain, 1.0);
+  EXPECT_FALSE(found.block.bends);
+  EXPECT_EQ(found.mechanics.transfer, Transfer::flip);
+  EXPECT_EQ(found.mechanics.fmpm_order, 2);
   EXPECT_EQ(found.bodies.at("block").porosity.at(0.0, 0.0), 0.375);
 }
 
@@ -68,7 +87,9 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   std::string of_surface = sound_on_dem;
   const std::string number = "thickness = 10.0";
   of_surface.replace(of_surface.find(number), number.size(), "thickness = { surface = \"map.tif\" }");
-  for (const std::string& text : {sound + wall, sound + noise, sound_on_dem, of_surface}) {
+  const std::string ice = "[substrate.ice]\nfriction_angle = 5.0\n";
+  for (const std::string& text : {sound + wall + ice + "x_min = 50.0\n", sound + noise, sound_on_dem, of_surface,
+                                  sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = resolved_toml(found, "inputs");
     for (const auto& table : tables()) {
@@ -103,6 +124,7 @@ TEST(CaseFile, FillsInWhatFollowsFromOtherKeys) {
       {{"step = 0.001", "stepping = \"adaptive\""}, {"law = \"elastic\"", "friction_angle = 30.0\ncohesion = 2e5"}}));
   EXPECT_EQ(found.time.step, 2.0) << "no cap but the end";
   EXPECT_EQ(found.materials.at("rock").residual_cohesion, 2e5) << "no softening";
+  EXPECT_EQ(found.materials.at("rock").residual_friction_angle, 30.0) << "no softening";
 }
 
 TEST(CaseFile, IsNamedByItsFolder) {

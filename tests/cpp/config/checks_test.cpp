@@ -244,6 +244,34 @@ TEST(Values, FitOneAnother) {
       error_of_changed({{"[body.block]", "residual_cohesion = 10.0\ncohesion = 5.0\n[body.block]"}}),
       "FOLDER/case.toml:15:21: material.rock.residual_cohesion is 10 Pa, above material.rock.cohesion, which is 5 "
       "Pa; softening takes cohesion away. Give a residual at most the cohesion.");
+  EXPECT_EQ(error_of_changed({{"[body.block]", "residual_friction_angle = 10.0\nfriction_angle = 5.0\n[body.block]"}}),
+            "FOLDER/case.toml:15:27: material.rock.residual_friction_angle is 10 degrees, above "
+            "material.rock.friction_angle, "
+            "which is 5 degrees; softening takes friction away. Give a residual at most the friction angle.");
+  EXPECT_EQ(error_of_changed({{"[body.block]",
+                               "residual_friction_angle = 10.0\nfriction_angle = 30.0\ndilation_angle = "
+                               "12.0\n[body.block]"}}),
+            "FOLDER/case.toml:15:27: material.rock.residual_friction_angle is 10 degrees, below "
+            "material.rock.dilation_angle, which is 12 degrees; allowed: at least the dilation angle, which does not "
+            "soften, else plastic flow makes energy.");
+}
+
+TEST(Values, OfTheFilterBelongToItsTransfer) {
+  const std::string rest =
+      " is given, and mechanics.transfer is not \"fmpm\"; no other transfer has it. Set "
+      "mechanics.transfer = \"fmpm\", or remove mechanics.";
+  EXPECT_EQ(error_of_changed({{"[basal]", "[mechanics]\nfmpm_order = 3\n[basal]"}}),
+            "FOLDER/case.toml:21:14: mechanics.fmpm_order" + rest + "fmpm_order.");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[mechanics]\nfmpm_interval = 0.5\n[basal]"}}),
+            "FOLDER/case.toml:21:17: mechanics.fmpm_interval" + rest + "fmpm_interval.");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[mechanics]\ntransfer = \"fmpm\"\nfmpm_interval = 1e-4\n[basal]"}}),
+            "FOLDER/case.toml:22:17: mechanics.fmpm_interval is 0.0001 s, shorter than time.step, which is 0.001 s; "
+            "velocities are filtered once a step at most. Make the interval longer.");
+  EXPECT_EQ(
+      error_of_text(sound, {"mechanics.transfer=fmpm"}),
+      "--set mechanics.transfer=fmpm: key 'mechanics.fmpm_interval' is missing: it is needed when "
+      "mechanics.transfer is \"fmpm\". Add 'fmpm_interval = ...' to [mechanics]: simulated time from one filtering "
+      "to the next, a number, > 0 [s].");
 }
 
 TEST(Values, GiveOneAnotherAMeaning) {
@@ -266,6 +294,14 @@ TEST(Values, GiveOneAnotherAMeaning) {
       "--set pressure.enabled=false: mechanics.effective_stress is true, and pressure.enabled is false; there is no "
       "pore "
       "pressure to take off. Set pressure.enabled = true, or mechanics.effective_stress = false.");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[heat]\nadvection_form = \"conservative\"\nmasses = \"current\"\n[basal]"}}),
+            "FOLDER/case.toml:21:18: heat.advection_form is \"conservative\", and heat.update or heat.masses is as "
+            "printed, which makes heat all the same; allowed with it: heat.update = \"enthalpy\" and heat.masses = "
+            "\"initial\". Set both so, or heat.advection_form = \"as_printed\".");
+  EXPECT_EQ(error_of_changed({{"[basal]", "[pressure]\nresidual_stress = 2e5\n[basal]"}}),
+            "FOLDER/case.toml:21:19: pressure.residual_stress is 200000 Pa, and pressure.frozen is not \"none\"; where "
+            "ice presses, water starts from its pressure. Set pressure.frozen = \"none\", or remove "
+            "pressure.residual_stress.");
   EXPECT_EQ(
       error_of_changed({{"elevation = 0.0", "slope = 30.0"}}),
       "FOLDER/case.toml:10:9: terrain.slope is 30 degrees, and terrain.type is not \"plane\"; no other ground has "

@@ -9,8 +9,9 @@ using namespace case_messages;
 
 const std::string all_tables =
     "[case], [time], [grid], [grid.boundary], [terrain], [checkpoint], [maps], [probe.NAME], [report], [phases], "
-    "[freezing], [material.NAME], [body.NAME], [frame.NAME], [initial], [mechanics], [basal], [mechanisms], [band], "
-    "[heat], [heat.boundary], [pressure].";
+    "[freezing], [material.NAME], [body.NAME], [frame.NAME], [initial], [mechanics], [basal], [substrate.NAME], "
+    "[mechanisms], [band], "
+    "[heat], [heat.boundary], [pressure], [block].";
 
 TEST(Mistakes, SoundCaseHasNone) { EXPECT_EQ(error_of_text(sound), "no error"); }
 
@@ -143,7 +144,7 @@ TEST(Mistakes, UnknownKey) {
   EXPECT_EQ(with_key("colour"), "FOLDER/case.toml:6:1: key 'grid.colour' is not known in [grid]." + here);
   EXPECT_EQ(with_key("cohesion"),
             "FOLDER/case.toml:6:1: key 'grid.cohesion' is not known in [grid]; it belongs in [material.NAME] or "
-            "[basal]." +
+            "[basal] or [substrate.NAME]." +
                 here);
   EXPECT_EQ(
       error_of_changed({{"cell = 5.0", "cel = 5.0"}}),
@@ -159,7 +160,7 @@ TEST(Mistakes, UnknownTable) {
                 "\nFOLDER/case.toml:21:2: table [bandd] is not known; did you mean 'band'? Allowed: " + all_tables);
   EXPECT_EQ(error_of_changed({{"[time]", "friction_angle = 3.0\n[time]"}}),
             "FOLDER/case.toml:1:1: key 'friction_angle' outside of a table is not known; it belongs in [material.NAME] "
-            "or [basal]. Allowed: " +
+            "or [basal] or [substrate.NAME]. Allowed: " +
                 all_tables);
 }
 
@@ -190,12 +191,13 @@ TEST(Mistakes, MissingKey) {
             "FOLDER/case.toml:1:1: key 'time.step' is missing: it is needed when time.stepping is \"fixed\". Add 'step "
             "= ...' to [time]: the fixed time step, or the largest adaptive one, a number, > 0 [s].");
   EXPECT_EQ(error_of_changed({{"[basal]\nfriction_angle = 20.0\n", ""}}),
-            "FOLDER/case.toml: key 'basal.friction_angle' is missing: it is needed when there is a terrain. Add "
-            "'friction_angle = ...' to [basal]: basal friction angle phi_f, a number, >= 0 and < 90 [degrees].");
+            "FOLDER/case.toml: key 'basal.friction_angle' is missing: it is needed when there is a terrain and "
+            "basal.friction is \"constant\" or \"lubricated\". Add 'friction_angle = ...' to [basal]: basal friction "
+            "angle phi_f, a number, >= 0 and < 90 [degrees].");
   EXPECT_EQ(error_of_changed({{"[basal]", "[basal]\ncohesion = 1.0"}}),
             "FOLDER/case.toml:20:1: key 'basal.slip_distance' is missing: it is needed when basal.cohesion > 0 and "
-            "basal.cohesion_law is \"slip\". Add 'slip_distance = ...' to [basal]: slip over which the cohesion falls "
-            "to 1/e, d_c, of the law \"slip\", a number, > 0 [m].");
+            "basal.cohesion_law is \"slip\" or \"bonds\". Add 'slip_distance = ...' to [basal]: slip over which the "
+            "cohesion falls to 1/e, d_c, of the laws \"slip\" and \"bonds\", a number, > 0 [m].");
 }
 
 TEST(Mistakes, KeyOfAnotherDimension) {
@@ -217,7 +219,8 @@ TEST(Mistakes, SeveralInOrderOfTheirPlaces) {
             "--set basal.friction_angle=95: basal.friction_angle is 95; allowed: >= 0 and < 90 degrees (basal friction "
             "angle phi_f).\n"
             "--set band.thicknes=0.1: key 'band.thicknes' is not known in [band]; did you mean 'thickness'? Allowed "
-            "here: thickness, region, cut_cells.");
+            "here: model, thickness, region, cut_cells, thickness_change, growth, grain_size, inertial_number, "
+            "growth_per_slip, load_time, column_step, ground_temperature.");
 }
 
 TEST(Mistakes, SeveralThatDoNotFitTogether) {

@@ -2,9 +2,9 @@
 #include <map>
 #include <sstream>
 
-#include "case_messages.hpp"
 #include "config/declaration.hpp"
 #include "config/describe.hpp"
+#include "every_key.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -13,237 +13,6 @@ namespace fs = std::filesystem;
 using namespace case_messages;
 using testing_support::case_from_text;
 using Lines = std::map<std::string, std::map<std::string, std::string>>;  // value by table and key
-
-// Every key of a plane case, none at its default, written as the program writes it. What only a 3D case can show is in
-// the other texts.
-const std::string every_key = R"([case]
-title = "Every \"key\""
-width = 12.5
-gravity = 9.75
-gravity_tilt = -1.5
-[time]
-end = 4.5
-stepping = "adaptive"
-step = 0.25
-safety = 0.5
-output_interval = 1.5
-history_interval = 0.125
-[grid]
-cell = 2.5
-min = [-5.0, -10.0]
-max = [95.0, 40.0]
-leaving = "remove"
-[grid.boundary]
-x_min = "fixed"
-x_max = "roller"
-y_min = "roller"
-y_max = "fixed"
-[terrain]
-type = "profile"
-elevation = -1.0
-file = "inputs/profile.csv"
-extend = true
-representation = "rigid_points"
-layers = 3
-[checkpoint]
-interval = 3.0
-[report]
-times = [1.0, 2.5]
-targets = "inputs/targets.csv"
-[phases]
-rock_density = 2700.5
-ice_density = 900.5
-water_density = 1001.5
-rock_heat_capacity = 801.5
-ice_heat_capacity = 2001.5
-water_heat_capacity = 4001.5
-rock_conductivity = 3.5
-ice_conductivity = 2.5
-water_conductivity = 0.75
-rock_expansion = 0.001
-ice_expansion = 0.002
-water_expansion = 0.003
-water_bulk_modulus = 2000000000.0
-latent_heat = 330000.0
-water_unit_weight = 9800.0
-ice_to_rock_density_ratio = 0.325
-[freezing]
-curve = "linear"
-exponent = 4.0
-slope = 0.25
-reference_temperature = -0.5
-[material.rock]
-law = "elastic"
-youngs_modulus = 400000000.0
-poisson_ratio = 0.25
-friction_angle = 31.0
-dilation_angle = 4.0
-cohesion = 200000.0
-residual_cohesion = 100000.0
-tension_cutoff = 10000.0
-gaps_close_first = true
-viscosity_time = 0.03
-hydraulic_conductivity = 0.0001
-[body.block]
-material = "rock"
-shape = "polygon"
-min = [1.0, 2.0]
-max = [3.0, 4.0]
-vertices = [[0.0, 0.0], [40.0, 0.0], [40.0, 20.0]]
-particles_per_axis = 3
-temperature = { depth = [0.0, 5.0], value = [-1.0, -2.0] }
-porosity = { x = [0.0, 40.0], value = [0.3, 0.4] }
-velocity = [1.5, -0.5]
-[frame.wall]
-min = [50.0, 0.0]
-max = [60.0, 9.0]
-axis = "y"
-velocity = 2.25
-[initial]
-noise = 0.125
-seed = 7
-[mechanics]
-enabled = false
-shape_function = "linear"
-transfer = "blend"
-pic_share = 0.125
-initial_stress = "settle"
-k0 = 0.4
-effective_stress = true
-settle_time = 6.0
-settle_damping = 7.0
-mass_damping = 8.0
-[basal]
-friction = "constant"
-friction_angle = 25.0
-lubrication_exponent = 3.0
-min_solid_fraction = 0.1
-max_solid_fraction = 0.9
-clamp = "joint"
-cap_pressure = true
-heat_fraction = 0.35
-distance_check = false
-cohesion = 300000.0
-cohesion_law = "time"
-residual_cohesion = 150000.0
-slip_distance = 400.0
-cohesion_loss_time = 20.0
-[mechanisms]
-deformation = false
-lubrication = false
-pressurization = false
-[band]
-thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] }
-region = "first_layer"
-cut_cells = "equal_thickness"
-[heat]
-enabled = false
-update = "apparent_capacity"
-masses = "current"
-latent = false
-conduction = false
-advection = false
-[heat.boundary]
-x_min = { temperature = -6.0 }
-x_max = { flux = 12.5 }
-y_min = { temperature = -7.0 }
-y_max = { flux = -2.0 }
-[pressure]
-thermal_pressurization = false
-clapeyron = "printed"
-volumetric_term = true
-seepage = false
-seepage_scaling = "printed"
-thickness_direction = "vertical"
-thickness_update = "frozen"
-)";
-
-const std::string rest_in_3d = R"([case]
-dimension = 3
-[time]
-end = 4.5
-step = 0.25
-[grid]
-cell = 2.5
-min = [-5.0, 0.0, -10.0]
-max = [95.0, 10.0, 40.0]
-[grid.boundary]
-z_min = "fixed"
-z_max = "roller"
-[terrain]
-type = "plane"
-slope = 5.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 400000000.0
-poisson_ratio = 0.25
-[probe.gauge]
-line = "inputs/section.geojson"
-[body.block]
-material = "rock"
-min = [0.0, 0.0, 1.0]
-max = [40.0, 5.0, 20.0]
-velocity = [1.5, -0.5, 0.25]
-[mechanics]
-slope_shear = true
-[basal]
-friction_angle = 25.0
-[heat.boundary]
-z_min = { temperature = -8.0 }
-z_max = { flux = 3.5 }
-[pressure]
-enabled = false
-)";
-
-// A release on a DEM, with all that maps give.
-const std::string release_on_dem = R"([case]
-dimension = 3
-[time]
-end = 4.5
-step = 0.25
-[grid]
-cell = 2.5
-min = [-5.0, 0.0, -10.0]
-max = [95.0, 10.0, 40.0]
-[terrain]
-type = "dem"
-file = "inputs/dem.tif"
-crs = "EPSG:31287"
-resample = 10.0
-smooth = 2.5
-[maps]
-cell = 20.0
-arrival_thickness = 0.5
-path = "inputs/path.geojson"
-[probe.gauge]
-point = [12.5, -3.0]
-[material.rock]
-law = "elastic"
-youngs_modulus = 400000000.0
-poisson_ratio = 0.25
-[body.block]
-material = "rock"
-shape = "release"
-release = "inputs/release.shp"
-polygons = ["upper \"part\"", "lower"]
-name_attribute = "part"
-thickness = { raster = "inputs/thickness.tif" }
-thickness_along = "normal"
-placement = "cut"
-taper = 5.0
-largest_volume = 300000000.0
-saturation = { raster = "inputs/saturation.tif" }
-ice_content = { attribute = "ice" }
-[basal]
-friction_angle = 25.0
-)";
-
-// The same release between two surfaces.
-std::string release_of_a_surface() {
-  std::string text = release_on_dem;
-  const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");
-  return text.replace(begin, end - begin, "thickness = { surface = \"inputs/before.tif\" }\nsurface_tolerance = 0.5\n");
-}
 
 Lines lines_of(const std::string& text) {
   Lines lines;
@@ -264,8 +33,8 @@ Lines lines_of(const std::string& text) {
 Case read_with_inputs(const std::string& text) {
   write_beside_the_case("inputs/profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,-1\n");
   write_beside_the_case("inputs/targets.csv", "quantity,time_s,value,unit,source\n");
-  for (const std::string name :
-       {"dem.tif", "path.geojson", "section.geojson", "release.shp", "thickness.tif", "saturation.tif", "before.tif"}) {
+  for (const std::string name : {"dem.tif", "path.geojson", "section.geojson", "release.shp", "thickness.tif",
+                                 "saturation.tif", "before.tif", "codes.tif"}) {
     write_beside_the_case("inputs/" + name, "");
   }
   return case_from_text(text);
@@ -274,7 +43,7 @@ Case read_with_inputs(const std::string& text) {
 // The name in the case of what the reference calls [body.NAME].
 std::string own_name(const TableDeclaration& table) {
   const std::map<std::string, std::string> names{
-      {"material", "rock"}, {"body", "block"}, {"frame", "wall"}, {"probe", "gauge"}};
+      {"material", "rock"}, {"body", "block"}, {"frame", "wall"}, {"probe", "gauge"}, {"substrate", "ice"}};
   return table.is_named() ? table.name + "." + names.at(table.name) : table.name;
 }
 
@@ -302,7 +71,6 @@ TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
     }
   }
 }
-
 TEST(Resolved, WritesDefaultsUnitsAndNoKeyWithoutMeaning) {
   const std::string text = resolved_toml(case_from_text(sound), "inputs");
   const Lines lines = lines_of(text);

@@ -1,5 +1,6 @@
 // `--set KEY=VALUE`: what it can do, and what it is told when it cannot.
 #include "case_messages.hpp"
+#include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -46,7 +47,8 @@ TEST(Set, TheLastOneHolds) { EXPECT_EQ(case_from_text(sound, {"time.end=3", "tim
 
 TEST(Set, GivesWhatTheFileLacks) {
   EXPECT_EQ(error_of_changed({{"cell = 5.0\n", ""}}, {"grid.cell=5"}), "no error");
-  EXPECT_EQ(case_from_text(sound, {"basal.cohesion=1", "basal.slip_distance=2"}).basal.slip_distance, 2.0);
+  const Case lossy = case_from_text(sound, {"basal.cohesion=1", "basal.slip_distance=2"});
+  EXPECT_EQ(lossy.basal.numbers(physics::basal::slip_distance), 2.0);
 }
 
 TEST(Set, NeedsAKeyAndAValue) {

@@ -3,6 +3,7 @@
 
 #include "case_messages.hpp"
 #include "config/describe.hpp"
+#include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -33,15 +34,15 @@ TEST(BasedOn, OtherKeysHoldWhereNothingElseIsGiven) {
         "[case]\nbased_on = \"case.toml\"\n[basal]\nfriction_angle = 35.0\n[body.block]\nmax = [60.0, 30.0]\n");
   write("steeper.toml", "[case]\nbased_on = \"steep.toml\"\n[basal]\nfriction_angle = 40.0\n");
   const Case base = read("case.toml"), steep = read("steep.toml"), steeper = read("steeper.toml");
-  EXPECT_EQ(base.basal.friction_angle, 20.0);
-  EXPECT_EQ(steep.basal.friction_angle, 35.0);
+  EXPECT_EQ(base.basal.numbers(physics::basal::friction_angle), 20.0);
+  EXPECT_EQ(steep.basal.numbers(physics::basal::friction_angle), 35.0);
   EXPECT_EQ(steep.bodies.at("block").max[0], 60.0);
   EXPECT_EQ(steep.bodies.at("block").material, "rock");
   EXPECT_EQ(steep.time.end, base.time.end);
-  EXPECT_EQ(steeper.basal.friction_angle, 40.0);
+  EXPECT_EQ(steeper.basal.numbers(physics::basal::friction_angle), 40.0);
   EXPECT_EQ(steeper.bodies.at("block").max[0], 60.0);
   EXPECT_EQ(steeper.case_files.size(), 3U);
-  EXPECT_EQ(read("steep.toml", {"basal.friction_angle=5"}).basal.friction_angle, 5.0);
+  EXPECT_EQ(read("steep.toml", {"basal.friction_angle=5"}).basal.numbers(physics::basal::friction_angle), 5.0);
 }
 
 TEST(BasedOn, AValueThatIsATableIsReplacedAsAWhole) {
@@ -68,7 +69,7 @@ TEST(BasedOn, TheResolvedCaseStandsAlone) {
   const std::string resolved = resolved_toml(read("steep.toml"), "inputs");
   write("alone.toml", resolved);
   std::filesystem::remove(folder_of_this_test() / "case.toml");
-  EXPECT_EQ(read("alone.toml").basal.friction_angle, 35.0);
+  EXPECT_EQ(read("alone.toml").basal.numbers(physics::basal::friction_angle), 35.0);
 }
 
 TEST(BasedOn, MistakesAreToldWhereTheyWereWritten) {

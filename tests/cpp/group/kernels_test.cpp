@@ -25,6 +25,7 @@
 #include "band/averages_kernel.hpp"
 #include "band/heat_kernels.hpp"
 #include "band/pore_pressure_of_tile.hpp"
+#include "mpm/filter_kernels.hpp"
 #include "mpm/group_pass.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/position_kernel.hpp"
@@ -72,11 +73,16 @@ class Scene {
       }
       // Most hover, so that what they read of the distance matters.
       particles.contact_offset(p) = std::uniform_real_distribution<double>(-1.0, 0.1)(random);
+      particles.pore_void(p) = std::uniform_real_distribution<double>(-1e-4, 1e-4)(random);
+      particles.normal_load(p) = std::uniform_real_distribution<double>(0.0, 1e5)(random);
+      particles.load_change(p) = std::uniform_real_distribution<double>(-1e3, 1e3)(random);
     }
     ground.update(*model.ground, grid);
     fill<mpm::NodalState>({1.0, 1e5, 0.1, 1e3}, random);
     fill<mpm::Velocity>({1.0, 2.0, 0.5}, random);
     fill<mpm::Motion>({10.0, 5.0, 8.0, 1.0, 2.0, 3.0}, random);
+    fill<mpm::FilterIncrement>({1.0, 2.0, 0.5, 0.2, 0.1, 0.3}, random);
+    fill<mpm::FilterTotal>({10.0, 5.0, 2.0, 0.4, 0.3, 0.1}, random);
     fill<mpm::OrphanHeat>({2.0}, random);
     fill<mpm::Contact>({1.0, 1.0, 3.0, 1e3}, random);
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
@@ -320,6 +326,10 @@ void expect_all_kernels_agree() {
   expect_the_bits_of_lanes("move", scene, ugimp, mpm::Move<Dim, double>{0.1, dt});
   expect_the_bits_of_lanes("move, linear", scene, linear, mpm::Move<Dim, double>{0.1, dt});
   expect_the_bits_of_lanes("move, affine", scene, affine, mpm::MoveAffine<Dim, double>{dt});
+  expect_the_bits_of_lanes("moments", scene, ugimp, mpm::AddFilterMoments<Dim, double>{});
+  expect_the_bits_of_lanes("momentum to filter", scene, ugimp, mpm::AddFilterMomentum<Dim, double>{});
+  expect_the_bits_of_lanes("sweep", scene, quadratic, mpm::SweepFilter<Dim, double>{});
+  expect_the_bits_of_lanes("filtered", scene, ugimp, mpm::TakeFiltered<Dim, double>{});
   expect_the_bits_near_the_ground(scene, ugimp, dt);
   expect_the_bits_near_the_ground(scene, quadratic, dt);
   expect_the_bits_of_lanes("stress", scene, ugimp, stress);
@@ -328,14 +338,30 @@ void expect_all_kernels_agree() {
   band::FlowDepth<Dim, double> depth;
   depth.update(scene.grid, band, {}, scene.particles);
   expect_the_bits_of_lanes("pressure", scene, by_linear,
-                           band::UpdatePorePressure<Dim, double, true>{scene.grid, band, depth});
+                           band::UpdatePorePressure<Dim, double, true, false>{scene.grid, band, depth});
   expect_the_bits_of_lanes("pressure without seepage", scene, by_linear,
-                           band::UpdatePorePressure<Dim, double, false>{scene.grid, band, depth});
+                           band::UpdatePorePressure<Dim, double, false, false>{scene.grid, band, depth});
+  auto balanced = band;
+  balanced.frozen_rows = band::FrozenRows::sealed;
+  balanced.ice_presses = false;
+  balanced.skeleton_compressibility = 1e-8;
+  balanced.water.law = physics::WaterExpansionLaw::by_temperature;
+  balanced.conservative_advection = true;
+  expect_the_bits_of_lanes("seeping water", scene, by_linear,
+                           band::AddSeepingWater<Dim, double>{balanced, balanced.hydraulic()});
+  expect_the_bits_of_lanes(
+      "seepage between sealed rows", scene, by_linear,
+      band::SeepageFlows<Dim, double>{balanced, balanced.hydraulic(), dt, scene.grid.inverse_cell()});
+  expect_the_bits_of_lanes("pressure by the balance of water", scene, by_linear,
+                           band::UpdatePorePressure<Dim, double, true, true>{scene.grid, balanced, depth});
   expect_the_bits_of_lanes("orphan heat", scene, ugimp, band::TakeOrphanHeat<Dim, double>{dt});
   band::with_particle_heat(band, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
     const band::HeatFlows<Dim, double, Law> flows{band, band.hydraulic(), law, dt, scene.grid.inverse_cell(), true};
     expect_the_bits_of_lanes("heat flows", scene, by_linear, flows);
+    const band::HeatFlows<Dim, double, Law> conserving{balanced, balanced.hydraulic(),      law,
+                                                       dt,       scene.grid.inverse_cell(), true};
+    expect_the_bits_of_lanes("heat flows with the water's heat", scene, by_linear, conserving);
     expect_the_bits_of_lanes("secant capacity", scene, by_linear, band::SecantCapacity<Dim, double, Law>{law, dt});
     expect_the_bits_of_lanes("heat", scene, by_linear, band::TakeHeat<Dim, double, Law>{band, law, dt});
     expect_the_bits_of_lanes("heat as printed", scene, by_linear,

@@ -2,19 +2,68 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+#include <string>
+
+#include "physics/basal/laws.hpp"
 #include "physics/contact.hpp"
 
 namespace thawslide::physics {
 namespace {
 
-TEST(Lubrication, IsEquation25) {
+using namespace basal;
+using Node = ContactNode<double>;
+
+// A law from numbers by key.
+template <class Law>
+Law law_from(const std::map<std::string, double>& numbers) {
+  return Law::from([&](const Parameter& number) {
+    const auto found = numbers.find(number.key);
+    return found == numbers.end() ? number.initial : found->second;
+  });
+}
+
+template <class Laws>
+void expect_words_and_keys_to_be_unique() {
+  std::set<std::string> words;
+  std::map<std::string, const Parameter*> numbers;
+  for_each_law<Laws>([&]<class Law>(OfType<Law>) {
+    EXPECT_TRUE(words.insert(Law::word).second) << Law::word;
+    EXPECT_FALSE(std::string(Law::text).empty()) << Law::word;
+    for (const Parameter* number : Law::parameters) {
+      EXPECT_EQ(numbers.emplace(number->key, number).first->second, number) << Law::word << " " << number->key;
+      EXPECT_FALSE(std::string(number->text).empty()) << number->key;
+      EXPECT_TRUE(number->is_needed ||
+                  (number->low_open ? number->initial > number->low
+                                    : number->initial >= number->low && number->initial <= number->high))
+          << number->key << ": the default is outside its range";
+    }
+  });
+  EXPECT_EQ(words.size(), std::variant_size_v<Laws>);
+}
+
+TEST(BasalLaws, WordsAndKeysAreUnique) {
+  expect_words_and_keys_to_be_unique<FrictionLaw<double>>();
+  expect_words_and_keys_to_be_unique<CohesionLaw<double>>();
+}
+
+TEST(LubricatedFriction, IsEquation25) {
   // Frozen at a porosity of 0.375 (n_e = 0.75): 1 - (1 - 0.875)^2 = 0.984375, times tan 40 degrees = 0.826 as in
   // Sec. 3.3.
-  EXPECT_NEAR(lubrication_factor(0.75, 0.05, 0.85, 2.0), 0.984375, 1e-14);
-  EXPECT_NEAR(std::tan(40.0 * pi<double> / 180.0) * lubrication_factor(0.75, 0.05, 0.85, 2.0), 0.826, 5e-4);
-  EXPECT_EQ(lubrication_factor(0.04, 0.05, 0.85, 2.0), 0.0);
-  EXPECT_EQ(lubrication_factor(0.90, 0.05, 0.85, 2.0), 1.0);
-  EXPECT_NEAR(lubrication_factor(0.45, 0.05, 0.85, 1.5), 1.0 - std::pow(0.5, 1.5), 1e-14);
+  const auto at = [](double solid_fraction, double exponent) {
+    return LubricatedFriction<double>{1.0, exponent, 0.05, 0.85}.coefficient(Node{.solid_fraction = solid_fraction});
+  };
+  EXPECT_NEAR(at(0.75, 2.0), 0.984375, 1e-14);
+  EXPECT_EQ(at(0.04, 2.0), 0.0);
+  EXPECT_EQ(at(0.90, 2.0), 1.0);
+  EXPECT_NEAR(at(0.45, 1.5), 1.0 - std::pow(0.5, 1.5), 1e-14);
+  const auto of_the_paper = law_from<LubricatedFriction<double>>({{"friction_angle", 40.0}});
+  EXPECT_NEAR(of_the_paper.coefficient(Node{.solid_fraction = 0.75}), 0.826, 5e-4);
+}
+
+TEST(ConstantFriction, IsTheTangent) {
+  EXPECT_DOUBLE_EQ(law_from<ConstantFriction<double>>({{"friction_angle", 45.0}}).coefficient(Node{}), 1.0);
 }
 
 TEST(SlidingStrength, TheTwoClampsDifferOnlyWherePressurePassesN) {
@@ -28,11 +77,35 @@ TEST(SlidingStrength, TheTwoClampsDifferOnlyWherePressurePassesN) {
 }
 
 TEST(Cohesion, Laws) {
-  EXPECT_DOUBLE_EQ(cohesion_after_slip(6e5, 1e5, 0.0, 400.0), 6e5);
-  EXPECT_NEAR(cohesion_after_slip(6e5, 1e5, 400.0, 400.0), 1e5 + 5e5 * std::exp(-1.0), 1e-6);
-  EXPECT_DOUBLE_EQ(cohesion_of_ice(6e5, 0.25), 4.5e5);
-  EXPECT_DOUBLE_EQ(cohesion_until(6e5, 1e5, 9.99, 10.0), 6e5);
-  EXPECT_DOUBLE_EQ(cohesion_until(6e5, 1e5, 10.0, 10.0), 1e5);
+  const std::map<std::string, double> numbers{
+      {"cohesion", 6e5}, {"residual_cohesion", 1e5}, {"slip_distance", 400.0}, {"cohesion_loss_time", 10.0}};
+  EXPECT_EQ(law_from<ConstantCohesion<double>>(numbers).cohesion(Node{.slip = 1e9, .time = 1e9}), 6e5);
+  const auto slip = law_from<SlipCohesion<double>>(numbers);
+  EXPECT_DOUBLE_EQ(slip.cohesion(Node{.slip = 0.0}), 6e5);
+  EXPECT_NEAR(slip.cohesion(Node{.slip = 400.0}), 1e5 + 5e5 * std::exp(-1.0), 1e-6);
+  EXPECT_DOUBLE_EQ(law_from<IceCohesion<double>>(numbers).cohesion(Node{.saturation = 0.25}), 4.5e5);
+  const auto time = law_from<TimeCohesion<double>>(numbers);
+  EXPECT_DOUBLE_EQ(time.cohesion(Node{.time = 9.99}), 6e5);
+  EXPECT_DOUBLE_EQ(time.cohesion(Node{.time = 10.0}), 1e5);
+}
+
+// Simpson's rule over the slip: the energy that sliding takes, while all is frozen, is c_0 d_c.
+TEST(Cohesion, BondsCostTheirEnergyOnce) {
+  const double initial = 1.9e5, distance = 20.0;
+  const auto bonds = law_from<BondsCohesion<double>>({{"cohesion", initial}, {"slip_distance", distance}});
+  const int parts = 4000;
+  const double slip = 50.0 * distance, part = slip / parts;
+  double energy = 0.0;
+  for (int k = 0; k <= parts; ++k) {
+    energy += (k == 0 || k == parts ? 1.0
+               : k % 2 == 1         ? 4.0
+                                    : 2.0) *
+              part / 3.0 * bonds.cohesion(Node{.slip = k * part});
+  }
+  EXPECT_NEAR(energy / (initial * distance), 1.0, 1e-9);
+  EXPECT_EQ(bonds.cohesion(Node{}), initial);
+  EXPECT_DOUBLE_EQ(bonds.cohesion(Node{.saturation = 0.75, .slip = distance}), 0.25 * initial * std::exp(-1.0));
+  EXPECT_EQ(bonds.cohesion(Node{.saturation = 1.0}), 0.0);
 }
 
 TEST(Contact, SticksBelowTheStrengthAndSlidesAboveIt) {

@@ -33,6 +33,11 @@ TEST(Mixture, AveragesByHand) {
   EXPECT_NEAR(expansion(phases, 0.375, 0.0), 0.917 * (1.875e-5 + 1.9125e-5), 1e-16);
 }
 
+TEST(Mixture, MixesByVolume) {
+  EXPECT_DOUBLE_EQ(mixed(10.0, -30.0, 0.25), -20.0);
+  EXPECT_EQ(mixed(10.0, -30.0, 1.0), 10.0);
+}
+
 TEST(Mixture, PorosityKeepsTheGrains) {
   // The grains' share of a volume V is (1 - n) V; it may change only by their thermal expansion.
   std::mt19937 random(7);

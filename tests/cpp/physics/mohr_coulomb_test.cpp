@@ -25,7 +25,7 @@ const Set sets[] = {{35, 0, 1e6, infinity}, {35, 35, 1e6, infinity}, {30, 10, 2e
                     {0, 0, 1e5, infinity},  {40, 5, 0.0, infinity},  {20, 20, 1e5, 0.0}};
 
 MohrCoulomb<double> law_of(const Set& set) {
-  return MohrCoulomb<double>::make(elastic, set.friction, set.dilation, set.cohesion, set.cohesion, set.cutoff);
+  return MohrCoulomb<double>::make(elastic, {set.friction, set.dilation, set.cohesion, set.cohesion, set.cutoff});
 }
 
 // F of Eq. 11, and the cut-off's excess, whichever is larger; from the sines and cosines as the paper writes it.
@@ -52,12 +52,14 @@ Tensor random_stress(std::mt19937& random, bool plane) {
 double size(const Tensor& stress) { return stress.cwiseAbs().maxCoeff(); }
 
 // Four (as many as lanes) at a time are what they are one by one: faces, edges, apex and cut-off in one batch too.
-TEST(MohrCoulomb, LanesReturnAsSingleNumbersDo) {
+template <class Law>
+void expect_lanes_return_as_single_numbers_do(double softening_strain, double angle_lost) {
   using Wide = Lanes<double>;
   std::mt19937 random(4);
   for (const Set& set : sets) {
-    const auto law =
-        MohrCoulomb<double>::make(elastic, set.friction, set.dilation, set.cohesion, 0.5 * set.cohesion, set.cutoff);
+    const double residual_angle = std::max(set.dilation, set.friction - angle_lost);
+    const auto law = Law::make(elastic, {set.friction, set.dilation, set.cohesion, 0.5 * set.cohesion, set.cutoff,
+                                         softening_strain, residual_angle});
     int yielded = 0;
     for (int k = 0; k < 500; ++k) {
       std::array<Tensor, Wide::count> one;
@@ -69,9 +71,10 @@ TEST(MohrCoulomb, LanesReturnAsSingleNumbersDo) {
         trial[c] = Wide::of([&](std::size_t lane) { return one[lane][c]; });
       }
       const Wide strain = Wide::of([&](std::size_t lane) { return 0.1 * static_cast<double>(lane * (k % 5)); });
-      const auto together = k % 2 == 0 ? law.update<2>(trial, strain) : law.update<3>(trial, strain);
+      const auto together = k % 2 == 0 ? law.template update<2>(trial, strain) : law.template update<3>(trial, strain);
       for (std::size_t lane = 0; lane < Wide::count; ++lane) {
-        const auto alone = k % 2 == 0 ? law.update<2>(one[lane], strain[lane]) : law.update<3>(one[lane], strain[lane]);
+        const auto alone = k % 2 == 0 ? law.template update<2>(one[lane], strain[lane])
+                                      : law.template update<3>(one[lane], strain[lane]);
         EXPECT_EQ(together.yielded[lane], alone.yielded);
         yielded += alone.yielded ? 1 : 0;
         for (int c = 0; c < 6; ++c) {
@@ -85,17 +88,24 @@ TEST(MohrCoulomb, LanesReturnAsSingleNumbersDo) {
         for (int c = 0; c < 6; ++c) {
           by_itself[c] = one[lane][c];
         }
-        const auto copies =
-            k % 2 == 0 ? law.update<2>(by_itself, Wide(strain[lane])) : law.update<3>(by_itself, Wide(strain[lane]));
+        const auto copies = k % 2 == 0 ? law.template update<2>(by_itself, Wide(strain[lane]))
+                                       : law.template update<3>(by_itself, Wide(strain[lane]));
         for (int c = 0; c < 6; ++c) {
           EXPECT_EQ(together.stress[c][lane], copies.stress[c][0]);
         }
-        EXPECT_TRUE(!alone.yielded || (k % 2 == 0 ? law.may_yield<2>(one[lane], strain[lane])
-                                                  : law.may_yield<3>(one[lane], strain[lane])));
+        EXPECT_TRUE(!alone.yielded || (k % 2 == 0 ? law.template may_yield<2>(one[lane], strain[lane])
+                                                  : law.template may_yield<3>(one[lane], strain[lane])));
       }
     }
     EXPECT_GT(yielded, 200);
   }
+}
+TEST(MohrCoulomb, LanesReturnAsSingleNumbersDo) {
+  expect_lanes_return_as_single_numbers_do<MohrCoulomb<double>>(1.0, 0.0);
+  expect_lanes_return_as_single_numbers_do<MohrCoulomb<double>>(0.1, 0.0);
+}
+TEST(MohrCoulomb, LanesReturnAsSingleNumbersDoWhereFrictionFalls) {
+  expect_lanes_return_as_single_numbers_do<MohrCoulomb<double, true>>(0.1, 15.0);
 }
 
 TEST(Principal, RebuildsTheTensor) {
@@ -295,7 +305,7 @@ TEST(MohrCoulomb, WithoutDilationThePlasticStrainKeepsTheVolume) {
 
 TEST(MohrCoulomb, TriaxialCompressionYieldsAtTheTextbookStress) {
   // Confinement 2 MPa, friction 30 degrees, cohesion 1 MPa: s3 = k s1 - 2 c sqrt(k) with k = 3.
-  const auto law = MohrCoulomb<double>::make(elastic, 30.0, 0.0, 1e6, 1e6, infinity);
+  const auto law = MohrCoulomb<double>::make(elastic, {30.0, 0.0, 1e6, 1e6, infinity});
   Tensor trial;
   trial << -2e6, -2e6, -30e6, 0, 0, 0;
   const auto stress = law.update(trial, 0.0).stress;
@@ -333,7 +343,7 @@ TEST(TensionGap, ClosesBeforeStressIsBorne) {
 }
 
 TEST(MohrCoulomb, CohesionSoftensWithPlasticStrain) {
-  const auto law = MohrCoulomb<double>::make(elastic, 35.0, 0.0, 1e6, 1e5, infinity);
+  const auto law = MohrCoulomb<double>::make(elastic, {35.0, 0.0, 1e6, 1e5, infinity});
   EXPECT_DOUBLE_EQ(law.cohesion(0.0), 1e6);
   EXPECT_NEAR(law.cohesion(1.0), 1e5 + 9e5 * std::exp(-1.0), 1e-6);
   Tensor trial;

@@ -175,6 +175,27 @@ TEST(BlockModel, AgreesWithTheMaterialPoints) {
   EXPECT_GT(value_of(block, "band_saturation"), 0.3) << "the base must have begun to melt for this to say much";
 }
 
+// The same by the balance of water: ice does not press, its rows are tight, the skeleton gives and the load is
+// followed.
+TEST(BlockModel, AgreesWithTheMaterialPointsByTheBalanceOfWater) {
+  const config::Case parameters =
+      case_from_text(sliding, {"time.step=0.0005", "pressure.frozen=none", "pressure.residual_stress=2e5",
+                               "pressure.frozen_rows=sealed", "pressure.skeleton_compressibility=5e-9",
+                               "phases.water_expansion_law=by_temperature", "body.slab.temperature=-0.05",
+                               "material.rock.hydraulic_conductivity=1e-10"});
+  const auto rows = run_block(parameters);
+  Simulation<2, double> simulation(parameters);
+  run_until(simulation, parameters.time.end);
+  const auto row = history_row(simulation);
+  const auto& block = rows.back();
+  EXPECT_EQ(value_of(rows.front(), "pore_pressure_Pa"), 0.0);
+  EXPECT_NEAR(value_of(row, "mean_velocity_m_s") / value_of(block, "velocity_m_s"), 1.0, 0.02);
+  EXPECT_NEAR(value_of(row, "friction_work_J") / 200.0 / value_of(block, "friction_work_J_m2"), 1.0, 0.02);
+  EXPECT_NEAR(value_of(row, "band_temperature_C"), value_of(block, "band_temperature_C"), 0.25);
+  EXPECT_NEAR(value_of(row, "band_pore_pressure_Pa") / value_of(block, "band_pore_pressure_Pa"), 1.0, 0.05);
+  EXPECT_GT(value_of(block, "band_pore_pressure_Pa"), 1e5) << "the base must have melted for this to say much";
+}
+
 // With the scaling on the band alone, the rows above conduct less heat out of it.
 TEST(BlockModel, FollowsTheRegionOfTheScaling) {
   const config::Case parameters = case_from_text(sliding, {"band.region=first_layer"});

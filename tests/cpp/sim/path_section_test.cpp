@@ -9,6 +9,7 @@
 #include "../support/case_from_text.hpp"
 #include "../support/small_terrain.hpp"
 #include "base/error.hpp"
+#include "physics/basal/laws.hpp"
 #include "sim/block.hpp"
 #include "sim/steepest_descent.hpp"
 
@@ -163,6 +164,35 @@ TEST(PathSection, BentPathGivesTheMotionOnTheBentProfile) {
   expect_same_motion(run_along_path(case_on_dem(flat, 90.0, turn)), expected, 1e-6);
   EXPECT_GT(value_of(run_block(flat_case(slope)).back(), "velocity_m_s"),
             1.02 * value_of(expected.back(), "velocity_m_s"));
+}
+
+config::Substrate slippery() {
+  config::Substrate ice;
+  ice.friction = "coefficient";
+  ice.numbers[physics::basal::friction_coefficient] = 0.1;
+  return ice;
+}
+
+// The path goes over a polygon: the block slides as on the strip of the profile that this leaves.
+TEST(PathSection, CrossesTheSubstratesOfTheMap) {
+  config::Case flat = flat_case(slope);
+  const double from = 301.25, to = 411.25;  // between stations, which stand 2.5 m apart
+  flat.substrates["ice"] = slippery();
+  flat.substrates["ice"].x_min = from;
+  flat.substrates["ice"].x_max = to;
+  const auto expected = run_block(flat);
+  flat.substrates.clear();
+  const double without = value_of(run_block(flat).back(), "displacement_m");
+  EXPECT_GT(std::abs(value_of(expected.back(), "displacement_m") - without), 5.0) << "it does not come to bear";
+  InSpace made = case_on_dem(flat, 90.0, 0.0);
+  made.parameters.substrates["ice"] = slippery();
+  made.parameters.substrates["ice"].outline = "ice.geojson";
+  made.site.substrates["ice"].rings = {{{-50.0, from}, {50.0, from}, {50.0, to}, {-50.0, to}, {-50.0, from}}};
+  expect_same_motion(run_along_path(made), expected, 1e-6);
+  const auto section = section_along_path(made.parameters, made.site);
+  ASSERT_EQ(section.site.stretches.size(), 1U);
+  EXPECT_NEAR(section.site.stretches[0].from, from, 1.25 + 1e-9);
+  EXPECT_NEAR(section.site.stretches[0].to, to, 1.25 + 1e-9);
 }
 
 TEST(PathSection, ThicknessIsTheMeanAcrossThePath) {

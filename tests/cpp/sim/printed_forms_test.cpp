@@ -171,6 +171,39 @@ TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
   EXPECT_GT(value_of(history_row(effective), "mean_plastic_strain"), 0.0);
 }
 
+// What softens, cohesion and friction both, is the strength of the effective stress.
+TEST(EffectiveStress, SoftensAsAnyOther) {
+  Simulation<2, double> simulation(case_from_text(
+      slab, {"mechanics.effective_stress=true", "material.rock.cohesion=2e4", "material.rock.residual_cohesion=0.0",
+             "material.rock.residual_friction_angle=20.0", "material.rock.softening_strain=1e-5"}));
+  auto& particles = simulation.particles();
+  std::size_t yielded = 0, softened = 0, beyond_by_total_stress = 0;
+  for (int step = 0; step < 10; ++step) {
+    const std::vector<double> before = by_id(simulation, &mpm::Particles<2, double>::plastic_strain);
+    simulation.step(0.001);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double plastic_strain = before[static_cast<std::size_t>(particles.id(p))];
+      if (!(particles.plastic_strain(p) > plastic_strain)) {
+        continue;
+      }
+      const double share = std::exp(-plastic_strain / 1e-5), low = std::sin(pi<double> / 9.0);
+      const double sine = low + (0.5 - low) * share, cohesion = 2e4 * share;
+      const auto values = physics::principal(mpm::full_tensor<2, double>(particles.stress, p)).values;
+      const auto excess = [&](double pressure) {  // Eq. 11 of a stress with this added
+        return 0.5 * (values[0] - values[2]) + (0.5 * (values[0] + values[2]) + pressure) * sine -
+               cohesion * std::sqrt(1.0 - sine * sine);
+      };
+      EXPECT_NEAR(excess(0.0), 0.0, 1e-9 * std::abs(values[2]) + 1e-6);
+      ++yielded;
+      softened += share < 0.5 ? 1 : 0;
+      beyond_by_total_stress += excess(-particles.pore_pressure(p)) > -1e-3 * std::abs(values[2]) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(yielded, 100u);
+  EXPECT_GT(softened, 20u);
+  EXPECT_LT(beyond_by_total_stress, yielded / 10) << "the total stress is not what yields";
+}
+
 const std::vector<std::string> cooled = {"mechanics.enabled=false", "pressure.enabled=false",
                                          "body.bar.temperature=-0.05", "heat.boundary.x_min={flux=-100.0}"};
 

@@ -147,6 +147,9 @@ void expect_the_scalar_step(const config::Case& parameters, bool yields, bool ho
   expect_same("flow depth", [](const P& p) { return p.flow_depth; });
   expect_same("liquid pressure", [](const P& p) { return p.liquid_pressure; });
   expect_same("pore pressure", [](const P& p) { return p.pore_pressure; });
+  expect_same("void", [](const P& p) { return p.pore_void; });
+  expect_same("normal load", [](const P& p) { return p.normal_load; });
+  expect_same("water that seeped", [](const P& p) { return p.seeped_water; });
   std::size_t yielding = 0, warmed = 0, in_band = 0, at_pressure_of_air = 0;
   for (std::size_t p = 0; p < now.size(); ++p) {
     yielding += now[p].plastic_strain > before[p].plastic_strain ? 1 : 0;
@@ -195,6 +198,12 @@ TEST(ScalarStep, IsThatOfTheBatchesWithOtherChoices) {
   of({"time.stepping=adaptive"});
   of({"band.region=first_layer"});
   of({"terrain.representation=rigid_points"});
+  of({"pressure.frozen_rows=sealed"});
+  of({"pressure.frozen_rows=vented", "phases.water_expansion_law=by_temperature"});
+  of({"pressure.frozen=none", "pressure.residual_stress=2e3", "pressure.skeleton_compressibility=1e-8",
+      "basal.friction_angle=5.0"});
+  of({"pressure.melt_contraction=true", "pressure.skeleton_compressibility=1e-8", "heat.advection_form=conservative"});
+  of({"material.melted.softening_strain=0.01", "material.melted.residual_friction_angle=20.0"});
 }
 
 }  // namespace

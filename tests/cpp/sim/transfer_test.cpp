@@ -50,7 +50,8 @@ struct Transfer {
 };
 const std::vector<Transfer> transfers{{"flip", {}},
                                       {"blend", {"mechanics.transfer=blend", "mechanics.pic_share=0.1"}},
-                                      {"apic", {"mechanics.transfer=apic"}}};
+                                      {"apic", {"mechanics.transfer=apic"}},
+                                      {"fmpm", {"mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.02"}}};
 
 config::Case block_with(const std::string& shape, std::vector<std::string> sets) {
   sets.push_back("mechanics.shape_function=" + shape);

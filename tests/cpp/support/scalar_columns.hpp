@@ -17,6 +17,7 @@ class ScalarColumns {
       for_columns(p, [&](const Column& column, double share, const Extent& from, const Extent& to) {
         Held& held = held_[column];
         held.volume += share * p.volume;
+        held.mass += share * p.mass;
         held.top = std::max(held.top, p.position[Dim - 1] + p.half * cell_);
         for (std::size_t a = 0; a + 1 < Dim; ++a) {
           held.from[a] = std::min(held.from[a], from[a]);
@@ -31,12 +32,12 @@ class ScalarColumns {
   }
 
   [[nodiscard]] double flow_depth(const Point<Dim>& p) const {
-    double depth = 0.0;
-    for_columns(p, [&](const Column& column, double share, const Extent& /*from*/, const Extent& /*to*/) {
-      const Held& held = held_.at(column);
-      depth += share * held.cosine * (p.in_band ? held.thickness : std::max(0.0, held.top - p.position[Dim - 1]));
-    });
-    return depth;
+    return over_columns(p, [](const Held& held) { return held.cosine; });
+  }
+
+  // N [Pa], where gravity presses with normal_gravity [m/s2] on ground below a unit of footprint.
+  [[nodiscard]] double normal_load(const Point<Dim>& p, double normal_gravity) const {
+    return over_columns(p, [&](const Held& held) { return held.mass / held.volume * normal_gravity; });
   }
 
   // Of the particle's middle [m].
@@ -52,7 +53,7 @@ class ScalarColumns {
   using Column = std::array<int, Dim - 1>;
   using Extent = std::array<double, Dim - 1>;
   struct Held {
-    double volume = 0.0, top = -HUGE_VAL, cosine = 1.0, thickness = 0.0;
+    double volume = 0.0, mass = 0.0, top = -HUGE_VAL, cosine = 1.0, thickness = 0.0;
     Extent from, to;
 
     Held() {
@@ -60,6 +61,17 @@ class ScalarColumns {
       to.fill(-HUGE_VAL);
     }
   };
+
+  // Of the vertical depths in the columns, each times factor(column).
+  template <class Factor>
+  [[nodiscard]] double over_columns(const Point<Dim>& p, const Factor& factor) const {
+    double sum = 0.0;
+    for_columns(p, [&](const Column& column, double share, const Extent& /*from*/, const Extent& /*to*/) {
+      const Held& held = held_.at(column);
+      sum += share * factor(held) * (p.in_band ? held.thickness : std::max(0.0, held.top - p.position[Dim - 1]));
+    });
+    return sum;
+  }
 
   // Calls visit(column, share, from, to) for the columns that a particle's box overlaps by more than round-off.
   template <class Visit>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "physics/basal_friction.hpp"
 #include "physics/contact.hpp"
 #include "scalar_points.hpp"
 #include "terrain/main_axis.hpp"
@@ -161,10 +160,11 @@ class ScalarContact {
     const double pore = average(node, sums_.linear, mpm::Averages::pore_pressure, NearGround::pore_pressure);
     const double solid =
         average(node, sums_.near_ground_by_linear, solid_fraction_by_linear, NearGround::solid_fraction);
-    const double factor =
-        physics::lubrication_factor(solid, law.min_solid_fraction, law.max_solid_fraction, law.lubrication_exponent);
-    return physics::sliding_strength(factor * law.friction_coefficient, normal_pressure, pore, law.cohesion, law.clamp,
-                                     law.cap_pressure);
+    const physics::basal::ContactNode<double> state{.solid_fraction = solid};
+    const double friction =
+        std::get<physics::basal::LubricatedFriction<double>>(law.grounds[0].friction).coefficient(state);
+    const double cohesion = std::get<physics::basal::ConstantCohesion<double>>(law.grounds[0].cohesion).initial;
+    return physics::sliding_strength(friction, normal_pressure, pore, cohesion, law.clamp, law.cap_pressure);
   }
 
   [[nodiscard]] NodeMotion<Dim> move(const Index& node) const {
@@ -172,6 +172,7 @@ class ScalarContact {
     const Place old = old_momentum(node);
     Place momentum = trial(node), along = Place::Zero();
     double friction_impulse = 0.0;
+    bool slides = false;  // where pore pressure bears all of the load, without friction
     const auto load = load_.find(node);
     if (load != load_.end() && load->second > 0.0) {
       const Place& normal = ground_.at(node).normal;
@@ -182,11 +183,12 @@ class ScalarContact {
       along = tangential.normalized();
       momentum -= impulse.normal * normal + impulse.tangential * along;
       motion.touching = true;
-      friction_impulse = impulse.slides ? impulse.tangential : 0.0;
+      slides = impulse.slides;
+      friction_impulse = impulse.tangential;
     }
     motion.acceleration = (momentum - old) / (mass(node) * dt_);
     motion.middle_velocity = 0.5 * (old + momentum) / mass(node);
-    if (friction_impulse > 0.0) {
+    if (slides) {
       motion.slip_speed = std::max(0.0, motion.middle_velocity.dot(along));
       motion.friction_heat = model_.law.heat_fraction * friction_impulse * motion.slip_speed / dt_;
     }

@@ -19,6 +19,7 @@ struct Point {
   SymmetricTensor<double> stress;
   double mass, volume, initial_volume, plastic_strain, temperature, heat_content, saturation, porosity,
       initial_porosity;
+  double initial_saturation, pore_void, normal_load, seeped_water;
   double liquid_pressure, pore_pressure, flow_depth, scaling, slip, path_length, contact_offset, half;
   bool in_band;
   std::size_t material;
@@ -46,6 +47,11 @@ std::vector<Point<Dim>> points_of(const sim::Simulation<Dim, double>& simulation
     point.saturation = particles.liquid_saturation(p);
     point.porosity = particles.porosity(p);
     point.initial_porosity = particles.initial_porosity(p);
+    const auto if_kept = [p](const auto& field) { return field.is_kept() ? field(p) : 0.0; };
+    point.initial_saturation = particles.initial_saturation(p);
+    point.pore_void = if_kept(particles.pore_void);
+    point.normal_load = if_kept(particles.normal_load);
+    point.seeped_water = if_kept(particles.seeped_water);
     point.liquid_pressure = particles.liquid_pressure(p);
     point.pore_pressure = particles.pore_pressure(p);
     point.flow_depth = particles.flow_depth(p);

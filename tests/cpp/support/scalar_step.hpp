@@ -11,6 +11,7 @@
 #include "physics/pressurization.hpp"
 #include "scalar_columns.hpp"
 #include "scalar_contact.hpp"
+#include "scalar_water.hpp"
 
 namespace thawslide::testing_support {
 
@@ -30,6 +31,7 @@ class ScalarStep {
     linear_ = add_up(Transfer::linear, mpm::components_of<mpm::Averages, Dim>, [&](const Point<Dim>& p) {
       return Carried<Dim>{{p.volume, p.volume * p.temperature, p.volume * p.pore_pressure}, {}};
     });
+    seeping_ = add_up(Transfer::linear, 2, [&](const Point<Dim>& p) { return seeping_water(p); });
     near_ground_by_mass_ = add_up(Transfer::ugimp, mpm::NearGround::by_mass, [&](const Point<Dim>& p) {
       return Carried<Dim>{{p.mass * p.temperature, p.mass * p.pore_pressure, p.mass * p.saturation,
                            p.mass * solid_fraction(p), p.mass * p.slip},
@@ -53,6 +55,9 @@ class ScalarStep {
     mark_band_and_slip();
     move();
     deform();
+    if (simulation.model().band.frozen_rows != band::FrozenRows::draining) {
+      seeping_ = add_up(Transfer::linear, 2, [&](const Point<Dim>& p) { return seeping_water(p); });
+    }
     conduct();
     drain();
     for (Point<Dim>& p : points_) {
@@ -207,7 +212,8 @@ class ScalarStep {
     return sum;
   }
 
-  // A linear average of the step's start, at the particle's place, and its gradient.
+  // A linear average of the step's start, at the particle's place, and its gradient. Pressure is that of the water that
+  // seeps.
   struct Seen {
     double value = 0.0;
     Place gradient = Place::Zero();
@@ -215,8 +221,9 @@ class ScalarStep {
   [[nodiscard]] Seen seen(const Point<Dim>& p, std::size_t component) const {
     Seen seen;
     for_nodes(p, Transfer::linear, [&](const Index& node, double weight, const Place& slope) {
-      const auto& sums = linear_.at(node);
-      const double average = sums[0] > 0.0 ? sums[component] / sums[0] : 0.0;
+      const bool pressure = component == mpm::Averages::pore_pressure;
+      const auto& sums = pressure ? seeping_.at(node) : linear_.at(node);
+      const double average = sums[0] > 0.0 ? sums[pressure ? 1 : component] / sums[0] : 0.0;
       seen.value += weight * average;
       seen.gradient += average * slope;
     });
@@ -264,60 +271,68 @@ class ScalarStep {
     const double conductivity = physics::conductivity(phases(), p.porosity, p.saturation);
     const double mobility =
         p.scaling * simulation_.model().band.hydraulic_conductivity[p.material] / phases().water_unit_weight;
-    const double advection = p.temperature < tref ? 0.0
-                                                  : p.volume * phases().water_density * phases().water_heat_capacity *
-                                                        mobility * by_pressure.dot(by_temperature);
-    return {{0.0, advection}, {-p.volume * p.scaling * conductivity * by_temperature}};
+    const double carried =
+        p.temperature < tref ? 0.0 : p.volume * phases().water_density * phases().water_heat_capacity * mobility;
+    const Place conduction = -p.volume * p.scaling * conductivity * by_temperature;
+    if (simulation_.model().band.conservative_advection) {
+      return {{0.0, 0.0}, {conduction - carried * (p.temperature - tref) * by_pressure}};
+    }
+    return {{0.0, carried * by_pressure.dot(by_temperature)}, {conduction}};
   }
 
   void drain() {
-    const auto& band = simulation_.model().band;
-    const auto conductivity = [&](const Point<Dim>& p) { return band.hydraulic_conductivity[p.material]; };
-    const Sums flows = add_up(Transfer::linear, 3, [&](Point<Dim> p) {
-      const Seen around = seen(p, mpm::Averages::pore_pressure);
-      const bool flowing = p.old_temperature >= tref;
-      const double space = p.volume / p.scaling * p.porosity;
-      const double flow =
-          p.volume * p.scaling * conductivity(p) / phases().water_unit_weight * phases().water_bulk_modulus;
-      return Carried<Dim>{{0.0, space, flowing ? space * by_subgrid_diffusion(p, around.value) : 0.0},
-                          {flowing ? Place(-flow * around.gradient) : Place(Place::Zero())}};
-    });
+    const Sums flows = add_up(Transfer::linear, 3, [&](const Point<Dim>& p) { return seepage_of(p); });
     const ScalarColumns<Dim> columns(points_, 1.0 / transfer_.inverse_cell, [&](double x) {
       Vector<double, Dim - 1> place = Vector<double, Dim - 1>::Zero();
       place[0] = x;
       return simulation_.model().ground->slope_cosine(place, 0.0);
     });
+    const ScalarWater<Dim> water(simulation_.model(), columns);
     for (Point<Dim>& p : points_) {
       p.flow_depth = columns.flow_depth(p);
-      const double ice = physics::ice_pressure(phases(), band.gravity, p.flow_depth);
-      if (p.temperature < tref) {
-        p.liquid_pressure = physics::liquid_pressure_clapeyron(phases(), ice, p.temperature, tref, band.clapeyron_sign);
-        p.pore_pressure = physics::pore_pressure(p.saturation, p.liquid_pressure, ice);
-        continue;
+      double seeped = 0.0;
+      if (p.old_temperature >= tref) {
+        seeped = by_subgrid_diffusion(p, seen(p, mpm::Averages::pore_pressure).value);
+        for_nodes(p, Transfer::linear, [&](const Index& node, double weight, const Place& /*slope*/) {
+          const auto& sum = flows.at(node);
+          seeped += sum[1] > 0.0 ? weight * (dt_ * sum[0] - sum[2]) / sum[1] : 0.0;
+        });
       }
-      const bool flowing = p.old_temperature >= tref;
-      double pressure = flowing
-                            ? p.liquid_pressure + by_subgrid_diffusion(p, seen(p, mpm::Averages::pore_pressure).value)
-                            : ice * phases().water_density / phases().ice_density;
-      for_nodes(p, Transfer::linear, [&](const Index& node, double weight, const Place& /*slope*/) {
-        const auto& sum = flows.at(node);
-        pressure += flowing && sum[1] > 0.0 ? weight * (dt_ * sum[0] - sum[2]) / sum[1] : 0.0;
-      });
-      p.liquid_pressure = p.pore_pressure =
-          pressure + physics::undrained_pressure_coefficient(phases(), p.porosity, p.saturation) *
-                         (p.temperature - (flowing ? p.old_temperature : tref));
-      if (columns.below_top(p) < 0.5 / transfer_.inverse_cell) {  // at the pressure of the air
-        p.liquid_pressure = p.pore_pressure = 0.0;
-      }
+      water.update(p, seeped, 0.5 / transfer_.inverse_cell);
     }
+  }
+
+  // Seepage to nodes, pore space, and what subgrid diffusion takes of it.
+  [[nodiscard]] Carried<Dim> seepage_of(const Point<Dim>& p) const {
+    const auto& band = simulation_.model().band;
+    const Seen around = seen(p, mpm::Averages::pore_pressure);
+    const bool flowing = p.old_temperature >= tref;
+    const double space =
+        flowing || band.frozen_rows != band::FrozenRows::sealed
+            ? p.volume / p.scaling * physics::storing_porosity(phases(), p.porosity, band.skeleton_compressibility)
+            : 0.0;
+    const double flow = p.volume * p.scaling * band.hydraulic_conductivity[p.material] / phases().water_unit_weight *
+                        phases().water_bulk_modulus;
+    return {{0.0, space, flowing ? space * by_subgrid_diffusion(p, around.value) : 0.0},
+            {flowing ? Place(-flow * around.gradient) : Place(Place::Zero())}};
+  }
+
+  // The volume and pressure that nodes see of the water that seeps; of all matter where frozen rows drain.
+  [[nodiscard]] Carried<Dim> seeping_water(const Point<Dim>& p) const {
+    const band::FrozenRows rows = simulation_.model().band.frozen_rows;
+    const bool counts = rows == band::FrozenRows::draining || p.temperature >= tref;
+    const double volume = counts || rows == band::FrozenRows::vented ? p.volume : 0.0;
+    return {{volume, counts ? p.volume * p.pore_pressure : 0.0}, {}};
   }
 
   // What subgrid diffusion brings to the pressure.
   [[nodiscard]] double by_subgrid_diffusion(const Point<Dim>& p, double level) const {
     const double diffusivity =
         p.scaling * p.scaling *
-        physics::hydraulic_diffusivity(phases(), p.porosity, 1.0,
-                                       simulation_.model().band.hydraulic_conductivity[p.material]);
+        physics::hydraulic_diffusivity(
+            phases(),
+            physics::storing_porosity(phases(), p.porosity, simulation_.model().band.skeleton_compressibility), 1.0,
+            simulation_.model().band.hydraulic_conductivity[p.material]);
     return (level - p.pore_pressure) *
            physics::share_of_subgrid_diffusion(diffusivity, transfer_.inverse_cell, Dim, dt_);
   }
@@ -326,7 +341,7 @@ class ScalarStep {
   const sim::Simulation<Dim, double>& simulation_;
   double dt_;
   Transfer transfer_;
-  Sums momentum_, linear_, near_ground_by_mass_, near_ground_by_linear_, mapped_;
+  Sums momentum_, linear_, seeping_, near_ground_by_mass_, near_ground_by_linear_, mapped_;
   ByNode<Dim, std::pair<std::size_t, std::size_t>> place_;
   std::optional<ScalarContact<Dim>> contact_;
 };

@@ -1,0 +1,45 @@
+"""A zero-phase band-pass filter: what an inversion of long-period seismic waves sees of a history."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from thawslide.run import Numbers
+
+ORDER = 4  # of the Butterworth filter
+SAMPLES = 40  # at least, of the shortest period
+
+
+def response(frequency: Numbers, shortest: float, longest: float) -> Numbers:
+    """Return the factor on amplitudes at frequencies [Hz], for a band between two periods [s].
+
+    That of a Butterworth filter of fourth order, high pass and low pass, run forwards and backwards: no phase, 1/2 at
+    either end of the band, 0 at frequency 0.
+    """
+    high = 1.0 / (1.0 + (frequency * shortest) ** (2 * ORDER))
+    slow = (frequency * longest) ** (2 * ORDER)
+    return np.asarray(high * slow / (1.0 + slow))
+
+
+def band_passed(time: Numbers, values: Numbers, shortest: float, longest: float) -> Numbers:
+    """Return what is left of a history between two periods [s], at its own times [s], ascending.
+
+    A row without a number, as the first one of a force, before any step, counts as 0. The history is taken to keep its
+    first value before its start and its last one after its end. These are held for the longest period each, and the
+    last goes over into the first along half a cosine of twice that length, which makes the record periodic without a
+    jump; so a constant leaves nothing. The rest is `response` in the frequency domain.
+    """
+    if not 0.0 < shortest < longest:
+        raise ValueError(f"a band from {shortest:g} to {longest:g} s; the first period must be the shorter one")
+    if len(time) < 2:
+        return np.zeros_like(values)
+    step = min(float(np.median(np.diff(time))), shortest / SAMPLES)
+    even = np.arange(time[0], time[-1] + 0.5 * step, step)
+    record = np.interp(even, time, np.nan_to_num(values))
+    held = int(np.ceil(longest / step))
+    turn = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, 2 * held) / (2 * held))
+    back = record[-1] + (record[0] - record[-1]) * turn
+    whole = np.concatenate((record, np.full(held, record[-1]), back, np.full(held, record[0])))
+    frequency = np.asarray(np.fft.rfftfreq(len(whole), step), dtype=np.float64)
+    spectrum = np.fft.rfft(whole) * response(frequency, shortest, longest)
+    return np.asarray(np.interp(time, even, np.fft.irfft(spectrum, len(whole))[: len(even)]))

@@ -1,0 +1,73 @@
+#include "app/substrate_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "config/strips.hpp"
+#include "physics/basal/laws.hpp"
+
+namespace thawslide::app {
+
+namespace {
+
+// Along x, within the domain [m].
+double length_of(const config::Substrate& strip, const config::Grid& grid) {
+  return std::min(strip.x_max, grid.max[0]) - std::max(strip.x_min, grid.min[0]);
+}
+
+// What a substrate covers of the domain, along x or of its horizontal area.
+double covered_by(const std::string& name, const config::Case& parameters, const config::Site& site) {
+  const config::Substrate& substrate = parameters.substrates.at(name);
+  const double width = parameters.general.dimension == 3 ? parameters.grid.max[1] - parameters.grid.min[1] : 1.0;
+  return substrate.is_strip() ? length_of(substrate, parameters.grid) * width : site.substrates.at(name).area;
+}
+
+std::string place_of(const config::Substrate& substrate) {
+  if (!substrate.raster.empty()) {
+    return fmt::format("code {} of its raster", substrate.code);
+  }
+  if (!substrate.outline.empty()) {
+    return "within its polygons";
+  }
+  if (std::isinf(substrate.x_max)) {
+    return fmt::format("from x = {:g} m on", substrate.x_min);
+  }
+  return std::isinf(substrate.x_min) ? fmt::format("up to x = {:g} m", substrate.x_max)
+                                     : fmt::format("from x = {:g} to {:g} m", substrate.x_min, substrate.x_max);
+}
+
+std::string strength_of(const config::GroundStrength& ground) {
+  const double cohesion = ground.numbers(physics::basal::initial_cohesion);
+  return fmt::format(
+      "friction \"{}\", {}", ground.friction,
+      cohesion > 0.0 ? fmt::format("cohesion {:g} Pa, \"{}\"", cohesion, ground.cohesion_law) : "no cohesion");
+}
+
+}  // namespace
+
+void print_substrates(const config::Case& parameters, const config::Site& site) {
+  if (parameters.substrates.empty()) {
+    return;
+  }
+  double whole = 1.0, left = 1.0;
+  for (std::size_t a = 0; a + 1 < static_cast<std::size_t>(parameters.general.dimension); ++a) {
+    whole *= parameters.grid.max[a] - parameters.grid.min[a];
+  }
+  const char* const unit = parameters.general.dimension == 3 ? "m2" : "m";
+  for (const auto& [name, substrate] : parameters.substrates) {
+    const double covered = covered_by(name, parameters, site);
+    fmt::print("  substrate   {}: {}, {:.4g} {} or {:.3g} % of the domain; {}\n", name, place_of(substrate), covered,
+               unit, 100.0 * covered / whole, strength_of(substrate));
+    left -= covered / whole;
+  }
+  fmt::print("              elsewhere [basal], {:.3g} % of the domain; {}\n", 100.0 * std::max(0.0, left),
+             strength_of(parameters.basal));
+  for (const std::string& note : config::notes_on_gaps(parameters)) {
+    fmt::print("note: {}\n", note);
+  }
+}
+
+}  // namespace thawslide::app

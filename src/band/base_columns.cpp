@@ -1,0 +1,350 @@
+#include "band/base_columns.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "base/instances.hpp"
+#include "base/parallel.hpp"
+
+namespace thawslide::band {
+
+using mpm::BaseState;
+using mpm::Contact;
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
+  nodes.base_state.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.near_ground.holds(b); });
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    if (nodes.base_state.holds(b)) {
+      std::fill_n(nodes.base_state.of_block(b), nodes.base_state.nodes,
+                  typename mpm::RecordsOf<BaseState, Dim, Real>::Record{});
+    }
+  }
+  for (const Piece& piece : pieces_) {
+    const physics::BandMeans<Real> means = means_of(piece);
+    const Stencil stencil(grid, piece.position);
+    const Real ratio = piece.load > Real(0) ? means.pore_pressure / piece.load : Real(0);
+    for (std::size_t k = 0; k < stencil.count; ++k) {
+      if (nodes.base_state.holds(stencil.block[k])) {
+        auto& record = nodes.base_state.of_block(stencil.block[k])[stencil.node[k]];
+        const Real share = stencil.weight[k] * piece.area;
+        record[BaseState::area] += share;
+        record[BaseState::temperature] += share * means.temperature;
+        record[BaseState::pressure_ratio] += share * ratio;
+        record[BaseState::saturation] += share * means.saturation;
+        record[BaseState::solid_fraction] += share * means.solid_fraction;
+        record[BaseState::slip] += share * piece.slip;
+      }
+    }
+  }
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                    const NodeGroundOf& node_ground, Real thickness, Real dt,
+                                    mpm::Nodes<Dim, Real>& nodes) {
+  if (look_for_gaps_ || some_node_is_bare(grid, nodes)) {
+    lay_pieces(grid, ground, node_ground, thickness, nodes);
+    look_for_gaps_ = false;
+  }
+  std::vector<std::uint8_t> alone(pieces_.size());
+  parallel_for(pieces_.size(), [&](std::size_t p) {
+    const Stencil stencil(grid, pieces_[p].position);
+    const Nearby slide = slide_near(grid, node_ground, stencil, nodes, pieces_[p]);
+    take_from_nodes(stencil, dt, nodes, pieces_[p]);
+    alone[p] = slide.is_there ? 0 : 1;
+    if (slide.is_there) {
+      move(ground, slide, dt, pieces_[p]);
+    }
+  });
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    if (alone[p] != 0) {
+      take_up(pieces_[p]);
+    } else {
+      pieces_[kept++] = pieces_[p];
+    }
+  }
+  pieces_.resize(kept);
+  part_long_pieces(Real(1.5) * grid.cell(), ground);
+}
+
+template <int Dim, class Real>
+typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_cell(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                              const Vector<Real, Dim>& place) const {
+  Lattice cell;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    cell[a] = static_cast<int>(std::floor(place[static_cast<int>(a)] * grid.inverse_cell()));
+  }
+  return cell;
+}
+
+template <int Dim, class Real>
+bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
+                                               const mpm::Nodes<Dim, Real>& nodes) const {
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
+      if (nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0))) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Pieces are laid in the cells of a horizontal lattice, so that they do not depend on the order of nodes: where a node
+// in contact has its foot, unless some piece lies within three quarters of a cell of the cell's middle.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                        const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim, Real>& nodes) {
+  const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
+  std::set<Lattice> bare;
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
+      const auto& contact = nodes.contact(b, k);
+      const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
+      if (contact[Contact::touching] > Real(0) && (unseen || contact[Contact::area] > least_area)) {
+        const NodeGround near = node_ground(b, k);
+        bare.insert(lattice_cell(grid, mpm::node_position(grid, b, k) + near.distance * *near.normal));
+      }
+    }
+  }
+  for (const Piece& piece : pieces_) {  // covers the cells whose middle is near
+    const Lattice own = lattice_cell(grid, piece.position);
+    for (int k = 0; k < mpm::power(3, Dim - 1); ++k) {
+      Lattice cell = own;
+      Real furthest = 0;
+      for (std::size_t a = 0, rest = static_cast<std::size_t>(k); a + 1 < Dim; ++a, rest /= 3) {
+        cell[a] += static_cast<int>(rest % 3) - 1;
+        const Real middle = (static_cast<Real>(cell[a]) + Real(0.5)) * grid.cell();
+        furthest = std::max(furthest, std::abs(piece.position[static_cast<int>(a)] - middle));
+      }
+      if (furthest < Real(0.75) * grid.cell()) {
+        bare.erase(cell);
+      }
+    }
+  }
+  const std::size_t known = pieces_.size();
+  for (const Lattice& cell : bare) {
+    pieces_.push_back(new_piece(cell, grid.cell(), ground));
+    add_area(grid, pieces_.back(), nodes);
+  }
+  std::vector<InContact> contacts;
+  for (std::size_t p = known; p < pieces_.size(); ++p) {
+    contacts.push_back(in_contact(grid, nodes, pieces_[p]));
+  }
+  for (std::size_t p = known; p < pieces_.size(); ++p) {  // at the edge of the slide a piece is smaller than its cell
+    Piece& piece = pieces_[p];
+    const InContact& contact = contacts[p - known];
+    const Real share = std::clamp(contact.area / piece.area, Real(0.1), Real(1));
+    add_area(grid, piece, nodes, share - Real(1));
+    piece.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
+    piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
+    follow_load(model_, contact.normal_force / contact.area, Real(0), piece);
+    start_column_of(model_, thickness, piece);
+    ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
+    ledger_.laid_water += piece.area * physics::water_of(piece.column);
+  }
+}
+
+// Adds a share of a piece's area to what nodes see.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::add_area(const mpm::SparseGrid<Dim, Real>& grid, const Piece& piece,
+                                      mpm::Nodes<Dim, Real>& nodes, Real share) const {
+  const Stencil stencil(grid, piece.position);
+  for (std::size_t k = 0; k < stencil.count; ++k) {
+    if (nodes.base_state.holds(stencil.block[k])) {
+      nodes.base_state.of_block(stencil.block[k])[stencil.node[k]][BaseState::area] +=
+          share * stencil.weight[k] * piece.area;
+    }
+  }
+}
+
+// What of contact falls to a piece, as nodes share it out among those that they see.
+template <int Dim, class Real>
+typename BaseColumns<Dim, Real>::InContact BaseColumns<Dim, Real>::in_contact(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                              const mpm::Nodes<Dim, Real>& nodes,
+                                                                              const Piece& piece) const {
+  const Stencil stencil(grid, piece.position);
+  InContact result;
+  for (std::size_t k = 0; k < stencil.count; ++k) {
+    const Real seen = nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
+    if (seen > Real(0)) {
+      const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
+      const Real share = stencil.weight[k] * piece.area / seen;
+      result.area += share * contact[Contact::area];
+      result.normal_force += share * contact[Contact::normal_force];
+    }
+  }
+  return result;
+}
+
+template <int Dim, class Real>
+BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Lattice& cell, Real cell_size, const Ground& ground) {
+  Piece piece;
+  piece.id = next_id_++;
+  piece.position.setZero();
+  piece.sides.setZero();
+  for (int a = 0; a + 1 < Dim; ++a) {
+    piece.position[a] = (static_cast<Real>(cell[static_cast<std::size_t>(a)]) + Real(0.5)) * cell_size;
+    piece.sides(a, a) = cell_size;
+  }
+  piece.normal = ground.normal(piece.position.template head<Dim - 1>());
+  piece.position[Dim - 1] = ground.height(piece.position.template head<Dim - 1>());
+  for (int a = 0; a + 1 < Dim; ++a) {
+    piece.sides(Dim - 1, a) = -piece.normal[a] / piece.normal[Dim - 1] * cell_size;
+  }
+  piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
+  return piece;
+}
+
+// The velocity of the slide at a piece, and how it changes along the ground: a linear fit to the nodes about it, each
+// weighted by its mass. Velocities are turned from the ground below the node to that of the piece, so that a bend of
+// the ground stretches nothing.
+template <int Dim, class Real>
+typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                           const NodeGroundOf& node_ground,
+                                                                           const Stencil& stencil,
+                                                                           const mpm::Nodes<Dim, Real>& nodes,
+                                                                           const Piece& piece) const {
+  constexpr Real smallest_spread = static_cast<Real>(1e-3);  // of places, in cells squared
+  const auto along_ground = [&](const Vector<Real, Dim>& v) -> Vector<Real, Dim> {
+    return v - v.dot(piece.normal) * piece.normal;
+  };
+  std::array<Real, Stencil::most> mass;
+  std::array<Vector<Real, Dim>, Stencil::most> place, velocity;
+  Real all = 0;
+  Vector<Real, Dim> mean_place = Vector<Real, Dim>::Zero(), mean_velocity = Vector<Real, Dim>::Zero();
+  for (std::size_t k = 0; k < stencil.count; ++k) {
+    const std::size_t b = stencil.block[k], node = stencil.node[k];
+    mass[k] = stencil.weight[k] * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
+    if (!(mass[k] > Real(0))) {
+      continue;
+    }
+    const auto of_node = mpm::vector_at<Dim, Real>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
+    const Vector<Real, Dim>* normal = node_ground(b, node).normal;
+    velocity[k] = along_ground(normal != nullptr ? turned<Dim, Real>(of_node, *normal, piece.normal) : of_node);
+    place[k] = along_ground(mpm::node_position(grid, b, node) - piece.position);
+    all += mass[k];
+    mean_place += mass[k] * place[k];
+    mean_velocity += mass[k] * velocity[k];
+  }
+  Nearby result;
+  if (!(all > Real(0))) {
+    return result;
+  }
+  mean_place /= all;
+  mean_velocity /= all;
+  Matrix<Real, Dim> spread = all * smallest_spread * grid.cell() * grid.cell() * Matrix<Real, Dim>::Identity();
+  Matrix<Real, Dim> together = Matrix<Real, Dim>::Zero();
+  for (std::size_t k = 0; k < stencil.count; ++k) {
+    if (mass[k] > Real(0)) {
+      const Vector<Real, Dim> from_mean = place[k] - mean_place;
+      spread += mass[k] * from_mean * from_mean.transpose();
+      together += mass[k] * (velocity[k] - mean_velocity) * from_mean.transpose();
+    }
+  }
+  result.gradient = together * spread.inverse();
+  result.velocity = mean_velocity - result.gradient * mean_place;
+  result.is_there = true;
+  return result;
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes,
+                                             Piece& piece) const {
+  Real force = 0, area = 0, heat = 0, slip = 0;
+  for (std::size_t k = 0; k < stencil.count; ++k) {
+    const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
+    if (contact[Contact::touching] > Real(0)) {
+      force += stencil.weight[k] * contact[Contact::normal_force];
+      area += stencil.weight[k] * contact[Contact::area];
+      slip += stencil.weight[k] * contact[Contact::area] * contact[Contact::slip_speed];
+      heat += stencil.weight[k] * contact[Contact::friction_heat] /
+              nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
+    }
+  }
+  if (piece.touched || area > Real(0)) {
+    follow_load(model_, area > Real(0) ? force / area : Real(0), dt, piece);
+  }
+  piece.speed = area > Real(0) ? slip / area : Real(0);
+  piece.slip += dt * piece.speed;
+  piece.heat += dt * heat * piece.area;
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::place_on(const Ground& ground, Piece& piece) const {
+  const Vector<Real, Dim - 1> place = piece.position.template head<Dim - 1>();
+  const Vector<Real, Dim> before = piece.normal;
+  piece.position[Dim - 1] = ground.height(place);
+  piece.normal = ground.normal(place);
+  for (int side = 0; side + 1 < Dim; ++side) {
+    const Vector<Real, Dim> edge = turned<Dim, Real>(piece.sides.col(side), before, piece.normal);
+    piece.sides.col(side) = edge;
+  }
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::move(const Ground& ground, const Nearby& slide, Real dt, Piece& piece) const {
+  piece.position += dt * slide.velocity;
+  piece.sides += dt * slide.gradient * piece.sides;
+  place_on(ground, piece);
+  piece.area = area_of<Dim, Real>(piece.sides);
+}
+
+// A piece with a side that reaches further than `longest` along some axis parts in two along this side.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::part_long_pieces(Real longest, const Ground& ground) {
+  const std::size_t count = pieces_.size();
+  for (std::size_t p = 0; p < count; ++p) {
+    for (int side = 0; side + 1 < Dim; ++side) {
+      if (pieces_[p].sides.col(side).cwiseAbs().maxCoeff() <= longest) {
+        continue;
+      }
+      const Vector<Real, Dim> quarter = Real(0.25) * pieces_[p].sides.col(side);
+      Piece& piece = pieces_[p];
+      piece.sides.col(side) *= Real(0.5);
+      piece.area *= Real(0.5);
+      piece.area_of_column *= Real(0.5);
+      piece.heat *= Real(0.5);
+      Piece other = piece;
+      other.id = next_id_++;
+      piece.position -= quarter;
+      other.position += quarter;
+      place_on(ground, piece);
+      place_on(ground, other);
+      pieces_.push_back(other);
+    }
+  }
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::take_up(const Piece& piece) {
+  ledger_.left_heat += piece.area_of_column * physics::heat_of(piece.column) + piece.heat;
+  ledger_.left_water += piece.area_of_column * physics::water_of(piece.column);
+  ledger_.friction_heat += piece.heat;
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::step(Real thickness, Real duration) {
+  look_for_gaps_ = true;
+  std::vector<physics::ColumnAccount<Real>> accounts(pieces_.size());
+  parallel_for(pieces_.size(),
+               [&](std::size_t p) { accounts[p] = step_piece(model_, thickness, duration, pieces_[p]); });
+  for (const auto& account : accounts) {
+    ledger_.friction_heat += account.friction_heat;
+    ledger_.body_heat += account.body_heat;
+    ledger_.ground_heat += account.ground_heat;
+    ledger_.vented_heat += account.vented_heat;
+    ledger_.steam_heat += account.steam_heat;
+    ledger_.body_water += account.body_water;
+    ledger_.vented_water += account.vented_water;
+    ledger_.steam += account.steam;
+  }
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template class BaseColumns<Dim, Real>;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::band

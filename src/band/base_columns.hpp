@@ -1,0 +1,122 @@
+// The base of a slide as pieces that each carry a band column: what contact nodes see of them, and what they take from
+// these. Pieces move with the slide, part where they have become long, and are laid where the slide reaches new ground.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "band/piece_step.hpp"
+#include "base/named_numbers.hpp"
+#include "mpm/nodes.hpp"
+
+namespace thawslide::band {
+
+// Sums over all pieces [J, kg, m2, m3]. Heat: with the friction heat that waits for the columns' next step.
+template <class Real>
+struct ColumnSums {
+  Real area = 0, heat = 0, waiting_heat = 0, water = 0, opening = 0, gas_void = 0;
+};
+
+// What columns got and gave since the start [J], [kg]. Laid: with pieces that were laid; left: with those taken up.
+template <class Real>
+struct ColumnLedger {
+  Real laid_heat = 0, friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0, left_heat = 0;
+  Real laid_water = 0, body_water = 0, vented_water = 0, steam = 0, left_water = 0;
+
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    for (Real* account : {&laid_heat, &friction_heat, &body_heat, &ground_heat, &vented_heat, &steam_heat, &left_heat,
+                          &laid_water, &body_water, &vented_water, &steam, &left_water}) {
+      visit(*account);
+    }
+  }
+};
+
+// Means over the base, by area, and extremes.
+template <class Real>
+struct BaseMeans {
+  Real temperature = 0, saturation = 0, pore_pressure = 0, load = 0, thickness = 0;
+  Real hottest = 0, largest_pressure_ratio = 0;  // of P over averaged N
+};
+
+template <int Dim, class Real>
+class BaseColumns {
+ public:
+  // Of the ground below a horizontal place [m].
+  struct Ground {
+    std::function<Real(const Vector<Real, Dim - 1>&)> height;
+    std::function<Vector<Real, Dim>(const Vector<Real, Dim - 1>&)> normal;  // into the ground
+  };
+  // Of a node: its unit normal into the ground and its distance above it [m]; null where the ground is not near.
+  struct NodeGround {
+    const Vector<Real, Dim>* normal;
+    Real distance;
+  };
+  using NodeGroundOf = std::function<NodeGround(std::size_t block, std::size_t node)>;
+
+  explicit BaseColumns(ColumnsModel<Real> model) : model_(std::move(model)) {}
+
+  // Fills nodes.base_state of the blocks that hold contact.
+  void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
+
+  // After contact, at the positions that to_nodes has seen: what contact does to all pieces (load, heat, slip), new
+  // ones first where the slide touches ground that none covers. Then they move by dt, and those that have become long
+  // part.
+  void follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+              Real thickness, Real dt, mpm::Nodes<Dim, Real>& nodes);
+
+  // Steps all columns over `duration` [s], at the end of which the case wants a band so thick [m].
+  void step(Real thickness, Real duration);
+
+  [[nodiscard]] const std::vector<BasePiece<Dim, Real>>& pieces() const { return pieces_; }
+  [[nodiscard]] physics::BandMeans<Real> means_of(const BasePiece<Dim, Real>& piece) const {
+    return band::means_of(model_, piece);
+  }
+  [[nodiscard]] const ColumnLedger<Real>& ledger() const { return ledger_; }
+  [[nodiscard]] ColumnSums<Real> sums() const;
+  [[nodiscard]] BaseMeans<Real> means() const;
+
+  // Everything a checkpoint must hold, and its way back.
+  [[nodiscard]] std::vector<double> state() const;
+  void restore(const std::vector<double>& numbers);
+
+ private:
+  using Piece = BasePiece<Dim, Real>;
+  using Stencil = BaseStencil<Dim, Real>;
+
+  using Lattice = std::array<int, Dim - 1>;  // a cell of the horizontal lattice on which pieces are laid
+  [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const;
+  [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
+                                       const mpm::Nodes<Dim, Real>& nodes) const;
+  void lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+                  Real thickness, mpm::Nodes<Dim, Real>& nodes);
+  void add_area(const mpm::SparseGrid<Dim, Real>& grid, const Piece& piece, mpm::Nodes<Dim, Real>& nodes,
+                Real share = 1) const;
+  struct InContact {
+    Real area = 0, normal_force = 0;  // [m2], [N]
+  };
+  [[nodiscard]] InContact in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
+                                     const Piece& piece) const;
+  [[nodiscard]] Piece new_piece(const Lattice& cell, Real cell_size, const Ground& ground);
+  // How the slide about a piece moves.
+  struct Nearby {
+    Vector<Real, Dim> velocity;  // along the ground [m/s]
+    Matrix<Real, Dim> gradient;  // of it, along the ground [1/s]
+    bool is_there = false;
+  };
+  [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
+                                  const Stencil& stencil, const mpm::Nodes<Dim, Real>& nodes, const Piece& piece) const;
+  void take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const;
+  void move(const Ground& ground, const Nearby& slide, Real dt, Piece& piece) const;
+  void part_long_pieces(Real longest, const Ground& ground);
+  void take_up(const Piece& piece);
+  void place_on(const Ground& ground, Piece& piece) const;
+
+  ColumnsModel<Real> model_;
+  std::vector<Piece> pieces_;
+  ColumnLedger<Real> ledger_;
+  std::int64_t next_id_ = 0;
+  bool look_for_gaps_ = true;
+};
+
+}  // namespace thawslide::band

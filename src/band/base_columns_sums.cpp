@@ -1,0 +1,122 @@
+// What the columns of a slide's base hold together, and what a checkpoint keeps of them.
+#include <algorithm>
+
+#include "band/base_columns.hpp"
+#include "base/error.hpp"
+#include "base/instances.hpp"
+
+namespace thawslide::band {
+
+namespace {
+
+// Calls visit(number) with each number of a piece, in order.
+template <int Dim, class Real, class Visit>
+void for_each_number(BasePiece<Dim, Real>& piece, const Visit& visit) {
+  for (int a = 0; a < Dim; ++a) {
+    visit(piece.position[a]);
+    visit(piece.normal[a]);
+    for (int side = 0; side + 1 < Dim; ++side) {
+      visit(piece.sides(a, side));
+    }
+  }
+  for (Real* number : {&piece.area, &piece.area_of_column, &piece.slip, &piece.speed, &piece.load, &piece.heat,
+                       &piece.column.thickness}) {
+    visit(*number);
+  }
+  for (int k = 0; k < physics::ColumnCells::all; ++k) {
+    visit(piece.column.heat[k]);
+    visit(piece.column.temperature[k]);
+  }
+  for (int k = 0; k < physics::ColumnCells::slide; ++k) {
+    for (Real* numbers : {piece.column.water, piece.column.thawing, piece.column.surplus, piece.column.pressure}) {
+      visit(numbers[k]);
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+ColumnSums<Real> BaseColumns<Dim, Real>::sums() const {
+  ColumnSums<Real> sums;
+  for (const Piece& piece : pieces_) {
+    const physics::BandMeans<Real> means = means_of(piece);
+    sums.area += piece.area;
+    sums.heat += piece.area_of_column * physics::heat_of(piece.column) + piece.heat;
+    sums.waiting_heat += piece.heat;
+    sums.water += piece.area_of_column * physics::water_of(piece.column);
+    sums.opening += piece.area * means.opening;
+    sums.gas_void += piece.area * means.gas_void;
+  }
+  return sums;
+}
+
+template <int Dim, class Real>
+BaseMeans<Real> BaseColumns<Dim, Real>::means() const {
+  BaseMeans<Real> result;
+  Real area = 0;
+  for (const Piece& piece : pieces_) {
+    const physics::BandMeans<Real> means = means_of(piece);
+    area += piece.area;
+    result.temperature += piece.area * means.temperature;
+    result.saturation += piece.area * means.saturation;
+    result.pore_pressure += piece.area * means.pore_pressure;
+    result.load += piece.area * piece.load;
+    result.thickness += piece.area * piece.column.thickness;
+    const Real* slide = piece.column.temperature + physics::ColumnCells::ground;
+    result.hottest = std::max(result.hottest, *std::max_element(slide, slide + physics::ColumnCells::slide));
+    const Real highest = *std::max_element(piece.column.pressure, piece.column.pressure + physics::ColumnCells::slide);
+    if (piece.load > Real(0)) {
+      result.largest_pressure_ratio = std::max(result.largest_pressure_ratio, highest / piece.load);
+    }
+  }
+  for (Real* mean : {&result.temperature, &result.saturation, &result.pore_pressure, &result.load, &result.thickness}) {
+    *mean = area > Real(0) ? *mean / area : static_cast<Real>(std::nan(""));
+  }
+  return result;
+}
+
+template <int Dim, class Real>
+std::vector<double> BaseColumns<Dim, Real>::state() const {
+  std::vector<double> numbers{static_cast<double>(next_id_), look_for_gaps_ ? 1.0 : 0.0,
+                              static_cast<double>(pieces_.size())};
+  ColumnLedger<Real> ledger = ledger_;
+  const auto add = [&](const Real& number) { numbers.push_back(static_cast<double>(number)); };
+  ledger.for_each(add);
+  for (Piece piece : pieces_) {
+    numbers.push_back(static_cast<double>(piece.id));
+    numbers.push_back(piece.touched ? 1.0 : 0.0);
+    for_each_number(piece, add);
+  }
+  return numbers;
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::restore(const std::vector<double>& numbers) {
+  std::size_t next = 0;
+  const auto take = [&] {
+    THAWSLIDE_ASSERT(next < numbers.size(), "{} numbers of band columns are too few", numbers.size());
+    return numbers[next++];
+  };
+  next_id_ = static_cast<std::int64_t>(take());
+  look_for_gaps_ = take() != 0.0;
+  pieces_.assign(static_cast<std::size_t>(take()), Piece{});
+  const auto set = [&](Real& number) { number = static_cast<Real>(take()); };
+  ledger_.for_each(set);
+  for (Piece& piece : pieces_) {
+    piece.id = static_cast<std::int64_t>(take());
+    piece.touched = take() != 0.0;
+    for_each_number(piece, set);
+  }
+  THAWSLIDE_ASSERT(next == numbers.size(), "{} numbers of band columns for {}", numbers.size(), next);
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                              \
+  template ColumnSums<Real> BaseColumns<Dim, Real>::sums() const;     \
+  template BaseMeans<Real> BaseColumns<Dim, Real>::means() const;     \
+  template std::vector<double> BaseColumns<Dim, Real>::state() const; \
+  template void BaseColumns<Dim, Real>::restore(const std::vector<double>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::band

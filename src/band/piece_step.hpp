@@ -1,0 +1,52 @@
+// What a piece of base and its column do in time, whatever brings them load and heat: the contact nodes of a slide, or
+// a rigid block.
+#pragma once
+
+#include <variant>
+
+#include "band/base_piece.hpp"
+#include "physics/band_column_step.hpp"
+
+namespace thawslide::band {
+
+template <class Real>
+using AnyColumnModel = std::variant<physics::ColumnModel<Real, physics::PowerLawCurve<Real>>,
+                                    physics::ColumnModel<Real, physics::LinearCurve<Real>>>;
+
+// How the band's thickness e grows beyond what the case gives.
+enum class BandGrowth {
+  none,
+  inertial,  // e = v d sqrt(rho_S/(N - P))/I, with N - P at least 0.02 N
+  slip       // in proportion to the slip
+};
+
+template <class Real>
+struct ColumnsModel {
+  AnyColumnModel<Real> column;
+  Real body_temperature = 0, ground_temperature = 0;  // [C]
+  Real load_time = 0;                                 // over which N is averaged [s]
+  BandGrowth growth = BandGrowth::none;
+  Real grain_size = 0, inertial_number = 1;  // d [m], I
+  Real growth_per_slip = 0;
+  Real rock_density = 0;       // rho_S [kg/m3]
+  Real largest_thickness = 0;  // of the band [m]
+};
+
+template <int Dim, class Real>
+physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece);
+
+// A new column of the body's matter, with a band of this thickness [m], under the piece's load.
+template <int Dim, class Real>
+void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasePiece<Dim, Real>& piece);
+
+// Follows a normal pressure [Pa] of this step, averaged over the model's time.
+template <int Dim, class Real>
+void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real dt, BasePiece<Dim, Real>& piece);
+
+// Steps the column over `duration` [s], at the end of which the case wants a band so thick [m]: with the friction heat
+// that waits, and the area that the piece has by now. Returns what it got and gave, whole ([J], [kg]).
+template <int Dim, class Real>
+physics::ColumnAccount<Real> step_piece(const ColumnsModel<Real>& model, Real thickness, Real duration,
+                                        BasePiece<Dim, Real>& piece);
+
+}  // namespace thawslide::band

@@ -1,0 +1,40 @@
+// The laws of the base (physics/basal/laws.hpp) that a case chooses.
+#pragma once
+
+#include <string>
+
+#include "base/error.hpp"
+#include "config/case.hpp"
+#include "physics/basal/laws.hpp"
+
+namespace thawslide::config {
+
+// The law of a word, with its numbers.
+template <class Laws>
+Laws law_named(const std::string& word, const LawNumbers& numbers) {
+  Laws found{};
+  bool is_known = false;
+  physics::basal::for_each_law<Laws>([&]<class Law>(physics::basal::OfType<Law>) {
+    if (word == Law::word) {
+      found = Law::from(numbers);
+      is_known = true;
+    }
+  });
+  THAWSLIDE_ASSERT(is_known, "no law of the base is called {}", word);
+  return found;
+}
+
+// The laws of friction and cohesion of one kind of ground. Without cohesion at the start there is none to lose, and the
+// numbers that say how may be absent.
+template <class Real>
+physics::basal::FrictionLaw<Real> friction_of(const GroundStrength& ground) {
+  return law_named<physics::basal::FrictionLaw<Real>>(ground.friction, ground.numbers);
+}
+template <class Real>
+physics::basal::CohesionLaw<Real> cohesion_of(const GroundStrength& ground) {
+  const bool has_cohesion = ground.numbers(physics::basal::initial_cohesion) > 0.0;
+  return law_named<physics::basal::CohesionLaw<Real>>(
+      has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion<Real>::word, ground.numbers);
+}
+
+}  // namespace thawslide::config

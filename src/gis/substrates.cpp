@@ -1,0 +1,177 @@
+#include "gis/substrates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "gis/code_raster.hpp"
+#include "gis/geopackage.hpp"
+#include "gis/polygons.hpp"
+#include "gis/told_at.hpp"
+#include "gis/vector_file.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+// Of the smaller area: outlines drawn along one another by hand, or taken from another reference system, share slivers.
+constexpr double overlap_tolerance = 1e-3;
+
+using Areas = std::map<std::string, config::SubstrateArea>;
+using PolygonsOf = std::map<std::string, Polygons>;  // by name of the substrate, within the domain
+
+std::string key_of(const std::string& substrate, const std::string& key) {
+  return fmt::format("substrate.{}.{}", substrate, key);
+}
+
+// The key that says where a substrate lies.
+std::string key_of_place(const std::string& name, const config::Substrate& substrate) {
+  return key_of(name, !substrate.raster.empty()        ? "raster"
+                      : !substrate.outline.empty()     ? "outline"
+                      : std::isfinite(substrate.x_min) ? "x_min"
+                                                       : "x_max");
+}
+
+Polygons box_of(const Rectangle& box) {
+  return {{{{box.min_x, box.min_y},
+            {box.max_x, box.min_y},
+            {box.max_x, box.max_y},
+            {box.min_x, box.max_y},
+            {box.min_x, box.min_y}},
+           {}}};
+}
+
+// Also fills `inside` with what lies in the domain.
+config::SubstrateArea area_of_outline(const config::Case& parameters, const std::string& name, const Dem& ground,
+                                      Polygons& inside, std::vector<std::string>& notes) {
+  const config::Substrate& substrate = parameters.substrates.at(name);
+  const std::string key = key_of(name, "outline");
+  const VectorLayer layer =
+      told_at(parameters, key, [&] { return read_polygons(substrate.outline, ground.raster.crs); });
+  notes.insert(notes.end(), layer.notes.begin(), layer.notes.end());
+  Polygons all;
+  for (const Feature& feature : told_at(parameters, key_of(name, "polygons"), [&] {
+         return features_named(layer, substrate.polygons, substrate.name_attribute);
+       })) {
+    all.insert(all.end(), feature.polygons.begin(), feature.polygons.end());
+  }
+  const Polygons polygons = union_of(all);
+  const Rectangle domain = domain_of(parameters);
+  config::SubstrateArea area;
+  inside = intersection_of(polygons, box_of(domain));
+  area.area = area_of(inside);
+  if (!(area.area > 0.0)) {
+    fail_at(parameters, key,
+            fmt::format("{}: the polygons ({}) lie outside the domain ({}). Check that both have the same place and "
+                        "reference system.",
+                        substrate.outline, range_words(extent_of(polygons)), range_words(domain)));
+  }
+  for (const Polygon& polygon : polygons) {
+    area.rings.push_back(polygon.outline);
+    area.rings.insert(area.rings.end(), polygon.holes.begin(), polygon.holes.end());
+  }
+  return area;
+}
+
+config::SubstrateArea area_of_code(const config::Case& parameters, const std::string& name,
+                                   const std::shared_ptr<const Raster>& codes) {
+  const config::Substrate& substrate = parameters.substrates.at(name);
+  config::SubstrateArea area;
+  area.codes = codes;
+  area.code = substrate.code;
+  const CodesFound found = codes_in(domain_of(parameters), *codes);
+  const auto own = found.by_code.find(substrate.code);
+  if (own == found.by_code.end()) {
+    fail_at(parameters, key_of(name, "code"),
+            fmt::format("{}: the code {} stands nowhere in the domain; found there: {}.", substrate.raster,
+                        substrate.code, words_of_codes(found)));
+  }
+  area.area = static_cast<double>(own->second.count) * codes->cell_x * codes->cell_y;
+  return area;
+}
+
+Polygons polygons_of(const config::Case& parameters, const std::string& name, const Areas& areas) {
+  const Rectangle domain = domain_of(parameters);
+  const config::Substrate& substrate = parameters.substrates.at(name);
+  if (substrate.is_strip()) {
+    return box_of(
+        {std::max(domain.min_x, substrate.x_min), domain.min_y, std::min(domain.max_x, substrate.x_max), domain.max_y});
+  }
+  const config::SubstrateArea& area = areas.at(name);
+  Raster mask = *area.codes;
+  for (double& value : mask.values) {
+    value = value == area.code ? 1.0 : 0.0;
+  }
+  return intersection_of(areas_of_mask(mask), box_of(domain));
+}
+
+void check_overlap(const config::Case& parameters, const std::string& first, const std::string& second,
+                   const Polygons& one, const Polygons& other) {
+  const Polygons both = intersection_of(one, other);
+  const double shared = area_of(both), allowed = overlap_tolerance * std::min(area_of(one), area_of(other));
+  if (shared <= allowed) {
+    return;
+  }
+  const Rectangle place = extent_of(both);
+  fail_at(
+      parameters, key_of_place(second, parameters.substrates.at(second)),
+      fmt::format("the substrates {} and {} overlap by {:.4g} m2 about {:.10g}, {:.10g}; a place has one substrate. "
+                  "Allowed: slivers up to {:.4g} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > "
+                  "Geoprocessing Tools > Difference).",
+                  first, second, shared, 0.5 * (place.min_x + place.max_x), 0.5 * (place.min_y + place.max_y), allowed,
+                  100.0 * overlap_tolerance));
+}
+
+// Of those that one raster tells no two can overlap; those along x were compared when the case was read. `polygons`: of
+// those with outlines.
+void check_overlaps(const config::Case& parameters, const Areas& areas, PolygonsOf polygons) {
+  const auto polygons_once = [&](const std::string& name) -> const Polygons& {
+    const auto found = polygons.find(name);
+    return found != polygons.end() ? found->second : polygons[name] = polygons_of(parameters, name, areas);
+  };
+  for (auto second = parameters.substrates.begin(); second != parameters.substrates.end(); ++second) {
+    for (auto first = parameters.substrates.begin(); first != second; ++first) {
+      const bool both_strips = first->second.is_strip() && second->second.is_strip();
+      const bool of_one_raster = !first->second.raster.empty() && first->second.raster == second->second.raster;
+      if (!both_strips && !of_one_raster) {
+        check_overlap(parameters, first->first, second->first, polygons_once(first->first),
+                      polygons_once(second->first));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Areas load_substrates(const config::Case& parameters, const Dem& ground, std::vector<std::string>& notes) {
+  Areas areas;
+  PolygonsOf polygons;
+  std::map<std::string, std::shared_ptr<const Raster>> rasters;  // by file
+  for (const auto& [name, substrate] : parameters.substrates) {
+    if (!substrate.outline.empty()) {
+      areas[name] = area_of_outline(parameters, name, ground, polygons[name], notes);
+    } else if (!substrate.raster.empty()) {
+      auto& codes = rasters[substrate.raster];
+      if (codes == nullptr) {
+        codes = std::make_shared<const Raster>(
+            read_codes(parameters, key_of(name, "raster"), substrate.raster, ground.raster, notes));
+      }
+      areas[name] = area_of_code(parameters, name, codes);
+    }
+  }
+  check_overlaps(parameters, areas, std::move(polygons));
+  for (const auto& [file, codes] : rasters) {
+    std::set<double> named;
+    for (const auto& [name, substrate] : parameters.substrates) {
+      if (substrate.raster == file) {
+        named.insert(substrate.code);
+      }
+    }
+    const std::vector<std::string> more = notes_on_codes(domain_of(parameters), file, *codes, named);
+    notes.insert(notes.end(), more.begin(), more.end());
+  }
+  return areas;
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,117 @@
+// What a particle does in filter_velocities: kernels (mpm/kernel.hpp).
+#pragma once
+
+#include "base/linear.hpp"
+#include "base/select.hpp"
+#include "mpm/kernel.hpp"
+#include "mpm/records.hpp"
+#include "physics/rigid_motion.hpp"
+
+namespace thawslide::mpm {
+
+// Numbers to a register, from number `First` of what a particle carries.
+template <std::size_t First, class Numbers, class Carried>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void carry(const Numbers& numbers, Carried& carried) {
+  unrolled<static_cast<std::size_t>(Numbers::SizeAtCompileTime)>(
+      [&](auto k) THAWSLIDE_INLINE_LAMBDA { carried.value[First + k] = numbers[static_cast<int>(k)]; });
+}
+
+// m v and m x x v of a velocity v at the place of a particle, to FilterMomentum.
+template <int Dim, class Value, class Added>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void carry_momentum(Value mass, const Vector<Value, Dim>& place,
+                                                         const Vector<Value, Dim>& velocity, Added& added) {
+  auto& carried = added.template of<FilterMomentum>();
+  const Vector<Value, Dim> momentum = mass * velocity;
+  carry<0>(momentum, carried);
+  carry<static_cast<std::size_t>(Dim)>(physics::moment_of<Dim>(place, momentum), carried);
+}
+
+// The velocity at the place of a particle of the rigid motions about it, which a record holds.
+template <class Name, int Dim, class Value, class Seen>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> rigid_velocity(const Seen& seen,
+                                                                       const Vector<Value, Dim>& place) {
+  const auto motion = seen.template values<Name>();
+  Vector<Value, Dim> velocity;
+  Vector<Value, physics::rotations<Dim>> rotation;
+  unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
+                                              THAWSLIDE_INLINE_LAMBDA { velocity[static_cast<int>(a)] = motion[a]; });
+  unrolled<static_cast<std::size_t>(physics::rotations<Dim>)>(
+      [&](auto a) THAWSLIDE_INLINE_LAMBDA { rotation[static_cast<int>(a)] = motion[Dim + a]; });
+  return velocity + physics::turned<Dim>(rotation, place);
+}
+
+// Where the mass about the nodes lies.
+template <int Dim, class Real>
+struct AddFilterMoments {
+  using Reads = RecordList<>;
+  using Adds = RecordList<FilterMoments>;
+  using Account = NoAccount;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
+                                                       Added& added, Account& /*account*/) const {
+    using Value = typename At::Value;
+    const Value mass = particles.mass.load(at);
+    const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
+    auto& carried = added.template of<FilterMoments>();
+    carry<0>(Vector<Value, Dim>(mass * place), carried);
+    carry<static_cast<std::size_t>(Dim)>(Vector<Value, physics::squares<Dim>>(mass * physics::squares_of<Dim>(place)),
+                                         carried);
+  }
+};
+
+// Momentum and moment of the particles' velocities.
+template <int Dim, class Real>
+struct AddFilterMomentum {
+  using Reads = RecordList<>;
+  using Adds = RecordList<FilterMomentum>;
+  using Account = NoAccount;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
+                                                       Added& added, Account& /*account*/) const {
+    using Value = typename At::Value;
+    carry_momentum<Dim>(particles.mass.load(at), Vector<Value, Dim>(particles.position.template load_vector<Dim>(at)),
+                        Vector<Value, Dim>(particles.velocity.template load_vector<Dim>(at)), added);
+  }
+};
+
+// A sweep: the same of the velocities that the nodes' last increments give the particles.
+template <int Dim, class Real>
+struct SweepFilter {
+  using Reads = RecordList<FilterIncrement>;
+  using Adds = RecordList<FilterMomentum>;
+  using Account = NoAccount;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& /*account*/) const {
+    using Value = typename At::Value;
+    const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
+    carry_momentum<Dim>(particles.mass.load(at), place, rigid_velocity<FilterIncrement, Dim>(seen, place), added);
+  }
+};
+
+// The velocities that the nodes' motions give, in place of the particles' own; their momentum back to the nodes (MUSL).
+// Sums the kinetic energy that is gained [J].
+template <int Dim, class Real>
+struct TakeFiltered {
+  using Reads = RecordList<FilterTotal>;
+  using Adds = RecordList<Velocity>;
+  using Account = Real;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& gained) const {
+    using Value = typename At::Value;
+    const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
+    const Vector<Value, Dim> old = particles.velocity.template load_vector<Dim>(at);
+    const Vector<Value, Dim> velocity = rigid_velocity<FilterTotal, Dim>(seen, place);
+    const Value mass = particles.mass.load(at);
+    at.add_to(gained, Real(0.5) * mass * (velocity - old).dot(velocity + old));
+    particles.velocity.store_vector(at, velocity);
+    carry<0>(Vector<Value, Dim>(mass * velocity), added.template of<Velocity>());
+  }
+};
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,130 @@
+// A column through the base of a slide: ground, shear band and the body above it, per area of the base. It belongs to a
+// piece of the base and moves with it. Its cells lie along the normal; those of the band share its true thickness e,
+// those above and below grow with the distance from it.
+//   heat      d(A H)/dt = A (eta tau v over e - div q_T) + what comes in,   q_T = -k grad T
+//   water     d(A w)/dt = -A div (rho_L q) + what comes in - steam,         q = -(k_L/gamma_w) grad P
+//   surplus   theta = v (1 + integral of beta_L dT) - n + (1 - n) beta_S (T - Tref) + m_v (N - N_thaw) + S_s P_thaw,
+//             v = w/(rho_L dz) the volume of water, integrals from Tref on
+//   pressure  P = theta/S_s within P_steam <= P <= N,   S_s = n/K_L + m_v
+// H is the enthalpy [J/m2] and w the ice and water [kg/m2] of a cell, A the area of the piece. Water that needs more
+// room than there is at P = N lifts the slide (opening); water that does not fill its pores leaves a void. Both follow
+// from w, so that no water is lost. Melting makes a void: n (1 - rho_I/rho_L) of the volume. A void holds steam at the
+// pressure P_steam at which the water boils, less that of the air, and none below 100 C; steam that carries the load
+// escapes. Frozen matter has P = 0 and lets no water through; on thawing P is P_thaw = max(0, N - s0) less what the
+// void takes (Morgenstern and Nixon 1971). As the piece stretches or the band grows, the cells take in what lies above
+// them, and the body gives the rest. In place of Eqs. 19 and 23; docs/theory, chapter 16.
+#pragma once
+
+#include "physics/boiling.hpp"
+#include "physics/enthalpy.hpp"
+#include "physics/mixture.hpp"
+#include "physics/pore_water.hpp"
+
+namespace thawslide::physics {
+
+// Cells, from the deepest in the ground upwards.
+struct ColumnCells {
+  static constexpr int ground = 6, band = 8, above = 12;
+  static constexpr int slide = band + above;
+  static constexpr int all = ground + slide;
+};
+
+// What the water of melted cells meets at frozen ones, and at the top of the column.
+enum class EndOfWater {
+  sealed,  // nothing passes
+  vented   // air, at P = 0
+};
+
+template <class Real, class Curve>
+struct ColumnModel {
+  Phases<Real> phases;
+  Curve curve;
+  WaterExpansion<Real> water_expansion;
+  Real porosity = 0;                  // n
+  Real hydraulic_conductivity = 0;    // k_L [m/s]
+  Real skeleton_compressibility = 0;  // m_v [1/Pa]
+  Real residual_stress = 0;           // s0 [Pa]; at N or above: no excess pressure on thawing
+  EndOfWater at_frozen = EndOfWater::sealed, at_top = EndOfWater::vented;
+  Real water_to_steam_viscosity = 0;  // ratio; 0: steam does not seep
+  bool latent = true, conduction = true, seepage = true, pressurization = true, steam = true;
+  Real ground_conductivity = 0;          // [W/m/K]
+  Real ground_capacity = 0;              // [J/m3/K]
+  Real ground_cell = 0;                  // height of the ground's uppermost cell [m]
+  Real growth = static_cast<Real>(1.4);  // height of a cell over that of its neighbour nearer to the band
+};
+
+template <class Real>
+struct BandColumn {
+  Real thickness;                      // of the band, e [m]
+  Real heat[ColumnCells::all];         // H [J/m2]
+  Real temperature[ColumnCells::all];  // [C], that of H
+  Real water[ColumnCells::slide];      // w [kg/m2]
+  Real thawing[ColumnCells::slide];    // S_s P_thaw - m_v N_thaw; of frozen cells what it would be now
+  Real surplus[ColumnCells::slide];    // theta
+  Real pressure[ColumnCells::slide];   // P [Pa]
+};
+
+// What a step does to a column.
+template <class Real>
+struct ColumnDrive {
+  Real dt;               // [s]
+  Real normal_pressure;  // N [Pa], at least 0
+  Real heat_flux;        // eta tau v [W/m2]
+  Real stretching;       // dA/dt / A [1/s]
+  Real thickness;        // of the band at the end of the step [m]
+  Real body_heat;        // enthalpy of what the body gives at the top [J/m3]
+  Real body_water;       // its ice and water [kg/m3]
+};
+
+// What a column got and gave, per area at the end of the step.
+template <class Real>
+struct ColumnAccount {
+  Real friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0;  // [J/m2]
+  Real body_water = 0, vented_water = 0, steam = 0;                                         // [kg/m2]
+};
+
+// Ice and water [kg/m3] of matter at temperature [C] whose pores are full.
+template <class Real, class Curve>
+THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Real, Curve>& model, Real temperature) {
+  const Real saturation = model.curve.saturation(temperature);
+  return model.porosity * (saturation * model.phases.water_density + (Real(1) - saturation) * model.phases.ice_density);
+}
+
+// The heights of a column's cells, with a band of thickness e. Face f of the slide is the lower one of its cell f; face
+// 0 is the base.
+template <class Real>
+class ColumnGrid {
+ public:
+  THAWSLIDE_HD ColumnGrid(Real thickness, Real ground_cell, Real growth) {
+    const Real cell = thickness / ColumnCells::band;
+    face_[0] = Real(0);
+    THAWSLIDE_ROLLED for (int f = 1; f <= ColumnCells::band; ++f) { face_[f] = cell * static_cast<Real>(f); }
+    Real height = cell;
+    THAWSLIDE_ROLLED for (int f = ColumnCells::band + 1; f <= ColumnCells::slide; ++f) {
+      height *= growth;
+      face_[f] = face_[f - 1] + height;
+    }
+    Real depth = ground_cell;
+    THAWSLIDE_ROLLED for (int k = ColumnCells::ground - 1; k >= 0; --k) {
+      height_[k] = depth;
+      depth *= growth;
+    }
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+      height_[ColumnCells::ground + k] = face_[k + 1] - face_[k];
+    }
+  }
+  [[nodiscard]] THAWSLIDE_HD Real face(int f) const { return face_[f]; }            // of the slide, over the base [m]
+  [[nodiscard]] THAWSLIDE_HD Real height(int cell) const { return height_[cell]; }  // of any cell [m]
+  [[nodiscard]] THAWSLIDE_HD Real slide_height(int cell) const { return height_[ColumnCells::ground + cell]; }
+
+ private:
+  Real face_[ColumnCells::slide + 1];
+  Real height_[ColumnCells::all];
+};
+
+template <class Real, class Curve>
+THAWSLIDE_HD ColumnGrid<Real> grid_of(const ColumnModel<Real, Curve>& model, Real thickness) {
+  return {thickness, model.ground_cell, model.growth};
+}
+
+}  // namespace thawslide::physics

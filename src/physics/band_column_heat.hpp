@@ -1,0 +1,181 @@
+// Heat of a column (band_column.hpp): conduction, friction heat, boiling (docs/theory, chapter 16).
+#pragma once
+
+#include <cmath>
+
+#include "physics/band_column.hpp"
+
+namespace thawslide::physics {
+
+// Capacities and latent heat of a cell of the slide, per area: rock of its volume, ice and water by their mass [kg/m2].
+template <class Real, class Curve>
+THAWSLIDE_HD EnthalpyCoefficients<Real> slide_coefficients(const ColumnModel<Real, Curve>& model, Real height,
+                                                           Real water) {
+  const Phases<Real>& phases = model.phases;
+  const Real rock = (Real(1) - model.porosity) * height * phases.rock_density * phases.rock_heat_capacity;
+  return {rock + water * phases.ice_heat_capacity, water * (phases.water_heat_capacity - phases.ice_heat_capacity),
+          model.latent ? water * phases.latent_heat : Real(0)};
+}
+
+template <class Real, class Curve>
+THAWSLIDE_HD EnthalpyCoefficients<Real> cell_coefficients(const ColumnModel<Real, Curve>& model,
+                                                          const ColumnGrid<Real>& grid, const BandColumn<Real>& column,
+                                                          int cell) {
+  if (cell < ColumnCells::ground) {
+    return {model.ground_capacity * grid.height(cell), Real(0), Real(0)};
+  }
+  return slide_coefficients(model, grid.height(cell), column.water[cell - ColumnCells::ground]);
+}
+
+// Enthalpy of melted water [J/kg], that of ice at Tref being 0.
+template <class Real, class Curve>
+THAWSLIDE_HD Real water_enthalpy(const ColumnModel<Real, Curve>& model, Real temperature) {
+  return (model.latent ? model.phases.latent_heat : Real(0)) +
+         model.phases.water_heat_capacity * (temperature - model.curve.reference_temperature);
+}
+
+// Whether the last ice of a cell of the slide has melted.
+template <class Real, class Curve>
+THAWSLIDE_HD bool is_melted(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column, int cell) {
+  return column.temperature[ColumnCells::ground + cell] >= model.curve.reference_temperature;
+}
+
+template <class Real, class Curve>
+THAWSLIDE_HD void temperatures_from_heat(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
+                                         BandColumn<Real>& column) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) {
+    column.temperature[k] = temperature_of_enthalpy(model.curve, cell_coefficients(model, grid, column, k),
+                                                    column.heat[k], column.temperature[k]);
+  }
+}
+
+// The heat that neighbours exchange per kelvin and area [W/m2/K], between cells k and k + 1.
+template <class Real, class Curve>
+struct ColumnConductance {
+  Real between[ColumnCells::all - 1];
+
+  THAWSLIDE_HD ColumnConductance(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
+                                 const BandColumn<Real>& column) {
+    Real below = half_resistance(model, grid, column, 0);
+    THAWSLIDE_ROLLED for (int k = 0; k + 1 < ColumnCells::all; ++k) {
+      const Real above = half_resistance(model, grid, column, k + 1);
+      between[k] = Real(1) / (below + above);
+      below = above;
+    }
+  }
+
+ private:
+  THAWSLIDE_HD static Real half_resistance(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
+                                           const BandColumn<Real>& column, int k) {
+    const Real k_of_cell = k < ColumnCells::ground ? model.ground_conductivity
+                                                   : conductivity(model.phases, model.porosity,
+                                                                  model.curve.saturation(column.temperature[k]));
+    return grid.height(k) / (Real(2) * k_of_cell);
+  }
+};
+
+// Solves a tridiagonal system in place, the solution going to `right`; below[k] and above[k] couple k to its
+// neighbours.
+template <int Count, class Real>
+THAWSLIDE_HD void solve_tridiagonal(const Real* below, Real* diagonal, const Real* above, Real* right) {
+  THAWSLIDE_ROLLED for (int k = 1; k < Count; ++k) {
+    const Real factor = below[k] / diagonal[k - 1];
+    diagonal[k] -= factor * above[k - 1];
+    right[k] -= factor * right[k - 1];
+  }
+  right[Count - 1] /= diagonal[Count - 1];
+  THAWSLIDE_ROLLED for (int k = Count - 2; k >= 0; --k) {
+    right[k] = (right[k] - above[k] * right[k + 1]) / diagonal[k];
+  }
+}
+
+// One step of conduction, implicit in temperature (Newton's iteration on enthalpies, since latent heat bends H(T)).
+// What flows between cells leaves one and enters the other. `column.heat` holds the enthalpies with the heat of the
+// step.
+template <class Real, class Curve>
+THAWSLIDE_HD void conduct_in_column(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real dt,
+                                    BandColumn<Real>& column) {
+  constexpr int count = ColumnCells::all, most_iterations = 12;
+  constexpr Real close = by_precision<Real>(1e-7, 1e-3);  // [K]
+  const ColumnConductance<Real, Curve> conductance(model, grid, column);
+  Real guess[count], flow[count + 1];  // enthalpies; heat through the lower face of each cell [J/m2]
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { guess[k] = column.heat[k]; }
+  THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    Real below[count], diagonal[count], above[count], change[count], capacity[count];
+    flow[0] = flow[count] = Real(0);
+    THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
+      flow[k] = dt * conductance.between[k - 1] * (column.temperature[k - 1] - column.temperature[k]);
+    }
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
+      capacity[k] =
+          physics::apparent_capacity(model.curve, cell_coefficients(model, grid, column, k), column.temperature[k]);
+      below[k] = k > 0 ? -dt * conductance.between[k - 1] : Real(0);
+      above[k] = k + 1 < count ? -dt * conductance.between[k] : Real(0);
+      diagonal[k] = capacity[k] - below[k] - above[k];
+      change[k] = column.heat[k] + flow[k] - flow[k + 1] - guess[k];
+    }
+    solve_tridiagonal<count>(below, diagonal, above, change);
+    Real largest = 0;
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
+      guess[k] += capacity[k] * change[k];
+      largest = max(largest, std::abs(change[k]));
+      column.temperature[k] = temperature_of_enthalpy(model.curve, cell_coefficients(model, grid, column, k), guess[k],
+                                                      column.temperature[k]);
+    }
+    if (largest < close) {
+      break;
+    }
+  }
+  THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
+    flow[k] = dt * conductance.between[k - 1] * (column.temperature[k - 1] - column.temperature[k]);
+  }
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { column.heat[k] += flow[k] - flow[k + 1]; }
+}
+
+// Gives a cell's water off as steam, with its heat [kg/m2].
+template <class Real, class Curve>
+THAWSLIDE_HD void give_off_steam(const ColumnModel<Real, Curve>& model, Real steam, int cell, BandColumn<Real>& column,
+                                 ColumnAccount<Real>& account) {
+  const Real temperature = column.temperature[ColumnCells::ground + cell];
+  const Real heat = steam * (water_enthalpy(model, temperature) + heat_of_vaporization(temperature));
+  column.water[cell] -= steam;
+  column.heat[ColumnCells::ground + cell] -= heat;
+  account.steam += steam;
+  account.steam_heat += heat;
+}
+
+// Water boils where its steam lifts the load: what heat there is above that temperature turns it to steam, which
+// escapes from under the slide, until there is none. Dry matter goes on heating.
+template <class Real, class Curve>
+THAWSLIDE_HD void boil(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real normal_pressure,
+                       BandColumn<Real>& column, ColumnAccount<Real>& account) {
+  Real boiling = 0;  // [C], 0: not known yet
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    Real& temperature = column.temperature[ColumnCells::ground + k];
+    if (!(temperature > Steam<Real>::boiling_at_atmosphere) || !(column.water[k] > Real(0))) {
+      continue;
+    }
+    if (boiling == Real(0)) {
+      boiling = boiling_temperature(model.pressurization ? normal_pressure : Real(0));
+    }
+    if (temperature > boiling) {
+      const int cell = ColumnCells::ground + k;
+      const Real surplus =
+          column.heat[cell] - enthalpy(model.curve, cell_coefficients(model, grid, column, cell), boiling);
+      temperature = boiling;
+      give_off_steam(model, min(column.water[k], surplus / heat_of_vaporization(boiling)), k, column, account);
+    }
+  }
+}
+
+// The pressure that steam keeps up in a cell with water [Pa], over that of the air: 0 below 100 C.
+template <class Real, class Curve>
+THAWSLIDE_HD Real steam_pressure(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column, int cell) {
+  const Real temperature = column.temperature[ColumnCells::ground + cell];
+  if (!model.steam || !(temperature > Steam<Real>::boiling_at_atmosphere) || !(column.water[cell] > Real(0))) {
+    return Real(0);
+  }
+  return saturation_pressure(temperature) - Steam<Real>::atmosphere;
+}
+
+}  // namespace thawslide::physics

@@ -1,0 +1,163 @@
+// One step of a column (band_column.hpp), and how it begins (docs/theory, chapter 16).
+#pragma once
+
+#include "physics/band_column_heat.hpp"
+#include "physics/band_column_water.hpp"
+
+namespace thawslide::physics {
+
+// What the friction of the base sees of a column: means over the band, and the lowest cell's neighbourhood needs no
+// more.
+template <class Real>
+struct BandMeans {
+  Real temperature, pore_pressure, saturation, solid_fraction;  // [C], [Pa], S, n_e of Eq. 2
+  Real opening, gas_void;                                       // of the whole column [m]
+};
+
+// The faces of a column's cells move: with the band's thickness, and against matter that spreads as the piece
+// stretches. What they sweep changes cells; at the top the body gives it, or takes it.
+template <class Real, class Curve>
+THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& before,
+                          const ColumnGrid<Real>& after, const ColumnDrive<Real>& drive, BandColumn<Real>& column,
+                          ColumnAccount<Real>& account) {
+  constexpr int count = ColumnCells::slide;
+  const Real left = Real(1) / (Real(1) + drive.stretching * drive.dt);        // old area over new
+  Real heat[count + 1] = {}, water[count + 1] = {}, thawing[count + 1] = {};  // that go down through each lower face
+  THAWSLIDE_ROLLED for (int f = 1; f <= count; ++f) {
+    const Real swept = after.face(f) - left * before.face(f);  // [m]
+    if (swept > Real(0) && f == count) {
+      heat[f] = swept * drive.body_heat;
+      water[f] = swept * drive.body_water;
+      thawing[f] = swept * column.thawing[count - 1];
+    } else {
+      const int from = swept > Real(0) ? f : f - 1;
+      const Real share = swept / before.slide_height(from);
+      heat[f] = share * column.heat[ColumnCells::ground + from];
+      water[f] = share * column.water[from];
+      thawing[f] = swept * column.thawing[from];
+    }
+  }
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
+    Real& of_cell = column.heat[ColumnCells::ground + k];
+    of_cell = left * of_cell + heat[k + 1] - heat[k];
+    column.water[k] = left * column.water[k] + water[k + 1] - water[k];
+    column.thawing[k] =
+        (left * before.slide_height(k) * column.thawing[k] + thawing[k + 1] - thawing[k]) / after.slide_height(k);
+  }
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground;
+                        ++k) {  // the ground that the piece comes to cover is as warm as its own
+    account.ground_heat += (Real(1) - left) * column.heat[k];
+  }
+  column.thickness = drive.thickness;
+  account.body_heat += heat[count];
+  account.body_water += water[count];
+  temperatures_from_heat(model, after, column);
+}
+
+// Advances a column by drive.dt. The friction heat spreads over the band; then heat is conducted, water boils and
+// seeps.
+template <class Real, class Curve>
+THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& model, const ColumnDrive<Real>& drive,
+                                             BandColumn<Real>& column) {
+  ColumnAccount<Real> account;
+  bool was_melted[ColumnCells::slide];
+  const ColumnGrid<Real> grid = grid_of(model, drive.thickness);
+  if (drive.stretching != Real(0) || drive.thickness != column.thickness) {
+    take_in(model, grid_of(model, column.thickness), grid, drive, column, account);
+  }
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { was_melted[k] = is_melted(model, column, k); }
+  account.friction_heat = drive.heat_flux * drive.dt;
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
+    column.heat[ColumnCells::ground + k] += account.friction_heat / ColumnCells::band;
+  }
+  if (model.conduction) {
+    conduct_in_column(model, grid, drive.dt, column);
+  }
+  temperatures_from_heat(model, grid, column);
+  if (model.steam) {
+    boil(model, grid, drive.normal_pressure, column, account);
+    temperatures_from_heat(model, grid, column);
+  }
+  fill_pores(model, grid, drive.normal_pressure, was_melted, column);
+  if (model.seepage && model.pressurization && model.hydraulic_conductivity > Real(0)) {
+    seep_in_column(model, grid, drive.dt, drive.normal_pressure, column, account);
+    temperatures_from_heat(model, grid, column);
+  }
+  set_pressures(model, PressureBounds<Real>(model, drive.normal_pressure, column), column);
+  return account;
+}
+
+// Heat [J/m2], and ice and water [kg/m2], of a column.
+template <class Real>
+THAWSLIDE_HD Real heat_of(const BandColumn<Real>& column) {
+  Real sum = 0;
+  THAWSLIDE_ROLLED for (const Real heat : column.heat) { sum += heat; }
+  return sum;
+}
+template <class Real>
+THAWSLIDE_HD Real water_of(const BandColumn<Real>& column) {
+  Real sum = 0;
+  THAWSLIDE_ROLLED for (const Real water : column.water) { sum += water; }
+  return sum;
+}
+
+// A column in matter of one temperature [C], its pores full of ice and water.
+template <class Real, class Curve>
+THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model, Real thickness, Real temperature,
+                                           Real ground_temperature, Real normal_pressure) {
+  BandColumn<Real> column{};
+  column.thickness = thickness;
+  const ColumnGrid<Real> grid = grid_of(model, thickness);
+  const Real water = water_of_full_pores(model, temperature);
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { column.water[k] = water * grid.slide_height(k); }
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) {
+    column.temperature[k] = k < ColumnCells::ground ? ground_temperature : temperature;
+    column.heat[k] = enthalpy(model.curve, cell_coefficients(model, grid, column, k), column.temperature[k]);
+  }
+  const bool was_melted[ColumnCells::slide] = {};
+  fill_pores(model, grid, normal_pressure, was_melted, column);
+  const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
+  const Real full = thawing_surplus(storage, normal_pressure, model.residual_stress, Real(0));
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    if (is_melted(model, column, k)) {  // warmth that was there from the start presses on nothing
+      column.thawing[k] += full - column.surplus[k];
+      column.surplus[k] = full;
+    }
+  }
+  set_pressures(model, PressureBounds<Real>(model, normal_pressure, column), column);
+  return column;
+}
+
+// Enthalpy [J/m3] of the body's matter at temperature [C], with full pores.
+template <class Real, class Curve>
+THAWSLIDE_HD Real body_enthalpy(const ColumnModel<Real, Curve>& model, Real temperature) {
+  return enthalpy(model.curve, slide_coefficients(model, Real(1), water_of_full_pores(model, temperature)),
+                  temperature);
+}
+
+template <class Real, class Curve>
+THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, Real normal_pressure,
+                                        const BandColumn<Real>& column) {
+  BandMeans<Real> means{};
+  const ColumnGrid<Real> grid = grid_of(model, column.thickness);
+  const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    if (is_melted(model, column, k)) {
+      const auto filling = pore_filling(column.surplus[k], storage, normal_pressure);
+      means.opening += grid.slide_height(k) * filling.opening;
+      means.gas_void += grid.slide_height(k) * filling.gas_void;
+    }
+  }
+  constexpr Real share = Real(1) / ColumnCells::band;
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
+    const Real temperature = column.temperature[ColumnCells::ground + k];
+    const Real saturation = model.curve.saturation(temperature);
+    means.temperature += share * temperature;
+    means.pore_pressure += share * column.pressure[k];
+    means.saturation += share * saturation;
+    means.solid_fraction += share * effective_solid_fraction(model.phases, model.porosity, saturation);
+  }
+  return means;
+}
+
+}  // namespace thawslide::physics

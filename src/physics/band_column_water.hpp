@@ -1,0 +1,187 @@
+// Water of a column (band_column.hpp): how full its pores are, and what seeps (docs/theory, chapter 16).
+#pragma once
+
+#include <cmath>
+
+#include "physics/band_column_heat.hpp"
+
+namespace thawslide::physics {
+
+// The surplus theta of each cell. A cell that has just thawed takes over what the ice carried of the load.
+template <class Real, class Curve>
+THAWSLIDE_HD void fill_pores(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real normal_pressure,
+                             const bool* was_melted, BandColumn<Real>& column) {
+  const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
+  const Real on_thawing = thawing_surplus(storage, normal_pressure, model.residual_stress, Real(0)) -
+                          model.skeleton_compressibility * normal_pressure;
+  const Real reference = model.curve.reference_temperature;
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    const bool melted = is_melted(model, column, k);
+    if (!melted || !was_melted[k]) {
+      column.thawing[k] = on_thawing;
+    }
+    const Real water = column.water[k] / (model.phases.water_density * grid.slide_height(k));
+    const Real temperature = column.temperature[ColumnCells::ground + k];
+    const Real swelling = model.pressurization && melted
+                              ? (Real(1) - model.porosity) * model.phases.rock_expansion * (temperature - reference) +
+                                    water * model.water_expansion.swelling(reference, temperature)
+                              : Real(0);
+    column.surplus[k] =
+        water - model.porosity + swelling + model.skeleton_compressibility * normal_pressure + column.thawing[k];
+  }
+}
+
+// Where water passes, per pressure and area [m/s/Pa]: between cells k - 1 and k, and from cells into air.
+template <class Real>
+struct ColumnMobility {
+  Real between[ColumnCells::slide + 1];
+  Real to_air[ColumnCells::slide];
+};
+
+template <class Real, class Curve>
+THAWSLIDE_HD ColumnMobility<Real> mobilities(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
+                                             const BandColumn<Real>& column) {
+  const Real mobility = model.hydraulic_conductivity / model.phases.water_unit_weight;
+  const auto wet = [&](int k) {  // the share of its pores that water fills passes it on
+    return min(Real(1), column.water[k] / (model.phases.water_density * grid.slide_height(k) * model.porosity));
+  };
+  ColumnMobility<Real> result{};
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    if (!is_melted(model, column, k)) {
+      continue;
+    }
+    const bool top = k + 1 == ColumnCells::slide;
+    if (!top && is_melted(model, column, k + 1)) {
+      const int from = column.pressure[k] < column.pressure[k + 1] ? k + 1 : k;
+      result.between[k + 1] = Real(2) * mobility * wet(from) / (grid.slide_height(k) + grid.slide_height(k + 1));
+    }
+    const Real half = Real(2) * mobility * wet(k) / grid.slide_height(k);
+    if ((top ? model.at_top : model.at_frozen) == EndOfWater::vented && (top || !is_melted(model, column, k + 1))) {
+      result.to_air[k] += half;
+    }
+    if (k > 0 && model.at_frozen == EndOfWater::vented && !is_melted(model, column, k - 1)) {
+      result.to_air[k] += half;
+    }
+  }
+  return result;
+}
+
+// Between which pressures that of each cell follows its surplus [Pa]: steam keeps up the lower one in a void.
+template <class Real>
+struct PressureBounds {
+  Real lower[ColumnCells::slide], upper;
+
+  template <class Curve>
+  THAWSLIDE_HD PressureBounds(const ColumnModel<Real, Curve>& model, Real normal_pressure,
+                              const BandColumn<Real>& column)
+      : upper(normal_pressure) {
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+      lower[k] = min(upper, steam_pressure(model, column, k));
+    }
+  }
+};
+
+template <class Real, class Curve>
+THAWSLIDE_HD void set_pressures(const ColumnModel<Real, Curve>& model, const PressureBounds<Real>& bounds,
+                                BandColumn<Real>& column) {
+  const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    const bool acts = model.pressurization && is_melted(model, column, k);
+    column.pressure[k] = acts ? min(max(column.surplus[k] / storage, bounds.lower[k]), bounds.upper) : Real(0);
+  }
+}
+
+// Moves water by what seeps upward through the lower face of each cell, and into the air, per area [m]; of a cell that
+// would give more than it has, all shares of it less. It takes its heat along.
+template <class Real, class Curve>
+THAWSLIDE_HD void carry_water(const ColumnModel<Real, Curve>& model, const Real* flow, const Real* to_air,
+                              BandColumn<Real>& column, ColumnAccount<Real>& account) {
+  constexpr int count = ColumnCells::slide;
+  const Real density = model.phases.water_density;
+  Real share[count], water[count + 1] = {}, heat[count + 1] = {};
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
+    const Real out = density * (max(flow[k + 1], Real(0)) + max(-flow[k], Real(0)) + to_air[k]);
+    share[k] = out > column.water[k] ? max(column.water[k], Real(0)) / out : Real(1);
+  }
+  const auto enthalpy_in = [&](int k) { return water_enthalpy(model, column.temperature[ColumnCells::ground + k]); };
+  THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
+    if (flow[k] != Real(0)) {
+      const int from = flow[k] > Real(0) ? k - 1 : k;
+      water[k] = density * flow[k] * share[from];
+      heat[k] = water[k] * enthalpy_in(from);
+    }
+  }
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
+    const Real vented = density * to_air[k] * share[k];
+    const Real vented_heat = vented > Real(0) ? vented * enthalpy_in(k) : Real(0);
+    column.water[k] += water[k] - water[k + 1] - vented;
+    column.heat[ColumnCells::ground + k] += heat[k] - heat[k + 1] - vented_heat;
+    account.vented_water += vented;
+    account.vented_heat += vented_heat;
+  }
+}
+
+// Steam that seeps into the air, by Darcy's law with the steam's density and viscosity.
+template <class Real, class Curve>
+THAWSLIDE_HD void vent_steam(const ColumnModel<Real, Curve>& model, const ColumnMobility<Real>& mobility, Real dt,
+                             BandColumn<Real>& column, ColumnAccount<Real>& account) {
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    const Real pressure = mobility.to_air[k] > Real(0) ? steam_pressure(model, column, k) : Real(0);
+    if (pressure > Real(0)) {
+      const Real absolute = column.temperature[ColumnCells::ground + k] + celsius_to_kelvin<Real>;
+      const Real density = (pressure + Steam<Real>::atmosphere) / (Steam<Real>::gas_constant * absolute);
+      const Real volume = dt * mobility.to_air[k] * model.water_to_steam_viscosity * pressure;
+      give_off_steam(model, min(column.water[k], density * volume), k, column, account);
+    }
+  }
+}
+
+// One step of seepage, implicit: the surplus after it sets the pressures that drive it. Where P is at one of its bounds
+// it does not follow the surplus; Newton's iteration finds where that is.
+template <class Real, class Curve>
+THAWSLIDE_HD void seep_in_column(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real dt,
+                                 Real normal_pressure, BandColumn<Real>& column, ColumnAccount<Real>& account) {
+  constexpr int count = ColumnCells::slide, most_iterations = 40;
+  const PressureBounds<Real> bounds(model, normal_pressure, column);
+  const ColumnMobility<Real> mobility = mobilities(model, grid, column);
+  const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
+  const Real close = by_precision<Real>(1e-12, 1e-5) * storage * max(normal_pressure, Real(1));
+  Real before[count], flow[count + 1],
+      to_air[count];  // volumes per area, upward through the lower face of each cell [m]
+  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { before[k] = column.surplus[k]; }
+  flow[0] = flow[count] = Real(0);
+  THAWSLIDE_ROLLED for (int iteration = 0; iteration <= most_iterations; ++iteration) {
+    set_pressures(model, bounds, column);
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
+      if (k > 0) {
+        flow[k] = dt * mobility.between[k] * (column.pressure[k - 1] - column.pressure[k]);
+      }
+      to_air[k] = dt * mobility.to_air[k] * column.pressure[k];
+    }
+    Real below[count], diagonal[count], above[count], change[count], largest = 0;
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
+      change[k] = before[k] - column.surplus[k] + (flow[k] - flow[k + 1] - to_air[k]) / grid.slide_height(k);
+      largest = max(largest, std::abs(change[k]));
+    }
+    if (largest < close || iteration == most_iterations) {
+      break;
+    }
+    const auto follows = [&](int k) {  // dP/d theta
+      const Real pressure = column.surplus[k] / storage;
+      return pressure > bounds.lower[k] && pressure < bounds.upper ? Real(1) / storage : Real(0);
+    };
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
+      const Real per_height = dt / grid.slide_height(k);
+      below[k] = k > 0 ? -per_height * mobility.between[k] * follows(k - 1) : Real(0);
+      above[k] = k + 1 < count ? -per_height * mobility.between[k + 1] * follows(k + 1) : Real(0);
+      diagonal[k] =
+          Real(1) + per_height * (mobility.between[k] + mobility.between[k + 1] + mobility.to_air[k]) * follows(k);
+    }
+    solve_tridiagonal<count>(below, diagonal, above, change);
+    THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { column.surplus[k] += change[k]; }
+  }
+  carry_water(model, flow, to_air, column, account);
+  vent_steam(model, mobility, dt, column, account);
+}
+
+}  // namespace thawslide::physics

@@ -1,0 +1,32 @@
+// Bonds of ice between slide and ground, which slip breaks and melting frees, to nothing: a c_S of Eq. 17 that does not
+// last.
+//   c_S = c_0 exp(-s/d_c) (1 - S),  s the slip
+// Where all is frozen (S = 0) sliding costs the energy c_0 d_c [J/m2], and no more.
+#pragma once
+
+#include <cmath>
+
+#include "physics/basal/contact_node.hpp"
+#include "physics/basal/shared_parameters.hpp"
+
+namespace thawslide::physics::basal {
+
+template <class Real>
+struct BondsCohesion {
+  static constexpr const char* word = "bonds";
+  static constexpr const char* text = "cohesion exp(-slip/slip_distance) (1 - S_L): bonds of ice, lost to nothing";
+  static constexpr auto parameters = parameter_list(initial_cohesion, slip_distance);
+
+  Real initial;   // c_0 [Pa]
+  Real distance;  // d_c [m]
+
+  template <class Numbers>
+  static BondsCohesion from(const Numbers& numbers) {
+    return {static_cast<Real>(numbers(initial_cohesion)), static_cast<Real>(numbers(slip_distance))};
+  }
+  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& node) const {
+    return initial * std::exp(-node.slip / distance) * (Real(1) - node.saturation);
+  }
+};
+
+}  // namespace thawslide::physics::basal

@@ -1,0 +1,24 @@
+// c_S = c_0 (Eq. 17), for ever.
+#pragma once
+
+#include "physics/basal/contact_node.hpp"
+#include "physics/basal/shared_parameters.hpp"
+
+namespace thawslide::physics::basal {
+
+template <class Real>
+struct ConstantCohesion {
+  static constexpr const char* word = "constant";
+  static constexpr const char* text = "cohesion, for ever";
+  static constexpr auto parameters = parameter_list(initial_cohesion);
+
+  Real initial;  // c_0 [Pa]
+
+  template <class Numbers>
+  static ConstantCohesion from(const Numbers& numbers) {
+    return {static_cast<Real>(numbers(initial_cohesion))};
+  }
+  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& /*node*/) const { return initial; }
+};
+
+}  // namespace thawslide::physics::basal

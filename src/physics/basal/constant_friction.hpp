@@ -1,0 +1,27 @@
+// mu_e = tan(phi_f): Coulomb friction (Eq. 17 without Eq. 25).
+#pragma once
+
+#include <cmath>
+
+#include "physics/basal/contact_node.hpp"
+#include "physics/basal/shared_parameters.hpp"
+
+namespace thawslide::physics::basal {
+
+template <class Real>
+struct ConstantFriction {
+  static constexpr const char* word = "constant";
+  static constexpr const char* text = "tan(friction_angle)";
+  static constexpr bool feels_pore_pressure = true;
+  static constexpr auto parameters = parameter_list(friction_angle);
+
+  Real full_coefficient;  // tan(phi_f)
+
+  template <class Numbers>
+  static ConstantFriction from(const Numbers& numbers) {
+    return {static_cast<Real>(std::tan(numbers(friction_angle) * pi<double> / 180.0))};
+  }
+  THAWSLIDE_HD Real coefficient(const ContactNode<Real>& /*node*/) const { return full_coefficient; }
+};
+
+}  // namespace thawslide::physics::basal

@@ -1,0 +1,25 @@
+// Cohesion in proportion to the ice in the pores: the c_S of Eq. 17, of which the paper gives no law.
+//   c_S = c_0 (1 - S)
+#pragma once
+
+#include "physics/basal/contact_node.hpp"
+#include "physics/basal/shared_parameters.hpp"
+
+namespace thawslide::physics::basal {
+
+template <class Real>
+struct IceCohesion {
+  static constexpr const char* word = "ice";
+  static constexpr const char* text = "cohesion (1 - S_L): in proportion to the ice";
+  static constexpr auto parameters = parameter_list(initial_cohesion);
+
+  Real initial;  // c_0 [Pa]
+
+  template <class Numbers>
+  static IceCohesion from(const Numbers& numbers) {
+    return {static_cast<Real>(numbers(initial_cohesion))};
+  }
+  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& node) const { return initial * (Real(1) - node.saturation); }
+};
+
+}  // namespace thawslide::physics::basal

@@ -1,0 +1,34 @@
+// How a law of the base (Eq. 17) says what it takes from the case file. A law is a struct in a header of its own, and
+// one line in laws.hpp. It has
+//   word, text          what the case file calls it, and what it does
+//   parameters          the numbers that it takes, declared here or shared with others (shared_parameters.hpp)
+//   from(numbers)       the law, from a function that gives the number of a parameter
+//   coefficient(node)   of a friction law: mu_e; and feels_pore_pressure, whether P is taken off the load that it is of
+//   cohesion(node)      of a cohesion law: c_S [Pa]
+#pragma once
+
+#include <array>
+#include <limits>
+
+namespace thawslide::physics::basal {
+
+// A number of the case file, and all that is said of it there.
+struct Parameter {
+  const char* key;
+  const char* unit = "";
+  double initial = 0.0;             // default
+  bool is_needed = false;           // no default: where one of its laws is chosen it must be given
+  bool only_with_its_laws = false;  // where none of these is chosen it must not be given
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false, high_open = false;
+  const char* text = "";  // "{laws}" in it: the law "x", or the laws "x" and "y", that take the number
+  const char* source = "";
+};
+
+template <class... P>
+constexpr std::array<const Parameter*, sizeof...(P)> parameter_list(const P&... parameters) {
+  return {&parameters...};
+}
+
+}  // namespace thawslide::physics::basal

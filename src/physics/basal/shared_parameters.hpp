@@ -1,0 +1,31 @@
+// Numbers that several laws of the base take (Eqs. 17, 25).
+#pragma once
+
+#include "physics/basal/parameter.hpp"
+
+namespace thawslide::physics::basal {
+
+inline constexpr Parameter friction_angle{.key = "friction_angle",
+                                          .unit = "degrees",
+                                          .is_needed = true,
+                                          .low = 0.0,
+                                          .high = 90.0,
+                                          .high_open = true,
+                                          .text = "basal friction angle phi_f",
+                                          .source = "Eq. 25, Tables 2, 3"};
+
+// All laws of cohesion take it. Where it is 0 nothing is lost, and none of their other numbers is needed.
+inline constexpr Parameter initial_cohesion{
+    .key = "cohesion", .unit = "Pa", .low = 0.0, .text = "cohesion along the ground at t = 0, c_0", .source = "Eq. 17"};
+
+inline constexpr Parameter residual_cohesion{
+    .key = "residual_cohesion", .unit = "Pa", .low = 0.0, .text = "cohesion that is left, c_r, of {laws}"};
+
+inline constexpr Parameter slip_distance{.key = "slip_distance",
+                                         .unit = "m",
+                                         .is_needed = true,
+                                         .low = 0.0,
+                                         .low_open = true,
+                                         .text = "slip over which the cohesion falls to 1/e, d_c, of {laws}"};
+
+}  // namespace thawslide::physics::basal

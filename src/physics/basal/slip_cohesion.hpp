@@ -1,0 +1,31 @@
+// Cohesion that slip takes away, to a residual: the c_S of Eq. 17, of which the paper gives no law.
+//   c_S = c_r + (c_0 - c_r) exp(-s/d_c),  s the slip
+#pragma once
+
+#include <cmath>
+
+#include "physics/basal/contact_node.hpp"
+#include "physics/basal/shared_parameters.hpp"
+
+namespace thawslide::physics::basal {
+
+template <class Real>
+struct SlipCohesion {
+  static constexpr const char* word = "slip";
+  static constexpr const char* text = "c_r + (c_0 - c_r) exp(-slip/slip_distance)";
+  static constexpr auto parameters = parameter_list(initial_cohesion, residual_cohesion, slip_distance);
+
+  Real initial, residual;  // c_0, c_r [Pa]
+  Real distance;           // d_c [m]
+
+  template <class Numbers>
+  static SlipCohesion from(const Numbers& numbers) {
+    return {static_cast<Real>(numbers(initial_cohesion)), static_cast<Real>(numbers(residual_cohesion)),
+            static_cast<Real>(numbers(slip_distance))};
+  }
+  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& node) const {
+    return residual + (initial - residual) * std::exp(-node.slip / distance);
+  }
+};
+
+}  // namespace thawslide::physics::basal

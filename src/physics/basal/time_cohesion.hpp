@@ -1,0 +1,32 @@
+// Cohesion that is lost at a given time, to a residual: the c_S of Eq. 17, of which the paper gives no law.
+#pragma once
+
+#include "physics/basal/contact_node.hpp"
+#include "physics/basal/shared_parameters.hpp"
+
+namespace thawslide::physics::basal {
+
+inline constexpr Parameter cohesion_loss_time{.key = "cohesion_loss_time",
+                                              .unit = "s",
+                                              .is_needed = true,
+                                              .low = 0.0,
+                                              .text = "time at which the cohesion is lost, of {laws}"};
+
+template <class Real>
+struct TimeCohesion {
+  static constexpr const char* word = "time";
+  static constexpr const char* text = "cohesion before cohesion_loss_time, residual_cohesion from then on";
+  static constexpr auto parameters = parameter_list(initial_cohesion, residual_cohesion, cohesion_loss_time);
+
+  Real initial, residual;  // c_0, c_r [Pa]
+  Real loss_time;          // [s]
+
+  template <class Numbers>
+  static TimeCohesion from(const Numbers& numbers) {
+    return {static_cast<Real>(numbers(initial_cohesion)), static_cast<Real>(numbers(residual_cohesion)),
+            static_cast<Real>(numbers(cohesion_loss_time))};
+  }
+  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& node) const { return node.time < loss_time ? initial : residual; }
+};
+
+}  // namespace thawslide::physics::basal

@@ -1,0 +1,59 @@
+// Enthalpy of matter that freezes along a curve (Eq. 9), whatever it is counted per: volume, or area of the base.
+//   H(T) = C_f (T - Tref) + C_r integral of S dT from Tref + L S(T)       0 for frozen matter at Tref
+//   dH/dT = C_f + C_r S + L dS/dT
+// C_f: capacity of frozen matter; C_r: what melting adds to it; L: what melting takes. H rises strictly with T and is
+// convex below Tref, linear above.
+#pragma once
+
+#include <cmath>
+
+#include "physics/freezing.hpp"
+
+namespace thawslide::physics {
+
+// Capacities per kelvin and latent heat, of one volume or one area.
+template <class Value>
+struct EnthalpyCoefficients {
+  Value frozen, rise, melting;
+};
+
+// H at temperature [C].
+template <class Curve, class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value enthalpy(const Curve& curve, const EnthalpyCoefficients<Value>& of,
+                                                    Value temperature) {
+  const CurveValues<Value> values = curve.at(temperature);
+  return of.frozen * (temperature - curve.reference_temperature) + of.rise * values.integral +
+         of.melting * values.saturation;
+}
+
+// dH/dT, at Tref the one of the frozen side.
+template <class Curve, class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value apparent_capacity(const Curve& curve, const EnthalpyCoefficients<Value>& of,
+                                                             Value temperature) {
+  const CurveValues<Value> values = curve.at(temperature);
+  return of.frozen + of.rise * values.saturation + of.melting * values.derivative;
+}
+
+// The temperature [C] at which the enthalpy is `heat`, from a guess near it: closed above Tref, Newton's iteration
+// below, where convexity makes it converge from any start.
+template <class Curve, class Value>
+THAWSLIDE_HD Value temperature_of_enthalpy(const Curve& curve, const EnthalpyCoefficients<Value>& of, Value heat,
+                                           Value guess) {
+  using std::abs;
+  using Real = typename NumberOf<Value>::Type;
+  const auto melted = heat >= of.melting;
+  constexpr int most_iterations = 100;
+  constexpr Real close = by_precision<Real>(1e-6, 1e-3);  // converges quadratically: the next change is round-off
+  Value below = min(guess - curve.reference_temperature, Value(0));
+  auto open = !melted;
+  for (int k = 0; k < most_iterations && any(open); ++k) {
+    const CurveValues<Value> values = curve.at(curve.reference_temperature + below);
+    const Value excess = of.frozen * below + of.rise * values.integral + of.melting * values.saturation - heat;
+    const Value change = -excess / (of.frozen + of.rise * values.saturation + of.melting * values.derivative);
+    below = select(open, min(below + change, Value(0)), below);
+    open = open & (abs(change) >= close);
+  }
+  return curve.reference_temperature + select(melted, (heat - of.melting) / (of.frozen + of.rise), below);
+}
+
+}  // namespace thawslide::physics

@@ -1,0 +1,110 @@
+// The rigid motion nearest to velocities v_k at places x_k with masses m_k, in least squares (a chapter on rigid bodies
+// of any textbook of mechanics): that of a rigid body with their momentum and their angular momentum.
+//   v(x) = u + w x (x - c),  m = sum m_k,  m c = sum m_k x_k,  m u = sum m_k v_k
+//   I w = sum m_k x_k x v_k - m c x u,  I = sum m_k [|x_k - c|^2 1 - (x_k - c)(x_k - c)^T]
+// In the plane rotation, moment and I are one number each. Places are told from the origin that all share.
+#pragma once
+
+#include "base/linear.hpp"
+#include "base/portability.hpp"
+
+namespace thawslide::physics {
+
+// Numbers of a rotation or a moment, and of the products of a place with itself: |x|^2, or x x^T (xx yy zz xy yz xz).
+template <int Dim>
+inline constexpr int rotations = Dim == 2 ? 1 : 3;
+template <int Dim>
+inline constexpr int squares = Dim == 2 ? 1 : 6;
+
+// x x v.
+template <int Dim, class Value>
+[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, rotations<Dim>> moment_of(
+    const Vector<Value, Dim>& place, const Vector<Value, Dim>& velocity) {
+  Vector<Value, rotations<Dim>> moment;
+  if constexpr (Dim == 2) {
+    moment[0] = place[0] * velocity[1] - place[1] * velocity[0];
+  } else {
+    moment[0] = place[1] * velocity[2] - place[2] * velocity[1];
+    moment[1] = place[2] * velocity[0] - place[0] * velocity[2];
+    moment[2] = place[0] * velocity[1] - place[1] * velocity[0];
+  }
+  return moment;
+}
+
+// w x x: what a rotation w [1/s] gives a place [m/s].
+template <int Dim, class Value>
+[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> turned(
+    const Vector<Value, rotations<Dim>>& rotation, const Vector<Value, Dim>& place) {
+  Vector<Value, Dim> velocity;
+  if constexpr (Dim == 2) {
+    velocity[0] = -rotation[0] * place[1];
+    velocity[1] = rotation[0] * place[0];
+  } else {
+    velocity = moment_of<Dim>(rotation, place);
+  }
+  return velocity;
+}
+
+// The products of a place with itself [m2].
+template <int Dim, class Value>
+[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, squares<Dim>> squares_of(
+    const Vector<Value, Dim>& place) {
+  Vector<Value, squares<Dim>> products;
+  if constexpr (Dim == 2) {
+    products[0] = place[0] * place[0] + place[1] * place[1];
+  } else {
+    products[0] = place[0] * place[0];
+    products[1] = place[1] * place[1];
+    products[2] = place[2] * place[2];
+    products[3] = place[0] * place[1];
+    products[4] = place[1] * place[2];
+    products[5] = place[0] * place[2];
+  }
+  return products;
+}
+
+// Sums over mass points.
+template <int Dim, class Real>
+struct MassPoints {
+  Real mass;                            // [kg]
+  Vector<Real, Dim> first;              // sum m x [kg m]
+  Vector<Real, squares<Dim>> second;    // sum m x x [kg m2]
+  Vector<Real, Dim> momentum;           // sum m v [kg m/s]
+  Vector<Real, rotations<Dim>> moment;  // sum m x x v [kg m2/s]
+};
+
+template <int Dim, class Real>
+struct RigidMotion {
+  Vector<Real, Dim> at_origin = Vector<Real, Dim>::Zero();                       // v(0) [m/s]
+  Vector<Real, rotations<Dim>> rotation = Vector<Real, rotations<Dim>>::Zero();  // w [1/s]
+};
+
+// Where points lie so close to one another that they have next to no moment of inertia about an axis, at most mass
+// times least_square [m2], there is no rotation about it.
+template <int Dim, class Real>
+[[nodiscard]] RigidMotion<Dim, Real> nearest_rigid_motion(const MassPoints<Dim, Real>& points, Real least_square) {
+  const Vector<Real, Dim> centre = points.first / points.mass, velocity = points.momentum / points.mass;
+  const Vector<Real, rotations<Dim>> spin = points.moment - moment_of<Dim>(centre, points.momentum);
+  const Vector<Real, squares<Dim>> about_centre = points.second - points.mass * squares_of<Dim>(centre);
+  RigidMotion<Dim, Real> motion;
+  if constexpr (Dim == 2) {
+    if (about_centre[0] > points.mass * least_square) {
+      motion.rotation = spin / about_centre[0];
+    }
+  } else {
+    Matrix<Real, 3> inertia;
+    const auto& s = about_centre;
+    inertia << s[1] + s[2], -s[3], -s[5], -s[3], s[0] + s[2], -s[4], -s[5], -s[4], s[0] + s[1];
+    const Eigen::SelfAdjointEigenSolver<Matrix<Real, 3>> axes(inertia);
+    for (int k = 0; k < 3; ++k) {
+      if (axes.eigenvalues()[k] > points.mass * least_square) {
+        const Vector<Real, 3> axis = axes.eigenvectors().col(k);
+        motion.rotation += axis.dot(spin) / axes.eigenvalues()[k] * axis;
+      }
+    }
+  }
+  motion.at_origin = velocity - turned<Dim>(motion.rotation, centre);
+  return motion;
+}
+
+}  // namespace thawslide::physics

@@ -1,0 +1,112 @@
+// The band columns of a simulation: how they begin, and their part in a step.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "sim/columns_model.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// Of the particles in the band, by volume; all of one material.
+template <int Dim, class Real>
+ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Real>& model,
+                            const mpm::Particles<Dim, Real>& particles) {
+  ColumnMatter matter{};
+  double volume = 0.0;
+  std::int32_t material = -1;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    matter.depth = std::max(matter.depth, static_cast<double>(particles.flow_depth(p)));
+    if (particles.in_band(p) == 0) {
+      continue;
+    }
+    if (material >= 0 && particles.material(p) != material) {
+      throw UserError(
+          fmt::format("{}: bodies of different materials stand on the ground, and band columns are of one. Give all "
+                      "bodies the same material, or set band.model = \"scaled\".",
+                      config::place_of(parameters, "band.model")));
+    }
+    material = particles.material(p);
+    const auto of_particle = static_cast<double>(particles.initial_volume(p));
+    volume += of_particle;
+    matter.temperature += of_particle * static_cast<double>(particles.temperature(p));
+    matter.porosity += of_particle * static_cast<double>(particles.initial_porosity(p));
+  }
+  if (material < 0) {
+    throw UserError(
+        fmt::format("{}: no particle stands on the ground, where band columns begin. Let the body begin on "
+                    "the ground, or set band.model = \"scaled\".",
+                    config::place_of(parameters, "band.model")));
+  }
+  matter.temperature /= volume;
+  matter.porosity /= volume;
+  matter.hydraulic_conductivity =
+      static_cast<double>(model.motion.materials[static_cast<std::size_t>(material)].hydraulic_conductivity);
+  return matter;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::start_band_columns() {
+  if (!model_.contact.band_columns) {
+    return;
+  }
+  const ColumnMatter matter = matter_of_base(parameters_, model_, particles_);
+  const double thickest =
+      *std::max_element(parameters_.band.thickness.value.begin(), parameters_.band.thickness.value.end());
+  if (thickest >= matter.depth) {
+    throw UserError(
+        fmt::format("{}: the band is up to {} m thick, and the slide above it {:.4g} m. Use a thinner band.",
+                    config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
+  }
+  band_columns_.emplace(make_columns_model(parameters_, model_, matter));
+  column_time_ = 0.0;
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::band_columns_to_nodes() {
+  if (band_columns_) {
+    band_columns_->to_nodes(grid_, nodes_);
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::band_columns_follow() {
+  if (!band_columns_) {
+    return;
+  }
+  const double cell = parameters_.grid.cell;
+  const terrain::Surface<Dim>& surface = *model_.ground;
+  const typename band::BaseColumns<Dim, Real>::Ground ground{
+      [&](const auto& place) { return static_cast<Real>(surface.height(place.template cast<double>())); },
+      [&](const auto& place) -> Vector<Real, Dim> {
+        return surface.normal_below(place.template cast<double>(), cell).template cast<Real>();
+      }};
+  const auto node_ground = [&](std::size_t b, std::size_t k) {
+    using NodeGround = typename band::BaseColumns<Dim, Real>::NodeGround;
+    if (!ground_.any_candidate(b) || !ground_.block(b)[k].candidate) {
+      return NodeGround{nullptr, Real(0)};
+    }
+    const auto& known = ground_.block(b)[k];
+    return NodeGround{&known.normal, known.distance};
+  };
+  band_columns_->follow(grid_, ground, node_ground, static_cast<Real>(band_thickness()), dt_, nodes_);
+  column_time_ += static_cast<double>(dt_);
+  if (column_time_ + 0.5 * static_cast<double>(dt_) > parameters_.band.column_step) {
+    band_columns_->step(static_cast<Real>(band_thickness()), static_cast<Real>(column_time_));
+    column_time_ = 0.0;
+  }
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                        \
+  template void Simulation<Dim, Real>::start_band_columns();    \
+  template void Simulation<Dim, Real>::band_columns_to_nodes(); \
+  template void Simulation<Dim, Real>::band_columns_follow();
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,42 @@
+#include "sim/block_band_column.hpp"
+
+#include <algorithm>
+
+namespace thawslide::sim {
+
+BlockBandColumn::BlockBandColumn(const band::ColumnsModel<double>& model, double thickness, double load,
+                                 double column_step)
+    : model_(model), column_step_(column_step) {
+  piece_.position.setZero();
+  piece_.normal.setZero();
+  piece_.sides.setZero();
+  piece_.area = piece_.area_of_column = 1.0;
+  band::follow_load(model_, load, 0.0, piece_);
+  band::start_column_of(model_, thickness, piece_);
+}
+
+double BlockBandColumn::step(const BlockDrive& drive) {
+  band::follow_load(model_, drive.normal_pressure, drive.dt, piece_);
+  piece_.speed = drive.speed;
+  piece_.slip = drive.slip;
+  const double before = physics::heat_of(piece_.column) + piece_.heat;
+  piece_.heat += drive.dt * drive.heat_flux;
+  waiting_ += drive.dt;
+  if (waiting_ + 0.5 * drive.dt > column_step_) {
+    band::step_piece(model_, drive.band_thickness, waiting_, piece_);
+    waiting_ = 0.0;
+  }
+  return physics::heat_of(piece_.column) + piece_.heat - before;
+}
+
+BlockBase BlockBandColumn::base() const {
+  const physics::BandMeans<double> means = band::means_of(model_, piece_);
+  return {means.pore_pressure, means.saturation, means.solid_fraction, means.temperature};
+}
+
+BlockBand BlockBandColumn::band() const {
+  const physics::BandMeans<double> means = band::means_of(model_, piece_);
+  return {means.temperature, means.saturation, means.pore_pressure};
+}
+
+}  // namespace thawslide::sim

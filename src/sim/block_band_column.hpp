@@ -1,0 +1,28 @@
+// The band under the rigid block as one band column (band/piece_step.hpp): a piece of base of 1 m2 that does not
+// stretch.
+#pragma once
+
+#include "band/piece_step.hpp"
+#include "sim/block_column.hpp"
+#include "sim/columns_model.hpp"
+
+namespace thawslide::sim {
+
+class BlockBandColumn {
+ public:
+  // load: normal pressure at the start [Pa]; column_step: largest time step of the column [s].
+  BlockBandColumn(const band::ColumnsModel<double>& model, double thickness, double load, double column_step);
+
+  // Returns the heat that the column gained [J/m2], with what waits for its next step.
+  double step(const BlockDrive& drive);
+  [[nodiscard]] BlockBase base() const;
+  [[nodiscard]] BlockBand band() const;
+  [[nodiscard]] const band::BasePiece<2, double>& piece() const { return piece_; }
+
+ private:
+  band::ColumnsModel<double> model_;
+  band::BasePiece<2, double> piece_;
+  double column_step_, waiting_ = 0.0;
+};
+
+}  // namespace thawslide::sim

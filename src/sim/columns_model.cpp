@@ -1,0 +1,86 @@
+#include "sim/columns_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/instances.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+template <class Real, class Curve>
+physics::ColumnModel<Real, Curve> column_model(const config::Case& parameters, const physics::Phases<Real>& phases,
+                                               const Curve& curve, const ColumnMatter& matter) {
+  const config::Pressure& pressure = parameters.pressure;
+  const Table& thickness = parameters.band.thickness;
+  physics::ColumnModel<Real, Curve> column;
+  column.phases = phases;
+  column.curve = curve;
+  column.water_expansion = {parameters.phases.water_expansion_law == config::WaterExpansionLaw::constant
+                                ? physics::WaterExpansionLaw::constant
+                                : physics::WaterExpansionLaw::by_temperature,
+                            phases.water_expansion};
+  column.porosity = static_cast<Real>(matter.porosity);
+  column.hydraulic_conductivity = static_cast<Real>(matter.hydraulic_conductivity);
+  column.skeleton_compressibility = static_cast<Real>(pressure.skeleton_compressibility);
+  column.residual_stress = static_cast<Real>(pressure.residual_stress);
+  column.at_frozen =
+      pressure.frozen_rows == config::FrozenRows::vented ? physics::EndOfWater::vented : physics::EndOfWater::sealed;
+  column.at_top =
+      pressure.column_top == config::EndOfWater::vented ? physics::EndOfWater::vented : physics::EndOfWater::sealed;
+  column.water_to_steam_viscosity = static_cast<Real>(pressure.water_to_steam_viscosity);
+  column.latent = parameters.heat.latent;
+  column.conduction = parameters.heat.conduction;
+  column.seepage = pressure.seepage;
+  column.pressurization = pressure.enabled && pressure.thermal_pressurization;
+  column.steam = parameters.heat.steam;
+  column.ground_conductivity = phases.rock_conductivity;
+  column.ground_capacity = phases.rock_density * phases.rock_heat_capacity;
+  column.ground_cell =
+      static_cast<Real>(*std::min_element(thickness.value.begin(), thickness.value.end())) / physics::ColumnCells::band;
+  return column;
+}
+
+band::BandGrowth growth_of(config::BandGrowth growth) {
+  switch (growth) {
+    case config::BandGrowth::inertial:
+      return band::BandGrowth::inertial;
+    case config::BandGrowth::slip:
+      return band::BandGrowth::slip;
+    case config::BandGrowth::none:
+      break;
+  }
+  return band::BandGrowth::none;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, const Model<Dim, Real>& model,
+                                            const ColumnMatter& matter) {
+  const config::Band& band = parameters.band;
+  band::ColumnsModel<Real> columns;
+  columns.column = model.band.with_heat_content([&](const auto& content) -> band::AnyColumnModel<Real> {
+    return column_model(parameters, model.motion.phases, content.curve, matter);
+  });
+  columns.body_temperature = static_cast<Real>(matter.temperature);
+  columns.ground_temperature =
+      static_cast<Real>(std::isnan(band.ground_temperature) ? matter.temperature : band.ground_temperature);
+  columns.load_time = static_cast<Real>(band.load_time);
+  columns.growth = growth_of(band.growth);
+  columns.grain_size = static_cast<Real>(band.grain_size);
+  columns.inertial_number = static_cast<Real>(band.inertial_number);
+  columns.growth_per_slip = static_cast<Real>(band.growth_per_slip);
+  columns.rock_density = model.motion.phases.rock_density;
+  columns.largest_thickness = static_cast<Real>(matter.depth);
+  return columns;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \
+  template band::ColumnsModel<Real> make_columns_model<Dim, Real>(const config::Case&, const Model<Dim, Real>&, \
+                                                                  const ColumnMatter&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

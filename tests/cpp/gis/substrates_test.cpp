@@ -1,0 +1,227 @@
+// Substrates from polygons and rasters: where they lie, what is refused, what is noted.
+#include "gis/substrates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/read_case.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+#include "sim/substrates.hpp"
+#include "site_case.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace site_case;
+
+// ---- a slide down a valley that is the same along y but for its walls
+
+constexpr double border = 92.5;  // along x, half way between two nodes and at an edge of the raster's cells
+
+double valley(double x, double y) {
+  const double along = x - west, across = y - south - 50.0;
+  return 600.0 - 0.5 * std::min(along, 100.0) - 0.1 * std::max(0.0, along - 100.0) + 0.004 * across * across;
+}
+
+config::Case valley_case(const std::string& substrate) {
+  geotiff("dem.tif", raster_of(valley, west, south, 5.0, 61, 21));
+  geojson("release.geojson", {{"", box_at(35.0, 35.0, 75.0, 65.0)}});
+  geojson("areas.geojson", {{R"("name":"glacier")", box_at(border, -50.0, 400.0, 150.0)},
+                            {R"("name":"lake")", box_at(0.0, 0.0, 20.0, 20.0)}});
+  geotiff("codes.tif", raster_of([](double x, double) { return x - west > border ? 7.0 : 2.0; }, west - 2.5,
+                                 south + 2.5, 10.0, 30, 10));
+  const std::string text =
+      fmt::format(
+          "[case]\ndimension = 3\n[time]\nend = 3.0\nstep = 0.002\n[grid]\ncell = 5.0\nmin = [{}, {}, 500.0]\n"
+          "max = [{}, {}, 640.0]\n",
+          west + 10.0, south + 10.0, west + 290.0, south + 90.0) +
+      R"([terrain]
+type = "dem"
+file = "dem.tif"
+[material.debris]
+law = "mohr_coulomb"
+youngs_modulus = 2e7
+poisson_ratio = 0.3
+friction_angle = 30.0
+cohesion = 0.0
+[body.slide]
+material = "debris"
+shape = "release"
+release = "release.geojson"
+thickness = 10.0
+velocity = [10.0, 0.0, -5.0]
+[heat]
+enabled = false
+[pressure]
+enabled = false
+[basal]
+friction = "constant"
+friction_angle = 25.0
+)" + substrate;
+  return config::read_case(text_file("case.toml", text), {});
+}
+
+const std::string slippery = "friction = \"coefficient\"\nfriction_coefficient = 0.05\n";
+
+sim::HistoryRow row_after(const config::Case& parameters) {
+  sim::Simulation<3, double> simulation(parameters, load_site(parameters).site);
+  while (simulation.time() < parameters.time.end) {
+    simulation.step(simulation.next_step(parameters.time.end));
+  }
+  return sim::history_row(simulation);
+}
+
+double value_in(const sim::HistoryRow& row, const std::string& name) {
+  return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
+}
+
+TEST(SubstratesOfMaps, PolygonsRasterAndStripGiveTheSameBits) {
+  const auto along_x =
+      row_after(valley_case("[substrate.ice]\n" + fmt::format("x_min = {}\n", west + border) + slippery));
+  const auto in_polygon =
+      row_after(valley_case("[substrate.ice]\noutline = \"areas.geojson\"\npolygons = [\"glacier\"]\n" + slippery));
+  const auto in_raster = row_after(valley_case("[substrate.ice]\nraster = \"codes.tif\"\ncode = 7\n" + slippery));
+  const auto without = row_after(valley_case(""));
+  ASSERT_EQ(along_x.size(), in_polygon.size());
+  for (std::size_t k = 0; k < along_x.size(); ++k) {
+    EXPECT_TRUE(along_x[k].second == in_polygon[k].second || std::isnan(along_x[k].second)) << along_x[k].first;
+    EXPECT_TRUE(along_x[k].second == in_raster[k].second || std::isnan(along_x[k].second)) << along_x[k].first;
+  }
+  EXPECT_GT(value_in(along_x, "front_position_m"), west + border + 20.0) << "the slide must have come there";
+  EXPECT_GT(value_in(along_x, "mean_velocity_m_s"), value_in(without, "mean_velocity_m_s") + 0.2);
+}
+
+TEST(SubstratesOfMaps, KnowTheirAreaAndAreCopiedWithTheRun) {
+  const config::Site of_polygon =
+      load_site(valley_case("[substrate.ice]\noutline = \"areas.geojson\"\npolygons = [\"glacier\"]\n" + slippery))
+          .site;
+  EXPECT_NEAR(of_polygon.substrates.at("ice").area, (290.0 - border) * 80.0, 1e-6);
+  const config::Case of_raster = valley_case("[substrate.ice]\nraster = \"codes.tif\"\ncode = 7\n" + slippery);
+  EXPECT_NEAR(load_site(of_raster).site.substrates.at("ice").area, 20.0 * 8.0 * 100.0, 1e-6);
+}
+
+// ---- what is refused and noted, on the plane of site_case
+
+config::Substrate in_polygons(const std::string& file, const std::vector<std::string>& names = {}) {
+  config::Substrate substrate;
+  substrate.outline = file;
+  substrate.polygons = names;
+  return substrate;
+}
+
+config::Substrate in_raster(const std::string& file, int code) {
+  config::Substrate substrate;
+  substrate.raster = file;
+  substrate.code = code;
+  return substrate;
+}
+
+config::Case plane_case() { return case_with_release({{"", box_at(300.0, 300.0, 400.0, 400.0)}}); }
+
+std::vector<std::string> notes_of(const config::Case& parameters) { return load_site(parameters).notes; }
+
+std::string codes_file(const std::function<double(double, double)>& code, int columns = 100, int rows = 80) {
+  return geotiff("codes.tif", raster_of(code, west + 5.0, south + 5.0, 10.0, columns, rows));
+}
+
+TEST(SubstratesOfMaps, OutsideTheDomainAreRefused) {
+  config::Case made = plane_case();
+  made.substrates["ice"] = in_polygons(geojson("ice.geojson", {{"", box_at(0.0, 0.0, 90.0, 90.0)}}));
+  EXPECT_EQ(
+      error_of_site(made),
+      "case.toml: substrate.ice.outline: FOLDER/ice.geojson: the polygons (x from 400000 to 400090, y from 300000 "
+      "to 300090) lie outside the domain (x from 400100 to 400900, y from 300100 to 300700). Check that both have "
+      "the same place and reference system.");
+  made.substrates["ice"] = in_raster(codes_file([](double x, double) { return x < west + 500.0 ? 1.0 : 4.0; }), 3);
+  EXPECT_EQ(error_of_site(made),
+            "case.toml: substrate.ice.code: FOLDER/codes.tif: the code 3 stands nowhere in the domain; found there: 1 "
+            "and 4.");
+}
+
+TEST(SubstratesOfMaps, ThatOverlapAreRefusedButForSlivers) {
+  const std::string file = geojson("areas.geojson", {{R"("name":"ice")", box_at(200.0, 200.0, 500.0, 400.0)},
+                                                     {R"("name":"snow")", box_at(480.0, 200.0, 600.0, 400.0)},
+                                                     {R"("name":"sliver")", box_at(499.99, 200.0, 600.0, 400.0)}});
+  config::Case made = plane_case();
+  made.substrates["ice"] = in_polygons(file, {"ice"});
+  made.substrates["snow"] = in_polygons(file, {"snow"});
+  EXPECT_EQ(error_of_site(made),
+            "case.toml: substrate.snow.outline: the substrates ice and snow overlap by 4000 m2 about 400490, 300300; a "
+            "place has one substrate. Allowed: slivers up to 24 m2, 0.1 % of the smaller one. Draw them apart (QGIS: "
+            "Vector > Geoprocessing Tools > Difference).");
+  made.substrates["snow"] = in_polygons(file, {"sliver"});
+  EXPECT_NEAR(load_site(made).site.substrates.at("snow").area, 100.01 * 200.0, 1e-6);
+  made.substrates["snow"] = config::Substrate{};
+  made.substrates["snow"].x_min = west + 450.0;
+  EXPECT_NE(
+      error_of_site(made).find("case.toml: substrate.snow.x_min: the substrates ice and snow overlap by 1e+04 m2"),
+      std::string::npos)
+      << error_of_site(made);
+  made.substrates["snow"] = in_raster(codes_file([](double x, double) { return x < west + 450.0 ? 1.0 : 4.0; }), 4);
+  EXPECT_NE(error_of_site(made).find("substrate.snow.raster: the substrates ice and snow overlap by 1e+04 m2"),
+            std::string::npos)
+      << error_of_site(made);
+}
+
+TEST(SubstratesOfMaps, NumbersThatAreNotWholeAreNoCodes) {
+  config::Case made = plane_case();
+  made.substrates["ice"] = in_raster(codes_file([](double x, double) { return x < west + 500.0 ? 1.0 : 1.5; }), 1);
+  EXPECT_EQ(error_of_site(made),
+            "case.toml: substrate.ice.raster: FOLDER/codes.tif: the raster holds 1.5 at 400505, 300095; allowed: whole "
+            "numbers, the codes of substrates. Check that it is the right file.");
+}
+
+TEST(SubstratesOfMaps, WhatNoSubstrateNamesIsNoted) {
+  config::Case made = plane_case();
+  const auto code = [](double x, double y) {
+    return y > south + 600.0 ? missing : x < west + 500.0 ? 1.0 : x < west + 800.0 ? 2.0 : 3.0;
+  };
+  made.substrates["ice"] = in_raster(codes_file(code), 1);
+  made.substrates["snow"] = in_raster(in_folder("codes.tif"), 2);
+  EXPECT_EQ(
+      notes_of(made),
+      (std::vector<std::string>{
+          "the code 3 of codes.tif (10 % of the domain, x from 400805 to 400895, y from 300105 to 300595) belongs "
+          "to no substrate: [basal] holds there",
+          "codes.tif has no data at 800 of its points in the domain (17 % of the domain, x from 400105 to 400895, "
+          "y from 300605 to 300695): [basal] holds there"}));
+  made.substrates["ice"] = in_raster(codes_file([](double, double) { return 1.0; }, 60), 1);
+  made.substrates.erase("snow");
+  EXPECT_EQ(notes_of(made), std::vector<std::string>{"codes.tif does not cover the domain, which reaches beyond it by "
+                                                     "300 m in the east: [basal] holds there"});
+}
+
+// A raster in longitude and latitude: every point of the ground takes the code of the nearest of its points.
+TEST(SubstratesOfMaps, CodesInAnotherSystemAreTakenToTheGroundsPoints) {
+  config::Case made = plane_case();
+  std::vector<double> x{west, west + 1000.0}, y{south, south + 800.0};
+  ASSERT_TRUE(Reprojection(reference_system_named("EPSG:31287"), reference_system_named("EPSG:4326")).apply(x, y));
+  const double middle = 0.5 * (x[0] + x[1]);
+  const double size_x = (x[1] - x[0]) / 200.0, size_y = (y[1] - y[0]) / 160.0;
+  const std::string file = geotiff("codes.tif", [&] {
+    Raster codes = raster_of([](double, double) { return 0.0; }, x[0] - 20.0 * size_x, y[0] - 20.0 * size_y, 1.0, 240,
+                             200, "EPSG:4326");
+    codes.cell_x = size_x;
+    codes.cell_y = size_y;
+    for (int row = 0; row < codes.rows; ++row) {
+      for (int column = 0; column < codes.columns; ++column) {
+        codes.values[codes.index(column, row)] = codes.x_of(column) < middle ? 1.0 : 2.0;
+      }
+    }
+    return codes;
+  }());
+  made.substrates["ice"] = in_raster(file, 2);
+  const SiteAndNotes loaded = load_site(made);
+  const auto substrates = sim::make_substrates(made, loaded.site);
+  EXPECT_EQ(substrates->at(350.0, 300.0), 0);
+  EXPECT_EQ(substrates->at(450.0, 300.0), 1);
+  EXPECT_NE(std::find_if(loaded.notes.begin(), loaded.notes.end(),
+                         [](const std::string& note) {
+                           return note.find("were taken to the points of the terrain model") != std::string::npos;
+                         }),
+            loaded.notes.end());
+}
+
+}  // namespace
+}  // namespace thawslide::gis

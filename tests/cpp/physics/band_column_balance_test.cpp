@@ -1,0 +1,88 @@
+// What a band column takes in, gives and keeps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "band_column_model.hpp"
+
+namespace thawslide::physics {
+namespace {
+
+// A hot band in cold matter, stretched to `area` times its area while it grows to `grown` times its thickness, mixes
+// with what lay above: its hot matter is then the share 1/(area grown) of it.
+TEST(BandColumn, MixesEnthalpyWhileItStretchesAndGrows) {
+  Model model = make_model();
+  model.conduction = model.pressurization = model.steam = false;
+  const double e = 0.1;
+  Column column = start_column(model, e, -10.0, -10.0, load);
+  const double cold = body_enthalpy(model, -10.0), hot = cold + 3e7;
+  for (int k = 0; k < Cells::band; ++k) {
+    column.heat[Cells::ground + k] = hot * e / Cells::band;
+  }
+  Drive drive = drive_of(model, 0.01, e, -10.0);
+  double area = 1.0;
+  for (int step = 0; step < 200; ++step) {
+    drive.stretching = 0.3;
+    drive.thickness = e * (1.0 + 0.5 * (step + 1) / 200.0);
+    step_column(model, drive, column);
+    area *= 1.0 + drive.stretching * drive.dt;
+  }
+  double band = 0.0;
+  for (int k = 0; k < Cells::band; ++k) {
+    band += column.heat[Cells::ground + k];
+  }
+  const double share = 1.0 / (area * 1.5);
+  EXPECT_NEAR(band / (1.5 * e), share * hot + (1.0 - share) * cold, 1e-10 * hot);
+}
+
+// Whatever happens to a column: heat and water are what came in less what left, and 0 <= P <= N.
+TEST(BandColumn, LosesNothingInRandomSteps) {
+  std::mt19937 random(5);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  double hottest = 0.0, opening = 0.0, vented = 0.0, steam = 0.0;
+  for (int run = 0; run < 20; ++run) {
+    Model model = make_model();
+    model.hydraulic_conductivity = std::pow(10.0, between(-8.0, -5.0));
+    model.skeleton_compressibility = std::pow(10.0, between(-9.0, -7.0));
+    model.residual_stress = between(0.0, 2.0 * load);
+    model.at_frozen = run % 2 == 0 ? EndOfWater::sealed : EndOfWater::vented;
+    model.water_expansion.law = run % 3 == 0 ? WaterExpansionLaw::constant : WaterExpansionLaw::by_temperature;
+    model.water_to_steam_viscosity = run % 2 == 0 ? 0.0 : 50.0;
+    double e = between(0.02, 0.6);
+    const double body = run % 4 == 3 ? 5.0 : -10.0;
+    Column column = start_column(model, e, body, -5.0, load);
+    double heat = heat_of(column), water = water_of(column), scale = 0.0;
+    for (int step = 0; step < 400; ++step) {
+      Drive drive = drive_of(model, between(0.001, 0.1), e, body);
+      drive.normal_pressure = step % 50 == 0 ? 0.0 : load * between(0.5, 1.5);
+      drive.heat_flux = between(0.0, 2e7);
+      drive.stretching = between(-0.1, 0.12);
+      e = drive.thickness = e * between(0.98, 1.02);
+      const double left = 1.0 / (1.0 + drive.stretching * drive.dt);
+      const Account account = step_column(model, drive, column);
+      heat = left * heat + account.friction_heat + account.body_heat + account.ground_heat - account.vented_heat -
+             account.steam_heat;
+      water = left * water + account.body_water - account.vented_water - account.steam;
+      scale = std::max(scale, std::abs(heat));
+      ASSERT_NEAR(heat_of(column), heat, 1e-11 * scale) << run << ", step " << step;
+      ASSERT_NEAR(water_of(column), water, 1e-11 * water) << run << ", step " << step;
+      for (int k = 0; k < Cells::slide; ++k) {
+        ASSERT_GE(column.pressure[k], 0.0);
+        ASSERT_LE(column.pressure[k], drive.normal_pressure);
+        ASSERT_GE(column.water[k], -1e-12 * water);
+        hottest = std::max(hottest, column.temperature[Cells::ground + k]);
+      }
+      opening = std::max(opening, band_means(model, drive.normal_pressure, column).opening);
+      vented += account.vented_water;
+      steam += account.steam;
+    }
+  }
+  EXPECT_GT(hottest, 200.0);
+  EXPECT_GT(opening, 0.0);
+  EXPECT_GT(vented, 0.0);
+  EXPECT_GT(steam, 0.0);
+}
+
+}  // namespace
+}  // namespace thawslide::physics

@@ -1,0 +1,169 @@
+#include "physics/pore_water.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/lanes.hpp"
+#include "physics/pressurization.hpp"
+#include "table1.hpp"
+
+namespace thawslide::physics {
+namespace {
+
+constexpr WaterExpansion<double> constant{WaterExpansionLaw::constant, 2.75e-4};
+constexpr WaterExpansion<double> by_temperature{WaterExpansionLaw::by_temperature, 0.0};
+
+TEST(WaterExpansion, TakesTheFourValuesAndRunsStraightBetweenAndBeyond) {
+  EXPECT_DOUBLE_EQ(by_temperature.at(0.0), -0.7e-4);
+  EXPECT_DOUBLE_EQ(by_temperature.at(20.0), 2.1e-4);
+  EXPECT_DOUBLE_EQ(by_temperature.at(50.0), 4.6e-4);
+  EXPECT_DOUBLE_EQ(by_temperature.at(100.0), 7.5e-4);
+  EXPECT_DOUBLE_EQ(by_temperature.at(10.0), 0.7e-4);
+  EXPECT_DOUBLE_EQ(by_temperature.at(35.0), 3.35e-4);
+  EXPECT_DOUBLE_EQ(by_temperature.at(75.0), 6.05e-4);
+  EXPECT_DOUBLE_EQ(by_temperature.at(-10.0), -2.1e-4);
+  EXPECT_DOUBLE_EQ(by_temperature.at(200.0), 13.3e-4);
+  EXPECT_EQ(constant.at(-30.0), 2.75e-4);
+  EXPECT_EQ(constant.at(130.0), 2.75e-4);
+}
+
+TEST(WaterExpansion, IsIntegratedInClosedForm) {
+  // Trapezia by hand: 20 (-0.7 + 2.1)/2 + 30 (2.1 + 4.6)/2 + 50 (4.6 + 7.5)/2 = 14 + 100.5 + 302.5, times 1e-4.
+  EXPECT_NEAR(by_temperature.swelling(0.0, 20.0), 14e-4, 1e-17);
+  EXPECT_NEAR(by_temperature.swelling(0.0, 100.0), 417e-4, 1e-16);
+  EXPECT_NEAR(by_temperature.swelling(100.0, 0.0), -417e-4, 1e-16);
+  // Water is densest where the expansion passes 0, at 5 C on the first line: as dense at 10 C as at 0 C.
+  EXPECT_NEAR(by_temperature.swelling(0.0, 10.0), 0.0, 1e-18);
+  EXPECT_LT(by_temperature.swelling(0.0, 5.0), 0.0);
+  // Beyond: from 100 to 200 C (7.5 + 13.3)/2 x 100, from -10 to 0 C (-2.1 - 0.7)/2 x 10.
+  EXPECT_NEAR(by_temperature.swelling(100.0, 200.0), 1040e-4, 1e-16);
+  EXPECT_NEAR(by_temperature.swelling(-10.0, 0.0), -14e-4, 1e-17);
+  EXPECT_DOUBLE_EQ(constant.swelling(4.0, 24.0), 5.5e-3);
+}
+
+TEST(WaterExpansion, SwellingAddsUpAndHasTheExpansionForItsRate) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> temperature(-40.0, 220.0);
+  for (int k = 0; k < 1000; ++k) {
+    const double a = temperature(random), b = temperature(random), c = temperature(random);
+    EXPECT_NEAR(by_temperature.swelling(a, b) + by_temperature.swelling(b, c), by_temperature.swelling(a, c), 2e-16);
+    EXPECT_NEAR(by_temperature.swelling(a, b), -by_temperature.swelling(b, a), 1e-16);
+    // The rate by a central difference, which is exact on a line; a bend within it is at most h times its jump off.
+    const double h = 1e-3;
+    const double rate = (by_temperature.swelling(a - h, a + h)) / (2.0 * h);
+    EXPECT_NEAR(rate, by_temperature.at(a), h * 1e-5);
+  }
+}
+
+TEST(PoreWater, LanesAreTheNumbers) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> temperature(-40.0, 220.0);
+  Lanes<double> from, to;
+  for (int k = 0; k < 100; ++k) {
+    for (std::size_t lane = 0; lane < lane_count<double>; ++lane) {
+      set_lane(from, lane, temperature(random));
+      set_lane(to, lane, temperature(random));
+    }
+    const Lanes<double> expansion = by_temperature.at(from), swelling = by_temperature.swelling(from, to);
+    for (std::size_t lane = 0; lane < lane_count<double>; ++lane) {
+      EXPECT_DOUBLE_EQ(in_lane(expansion, lane), by_temperature.at(in_lane(from, lane)));
+      EXPECT_NEAR(in_lane(swelling, lane), by_temperature.swelling(in_lane(from, lane), in_lane(to, lane)), 1e-17);
+    }
+  }
+}
+
+TEST(PoreWater, MixtureExpansionIsEquation8WithWatersOwn) {
+  const auto phases = table1();
+  for (const double saturation : {0.0, 0.3, 1.0}) {
+    EXPECT_EQ(expansion(phases, 0.375, saturation, constant.at(3.0)), expansion(phases, 0.375, saturation));
+  }
+  // 0.625 x 3e-5 + 0.375 x 4.6e-4
+  EXPECT_NEAR(expansion(phases, 0.375, 1.0, by_temperature.at(50.0)), 1.9125e-4, 1e-18);
+  // 0.625 x 3e-5 x 100 + 0.375 x 417e-4
+  EXPECT_NEAR(melted_swelling(phases, by_temperature, 0.375, 0.0, 100.0), 1.75125e-2, 1e-16);
+  EXPECT_NEAR(melted_swelling(phases, constant, 0.375, 2.0, 12.0), 10.0 * expansion(phases, 0.375, 1.0), 1e-17);
+}
+
+TEST(PoreWater, StorageByHand) {
+  const auto phases = table1();
+  EXPECT_DOUBLE_EQ(pore_storage(phases, 0.375, 0.0), 3.75e-10);
+  EXPECT_DOUBLE_EQ(pore_storage(phases, 0.375, 2e-9), 2.375e-9);
+  EXPECT_EQ(storing_porosity(phases, 0.375, 0.0), 0.375);
+  EXPECT_NEAR(storing_porosity(phases, 0.375, 2e-9) / phases.water_bulk_modulus, pore_storage(phases, 0.375, 2e-9),
+              1e-24);
+  // A rigid pore at constant volume: 325 kPa/K of heating, as undrained_pressure_coefficient has it.
+  EXPECT_NEAR(melted_swelling(phases, constant, 0.375, 0.0, 1.0) / pore_storage(phases, 0.375, 0.0),
+              undrained_pressure_coefficient(phases, 0.375, 1.0), 1e-7);
+  // Water of a pore that melted: 0.375 x (1 - 0.917)
+  EXPECT_NEAR(melting_void(phases, 0.375, 1.0), 0.031125, 1e-16);
+  EXPECT_NEAR(melting_void(phases, 0.375, 0.4), 0.01245, 1e-16);
+  // 255 K of constant expansion fill it.
+  EXPECT_NEAR(melting_void(phases, 0.375, 1.0) / expansion(phases, 0.375, 1.0), 255.4, 0.05);
+}
+
+TEST(PoreWater, AnUndrainedPoreSharesALoadByItsStorage) {
+  const auto phases = table1();
+  EXPECT_EQ(undrained_loading(phases, 0.375, 0.0, -1e5), 0.0);
+  EXPECT_NEAR(undrained_loading(phases, 0.375, 2e-9, -1e5), -1e5 * 2.0 / 2.375, 1e-10);
+  // A soft skeleton hands all of it to the water.
+  EXPECT_NEAR(undrained_loading(phases, 0.375, 1e-4, 1e5), 1e5, 1.0);
+}
+
+TEST(PoreWater, PressureStaysBetweenNothingAndTheLoad) {
+  EXPECT_EQ(bounded_pore_pressure(5e5, 8e5), 5e5);
+  EXPECT_EQ(bounded_pore_pressure(9e5, 8e5), 8e5);
+  EXPECT_EQ(bounded_pore_pressure(-1e5, 8e5), 0.0);
+  EXPECT_EQ(bounded_pore_pressure(5e5, -1.0), 0.0);
+}
+
+// Whatever the surplus, pressure, void and opening hold it exactly, exclude one another, and keep the bounds.
+TEST(PoreWater, SurplusIsKeptByPressureVoidAndOpening) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> surplus(-0.04, 0.04), load(-1e5, 1e6), exponent(-10.0, -7.0);
+  int voids = 0, openings = 0, pressed = 0;
+  for (int k = 0; k < 10000; ++k) {
+    const double storage = std::pow(10.0, exponent(random)), normal = load(random);
+    const double w = k % 2 == 0 ? surplus(random) : surplus(random) / 0.04 * storage * 1e6;
+    const auto filling = pore_filling(w, storage, normal);
+    EXPECT_NEAR(pore_surplus(filling, storage), w, 1e-17 + 1e-15 * std::abs(w));
+    EXPECT_GE(filling.pressure, 0.0);
+    EXPECT_LE(filling.pressure, std::max(0.0, normal));
+    EXPECT_GE(filling.gas_void, 0.0);
+    EXPECT_GE(filling.opening, 0.0);
+    EXPECT_EQ(filling.gas_void * filling.pressure, 0.0);
+    EXPECT_EQ(filling.gas_void * filling.opening, 0.0);
+    if (filling.opening > 1e-12 * std::abs(w)) {
+      EXPECT_EQ(filling.pressure, std::max(0.0, normal));
+    }
+    const auto unbounded = pore_filling(w, storage);
+    EXPECT_EQ(unbounded.gas_void, filling.gas_void);
+    EXPECT_EQ(unbounded.pressure, pore_filling(w, storage, HUGE_VAL).pressure);
+    voids += filling.gas_void > 0.0 ? 1 : 0;
+    openings += filling.opening > 0.0 ? 1 : 0;
+    pressed += filling.pressure > 0.0 && filling.pressure < normal ? 1 : 0;
+  }
+  EXPECT_GT(voids, 1000);
+  EXPECT_GT(openings, 1000);
+  EXPECT_GT(pressed, 1000);
+}
+
+TEST(PoreWater, ThawingLeavesTheLoadLessTheResidualStressAndTheVoid) {
+  const auto phases = table1();
+  const double storage = pore_storage(phases, 0.375, 1e-8), load = 8e5;
+  // No void: N - s0.
+  EXPECT_DOUBLE_EQ(pore_filling(thawing_surplus(storage, load, 2e5, 0.0), storage, load).pressure, 6e5);
+  EXPECT_EQ(thawing_surplus(storage, load, load, 0.0), 0.0);
+  EXPECT_EQ(thawing_surplus(storage, load, HUGE_VAL, 0.0), 0.0);
+  // A void of 0.001: 6e5 - 0.001/1.0375e-8
+  EXPECT_NEAR(pore_filling(thawing_surplus(storage, load, 2e5, 0.001), storage, load).pressure, 503614.457831, 1e-6);
+  // Melt's whole void takes all of it, and most of the void stays.
+  const double all = melting_void(phases, 0.375, 1.0);
+  const auto filling = pore_filling(thawing_surplus(storage, load, 0.0, all), storage, load);
+  EXPECT_EQ(filling.pressure, 0.0);
+  EXPECT_NEAR(filling.gas_void, all - storage * load, 1e-17);
+}
+
+}  // namespace
+}  // namespace thawslide::physics

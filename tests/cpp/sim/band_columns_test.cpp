@@ -1,0 +1,115 @@
+// Band columns under a slide: balances, motion, bits, and what they have in common with the rigid block's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "../support/column_slab.hpp"
+#include "band/base_columns.hpp"
+#include "base/error.hpp"
+#include "base/thread_choice.hpp"
+#include "sim/block.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+template <int Dim>
+void expect_balances() {
+  Simulation<Dim, double> simulation(case_from_text(column_slab(Dim)));
+  for (const double end : {1.0, 3.0}) {
+    run_until(simulation, end);
+    const HistoryRow row = history_row(simulation);
+    const double heat = value_of(row, "friction_heat_J");
+    EXPECT_GT(heat, 0.0);
+    EXPECT_LT(std::abs(value_of(row, "thermal_residual_J")), 1e-10 * heat);
+    EXPECT_LT(std::abs(value_of(row, "column_water_residual_kg")), 1e-12 * value_of(row, "column_water_kg"));
+    EXPECT_LE(value_of(row, "band_largest_pressure_ratio"), 1.0);
+    EXPECT_NEAR(value_of(row, "base_area_m2"), Dim == 2 ? 200.0 : 200.0 * 40.0, Dim == 2 ? 21.0 : 21.0 * 40.0);
+  }
+  EXPECT_GT(value_of(history_row(simulation), "band_saturation"), 0.5);
+}
+
+TEST(BandColumns, LoseNeitherHeatNorWater2D) { expect_balances<2>(); }
+TEST(BandColumns, LoseNeitherHeatNorWater3D) { expect_balances<3>(); }
+
+// A slab keeps its shape: in its middle its base is what the rigid block's is, through melting and boiling. Its toe
+// bears more.
+TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
+  const config::Case parameters =
+      case_from_text(column_slab(), {"time.end=6.0", "time.history_interval=6.0", "body.slab.max=[400.0, 80.0]",
+                                     "grid.max=[800.0, 160.0]", "body.slab.temperature=-0.1",
+                                     "body.slab.velocity=[10.0, 0.0]", "basal.friction_angle=35.0"});
+  Simulation<2, double> simulation(parameters);
+  run_until(simulation, 6.0);
+  const HistoryRow block = run_block(parameters).back();
+  const auto* columns = simulation.band_columns();
+  const auto expect_middle = [&](const char* name, const auto& of, double start) {
+    const double middle = median_over_base(simulation, [&](const auto& piece) { return of(columns->means_of(piece)); });
+    EXPECT_NEAR(middle - start, value_of(block, name) - start, 0.02 * (value_of(block, name) - start)) << name;
+  };
+  EXPECT_NEAR(value_of(history_row(simulation), "mean_velocity_m_s"), value_of(block, "velocity_m_s"),
+              0.01 * value_of(block, "velocity_m_s"));
+  EXPECT_GT(value_of(block, "band_pore_pressure_Pa"), 1e5);
+  expect_middle(
+      "band_temperature_C", [](const auto& means) { return means.temperature; }, -0.1);
+  expect_middle(
+      "band_pore_pressure_Pa", [](const auto& means) { return means.pore_pressure; }, 0.0);
+}
+
+// One that stands in a flow that spreads evenly by a share a of its length a second: matter comes in from above, and
+// its area grows as exp(a t).
+TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
+  Simulation<2, double> simulation(
+      case_from_text(column_slab(), {"time.end=4.0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
+                                     "body.slab.velocity=[0,0]", "material.rock.youngs_modulus=1e6"}));
+  auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.velocity(p, 0) = 0.2 * (particles.position(p, 0) - 160.0);
+  }
+  run_until(simulation, 0.5);
+  const std::size_t before = simulation.band_columns()->pieces().size();
+  const double area = simulation.band_columns()->sums().area;
+  run_until(simulation, 3.0);
+  const double grown = simulation.band_columns()->sums().area / area;
+  double first = 1e9, last = -1e9;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    first = std::min(first, particles.position(p, 0));
+    last = std::max(last, particles.position(p, 0));
+  }
+  EXPECT_NEAR(grown, (last - first + 5.0) / (200.0 * std::exp(0.2 * 0.5)), 0.08 * grown);
+  EXPECT_GT(simulation.band_columns()->pieces().size(), before + 5);
+  const HistoryRow row = history_row(simulation);
+  EXPECT_GT(value_of(row, "column_intake_kg"), 1.3 * 0.35 * area * 17.0 * 0.1);
+  EXPECT_LT(std::abs(value_of(row, "column_water_residual_kg")), 1e-12 * value_of(row, "column_water_kg"));
+}
+
+TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
+  const int threads_before = thread_count();
+  std::vector<std::vector<double>> states;
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    Simulation<3, double> simulation(case_from_text(column_slab(3)));
+    run_until(simulation, 1.0);
+    states.push_back(simulation.band_columns()->state());
+  }
+  set_thread_count(threads_before);
+  EXPECT_EQ(states[0], states[1]);
+  Simulation<3, double> other(case_from_text(column_slab(3)));
+  other.restore_band_columns(states[0]);
+  EXPECT_EQ(other.band_columns()->state(), states[0]);
+}
+
+TEST(BandColumns, RefuseABandThickerThanTheSlideAndWhatMakesHeatOrWater) {
+  EXPECT_THROW((Simulation<2, double>(case_from_text(column_slab(), {"band.thickness=45.0"}))), UserError);
+  for (const char* set : {"pressure.frozen=ice_pressure", "pressure.frozen_rows=draining",
+                          "pressure.melt_contraction=false", "band.thickness_change=as_printed"}) {
+    EXPECT_THROW(case_from_text(column_slab(), {set}), UserError) << set;
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

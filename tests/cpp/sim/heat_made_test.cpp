@@ -1,0 +1,225 @@
+// No heat out of nothing: a band whose thickness changes, and water that carries heat.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/portability.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+// A column that stands still; e from 0.05 m to 0.5 m and back.
+const std::string column = R"(
+[case]
+gravity = 0.0
+[time]
+end = 4000.0
+step = 1.0
+[grid]
+cell = 0.5
+min = [0.0, 0.0]
+max = [1.0, 6.0]
+[material.soil]
+law = "elastic"
+hydraulic_conductivity = 1e-9
+[body.column]
+material = "soil"
+min = [0.0, 0.0]
+max = [1.0, 5.0]
+temperature = -10.0
+[mechanics]
+enabled = false
+[heat]
+conduction = false
+)";
+const std::string jumps = "band.thickness={time=[0.0,0.5,0.5,2.5,2.5,9.0],value=[0.05,0.05,0.5,0.5,0.05,0.05]}";
+
+// Gives a particle another temperature [C] with the heat for it; returns that heat, without scaling [J].
+double heat_to(Simulation<2, double>& simulation, std::size_t p, double temperature) {
+  auto& particles = simulation.particles();
+  const double before = particles.heat_content(p);
+  simulation.model().band.with_heat_content([&](const auto& content) {
+    particles.heat_content(p) = content.content(temperature, particles.initial_porosity(p));
+    particles.liquid_saturation(p) = content.curve.saturation(temperature);
+  });
+  particles.temperature(p) = particles.previous_temperature(p) = temperature;
+  return particles.initial_volume(p) * (particles.heat_content(p) - before);
+}
+
+struct Jump {
+  HistoryRow before, thick, thin;
+  double temperature_thick, temperature_thin, stirred;
+  double hot, cold;  // heat content at the temperature of the start, and of t = 0 [J/m3]
+};
+
+Jump jump(const std::string& change, double temperature) {
+  Simulation<2, double> simulation(
+      case_from_text(column, {jumps, "band.thickness_change=" + change, "pressure.enabled=false"}));
+  auto& particles = simulation.particles();
+  Jump found{};
+  found.cold = particles.heat_content(0);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    found.stirred += heat_to(simulation, p, temperature) / particles.thermal_scaling(p);
+  }
+  found.hot = particles.heat_content(0);
+  found.before = history_row(simulation);
+  simulation.step(1.0);
+  simulation.step(1.0);
+  found.thick = history_row(simulation);
+  found.temperature_thick = particles.temperature(3);
+  simulation.step(1.0);
+  simulation.step(1.0);
+  found.thin = history_row(simulation);
+  found.temperature_thin = particles.temperature(3);
+  return found;
+}
+
+double heat(const HistoryRow& row) { return value_of(row, "sensible_J") + value_of(row, "latent_J"); }
+
+// Volumes V/xi = V e/L_e of 5 m2: 0.5 and 5 m2.
+TEST(ThicknessChange, ConservingMixesInMatterAsItWas) {
+  for (const double temperature : {400.0, 30.0, -1.0}) {
+    const Jump found = jump("conserving", temperature);
+    const double brought = 4.5 * found.cold;
+    EXPECT_NEAR(heat(found.thick), 0.5 * found.hot + brought, 1e-9 * std::abs(found.hot));
+    EXPECT_NEAR(value_of(found.thick, "band_rescale_J"), brought, 1e-9 * std::abs(brought));
+    Simulation<2, double> simulation(case_from_text(column));
+    const double mixed = simulation.model().band.with_heat_content([&](const auto& content) {
+      return content.temperature(0.1 * found.hot + 0.9 * found.cold, 0.375, temperature);
+    });
+    EXPECT_NEAR(found.temperature_thick, mixed, 1e-9);
+    EXPECT_LT(mixed, temperature);
+    // Matter that a thinner band leaves behind takes its heat with it.
+    EXPECT_NEAR(found.temperature_thin, mixed, 1e-9);
+    EXPECT_NEAR(heat(found.thin), 0.1 * heat(found.thick), 1e-9 * std::abs(heat(found.thick)));
+    for (const HistoryRow* row : {&found.before, &found.thick, &found.thin}) {
+      EXPECT_NEAR(value_of(*row, "thermal_residual_J") - found.stirred, 0.0, 1e-9 * std::abs(found.stirred));
+    }
+  }
+}
+
+TEST(ThicknessChange, AsPrintedMakesTheHeatThatItsColumnShows) {
+  const Jump found = jump("as_printed", 30.0);
+  EXPECT_EQ(found.temperature_thick, 30.0);
+  EXPECT_NEAR(value_of(found.thick, "band_rescale_J"), 4.5 * found.hot, 1e-9 * found.hot);
+  EXPECT_NEAR(value_of(found.thin, "band_rescale_J"), 0.0, 1e-9 * found.hot);
+  EXPECT_NEAR(value_of(found.thick, "thermal_residual_J") - found.stirred, 0.0, 1e-9 * found.stirred);
+}
+
+// Matter at 400 C and under pressure, without a void, after e grew to `thickness` [m]; rock does not expand.
+struct Mixture {
+  double temperature, pressure, gas_void, void_of_melt;
+};
+Mixture mixture(const std::string& melt_contraction, double thickness) {
+  Simulation<2, double> simulation(case_from_text(
+      column, {fmt::format("band.thickness={{time=[0.0,0.5,0.5,9.0],value=[0.05,0.05,{0},{0}]}}", thickness),
+               "band.thickness_change=conserving", "phases.rock_expansion=0.0", "pressure.seepage=false",
+               "pressure.melt_contraction=" + melt_contraction}));
+  auto& particles = simulation.particles();
+  const bool holds = particles.pore_void.is_kept();
+  const double all = holds ? particles.pore_void(3) : 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    heat_to(simulation, p, 400.0);
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = 5e8;
+    if (holds) {
+      particles.pore_void(p) = 0.0;
+    }
+  }
+  simulation.step(1.0);
+  simulation.step(1.0);
+  return {particles.temperature(3), particles.pore_pressure(3), holds ? particles.pore_void(3) : 0.0, all};
+}
+
+// Water of both swells or contracts on its way to the mixture's temperature, and what both store is shared.
+TEST(ThicknessChange, ConservingMixesTheWaterToo) {
+  constexpr double porosity = 0.375, storage = porosity / 1e9, per_kelvin = porosity * 2.75e-4, kept = 1.0 / 1.2;
+  const Mixture full = mixture("false", 0.06);
+  ASSERT_GT(full.temperature, 200.0);
+  const double own = 5e8 * storage + per_kelvin * (full.temperature - 400.0), joins = per_kelvin * full.temperature;
+  EXPECT_NEAR(full.pressure * storage, kept * own + (1.0 - kept) * joins, 1e-12);
+  const Mixture contracted = mixture("true", 0.06);
+  EXPECT_EQ(contracted.temperature, full.temperature);
+  EXPECT_GT(contracted.void_of_melt, 0.03);
+  const double surplus = kept * own + (1.0 - kept) * (joins - contracted.void_of_melt);
+  EXPECT_NEAR(contracted.pressure * storage, std::max(0.0, surplus), 1e-12);
+  EXPECT_NEAR(contracted.gas_void, std::max(0.0, -surplus), 1e-12);
+  // Frozen by what joins: hot water contracts to the freezing point, and has all the void of what will melt.
+  const Mixture frozen = mixture("true", 0.5);
+  ASSERT_LT(frozen.temperature, 0.0);
+  const double open = std::max(0.0, 400.0 * per_kelvin - 5e8 * storage);
+  EXPECT_NEAR(frozen.gas_void, 0.1 * open + 0.9 * frozen.void_of_melt, 1e-12);
+}
+
+const std::vector<std::string> seeping{"body.column.temperature=25.0", "heat.advection_form=conservative"};
+
+// Temperature and pressure fall towards the top; returns the heat that was stirred in [J].
+double stir(Simulation<2, double>& simulation, double swing) {
+  auto& particles = simulation.particles();
+  double stirred = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double wave = std::cos(pi<double> * particles.position(p, 1) / 5.0);
+    stirred += heat_to(simulation, p, 25.0 + swing * wave);
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e6 * (1.0 + wave);
+  }
+  return stirred;
+}
+
+TEST(ConservativeAdvection, MakesNoHeat) {
+  Simulation<2, double> simulation(case_from_text(column, seeping));
+  const double before = heat(history_row(simulation)) + stir(simulation, 20.0);
+  run_until(simulation, 4000.0);
+  const auto row = history_row(simulation);
+  const double drained = value_of(row, "drained_heat_J");
+  EXPECT_EQ(value_of(row, "advection_J"), 0.0);
+  EXPECT_GT(drained, 0.0);
+  EXPECT_NEAR((heat(row) + drained) / before, 1.0, 1e-13);
+  const double of_water = drained / (value_of(row, "drained_water_kg") * 4180.0);
+  EXPECT_TRUE(of_water > 4.9 && of_water < 45.0) << of_water << " C";
+}
+
+// In the first step heat moves up by rho_L C_L q_L (T - Tref): its centre by the flux over all heat.
+TEST(ConservativeAdvection, CarriesTheHeatOfTheWater) {
+  auto on_small_cells = seeping;
+  on_small_cells.emplace_back("grid.cell=0.25");
+  Simulation<2, double> simulation(case_from_text(column, on_small_cells));
+  stir(simulation, 20.0);
+  const auto& particles = simulation.particles();
+  const auto moment = [&] {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      sum += particles.initial_volume(p) * particles.heat_content(p) * particles.position(p, 1);
+    }
+    return sum;
+  };
+  const double before = moment();
+  simulation.step(1.0);
+  // q_L = k/gamma_w 1e6 pi/5 sin(pi y/5); the integral of q_L (25 + 20 cos(pi y/5)) over 1 m by 5 m is 50/pi of its
+  // amplitude times 5.
+  const double exact = 1000.0 * 4180.0 * 1e-9 / 9810.0 * 1e6 * pi<double> / 5.0 * 25.0 * 10.0 / pi<double>;
+  const double top = 4.9375;  // of the particles that drain
+  const double moved = moment() - before + value_of(history_row(simulation), "drained_heat_J") * top;
+  EXPECT_NEAR(moved / exact, 1.0, 0.02);
+}
+
+// Water that leaves a body of one temperature leaves it so, at its drained top as well.
+TEST(ConservativeAdvection, LeavesOneTemperatureAlone) {
+  Simulation<2, double> simulation(case_from_text(column, seeping));
+  stir(simulation, 0.0);
+  run_until(simulation, 4000.0);
+  const auto row = history_row(simulation);
+  const auto& particles = simulation.particles();
+  const double drained = value_of(row, "drained_water_kg");
+  EXPECT_GT(drained, 0.1);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    EXPECT_NEAR(particles.temperature(p), 25.0, 0.05);
+  }
+  EXPECT_NEAR(value_of(row, "drained_heat_J") / (drained * 4180.0 * 25.0), 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,333 @@
+// The filter of velocities (FMPM): what it keeps, what it takes, and when.
+#include "mpm/velocity_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "../support/case_from_text.hpp"
+#include "../support/fields.hpp"
+#include "../support/record.hpp"
+#include "../support/scalar_points.hpp"
+#include "base/parallel.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+// A free block with particles out of their places, askew to the grid, in whose first step velocities are filtered.
+template <int Dim>
+std::string block() {
+  const auto point = [](double x, double z) {
+    return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, x + 0.2, z);
+  };
+  return fmt::format(R"(
+[case]
+dimension = {}
+gravity = 0.0
+[time]
+end = 1.0
+step = 0.002
+[grid]
+cell = 1.0
+min = {}
+max = {}
+[material.rock]
+law = "elastic"
+youngs_modulus = 1e7
+poisson_ratio = 0.25
+[body.block]
+material = "rock"
+min = {}
+max = {}
+[initial]
+noise = 0.4
+[mechanics]
+initial_stress = "none"
+transfer = "fmpm"
+fmpm_interval = 0.002
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)",
+                     Dim, Dim == 2 ? "[0.0, 0.0]" : "[0.0, 0.0, 0.0]", Dim == 2 ? "[40.0, 40.0]" : "[40.0, 40.0, 40.0]",
+                     point(17.3, 17.6), point(20.3, 19.6));
+}
+
+// Velocities of all particles by id, one below the other.
+using Velocities = Eigen::VectorXd;
+template <int Dim>
+Velocities velocities_of(const Simulation<Dim, double>& simulation) {
+  const auto& particles = simulation.particles();
+  Velocities all(static_cast<Eigen::Index>(Dim * particles.size()));
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    all.segment<Dim>(static_cast<Eigen::Index>(Dim * particles.id(p))) =
+        particles.velocity.template get<Vector<double, Dim>>(p);
+  }
+  return all;
+}
+template <int Dim>
+void set_velocities(Simulation<Dim, double>& simulation, const Velocities& all) {
+  auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.velocity.set(p, Vector<double, Dim>(all.segment<Dim>(static_cast<Eigen::Index>(Dim * particles.id(p)))));
+  }
+}
+
+Velocities random_velocities(Eigen::Index count) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> number;
+  Velocities all(count);
+  for (double& one : all) {
+    one = number(random);
+  }
+  return all;
+}
+
+// What the sweeps are made of, as matrices: by node the local least squares of a rigid motion, weighed by S m.
+template <int Dim>
+struct Dense {
+  Eigen::MatrixXd transfer;  // B
+  Velocities mass;           // of each component
+  Eigen::MatrixXd rigid;     // all rigid motions, a column each
+
+  explicit Dense(const std::vector<Point<Dim>>& points) {
+    const auto count = static_cast<Eigen::Index>(Dim * points.size());
+    constexpr int turns = physics::rotations<Dim>, motions = Dim + turns;
+    rigid = Eigen::MatrixXd::Zero(count, motions);
+    mass = Velocities::Zero(count);
+    std::map<NodeIndex<Dim>, Eigen::VectorXd> shape;  // by node, of each particle
+    const ScalarTransfer<Dim> to_nodes{1.0};
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const auto first = static_cast<Eigen::Index>(Dim * p);
+      const Vector<double, Dim> from_middle = points[p].position - Vector<double, Dim>::Constant(18.5);
+      for (int a = 0; a < Dim; ++a) {
+        rigid(first + a, a) = 1.0;
+        mass[first + a] = points[p].mass;
+      }
+      for (int a = 0; a < turns; ++a) {
+        const Vector<double, turns> unit = Vector<double, turns>::Unit(a);
+        rigid.block<Dim, 1>(first, Dim + a) = physics::turned<Dim>(unit, from_middle);
+      }
+      to_nodes.for_nodes(points[p], ScalarTransfer<Dim>::ugimp,
+                         [&](const auto& node, double weight, const auto& /*gradient*/) {
+                           auto& of_node = shape[node];
+                           of_node.conservativeResizeLike(Velocities::Zero(count));
+                           for (int a = 0; a < Dim; ++a) {
+                             of_node[first + a] = weight;
+                           }
+                         });
+    }
+    transfer = Eigen::MatrixXd::Zero(count, count);
+    for (const auto& [node, weight] : shape) {
+      if (weight.maxCoeff() <= 0.0) {
+        continue;
+      }
+      const Eigen::MatrixXd weighed = weight.cwiseProduct(mass).asDiagonal() * rigid;
+      const Eigen::MatrixXd normal = rigid.transpose() * weighed;
+      transfer += weight.asDiagonal() * rigid *
+                  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(normal).solve(weighed.transpose());
+    }
+  }
+};
+
+template <int Dim>
+void expect_the_filter_of_matrices(int order) {
+  SCOPED_TRACE(order);
+  Simulation<Dim, double> simulation(case_from_text(block<Dim>(), {fmt::format("mechanics.fmpm_order={}", order)}));
+  const Dense<Dim> dense(points_of(simulation));
+  const Velocities before = random_velocities(dense.mass.size());
+  set_velocities(simulation, before);
+  const auto start = history_row(simulation);
+  simulation.step(0.002);
+  const Velocities after = velocities_of(simulation);
+  Velocities rest = before;
+  for (int k = 0; k < order; ++k) {
+    rest -= dense.transfer * rest;
+  }
+  EXPECT_LT((after - (before - rest)).cwiseAbs().maxCoeff(), 1e-11);
+  // Momentum and angular momentum, which the rigid motions tell; energy.
+  const Eigen::VectorXd momenta = dense.rigid.transpose() * dense.mass.cwiseProduct(before);
+  const Eigen::VectorXd change = dense.rigid.transpose() * dense.mass.cwiseProduct(after - before);
+  EXPECT_LT(change.cwiseAbs().maxCoeff(), 1e-12 * dense.mass.sum());
+  EXPECT_GT(momenta.cwiseAbs().minCoeff(), 1e-6 * dense.mass.sum()) << "the noise has some of each";
+  const double lost = 0.5 * dense.mass.dot(before.cwiseAbs2() - after.cwiseAbs2());
+  EXPECT_GT(lost, 0.2 * value_of(start, "kinetic_J"));
+  EXPECT_NEAR(value_of(history_row(simulation), "numerical_J"), -lost, 1e-12 * lost) << "and is booked";
+}
+
+TEST(VelocityFilter, IsThatOfMatrices) {
+  for (const int order : {2, 3, 4}) {
+    expect_the_filter_of_matrices<2>(order);
+    expect_the_filter_of_matrices<3>(order);
+  }
+}
+
+// B is symmetric about the masses, with eigenvalues from 0 to 1, and leaves rigid motions: so kinetic energy can only
+// fall, and whatever is filtered out has neither momentum nor angular momentum.
+template <int Dim>
+void expect_a_contraction_that_keeps_rigid_motions() {
+  const Simulation<Dim, double> simulation(case_from_text(block<Dim>()));
+  const Dense<Dim> dense(points_of(simulation));
+  const Eigen::MatrixXd weighed = dense.mass.asDiagonal() * dense.transfer;
+  EXPECT_LT((weighed - weighed.transpose()).cwiseAbs().maxCoeff(), 1e-12 * weighed.cwiseAbs().maxCoeff());
+  EXPECT_LT((dense.transfer * dense.rigid - dense.rigid).cwiseAbs().maxCoeff(), 1e-12);
+  const Velocities root = dense.mass.cwiseSqrt();
+  const Eigen::MatrixXd similar = root.asDiagonal() * dense.transfer * root.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (similar + similar.transpose()));
+  EXPECT_GT(modes.eigenvalues().minCoeff(), -1e-13);
+  EXPECT_LT(modes.eigenvalues().maxCoeff(), 1.0 + 1e-13);
+}
+TEST(VelocityFilter, IsAContractionThatKeepsRigidMotions) {
+  expect_a_contraction_that_keeps_rigid_motions<2>();
+  expect_a_contraction_that_keeps_rigid_motions<3>();
+}
+
+// A spin passes as it is with all shape functions, where PIC would take some of it.
+TEST(VelocityFilter, LetsASpinPass) {
+  for (const char* shape : {"ugimp", "linear", "quadratic"}) {
+    SCOPED_TRACE(shape);
+    Simulation<2, double> simulation(case_from_text(block<2>(), {std::string("mechanics.shape_function=") + shape}));
+    const Dense<2> dense(points_of(simulation));
+    const Velocities spin = dense.rigid * Eigen::Vector3d(3.0, -1.0, 2.0);
+    set_velocities(simulation, spin);
+    simulation.step(0.002);
+    EXPECT_LT((velocities_of(simulation) - spin).cwiseAbs().maxCoeff(), 1e-11);
+  }
+}
+
+std::string without_filter() {
+  std::string text = block<2>();
+  const std::string lines = "transfer = \"fmpm\"\nfmpm_interval = 0.002\n";
+  return text.erase(text.find(lines), lines.size());
+}
+
+// Between filters it is FLIP in every bit; fixed steps and adaptive ones reach each multiple of the interval once.
+TEST(VelocityFilter, ActsOnceAnInterval) {
+  for (const std::string stepping : {"fixed", "adaptive"}) {
+    SCOPED_TRACE(stepping);
+    const std::vector<std::string> sets{"time.stepping=" + stepping, "mechanics.fmpm_interval=0.02"};
+    Simulation<2, double> filtered(case_from_text(block<2>(), sets));
+    Simulation<2, double> flip(case_from_text(without_filter(), {"time.stepping=" + stepping}));
+    set_velocities(filtered, random_velocities(velocities_of(filtered).size()));
+    int times = 0;
+    while (filtered.time() < 0.201) {
+      const double before = filtered.time(), dt = filtered.next_step(1.0);
+      for (std::size_t f = 0; f < flip.particles().fields.all().size(); ++f) {
+        flip.particles().fields.all()[f]->set_bytes(filtered.particles().fields.all()[f]->bytes());
+      }
+      filtered.step(dt);
+      flip.step(dt);
+      const bool acts = fields_by_id(filtered.particles()) != fields_by_id(flip.particles());
+      EXPECT_EQ(acts, std::floor(filtered.time() / 0.02 + 1e-9) > std::floor(before / 0.02 + 1e-9)) << before;
+      times += acts ? 1 : 0;
+    }
+    EXPECT_EQ(times, 10);
+  }
+}
+
+// A bar free at both ends, in its first mode: node velocities u cos(k x_i), four cells a half wave. The sums over
+// particles a quarter of a cell from nodes, for uGIMP with two of them a cell and an axis, make of such a mode
+//   S+ S cos(k x_i) = l cos(k x_i),  l = 5/8 + 3/8 cos(k h)
+// so that a filter of order m leaves the share f = 1 - (1 - l)^m of a velocity that the grid has given. Between filters
+// the mode swings by the angle a = w tau. Displacement (times w) and velocity follow from those an interval before by
+// the matrix (cos a, sin a; -f sin a, f cos a), so that by its characteristic equation
+//   v_n+1 = (1 + f) cos(a) v_n - f v_n-1
+// the amplitude falls by sqrt(f) an interval. FLIP has f = 1.
+// Its frequency is w = (2 c/h) sin(k h/2) sqrt(l): strains follow from velocities mapped back, forces act on lumped
+// masses.
+constexpr int bar_cells = 4, interval_in_steps = 43;
+const double bar_step = 0.03 / bar_cells / std::sqrt(1e7 / ((1.0 - 1e-6) * 2750.0 + 1e-6 * 917.0));
+const std::string bar = fmt::format(R"(
+[case]
+gravity = 0.0
+[time]
+end = 10.0
+step = {}
+[grid]
+cell = {}
+min = [0.0, 0.0]
+max = [3.0, {}]
+[grid.boundary]
+y_min = "roller"
+y_max = "roller"
+[material.rock]
+law = "elastic"
+youngs_modulus = 1e7
+poisson_ratio = 0.0
+[body.bar]
+material = "rock"
+min = [1.0, 0.0]
+max = [2.0, {}]
+porosity = 1e-6
+[mechanics]
+initial_stress = "none"
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)",
+                                    bar_step, 1.0 / bar_cells, 2.0 / bar_cells, 2.0 / bar_cells);
+
+// Determinant and trace of the matrix that takes the mode's velocity over an interval, by least squares.
+struct Swing {
+  double determinant, trace;
+};
+Swing swing(const std::vector<std::string>& sets) {
+  Simulation<2, double> simulation(case_from_text(bar, sets));
+  const auto points = points_of(simulation);
+  const ScalarTransfer<2> to_nodes{static_cast<double>(bar_cells)};
+  Velocities form = Velocities::Zero(2 * static_cast<Eigen::Index>(points.size()));
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    to_nodes.for_nodes(
+        points[p], ScalarTransfer<2>::ugimp, [&](const auto& node, double weight, const auto& /*slope*/) {
+          form[static_cast<Eigen::Index>(2 * p)] += weight * std::cos(pi<double> * (node[0] - bar_cells) / bar_cells);
+        });
+  }
+  set_velocities(simulation, Velocities(1e-3 * form));
+  std::vector<double> velocity;
+  const LoneThread alone;  // waking others for so short a bar takes longer than a step
+  for (int k = 1; k <= 40 * interval_in_steps; ++k) {
+    simulation.step(bar_step);
+    if (k % interval_in_steps == 0) {
+      velocity.push_back(form.dot(velocities_of(simulation)) / form.squaredNorm() / 1e-3);
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(velocity.size()) - 2;
+  const Eigen::Map<const Velocities> all(velocity.data(), count + 2);
+  Eigen::MatrixXd before(count, 2);
+  before << all.segment(1, count), -all.head(count);
+  const Eigen::Vector2d found = before.colPivHouseholderQr().solve(all.tail(count));
+  return {found[1], found[0]};
+}
+
+TEST(VelocityFilter, TakesOfAWaveWhatItsEigenvalueSays) {
+  verification::Record record(
+      "A bar whose velocities are filtered",
+      "The first mode of an elastic bar free at both ends, four cells long, its velocities filtered 6 times a period "
+      "(mechanics.transfer = \"fmpm\"): the matrix that takes it over an interval, fitted to 40 of these.",
+      "determinant f = 1 - (1 - l)^m with l = 5/8 + 3/8 cos(k h); trace (1 + f) cos(a), a of FLIP",
+      "eigenvalue of the sums over particles; Hammerquist and Nairn 2017 for the filter");
+  const Swing flip = swing({});
+  record.expect_near("determinant, FLIP", flip.determinant, 1.0, 2e-5);
+  const double cosine = 0.5 * flip.trace, eigenvalue = 0.625 + 0.375 * std::cos(pi<double> / bar_cells);
+  const double swung = 0.06 * std::sin(0.5 * pi<double> / bar_cells) * std::sqrt(eigenvalue) * interval_in_steps;
+  record.expect_near("frequency over that of the lumped masses, FLIP", std::acos(cosine) / swung, 1.0, 1e-3);
+  for (const int order : {2, 3, 4}) {
+    const Swing found = swing({"mechanics.transfer=fmpm", fmt::format("mechanics.fmpm_order={}", order),
+                               fmt::format("mechanics.fmpm_interval={:.17g}", interval_in_steps * bar_step)});
+    const double share = 1.0 - std::pow(1.0 - eigenvalue, order);
+    record.expect_near(fmt::format("what an interval takes of the determinant over exact, order {}", order),
+                       (1.0 - found.determinant) / (1.0 - share), 1.0, 1e-3);
+    record.expect_near(fmt::format("trace over exact, order {}", order), found.trace / ((1.0 + share) * cosine), 1.0,
+                       1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,317 @@
+// The water of melted pores: what frozen matter takes, the void that melt leaves, what load and heat press out of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "../support/case_from_text.hpp"
+#include "physics/pressurization.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+// A column of two cells by twenty whose particles stand still.
+const std::string column = R"(
+[time]
+end = 100.0
+step = 0.05
+[grid]
+cell = 0.5
+min = [0.0, 0.0]
+max = [1.0, 12.0]
+[phases]
+rock_expansion = 0.0
+[material.soil]
+law = "elastic"
+youngs_modulus = 1e8
+poisson_ratio = 0.2
+hydraulic_conductivity = 1e-7
+[body.column]
+material = "soil"
+min = [0.0, 0.0]
+max = [1.0, 10.0]
+temperature = 5.0
+[mechanics]
+enabled = false
+)";
+const std::vector<std::string> still{"heat.enabled=false"};
+
+std::vector<std::string> both(std::vector<std::string> sets, const std::vector<std::string>& more) {
+  sets.insert(sets.end(), more.begin(), more.end());
+  return sets;
+}
+
+// Gives particles another temperature, as if it had been theirs from the start.
+void set_temperature(Simulation<2, double>& simulation, std::size_t p, double temperature) {
+  auto& particles = simulation.particles();
+  particles.temperature(p) = particles.previous_temperature(p) = temperature;
+  particles.liquid_saturation(p) = simulation.model().band.with_heat_content(
+      [&](const auto& content) { return content.curve.saturation(temperature); });
+}
+
+// Sum of n V/K_L P of melted matter [m3]: what seepage may only move.
+double stored(const Simulation<2, double>& simulation) {
+  const auto& particles = simulation.particles();
+  double sum = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    sum += particles.temperature(p) >= 0.0
+               ? particles.porosity(p) * particles.volume(p) / 1e9 * particles.pore_pressure(p)
+               : 0.0;
+  }
+  return sum;
+}
+
+// Patches of frozen and melted matter under any pressures, with a frozen top; the melted ones' largest and smallest.
+void fill_with_patches(Simulation<2, double>& simulation) {
+  auto& particles = simulation.particles();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const bool frozen = share(random) < 0.5 || particles.position(p, 1) > 9.0;
+    set_temperature(simulation, p, frozen ? -2.0 : 5.0);
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = frozen ? 0.0 : 2e6 * share(random);
+    for (int a = 0; a < 2; ++a) {  // wherever particles stand in their cells
+      particles.position(p, a) += 0.1 * (share(random) - 0.5);
+    }
+  }
+}
+
+// The limit of the step is 2.3 s.
+TEST(FrozenRows, SealedOnesKeepTheWaterInAndItsPressureWithinBounds) {
+  for (const double step : {0.05, 2.2}) {
+    Simulation<2, double> simulation(case_from_text(
+        column, both(still, {"pressure.frozen_rows=sealed", "time.end=1000", fmt::format("time.step={}", step)})));
+    const auto& particles = simulation.particles();
+    fill_with_patches(simulation);
+    const double before = stored(simulation);
+    for (int k = 0; k < 200; ++k) {
+      simulation.step(step);
+      for (std::size_t p = 0; p < particles.size(); ++p) {
+        ASSERT_TRUE(particles.temperature(p) < 0.0 ||
+                    (particles.pore_pressure(p) >= 0.0 && particles.pore_pressure(p) <= 2e6))
+            << particles.pore_pressure(p) << " Pa in step " << k;
+      }
+    }
+    const auto row = history_row(simulation);
+    EXPECT_NEAR(stored(simulation) / before, 1.0, 1e-12);
+    EXPECT_EQ(value_of(row, "vented_water_kg"), 0.0);
+    EXPECT_EQ(value_of(row, "drained_water_kg"), 0.0);
+    EXPECT_NEAR(value_of(row, "seepage_residual_kg") / (1000.0 * before), 0.0, 1e-12);
+  }
+}
+
+TEST(FrozenRows, SealedOnesDoNotPressOnTheWaterBesideThem) {
+  // Below 5 m melted at 1 MPa, above frozen, with ice at any pressure: nothing flows.
+  Simulation<2, double> simulation(case_from_text(column, both(still, {"pressure.frozen_rows=sealed"})));
+  auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const bool frozen = particles.position(p, 1) > 5.0;
+    set_temperature(simulation, p, frozen ? -2.0 : 5.0);
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = frozen ? 3e5 : 1e6;
+  }
+  run_until(simulation, 5.0);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (particles.temperature(p) >= 0.0) {
+      EXPECT_NEAR(particles.pore_pressure(p), 1e6, 1e-6);
+    }
+  }
+}
+
+// What frozen rows take is what the melted matter lacks; vented rows take more than those whose ice presses back.
+TEST(FrozenRows, WhatTheyTakeIsCounted) {
+  const auto taken = [&](const std::string& rows) {
+    Simulation<2, double> simulation(case_from_text(column, both(still, {"pressure.frozen_rows=" + rows})));
+    fill_with_patches(simulation);
+    const double before = stored(simulation);
+    run_until(simulation, 1.0);
+    const auto row = history_row(simulation);
+    const double vented = value_of(row, "vented_water_kg");
+    EXPECT_NEAR(vented / (1000.0 * (before - stored(simulation))), 1.0, 1e-11) << rows;
+    EXPECT_NEAR(value_of(row, "seepage_residual_kg") / vented, 0.0, 1e-11) << rows;
+    EXPECT_NEAR((value_of(row, "pore_water_kg") - value_of(row, "water_kg")) / -vented, 1.0, 1e-11) << rows;
+    return vented / (1000.0 * before);
+  };
+  EXPECT_GT(taken("draining"), 0.05);
+  EXPECT_GT(taken("vented"), taken("draining"));
+  EXPECT_LT(taken("vented"), 1.0);
+}
+
+// A melted column under 1 MPa drains at its top: what it loses leaves there.
+TEST(Drainage, IsCountedAtTheSurface) {
+  Simulation<2, double> simulation(case_from_text(column, still));
+  auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e6;
+  }
+  const double before = stored(simulation);
+  run_until(simulation, 20.0);
+  const auto row = history_row(simulation);
+  EXPECT_NEAR(value_of(row, "drained_water_kg") / (1000.0 * (before - stored(simulation))), 1.0, 1e-11);
+  EXPECT_GT(value_of(row, "drained_water_kg"), 0.05 * 1000.0 * before);
+  EXPECT_EQ(value_of(row, "vented_water_kg"), 0.0);
+  EXPECT_NEAR(value_of(row, "seepage_residual_kg") / (1000.0 * before), 0.0, 1e-12);
+}
+
+// Warms or cools all matter to a temperature [C] within a step; what heat this takes is not asked for.
+void bring_to(Simulation<2, double>& simulation, double temperature) {
+  auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double before = particles.temperature(p);
+    set_temperature(simulation, p, temperature);
+    particles.previous_temperature(p) = before;
+  }
+  simulation.step(0.05);
+}
+
+const std::vector<std::string> weightless{"heat.enabled=false", "pressure.seepage=false", "case.gravity=0.0"};
+constexpr double porosity = 0.375, storage = porosity / 1e9;
+
+TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
+  Simulation<2, double> simulation(
+      case_from_text(column, both(weightless, {"pressure.melt_contraction=true", "body.column.temperature=-10.0"})));
+  const auto& particles = simulation.particles();
+  const double left = porosity * 0.083 * (1.0 - std::pow(11.0, -5.0));
+  int open = 0, full = 0;
+  const auto expect_at = [&](double temperature) {
+    bring_to(simulation, temperature);
+    const double surplus = porosity * 2.75e-4 * temperature - left;
+    EXPECT_NEAR(particles.pore_pressure(7), std::max(0.0, surplus) / storage, 1e-5) << temperature;
+    EXPECT_NEAR(particles.pore_void(7), std::max(0.0, -surplus), 1e-14) << temperature;
+    const double volume = 10.0;
+    EXPECT_NEAR(value_of(history_row(simulation), "pore_void_m3"), std::max(0.0, -surplus) * volume, 1e-12);
+    (surplus < 0.0 ? open : full) += 1;
+  };
+  EXPECT_EQ(value_of(history_row(simulation), "pore_void_m3"), 0.0);
+  bring_to(simulation, -0.5);  // most of the pore's water
+  const double melted = std::pow(1.5, -5.0) - std::pow(11.0, -5.0);
+  EXPECT_NEAR(value_of(history_row(simulation), "pore_void_m3"), porosity * 0.083 * melted * 10.0, 1e-12);
+  for (const double temperature : {0.1, 3.0, 80.0, 250.0, 301.0, 302.0, 350.0, 400.0, 310.0, 200.0, 1.0}) {
+    expect_at(temperature);
+  }
+  bring_to(simulation, -3.0);  // frozen and thawed once more
+  expect_at(2.0);
+  expect_at(330.0);
+  EXPECT_GT(open, 5);
+  EXPECT_GT(full, 4);
+}
+
+TEST(MeltContraction, WithoutItMeltIsPressedFromTheFirstKelvinOn) {
+  Simulation<2, double> simulation(case_from_text(
+      column, both(weightless, {"body.column.temperature=-10.0", "pressure.skeleton_compressibility=0"})));
+  bring_to(simulation, 2.0);
+  EXPECT_NEAR(simulation.particles().pore_pressure(7), 2.0 * 275000.0, 1e-6);
+  EXPECT_FALSE(simulation.particles().pore_void.is_kept());
+}
+
+// The integral of water's expansion from 0 C: below 0 down to 10 C, where it is as dense as at 0 C.
+TEST(WaterExpansion, ByTemperatureContractsFirst) {
+  for (const double compressibility : {0.0, 2e-9}) {
+    Simulation<2, double> simulation(case_from_text(
+        column, both(weightless, {"phases.water_expansion_law=by_temperature", "body.column.temperature=1e-9",
+                                  fmt::format("pressure.skeleton_compressibility={}", compressibility)})));
+    const auto& particles = simulation.particles();
+    const auto expect_at = [&](double temperature, double swelling) {
+      bring_to(simulation, temperature);
+      const double surplus = porosity * swelling;
+      EXPECT_NEAR(particles.pore_pressure(7), std::max(0.0, surplus) / (storage + compressibility), 1e-3)
+          << temperature;
+      EXPECT_NEAR(particles.pore_void(7), std::max(0.0, -surplus), 1e-12) << temperature;
+    };
+    expect_at(5.0, -1.75e-4);
+    expect_at(20.0, 14e-4);
+    expect_at(100.0, 417e-4);
+    expect_at(50.0, 114.5e-4);
+  }
+}
+
+TEST(FrozenPressure, NoneLeavesThawedWaterTheLoadLessTheResidualStress) {
+  const std::vector<std::string> none{"heat.enabled=false", "pressure.seepage=false", "pressure.frozen=none",
+                                      "body.column.temperature=-1.0"};
+  const double density = 0.625 * 2750.0 + porosity * (1000.0 / 32.0 + 917.0 * 31.0 / 32.0);
+  const auto expect_start = [&](const std::vector<std::string>& sets, double residual, double gas_void) {
+    Simulation<2, double> simulation(case_from_text(column, both(none, sets)));
+    const auto& particles = simulation.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      EXPECT_EQ(particles.pore_pressure(p), 0.0);
+      EXPECT_NEAR(particles.normal_load(p), density * 9.81 * (10.0 - particles.position(p, 1)), 1e-6);
+    }
+    bring_to(simulation, -0.1);
+    EXPECT_EQ(particles.pore_pressure(0), 0.0);
+    bring_to(simulation, 0.0);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double start = std::max(0.0, particles.normal_load(p) - residual);
+      const double allowed = storage + simulation.model().band.skeleton_compressibility;
+      EXPECT_NEAR(particles.pore_pressure(p), std::max(0.0, start - gas_void / allowed), 1e-6);
+    }
+  };
+  const double all = porosity * 0.083 * 31.0 / 32.0;
+  expect_start({}, HUGE_VAL, 0.0);
+  expect_start({"pressure.residual_stress=0.0"}, 0.0, 0.0);
+  expect_start({"pressure.residual_stress=5e4"}, 5e4, 0.0);
+  expect_start({"pressure.residual_stress=0.0", "pressure.melt_contraction=true"}, 0.0, all);
+  expect_start(
+      {"pressure.residual_stress=2e4", "pressure.melt_contraction=true", "pressure.skeleton_compressibility=1e-6"}, 2e4,
+      all);
+}
+
+// Half of the matter's weight goes, and comes back.
+TEST(SkeletonCompressibility, PressureFollowsTheLoad) {
+  Simulation<2, double> simulation(case_from_text(
+      column, {"heat.enabled=false", "pressure.seepage=false", "pressure.skeleton_compressibility=2e-9"}));
+  auto& particles = simulation.particles();
+  simulation.step(0.05);
+  std::vector<double> pressure(particles.size()), load(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    pressure[p] = particles.pore_pressure(p);
+    load[p] = particles.normal_load(p);
+    particles.mass(p) *= 0.5;
+  }
+  simulation.step(0.05);
+  constexpr double share = 2e-9 / (storage + 2e-9);
+  int voids = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double now = pressure[p] - share * 0.5 * load[p];
+    EXPECT_NEAR(particles.pore_pressure(p), std::max(0.0, now), 1e-8);
+    EXPECT_NEAR(particles.pore_void(p), std::max(0.0, -now * (storage + 2e-9)), 1e-16);
+    voids += now < 0.0 ? 1 : 0;
+    particles.mass(p) *= 2.0;
+  }
+  EXPECT_EQ(voids, 0) << "P_I/r is above half of 0.84 of the load";
+  simulation.step(0.05);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    EXPECT_NEAR(particles.pore_pressure(p), pressure[p], 1e-8);
+  }
+}
+
+// With m_v pores store more: heating presses less, and pressure diffuses the slower by as much.
+TEST(SkeletonCompressibility, SlowsDiffusionByTheStorage) {
+  const auto bump_after = [&](double compressibility, double time) {
+    Simulation<2, double> simulation(case_from_text(
+        column, {"heat.enabled=false", "case.gravity=0.0", "pressure.melt_contraction=true",
+                 fmt::format("pressure.skeleton_compressibility={}", compressibility), "time.step=0.005"}));
+    auto& particles = simulation.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double from_middle = particles.position(p, 1) - 5.0;
+      particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e6 * std::exp(-from_middle * from_middle / 0.8);
+    }
+    while (simulation.time() < time * (1.0 - 1e-9)) {
+      simulation.step(time / 200.0);
+    }
+    std::vector<double> found(particles.size());
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      found[static_cast<std::size_t>(particles.id(p))] = particles.pore_pressure(p);
+    }
+    return found;
+  };
+  const auto rigid = bump_after(0.0, 1.0), soft = bump_after(3.0 * storage, 4.0);
+  for (std::size_t p = 0; p < rigid.size(); ++p) {
+    EXPECT_NEAR(soft[p], rigid[p], 1e-6 * 1e6);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,120 @@
+// Which substrate a place lies on, and what its laws make of a contact node.
+#include "terrain/substrates.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "terrain/basal_law.hpp"
+
+namespace thawslide::terrain {
+namespace {
+
+using Ring = Substrates::Ring;
+
+Ring box(double min_x, double min_y, double max_x, double max_y) {
+  return {{min_x, min_y}, {max_x, min_y}, {max_x, max_y}, {min_x, max_y}, {min_x, min_y}};
+}
+
+TEST(SubstratesOnGround, LieAlongX) {
+  Substrates substrates({100.0, 0.0});
+  substrates.add_strip(2, -HUGE_VAL, 110.0);
+  substrates.add_strip(1, 120.0, 130.0);
+  for (const auto& [x, number] : {std::pair(-1e6, 2), {9.999, 2}, {10.0, 0}, {19.999, 0}, {20.0, 1}, {30.0, 0}}) {
+    EXPECT_EQ(substrates.at(x, 7.0), number) << x;
+  }
+}
+
+TEST(SubstratesOnGround, LieWithinOutlinesAndNotInHoles) {
+  Substrates substrates({1000.0, 500.0});
+  substrates.add_rings(3, {box(1000.0, 500.0, 1010.0, 510.0), box(1004.0, 504.0, 1006.0, 506.0)});
+  for (int i = -2; i < 12; ++i) {
+    for (int j = -2; j < 12; ++j) {
+      const double x = i + 0.5, y = j + 0.5;
+      const bool inside = x > 0.0 && x < 10.0 && y > 0.0 && y < 10.0;
+      const bool in_hole = x > 4.0 && x < 6.0 && y > 4.0 && y < 6.0;
+      EXPECT_EQ(substrates.at(x, y), inside && !in_hole ? 3 : 0) << x << ", " << y;
+    }
+  }
+}
+
+// Neighbours with a crooked border share no place and leave none out, on the border's corners too.
+TEST(SubstratesOnGround, OfNeighboursEachPlaceIsInOne) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> crooked(4.0, 6.0), anywhere(0.0, 10.0);
+  Ring border;
+  for (int k = 0; k <= 200; ++k) {
+    border.push_back({crooked(random), 0.05 * k});
+  }
+  Ring left = border, right = border;
+  left.insert(left.end(), {{0.0, 10.0}, {0.0, 0.0}, border.front()});
+  right.insert(right.end(), {{10.0, 10.0}, {10.0, 0.0}, border.front()});
+  Substrates one({0.0, 0.0}), other({0.0, 0.0});
+  one.add_rings(1, {left});
+  std::reverse(right.begin(), right.end());
+  other.add_rings(1, {right});
+  long in_left = 0;
+  const auto expect_in_one = [&](double x, double y) {
+    EXPECT_EQ(one.at(x, y) + other.at(x, y), 1) << x << ", " << y;
+    in_left += one.at(x, y);
+  };
+  for (int k = 0; k < 20000; ++k) {
+    expect_in_one(anywhere(random), anywhere(random));
+  }
+  EXPECT_NEAR(static_cast<double>(in_left) / 20000.0, 0.5, 0.02);
+  for (const auto& corner : border) {
+    if (corner[1] > 0.0 && corner[1] < 10.0) {
+      expect_in_one(corner[0], corner[1]);
+      EXPECT_EQ(one.at(corner[0] - 1e-6, corner[1]), 1);
+      EXPECT_EQ(other.at(corner[0] + 1e-6, corner[1]), 1);
+    }
+  }
+}
+
+TEST(SubstratesOnGround, LieWhereARasterHasTheirCode) {
+  Raster codes;
+  codes.x = 105.0;
+  codes.y = 205.0;
+  codes.cell_x = codes.cell_y = 10.0;
+  codes.columns = 3;
+  codes.rows = 2;
+  codes.values = {1.0, 2.0, std::nan(""), 2.0, 2.0, 4.0};
+  const auto shared = std::make_shared<const Raster>(codes);
+  Substrates substrates({100.0, 200.0});
+  substrates.add_code(1, shared, 2.0);
+  substrates.add_code(2, shared, 4.0);
+  EXPECT_EQ(substrates.at(5.0, 5.0), 0) << "a code that none has";
+  EXPECT_EQ(substrates.at(10.0, 0.0), 1);
+  EXPECT_EQ(substrates.at(25.0, 5.0), 0) << "no data";
+  EXPECT_EQ(substrates.at(19.999, 19.999), 1);
+  EXPECT_EQ(substrates.at(20.0, 19.999), 2);
+  EXPECT_EQ(substrates.at(-0.001, 15.0), 0) << "beyond the raster";
+  EXPECT_EQ(substrates.at(30.0, 15.0), 0);
+  EXPECT_EQ(substrates.at(5.0, 20.0), 0);
+}
+
+// Nodes of a block side by side, each by the laws below it.
+TEST(BasalLaw, HoldsByTheSubstrateOfEachNode) {
+  using namespace physics::basal;
+  BasalLaw<double> law;
+  law.grounds = {{ConstantFriction<double>{0.5}, ConstantCohesion<double>{10.0}},
+                 {CoefficientFriction<double>{0.1}, ConstantCohesion<double>{0.0}},
+                 {ConstantFriction<double>{1.0}, BondsCohesion<double>{100.0, 2.0}}};
+  BasalNodes<double> nodes;
+  nodes.count = 4;
+  nodes.substrate = {1, 0, 2, 1};
+  nodes.normal_pressure.fill(1000.0);
+  nodes.pore_pressure = {400.0, 400.0, 400.0, 1500.0};
+  nodes.saturation.fill(0.25);
+  nodes.slip.fill(2.0);
+  evaluate_basal_law(law, 0.0, nodes);
+  EXPECT_DOUBLE_EQ(nodes.strength[0], 100.0) << "0.1 N, whatever P";
+  EXPECT_DOUBLE_EQ(nodes.strength[1], 310.0);
+  EXPECT_DOUBLE_EQ(nodes.strength[2], 600.0 + 75.0 * std::exp(-1.0));
+  EXPECT_DOUBLE_EQ(nodes.strength[3], 100.0);
+  EXPECT_EQ(nodes.friction[3], 0.1);
+}
+
+}  // namespace
+}  // namespace thawslide::terrain

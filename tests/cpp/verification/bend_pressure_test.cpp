@@ -1,0 +1,213 @@
+// How a slide presses on a ground that bends: as much more as it takes to turn it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+
+#include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
+#include "base/portability.hpp"
+#include "physics/bend.hpp"
+#include "sim/block.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+constexpr double degree = pi<double> / 180.0;
+constexpr double gravity = 9.81, density = 0.625 * 2750.0 + 0.375 * 917.0;  // frozen, porosity 0.375
+constexpr double radius = 300.0, thickness = 10.0;
+
+// A circular arc, its lowest point at x = 0, that goes on as a slope of 40 degrees on the left and level on the right.
+struct Ground {
+  static constexpr double steepest = 40.0 * degree;
+
+  [[nodiscard]] static double angle(double x) { return std::asin(std::clamp(-x / radius, 0.0, std::sin(steepest))); }
+  [[nodiscard]] static double height(double x) {
+    const double start = -radius * std::sin(steepest);
+    return radius * (1.0 - std::cos(angle(x))) + (x < start ? (start - x) * std::tan(steepest) : 0.0);
+  }
+};
+
+// Points each metre, and a body between two places with ends cut across the ground.
+std::string case_of_profile(const std::function<double(double)>& ground, double from, double to,
+                            const std::function<double(double)>& surface) {
+  std::ofstream csv(folder_of_this_test() / "bend.csv");
+  csv << "distance_m,terrain_elevation_m,surface_elevation_m\n";
+  for (double x = -500.0; x < 500.5; x += 1.0) {
+    csv << fmt::format("{},{:.9f},{:.9f}\n", x, ground(x), x > from && x < to ? surface(x) : ground(x));
+  }
+  return R"(
+[time]
+end = 60.0
+step = 0.001
+history_interval = 0.05
+[grid]
+cell = 2.5
+min = [-450.0, -20.0]
+max = [450.0, 430.0]
+[terrain]
+type = "profile"
+file = "bend.csv"
+[material.rock]
+law = "mohr_coulomb"
+friction_angle = 35.0
+cohesion = 1e3
+youngs_modulus = 1e8
+poisson_ratio = 0.2
+viscosity_time = 0.01
+[body.slide]
+material = "rock"
+shape = "surface"
+[mechanics]
+slope_shear = true
+[basal]
+friction = "constant"
+friction_angle = 10.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+}
+
+// A body of even thickness across the slope above the bend.
+std::string slide_into_bend() {
+  return case_of_profile(Ground::height, -400.0, -330.0,
+                         [](double x) { return Ground::height(x) + thickness / std::cos(Ground::steepest); });
+}
+
+double mean_cosine(double angle, double half) { return std::cos(angle) * std::sin(half) / half; }
+
+TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
+  Record record("Pressure in a bend, rigid block",
+                "A slab 10 m thick comes down a slope of 40 degrees into an arc of 300 m radius and runs through it, "
+                "points of the profile each metre; as a rigid block with block.bends.",
+                "N = rho h (g cos + v^2/R)", "balance of momentum across the path");
+  const config::Case parameters = case_from_text(slide_into_bend(), {"block.bends=true"});
+  const auto rows = sim::run_block(parameters);
+  const double length = 70.0 / std::cos(Ground::steepest), half = 0.5 * length / radius;
+  const double middle_before_arc = (365.0 - radius * std::sin(Ground::steepest)) / std::cos(Ground::steepest);
+  double largest = 0.0, largest_share = 0.0;
+  Curve curve{"angle [degrees]", "normal pressure [kPa]", {}, {}, {}};
+  for (const auto& row : rows) {
+    const double angle = Ground::steepest - (value_of(row, "displacement_m") - middle_before_arc) / radius;
+    if (angle + half > Ground::steepest - 0.03 || angle - half < 0.03) {
+      continue;  // not yet or no longer in the arc as a whole, the span of a slice's curvature counted
+    }
+    const double speed = value_of(row, "velocity_m_s");
+    const double weight = gravity * mean_cosine(angle, half), turning = speed * speed / radius;
+    const double expected = density * thickness * (weight + turning);
+    largest = std::max(largest, std::abs(value_of(row, "normal_pressure_Pa") / expected - 1.0));
+    largest_share = std::max(largest_share, turning / weight);
+    curve.x.push_back(angle / degree);
+    curve.computed.push_back(value_of(row, "normal_pressure_Pa") / 1e3);
+    curve.exact.push_back(expected / 1e3);
+  }
+  EXPECT_GT(curve.x.size(), 20U);
+  EXPECT_GT(largest_share, 0.3) << "the bend is felt";
+  record.expect_near("largest relative difference", largest, 0.0, 0.05);
+  record.draw(curve);
+}
+
+TEST(BendPressure, OfTheBlockIsLeftOutUnlessAskedFor) {
+  const auto pressures = [](const std::vector<std::string>& sets) {
+    std::vector<double> found;
+    for (const auto& row : sim::run_block(case_from_text(slide_into_bend(), sets))) {
+      found.push_back(value_of(row, "normal_pressure_Pa") / (density * thickness * gravity));
+    }
+    return found;
+  };
+  for (const double pressure : pressures({})) {
+    EXPECT_GT(pressure, 0.7);
+    EXPECT_LT(pressure, 1.02);
+  }
+  const std::vector<double> with_bends = pressures({"block.bends=true"});
+  EXPECT_GT(*std::max_element(with_bends.begin(), with_bends.end()), 1.3);
+}
+
+// Over a crest: what would fly presses on nothing, and never pulls.
+TEST(BendPressure, IsNeverBelowZero) {
+  EXPECT_EQ(physics::load_in_bend(2.0, 9.0, 30.0, -1.0 / 100.0), 0.0);
+  EXPECT_DOUBLE_EQ(physics::load_in_bend(2.0, 9.0, 30.0, -1.0 / 200.0), 9.0);
+  EXPECT_DOUBLE_EQ(physics::load_in_bend(2.0, 9.0, 30.0, 1.0 / 200.0), 27.0);
+  const auto crest = [](double x) { return 100.0 - x * x / 400.0; };
+  const auto rows = sim::run_block(case_from_text(
+      case_of_profile(crest, -120.0, -60.0, [&](double x) { return crest(x) + thickness; }),
+      {"block.bends=true", "body.slide.velocity=[60.0, 20.0]", "grid.min=[-450.0, -300.0]", "time.end=2.0"}));
+  double lowest = HUGE_VAL;
+  for (const auto& row : rows) {
+    EXPECT_GE(value_of(row, "normal_pressure_Pa"), 0.0);
+    lowest = std::min(lowest, value_of(row, "normal_pressure_Pa"));
+  }
+  EXPECT_EQ(lowest, 0.0);
+}
+
+// What the particles' weight across the ground and their turning come to, with the ground of the arc below each.
+double load_of_particles(const Simulation<2, double>& simulation) {
+  const auto& particles = simulation.particles();
+  double load = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Vector<double, 2> from_centre(particles.position(p, 0) + simulation.model().origin[0],
+                                        particles.position(p, 1) + simulation.model().origin[1] - radius);
+    const double angle = std::clamp(std::atan2(-from_centre[0], -from_centre[1]), 0.0, Ground::steepest);
+    const bool in_arc = angle > 0.0 && angle < Ground::steepest;
+    const double speed = Vector<double, 2>(particles.velocity(p, 0), particles.velocity(p, 1)).norm();
+    const double turning = in_arc ? speed * speed / from_centre.norm() : 0.0;
+    load += particles.mass(p) * (gravity * std::cos(angle) + turning);
+  }
+  return load;
+}
+
+// N A of all nodes in the last step [N].
+double load_of_nodes(const Simulation<2, double>& simulation) {
+  const auto& base = simulation.nodes().base;
+  double load = 0.0;
+  for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
+    for (std::size_t k = 0; base.holds(b) && k < static_cast<std::size_t>(mpm::Tile<2>::nodes); ++k) {
+      load += base(b, k)[mpm::BaseLayout::load] / simulation.last_step();
+    }
+  }
+  return load;
+}
+
+TEST(BendPressure, OfTheSlideIsThatOfTheArc) {
+  Record record("Pressure in a bend, deforming slide",
+                "The same slab, of broken rock (35 degrees, 1 kPa), in cells of 2.5 m: the force of the slide across "
+                "the ground, summed over nodes, in means over half a second.",
+                "sum over particles of m (g cos + v^2/r)", "balance of momentum across the path");
+  Simulation<2, double> simulation(case_from_text(slide_into_bend()));
+  double largest = 0.0, most = 0.0;
+  Curve curve{"time [s]", "force across the ground over weight", {}, {}, {}};
+  double expected = 0.0, found = 0.0, mass = 0.0;
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    mass += simulation.particles().mass(p);
+  }
+  int steps = 0;
+  while (simulation.time() < 15.0) {
+    simulation.step(simulation.next_step(60.0));
+    expected += load_of_particles(simulation);
+    found += load_of_nodes(simulation);
+    if (++steps < 500) {
+      continue;
+    }
+    curve.x.push_back(simulation.time());
+    curve.computed.push_back(found / steps / (mass * gravity));
+    curve.exact.push_back(expected / steps / (mass * gravity));
+    largest = std::max(largest, std::abs(found / expected - 1.0));
+    most = std::max(most, curve.exact.back());
+    expected = found = 0.0;
+    steps = 0;
+  }
+  EXPECT_GT(most, 1.2) << "the bend is felt";
+  record.expect_near("largest relative difference", largest, 0.0, 0.05);
+  record.draw(curve);
+}
+
+}  // namespace
+}  // namespace thawslide::verification

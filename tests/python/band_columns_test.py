@@ -1,0 +1,191 @@
+"""What reports show of a run whose band is of columns: stresses, temperatures against boiling, heat and water."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import MakeRun, history_columns, write_history
+from figures_test import line, texts, titled
+
+from thawslide import NotInRunError, Run
+from thawslide.boiling import boiling_temperature, saturation_pressure
+from thawslide.figures import FIGURES
+from thawslide.figures.energy import relative_residual
+from thawslide.figures.water import relative_water_residual
+from thawslide.key_numbers import key_numbers, stop_time
+from thawslide.report import figures_of, make_report
+
+STEAM = "\n[heat]\nsteam = {}\n"
+
+
+def column_history(rows: int = 101) -> dict[str, np.ndarray]:
+    """Return every column of a run with band columns."""
+    columns = history_columns(rows, 2)
+    t = columns["time_s"]
+    columns |= {
+        "band_normal_pressure_Pa": np.full(rows, 1.0e6),
+        "band_shear_Pa": 4.0e5 - 2.0e4 * t,
+        "band_thickness_m": np.full(rows, 0.55),
+        "band_hottest_C": 17.0 * t,
+        "band_largest_pressure_ratio": 0.1 * t,
+        "base_area_m2": np.full(rows, 1.0e6),
+        "column_heat_J": -3e12 + 0.1e12 * t,
+        "column_intake_J": -3e12 - 0.1e12 * t,
+        "column_vented_J": 0.05e12 * t,
+        "column_steam_J": 0.15e12 * t,
+        "column_left_J": np.zeros(rows),
+        "column_water_kg": 3e9 + 1e7 * t,
+        "column_intake_kg": 3e9 + 4e7 * t,
+        "column_vented_kg": 2e7 * t,
+        "column_steam_kg": 1e7 * t,
+        "column_left_kg": np.zeros(rows),
+        "column_water_residual_kg": 1e-3 * t,
+        "column_opening_m3": 50.0 * t,
+        "column_void_m3": 2e4 - 100.0 * t,
+    }
+    return columns
+
+
+@pytest.fixture
+def columns_run(make_run: MakeRun) -> Path:
+    folder = make_run()
+    write_history(folder / "history.csv", column_history())
+    with (folder / "case.toml").open("a") as case:
+        case.write(STEAM.format("true"))
+    return folder
+
+
+# Of the C++ formula, compiled alone: thawslide::physics::boiling_temperature(P).
+@pytest.mark.parametrize(
+    ("pressure", "temperature"),
+    [(0.0, 100.0), (2.0e5, 134.381906373124), (1.0e6, 187.243587897609), (2.0e6, 220.820904072478),
+     (-3.0e4, 90.341987651245)],
+)  # fmt: skip
+def test_boiling_temperature_is_that_of_the_simulator(pressure: float, temperature: float) -> None:
+    assert boiling_temperature(pressure) == pytest.approx(temperature, abs=1e-8)
+    assert saturation_pressure(temperature) == pytest.approx(101325.0 + pressure, rel=1e-9)
+
+
+def test_boiling_follows_clausius_and_clapeyron() -> None:
+    # d(ln P)/dT = L_v/(R_v T^2), integrated by Simpson's rule from 100 C.
+    for end in (40.0, 130.0, 215.0):
+        steps = 400
+        t = np.linspace(100.0, end, steps + 1)
+        slope = (2.5e6 - 2360.0 * t) / (461.5 * (t + 273.15) ** 2)
+        weights = np.ones(steps + 1)
+        weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
+        log_of_pressure = (end - 100.0) / steps / 3.0 * float(weights @ slope)
+        assert boiling_temperature(101325.0 * np.expm1(log_of_pressure)) == pytest.approx(end, abs=1e-7)
+
+
+def test_boiling_of_nothing_is_nothing() -> None:
+    assert np.isnan(boiling_temperature([np.nan, 0.0])).tolist() == [True, False]
+
+
+def test_stresses_stand_beside_each_other(columns_run: Path) -> None:
+    run = Run(columns_run)
+    figure = FIGURES["band"].draw(run)
+    stresses = titled(figure, "(a)")
+    assert stresses.get_ylabel() == "stress (MPa)"
+    for label, column in (
+        ("normal pressure N", "band_normal_pressure_Pa"),
+        ("pore pressure P", "band_pore_pressure_Pa"),
+        ("shear traction (effective strength)", "band_shear_Pa"),
+    ):
+        np.testing.assert_allclose(line(stresses, label)[1] * 1e6, run.history[column])
+
+
+def test_temperatures_stand_beside_boiling(columns_run: Path) -> None:
+    run = Run(columns_run)
+    figure = FIGURES["band"].draw(run)
+    heat = titled(figure, "(b)")
+    np.testing.assert_allclose(line(heat, "mean")[1], run.history["band_temperature_C"])
+    np.testing.assert_allclose(line(heat, "hottest of any column")[1], run.history["band_hottest_C"])
+    np.testing.assert_allclose(line(heat, "water boils at the mean N")[1], 187.243587897609)
+    assert not any("boiling is not modelled" in text for axes in figure.axes for text in texts(axes))
+    np.testing.assert_allclose(line(titled(figure, "(c)"), "run")[1], run.history["band_saturation"])
+    np.testing.assert_allclose(line(titled(figure, "(d)"), "run")[1], 0.55)
+    np.testing.assert_allclose(line(titled(figure, "(e)"), "run")[1], run.history["band_largest_pressure_ratio"])
+
+
+def test_thermal_accounts_take_in_columns(columns_run: Path) -> None:
+    run = Run(columns_run)
+    thermal = titled(FIGURES["energy"].draw(run), "(b)")
+    t = run.history["time_s"]
+    np.testing.assert_allclose(line(thermal, "laid and taken in by columns")[1], -0.1 * t, atol=1e-9)
+    np.testing.assert_allclose(line(thermal, "out with steam, columns")[1], 0.15 * t, atol=1e-9)
+    assert any("left with columns" in text for text in texts(thermal))  # zero throughout
+    columns = column_history()
+    columns["column_heat_J"] = 1e14 * t
+    write_history(columns_run / "history.csv", columns)
+    np.testing.assert_allclose(relative_residual(Run(columns_run), "thermal_residual_J"), 2e2 * t / 1e15)
+
+
+def test_water_accounts(columns_run: Path) -> None:
+    run = Run(columns_run)
+    figure = FIGURES["water"].draw(run)
+    t = run.history["time_s"]
+    held, lost, spaces = (titled(figure, f"({letter})") for letter in "abc")
+    assert [axes.get_ylabel() for axes in (held, lost, spaces)] == [
+        "mass (million t)",
+        "mass (thousand t)",
+        "volume (thousand m³)",
+    ]
+    np.testing.assert_allclose(line(held, "laid and taken in")[1], 3.0 + 0.04 * t)
+    np.testing.assert_allclose(line(lost, "gone as steam")[1], 10.0 * t)
+    np.testing.assert_allclose(line(spaces, "opened along the base")[1], 0.05 * t)
+    residual = relative_water_residual(run)
+    assert residual is not None
+    np.testing.assert_allclose(residual, 1e-3 * t / 3.4e9)
+    assert titled(figure, "(d)").get_yscale() == "log"
+
+
+def test_runs_without_columns_look_as_before(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    assert "water" not in figures_of(run)
+    with pytest.raises(NotInRunError, match="not of columns"):
+        FIGURES["water"].draw(run)
+    assert len(FIGURES["band"].draw(run).axes) == 4
+    assert FIGURES["band"].caption_of(run) == FIGURES["band"].caption
+    thermal = titled(FIGURES["energy"].draw(run), "(b)")
+    assert not any("column" in str(found.get_label()) for found in thermal.lines)
+    assert "Hottest column of the band" not in [row.words for row in key_numbers(run)]
+
+
+def test_report_of_columns(columns_run: Path) -> None:
+    assert figures_of(Run(columns_run)) == ["motion", "velocity", "plastic_strain", "force", "band", "energy", "water"]
+    report = make_report(Run(columns_run), names=["band", "energy", "water"], dpi=40)
+    page = report.page.read_text(encoding="utf-8")
+    assert "Nothing in the model boils" not in page and "heat.steam is false" not in page
+    assert "Means over the base by area" in page and "particles next to the ground" not in page
+    found = {row.words: (row.value, row.remark) for row in key_numbers(Run(columns_run))}
+    assert found["Hottest column of the band"] == ("170 °C", "at 10 s")
+    assert found["Largest pore pressure over its N"] == ("1", "at 10 s")
+    assert found["Water gone as steam"] == ("1e5 t", "by the end")
+    text = (columns_run / "case.toml").read_text()
+    (columns_run / "case.toml").write_text(text.replace("steam = true", "steam = false"))
+    page = make_report(Run(columns_run), names=["band"], dpi=40).page.read_text(encoding="utf-8")
+    assert "passes 100 °C at 9.3 s and reaches 110 °C. Nothing boils, as heat.steam is false: where" in page
+
+
+def test_columns_before_any_contact_draw(columns_run: Path, tmp_path: Path) -> None:
+    columns = column_history(1)
+    for name in columns:
+        if name.startswith("band_") and not name.endswith("_J"):
+            columns[name][:] = np.nan
+        elif name.startswith("column_"):
+            columns[name][:] = 0.0
+    write_history(columns_run / "history.csv", columns)
+    run = Run(columns_run)
+    for name in ("band", "energy", "water"):
+        FIGURES[name].draw(run).savefig(tmp_path / "figure.png")
+    assert texts(titled(FIGURES["band"].draw(run), "(d)")) == ["never in contact"]
+    assert texts(titled(FIGURES["water"].draw(run), "(d)")) == ["no residual: no water yet, or it is exactly zero"]
+
+
+def test_a_stop_below_a_speed(make_run: MakeRun) -> None:
+    run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: below 0.1 m/s from 9.709 s on
+    assert stop_time(run, 0.1) == pytest.approx(9.8)
+    assert stop_time(run, 20.0) is None

@@ -1,0 +1,194 @@
+"""The page of members of starting noise: what a run gives, what is met, what variants are, on one clock."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from band_columns_test import column_history
+from conftest import MakeRun, write_history
+
+from thawslide import Run
+from thawslide.figures.force import force_in_band
+from thawslide.paper.lamplugh import INVERSION
+from thawslide.paper.member_figures import members_over_time, on_clock_set, on_one_clock
+from thawslide.paper.members import (
+    QUANTITIES,
+    Observed,
+    is_met,
+    median,
+    member_rows,
+    members_table,
+    middle_member,
+    numbers,
+    observed,
+    variant_rows,
+    variants_table,
+    verdict,
+)
+from thawslide.paper.one_at_a_time import Row, commit_of, is_of_commit, words_to_start
+
+START = 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/10) = 8
+GOOD = Observed(
+    start=20.0, end=220.0, peak=80.0, rise=35.0, displacement=5.7, runout=10.0, stop=180.0, force=0.28, hottest=190.0,
+    ratio=1.0,
+)  # fmt: skip
+WANTED = {each.name: each for each in QUANTITIES}
+CASE = {
+    "material": {"rock_ice": {"hydraulic_conductivity": 1e-7}},
+    "substrate": {"glacier": {"friction_coefficient": 0.1}},
+    "basal": {"slip_distance": 20.0},
+    "band": {"thickness": 0.55, "load_time": 1.0, "growth": "none"},
+    "pressure": {"frozen_rows": "vented", "skeleton_compressibility": 2e-9},
+    "heat": {"steam": True},
+}
+
+
+def changed(**values: float | str) -> Observed:
+    return Observed(**(vars(GOOD) | values))  # type: ignore[arg-type]
+
+
+def test_what_a_run_gives(make_run: MakeRun) -> None:
+    folder = make_run()
+    write_history(folder / "history.csv", column_history())
+    found = observed(folder)
+    assert found.failure == ""
+    assert found.start == pytest.approx(START, abs=2e-3)
+    assert (found.peak, found.rise) == (pytest.approx(12.0), pytest.approx(5.0 - START, abs=2e-3))
+    assert found.stop == pytest.approx(9.8 + 40.0 - START, abs=2e-3)  # below 0.1 m/s from 9.709 s on
+    assert found.end == pytest.approx(50.0 - START, abs=2e-3)
+    assert (found.displacement, found.runout) == (pytest.approx(0.08), pytest.approx(0.16))
+    assert found.force == pytest.approx(np.nanmax(force_in_band(Run(folder), INVERSION)) / 1e12)
+    assert (found.hottest, found.ratio) == (pytest.approx(170.0), pytest.approx(1.0))
+
+
+def test_a_run_that_goes_on_does_not_stop(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = column_history()
+    columns["mean_velocity_m_s"] = 1.0 * columns["time_s"]
+    write_history(folder / "history.csv", columns)
+    (folder / "run.json").write_text(json.dumps({"status": "failed", "message": "it left"}))
+    found = observed(folder)
+    assert (found.stop, found.failure) == (float("inf"), "it left")
+    assert observed(folder.parent / "none").failure == "not run"
+
+
+def test_a_row_is_met_by_the_median_but_pressure_by_every_member() -> None:
+    found = [changed(peak=peak) for peak in (60.0, 75.0, 80.0, 87.0, 120.0)]
+    assert median(found, WANTED["peak"]) == 80.0
+    assert all(is_met(found, each) for each in QUANTITIES)
+    assert is_met([changed(ratio=1.0 + 1e-12)], WANTED["ratio"])
+    pressed = [*found[:4], changed(ratio=1.01)]
+    assert not is_met(pressed, WANTED["ratio"])
+    assert not is_met([changed(failure="bad"), GOOD], WANTED["ratio"])
+    assert "- largest P over averaged N: not every member came to its end" in verdict([changed(failure="bad"), GOOD])
+    table = members_table(found).splitlines()
+    peak = "| peak of the mean velocity [m/s] | 80 | 72 to 88 | 80.0 | 60.0 to 120.0 | 3 of 5 | yes |"
+    assert peak in table
+    assert "| largest P over averaged N |  | at most 1 | 1.000 | 1.000 | 5 of 5 | yes |" in table
+    assert table[0].count("|") == table[2].count("|") == 8
+
+
+def test_the_verdict_is_plain() -> None:
+    assert verdict([GOOD, GOOD]).endswith("Not met: none.")
+    assert verdict([GOOD, GOOD]).startswith("Met, 8 of 8 rows: peak of the mean velocity; ")
+    words = verdict([changed(peak=60.0, ratio=1.2), GOOD, changed(peak=70.0, failure="it\nleft")])
+    assert "Met, 6 of 8 rows" in words
+    assert "- peak of the mean velocity: the median is 70.0 m/s; 72 to 88 is wanted" in words
+    assert "- largest P over averaged N: the most is 1.200; at most 1 is wanted" in words
+    assert words.endswith("Left out of median and range, as they did not come to their end: seed 3 (it left).")
+    going = [changed(stop=float("inf")), changed(stop=float("inf")), GOOD]
+    assert "- stop: half of the members or more do not come to it; before 200 is wanted" in verdict(going)
+    assert "| before 200 | not by 220 | 180 to not by 220 | 1 of 3 | **no** |" in members_table(going)
+    assert "- runout: no member has it; 9 to 11.5 is wanted" in verdict([Observed("not run")])
+
+
+def test_the_member_in_the_middle_is_nearest_to_the_medians() -> None:
+    found = [changed(peak=78.0), changed(peak=79.0, failure="bad"), changed(peak=81.0, runout=11.0), changed(peak=80.0)]
+    assert middle_member(found) == 3
+
+
+def test_members_differ_in_their_seed_alone() -> None:
+    rows = member_rows()
+    assert [row.sets for row in rows] == [("initial.noise=0.1", f"initial.seed={seed}") for seed in range(1, 21)]
+    assert len({row.key for row in rows}) == 20
+
+
+def test_variants_are_told_against_the_case() -> None:
+    sets = [row.sets[0] for row in variant_rows(CASE)]
+    assert len(sets) == 11
+    assert "substrate.glacier.friction_coefficient=0.10" not in sets  # as it is in this case
+    assert {"pressure.frozen_rows=sealed", "band.load_time=2", "heat.steam=false", "band.growth=inertial"} < set(sets)
+    other = CASE | {"pressure": {"frozen_rows": "sealed", "skeleton_compressibility": 1e-8}, "heat": {"steam": False}}
+    found = [row.sets[0] for row in variant_rows(other)]
+    assert "pressure.frozen_rows=vented" in found
+    assert not {"heat.steam=false", "pressure.skeleton_compressibility=1e-8"} & set(found)
+
+
+def test_variants_outside_the_intervals_are_bold() -> None:
+    rows = [Row("a", "the case"), Row("b", "hot", ("x=1",)), Row("c", "gone", ("y=2",))]
+    found = {"a": GOOD, "b": changed(hottest=300.0, failure="it left", stop=float("inf")), "c": Observed("not run")}
+    head, _, case, hot, gone, _, broken = variants_table(rows, found).splitlines()
+    assert case == "| the case | 80.0 | 35.0 | 5.70 | 10.0 | 180 | 0.28 | 190 | 1.000 | 20.0 |  |"
+    assert "| **not by 220** | 0.28 | **300** | 1.000 | 20.0 | `x=1` |" in hot
+    assert "| gone | not run |" in gone
+    assert {line.count("|") for line in (head, case, hot, gone)} == {12}
+    assert broken == "- hot broke off: it left"
+
+
+def test_words_may_name_medians_and_variants() -> None:
+    named = numbers([GOOD, changed(peak=70.0)], {"e-0.35": changed(runout=8.0)})
+    assert (named["median_peak"], named["least_peak"], named["most_peak"]) == (75.0, 70.0, 80.0)
+    assert named["e_0_35_runout"] == 8.0
+
+
+def test_members_are_drawn_on_one_clock(make_run: MakeRun) -> None:
+    folders = [make_run(name=name) for name in ("one", "two")]
+    columns = column_history()
+    for folder, late in zip(folders, (0.0, 1.0), strict=True):
+        moved = np.interp(columns["time_s"] - late, columns["time_s"], columns["mean_velocity_m_s"])
+        write_history(folder / "history.csv", columns | {"mean_velocity_m_s": moved})
+    runs = [Run(folder) for folder in folders]
+    time, values = on_one_clock(runs, [START, START + 1.0], "mean_velocity_m_s")
+    assert (time[0], time[-1]) == (pytest.approx(40.0 - START), pytest.approx(49.0 - START, abs=0.1))
+    np.testing.assert_allclose(values[0], values[1], atol=0.05)
+    np.testing.assert_allclose(np.interp(40.0, time, values[0]), 8.0, atol=0.05)
+    speed, way = members_over_time(runs, [START, START + 1.0]).axes
+    middle = next(line for line in speed.lines if line.get_label() == "median of 2 members")
+    thin = [line.get_ydata() for line in speed.lines if len(line.get_xdata()) == len(time)][1:]
+    np.testing.assert_allclose(thin, values)
+    np.testing.assert_allclose(middle.get_ydata(), np.median(values, axis=0))
+    assert way.get_ylabel() == "mean displacement (km)"
+    moved = on_clock_set(runs[1], START + 1.0)
+    assert np.interp(40.0, moved.history["time_s"], moved.history["mean_velocity_m_s"]) == pytest.approx(8.0, abs=0.05)
+    assert runs[1].history["time_s"][0] == 0.0
+
+
+def test_runs_of_the_same_commit_and_files_are_kept(tmp_path: Path) -> None:
+    program = tmp_path / "program"
+    program.write_text(f"#!{sys.executable}\nprint('thawslide 0.1.0 (commit 0123abcd, g++ 12.2.0)')\n")
+    program.chmod(0o755)
+    assert commit_of(program) == "0123abcd"
+    case = tmp_path / "case.toml"
+    case.write_text("# one")
+    words = words_to_start(program, case, tmp_path / "run", ())
+    facts = {
+        "command": " ".join(words), "status": "done", "commit": "0123abcd",
+        "inputs": [{"path": str(case), "sha256": hashlib.sha256(b"# one").hexdigest()}],
+    }  # fmt: skip
+    (tmp_path / "run").mkdir()
+    where = tmp_path / "run" / "run.json"
+    where.write_text(json.dumps(facts))
+    assert is_of_commit(tmp_path / "run", words, "0123abcd")
+    assert not is_of_commit(tmp_path / "run", words, "4567")
+    assert not is_of_commit(tmp_path / "run", [*words, "--set", "a=1"], "0123abcd")
+    case.write_text("# two")
+    assert not is_of_commit(tmp_path / "run", words, "0123abcd")
+    case.write_text("# one")
+    for change in ({"status": "running"}, {"commit": "0123abcd-dirty"}):
+        where.write_text(json.dumps(facts | change))
+        assert not is_of_commit(tmp_path / "run", words, str((facts | change)["commit"]))
