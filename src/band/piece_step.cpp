@@ -82,6 +82,7 @@ physics::ColumnAccount<Real> step_piece(const ColumnsModel<Real>& model, Real th
               heat / (piece.area_of_column * dt),
               (factor - Real(1)) / dt,
               before + (after - before) * static_cast<Real>(part) / static_cast<Real>(parts),
+              -physics::exponential_minus_one(-piece.speed * dt / model.mixing_slip),
               physics::body_enthalpy(column, model.body_temperature),
               physics::water_of_full_pores(column, model.body_temperature)};
           add(physics::step_column(column, drive, piece.column), piece.area_of_column, account);

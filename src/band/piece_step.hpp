@@ -2,6 +2,7 @@
 // a rigid block.
 #pragma once
 
+#include <limits>
 #include <variant>
 
 #include "band/base_piece.hpp"
@@ -28,8 +29,9 @@ struct ColumnsModel {
   BandGrowth growth = BandGrowth::none;
   Real grain_size = 0, inertial_number = 1;  // d [m], I
   Real growth_per_slip = 0;
-  Real rock_density = 0;       // rho_S [kg/m3]
-  Real largest_thickness = 0;  // of the band [m]
+  Real mixing_slip = std::numeric_limits<Real>::infinity();  // over which shear mixes the band [m]
+  Real rock_density = 0;                                     // rho_S [kg/m3]
+  Real largest_thickness = 0;                                // of the band [m]
 };
 
 template <int Dim, class Real>

@@ -12,7 +12,7 @@
 #endif
 
 // Before a loop that a device's compiler shall not unroll: what lies in memory there would come to need registers.
-#if defined(__CUDACC__)
+#if defined(__CUDA_ARCH__)
 #define THAWSLIDE_ROLLED _Pragma("unroll 1")
 #else
 #define THAWSLIDE_ROLLED

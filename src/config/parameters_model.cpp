@@ -120,6 +120,12 @@ std::vector<Parameter<Band>> band_parameters() {
       parameter(&Band::growth_per_slip,
                 {.key = "growth_per_slip", .range = above(0), .text = "thickness gained over slip, of growth \"slip\""})
           .required_if("when band.growth is \"slip\"", grows(BandGrowth::slip)),
+      parameter(&Band::mixing_slip,
+                {.key = "mixing_slip",
+                 .unit = "m",
+                 .range = {.low = 0, .low_open = true, .infinity_allowed = true},
+                 .text = "slip over which shear mixes the heat and water of a band column to 1/e of "
+                         "their differences; inf: it does not mix"}),
       parameter(&Band::load_time, {.key = "load_time",
                                    .unit = "s",
                                    .range = above(0),

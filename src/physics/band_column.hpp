@@ -12,7 +12,7 @@
 // pressure P_steam at which the water boils, less that of the air, and none below 100 C; steam that carries the load
 // escapes. Frozen matter has P = 0 and lets no water through; on thawing P is P_thaw = max(0, N - s0) less what the
 // void takes (Morgenstern and Nixon 1971). As the piece stretches or the band grows, the cells take in what lies above
-// them, and the body gives the rest. In place of Eqs. 19 and 23; docs/theory, chapter 16.
+// them, and the body gives the rest; shear mixes the band. In place of Eqs. 19 and 23; docs/theory, chapter 16.
 #pragma once
 
 #include "physics/boiling.hpp"
@@ -72,6 +72,7 @@ struct ColumnDrive {
   Real heat_flux;        // eta tau v [W/m2]
   Real stretching;       // dA/dt / A [1/s]
   Real thickness;        // of the band at the end of the step [m]
+  Real mixed;            // share of the band that shear mixes in the step, 0 to 1
   Real body_heat;        // enthalpy of what the body gives at the top [J/m3]
   Real body_water;       // its ice and water [kg/m3]
 };

@@ -54,6 +54,18 @@ THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGri
   temperatures_from_heat(model, after, column);
 }
 
+// Shear mixes a share of the band: its cells, all of one height, come nearer to their mean.
+template <class Real, class Curve>
+THAWSLIDE_HD void mix_band(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real share,
+                           BandColumn<Real>& column) {
+  for (Real* of_band : {column.heat + ColumnCells::ground, &column.water[0], &column.thawing[0]}) {
+    Real mean = 0;
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) { mean += of_band[k] / ColumnCells::band; }
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) { of_band[k] += share * (mean - of_band[k]); }
+  }
+  temperatures_from_heat(model, grid, column);
+}
+
 // Advances a column by drive.dt. The friction heat spreads over the band; then heat is conducted, water boils and
 // seeps.
 template <class Real, class Curve>
@@ -64,6 +76,9 @@ THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& mod
   const ColumnGrid<Real> grid = grid_of(model, drive.thickness);
   if (drive.stretching != Real(0) || drive.thickness != column.thickness) {
     take_in(model, grid_of(model, column.thickness), grid, drive, column, account);
+  }
+  if (drive.mixed > Real(0)) {
+    mix_band(model, grid, drive.mixed, column);
   }
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { was_melted[k] = is_melted(model, column, k); }
   account.friction_heat = drive.heat_flux * drive.dt;

@@ -72,6 +72,7 @@ band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, cons
   columns.grain_size = static_cast<Real>(band.grain_size);
   columns.inertial_number = static_cast<Real>(band.inertial_number);
   columns.growth_per_slip = static_cast<Real>(band.growth_per_slip);
+  columns.mixing_slip = static_cast<Real>(band.mixing_slip);
   columns.rock_density = model.motion.phases.rock_density;
   columns.largest_thickness = static_cast<Real>(matter.depth);
   return columns;

@@ -38,6 +38,7 @@ REGISTERS_OF_PHYSICS = {
     "basal_contact": 30,  # 24
     "band_column<PowerLawCurve<double>>": 130,  # 118; the cells' numbers lie in local memory
     "band_column<LinearCurve<double>>": 130,  # 116
+    "start_columns<PowerLawCurve<double>>": 136,  # 124
 }
 REGISTERS_OF_BASAL_LAW = 36  # 30
 

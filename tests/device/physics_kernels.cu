@@ -135,17 +135,30 @@ template __global__ void heat<PowerLawCurve<Real>>(HeatContent<Real, PowerLawCur
 template __global__ void heat<LinearCurve<Real>>(HeatContent<Real, LinearCurve<Real>>, Real*, Real*, std::size_t);
 
 template <class Curve>
-__global__ void band_column(ColumnModel<Real, Curve> model, const ColumnDrive<Real>* drives, BandColumn<Real>* columns,
-                            ColumnAccount<Real>* accounts, BandMeans<Real>* means) {
+__global__ void band_column(ColumnModel<Real, Curve> model, const Real* temperatures, const ColumnDrive<Real>* drives,
+                            BandColumn<Real>* columns, ColumnAccount<Real>* accounts, BandMeans<Real>* means) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
-  accounts[k] = step_column(model, drives[k], columns[k]);
-  means[k] = band_means(model, drives[k].normal_pressure, columns[k]);
+  ColumnDrive<Real> drive = drives[k];
+  drive.body_heat = body_enthalpy(model, temperatures[k]);
+  accounts[k] = step_column(model, drive, columns[k]);
+  means[k] = band_means(model, drive.normal_pressure, columns[k]);
 }
-template __global__ void band_column<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>,
+template __global__ void band_column<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, const Real*,
                                                           const ColumnDrive<Real>*, BandColumn<Real>*,
                                                           ColumnAccount<Real>*, BandMeans<Real>*);
-template __global__ void band_column<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const ColumnDrive<Real>*,
-                                                        BandColumn<Real>*, ColumnAccount<Real>*, BandMeans<Real>*);
+template __global__ void band_column<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const Real*,
+                                                        const ColumnDrive<Real>*, BandColumn<Real>*,
+                                                        ColumnAccount<Real>*, BandMeans<Real>*);
+
+template <class Curve>
+__global__ void start_columns(ColumnModel<Real, Curve> model, Real thickness, const Real* temperatures, Real load,
+                              BandColumn<Real>* columns, Real* sums) {
+  const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
+  columns[k] = start_column(model, thickness, temperatures[k], temperatures[k], load);
+  sums[k] = heat_of(columns[k]) + water_of(columns[k]);
+}
+template __global__ void start_columns<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, Real, const Real*,
+                                                            Real, BandColumn<Real>*, Real*);
 
 __global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);

@@ -150,6 +150,7 @@ growth = "slip"
 grain_size = 0.0625
 inertial_number = 0.25
 growth_per_slip = 0.125
+mixing_slip = 250.0
 load_time = 1.5
 column_step = 0.125
 ground_temperature = -3.0

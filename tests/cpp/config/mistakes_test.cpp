@@ -220,7 +220,7 @@ TEST(Mistakes, SeveralInOrderOfTheirPlaces) {
             "angle phi_f).\n"
             "--set band.thicknes=0.1: key 'band.thicknes' is not known in [band]; did you mean 'thickness'? Allowed "
             "here: model, thickness, region, cut_cells, thickness_change, growth, grain_size, inertial_number, "
-            "growth_per_slip, load_time, column_step, ground_temperature.");
+            "growth_per_slip, mixing_slip, load_time, column_step, ground_temperature.");
 }
 
 TEST(Mistakes, SeveralThatDoNotFitTogether) {

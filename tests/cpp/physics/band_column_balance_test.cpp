@@ -36,6 +36,26 @@ TEST(BandColumn, MixesEnthalpyWhileItStretchesAndGrows) {
   EXPECT_NEAR(band / (1.5 * e), share * hot + (1.0 - share) * cold, 1e-10 * hot);
 }
 
+// Mixed whole, a band is of one temperature and one share of water; nothing is lost, and what lies about it stays.
+TEST(BandColumn, ShearMixesTheBand) {
+  Model model = make_model();
+  model.conduction = model.seepage = false;
+  Column column = start_column(model, 0.2, 5.0, 5.0, load);
+  column.heat[Cells::ground + 2] += 1e6;
+  column.water[1] *= 0.5;
+  const double heat = heat_of(column), water = water_of(column), above = column.heat[Cells::ground + Cells::band];
+  Drive drive = drive_of(model, 0.01, 0.2, 5.0);
+  drive.mixed = 1.0;
+  step_column(model, drive, column);
+  EXPECT_NEAR(heat_of(column), heat, 1e-12 * heat);
+  EXPECT_NEAR(water_of(column), water, 1e-12 * water);
+  EXPECT_EQ(column.heat[Cells::ground + Cells::band], above);
+  for (int k = 1; k < Cells::band; ++k) {
+    EXPECT_NEAR(column.temperature[Cells::ground + k], column.temperature[Cells::ground], 1e-9);
+    EXPECT_NEAR(column.water[k], column.water[0], 1e-12 * column.water[0]);
+  }
+}
+
 // Whatever happens to a column: heat and water are what came in less what left, and 0 <= P <= N.
 TEST(BandColumn, LosesNothingInRandomSteps) {
   std::mt19937 random(5);
@@ -58,6 +78,7 @@ TEST(BandColumn, LosesNothingInRandomSteps) {
       drive.normal_pressure = step % 50 == 0 ? 0.0 : load * between(0.5, 1.5);
       drive.heat_flux = between(0.0, 2e7);
       drive.stretching = between(-0.1, 0.12);
+      drive.mixed = run % 2 == 0 ? 0.0 : between(0.0, 1.0);
       e = drive.thickness = e * between(0.98, 1.02);
       const double left = 1.0 / (1.0 + drive.stretching * drive.dt);
       const Account account = step_column(model, drive, column);
