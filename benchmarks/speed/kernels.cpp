@@ -58,7 +58,8 @@ std::array<SymmetricTensor<Value>, states> stresses(double shear, bool plane) {
 template <class Value, int Dim>
 void mohr_coulomb(benchmark::State& state, double shear) {
   const auto elastic = physics::Elastic<double>::from_young_poisson(5e8, 0.2);
-  const auto law = physics::MohrCoulomb<double>::make(elastic, 35.0, 0.0, 1e5, 1e5, HUGE_VAL);
+  const auto law =
+      physics::MohrCoulomb<double>::make(elastic, physics::Strength<double>{35.0, 0.0, 1e5, 1e5, HUGE_VAL});
   const auto all = stresses<Value>(shear, Dim == 2);
   std::size_t k = 0;
   for (auto _ : state) {
