@@ -94,7 +94,7 @@ struct Phases {
   double rock_heat_capacity = 858, ice_heat_capacity = 2040, water_heat_capacity = 4180;
   double rock_conductivity = 3.0, ice_conductivity = 2.22, water_conductivity = 0.58;
   double rock_expansion = 3e-5, ice_expansion = 5.1e-5, water_expansion = 2.75e-4;
-  WaterExpansionLaw water_expansion_law = WaterExpansionLaw::constant;
+  WaterExpansionLaw water_expansion_law = WaterExpansionLaw::by_temperature;
   double water_bulk_modulus = 1e9;
   double latent_heat = 333.5e3;
   double water_unit_weight = 9810;
@@ -113,7 +113,7 @@ struct Material {
   double youngs_modulus = 0, poisson_ratio = 0;
   double friction_angle = 0, residual_friction_angle = 0, dilation_angle = 0;
   double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps/eps_c); equal: none
-  double softening_strain = 1.0;               // eps_c, Sec. 4
+  double softening_strain = 0.05;              // eps_c
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
   bool gaps_close_first = false;                                    // torn matter bears nothing until its gap is closed
   double viscosity_time = 0;                                        // s, Kelvin-Voigt
@@ -218,11 +218,11 @@ struct Mechanisms {  // Sec. 3.3
 };
 
 struct Band {
-  BandKind model = BandKind::scaled;
-  Table thickness;  // m over time; empty: no band, xi = 1
+  BandKind model = BandKind::scaled;  // where no file says otherwise: parameters_model.cpp
+  Table thickness;                    // m over time; empty: no band, xi = 1
   BandRegion region = BandRegion::all;
   CutCells cut_cells = CutCells::as_they_are;
-  ThicknessChange thickness_change = ThicknessChange::as_printed;
+  ThicknessChange thickness_change = ThicknessChange::conserving;
   BandGrowth growth = BandGrowth::none;
   double grain_size = 0.05;                                      // m, BandGrowth::inertial
   double inertial_number = 0.3;                                  // BandGrowth::inertial
@@ -246,7 +246,7 @@ struct Heat {
   bool steam = true;
   bool conduction = true;
   bool advection = true;
-  AdvectionForm advection_form = AdvectionForm::as_printed;
+  AdvectionForm advection_form = AdvectionForm::conservative;
   std::array<HeatBoundary, 6> boundary{};
 };
 
@@ -255,12 +255,12 @@ struct Pressure {
   bool thermal_pressurization = true;  // off: once melted the liquid keeps r^-1 P_I
   ClapeyronSign clapeyron = ClapeyronSign::usual;
   bool volumetric_term = false;
-  FrozenPressure frozen = FrozenPressure::ice_pressure;
+  FrozenPressure frozen = FrozenPressure::none;
   double residual_stress = std::numeric_limits<double>::infinity();  // Pa, s0; infinity: no excess pressure on thawing
-  bool melt_contraction = false;                                     // melt leaves a void, filled before P rises
-  double skeleton_compressibility = 0;                               // 1/Pa, m_v; 0: rigid pore
+  bool melt_contraction = true;                                      // melt leaves a void, filled before P rises
+  double skeleton_compressibility = 2e-9;                            // 1/Pa, m_v; 0: rigid pore
   bool seepage = true;
-  FrozenRows frozen_rows = FrozenRows::draining;
+  FrozenRows frozen_rows = FrozenRows::sealed;
   EndOfWater column_top = EndOfWater::vented;
   double water_to_steam_viscosity = 0;  // ratio; 0: steam does not seep
   SeepageScaling seepage_scaling = SeepageScaling::consistent;
@@ -269,7 +269,7 @@ struct Pressure {
 };
 
 struct Block {
-  bool bends = false;  // their pressure counts
+  bool bends = true;  // their pressure counts
 };
 
 struct Checkpoint {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "config/moved_defaults.hpp"
+
 namespace thawslide::config {
 
 namespace {
@@ -13,9 +15,10 @@ constexpr double most_broken_cohesion = 50e3;                          // Pa
 
 // The paper's softening, of cohesion alone over a plastic strain of 1, is left as it is.
 bool softens_otherwise(const Material& material) {
+  constexpr double strain_of_the_paper = 1.0;
   const bool falls = material.residual_cohesion < material.cohesion;
   const bool loses_friction = material.residual_friction_angle < material.friction_angle;
-  return loses_friction || (falls && material.softening_strain != Material{}.softening_strain);
+  return loses_friction || (falls && material.softening_strain != strain_of_the_paper);
 }
 
 void add_of_broken_matter(const Case& parameters, const std::string& name, const Material& material,
@@ -44,6 +47,9 @@ void add_of_broken_matter(const Case& parameters, const std::string& name, const
 
 std::vector<std::string> notices(const Case& parameters) {
   std::vector<std::string> notices;
+  if (const std::string moved = notice_of_moved_defaults(parameters); !moved.empty()) {
+    notices.push_back(moved);
+  }
   for (const auto& [name, material] : parameters.materials) {
     if (material.law == LawKind::mohr_coulomb && softens_otherwise(material)) {
       add_of_broken_matter(parameters, name, material, notices);

@@ -128,7 +128,7 @@ std::vector<Parameter<Material>> material_parameters() {
                 {.key = "softening_strain",
                  .range = above(0),
                  .text = "plastic strain eps_c over which what softens of cohesion and friction falls to 1/e; the "
-                         "paper's is 1",
+                         "paper's is 1, broken rock and ice take 0.005 to 0.05 (not checked)",
                  .source = "Sec. 4"}),
       parameter(&Material::tension_cutoff,
                 {.key = "tension_cutoff",

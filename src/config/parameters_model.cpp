@@ -90,7 +90,15 @@ std::vector<Parameter<Band>> band_parameters() {
     return [growth](const Case&, const Band& band) { return band.model == BandKind::columns && band.growth == growth; };
   };
   return {
-      parameter(&Band::model, {.key = "model", .text = "what carries heat and pore pressure along the ground"}),
+      parameter(&Band::model, {.key = "model", .text = "what carries heat and pore pressure along the ground"})
+          .otherwise(
+              "\"columns\" where there is a terrain, band.thickness is given, and mechanics and heat are enabled; "
+              "\"scaled\" elsewhere",
+              [](const Case& read, Band& band) {
+                const bool have_a_base = read.terrain.kind != TerrainKind::none && !band.thickness.value.empty() &&
+                                         read.mechanics.enabled && read.heat.enabled;
+                band.model = have_a_base ? BandKind::columns : BandKind::scaled;
+              }),
       parameter(
           &Band::thickness,
           {.key = "thickness",

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from thawslide.figures.animation import Film, animation
 from thawslide.figures.band import band
+from thawslide.figures.base import base_along, base_pressure, base_temperature
 from thawslide.figures.cross_sections import cross_sections
 from thawslide.figures.energy import energy
 from thawslide.figures.force import force
@@ -48,8 +49,26 @@ _FROM_ABOVE = (
 )
 
 
+_BASE_FROM_ABOVE = (
+    "From above at chosen times: means over the pieces of base on each cell of the maps. At 1 of pore pressure over "
+    "normal pressure the base floats."
+)
+
+
 def _in_section(run: Run) -> bool:
     return not on_map(run)
+
+
+def _with_heat_on_map(run: Run) -> bool:
+    return on_map(run) and not run.has_band_columns
+
+
+def _base_on_map(run: Run) -> bool:
+    return on_map(run) and run.has_band_columns
+
+
+def _base_in_section(run: Run) -> bool:
+    return _in_section(run) and run.has_band_columns
 
 
 def _with_heat_in_section(run: Run) -> bool:
@@ -73,7 +92,9 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "slide_speed": FigureKind("Speed from above", _FROM_ABOVE, slide_speed, on_map),
     "slide_thickness": FigureKind("Thickness from above", _FROM_ABOVE, slide_thickness, on_map),
-    "slide_temperature": FigureKind("Temperature from above", _FROM_ABOVE, slide_temperature, on_map),
+    "slide_temperature": FigureKind("Temperature from above", _FROM_ABOVE, slide_temperature, _with_heat_on_map),
+    "base_temperature": FigureKind("Temperature of the band", _BASE_FROM_ABOVE, base_temperature, _base_on_map),
+    "base_pressure": FigureKind("Pore pressure of the band", _BASE_FROM_ABOVE, base_pressure, _base_on_map),
     "cross_sections": FigureKind(
         "Sections",
         "Through terrain and slide along the path line, and across it; where thin, the slide is drawn thicker than it "
@@ -118,6 +139,14 @@ FIGURES: dict[str, FigureKind] = {
         "with, cohesion and friction, over the area in contact. Under its own N no column's water gets hotter than "
         "where it boils; the line is for the mean N. P and N of each column are compared with N averaged over "
         "band.load_time.",
+    ),
+    "base_along": FigureKind(
+        "Along the base",
+        "Left: what presses on each piece of base, averaged over band.load_time, and the mean pore pressure of its "
+        "band; friction acts on what is left, in green. Right: the hottest cell of each column, the mean of its band, "
+        "and where water boils under its N.",
+        base_along,
+        _base_in_section,
     ),
     "energy": FigureKind(
         "Energy ledger",

@@ -56,7 +56,7 @@ water_conductivity = 0.75
 rock_expansion = 0.001
 ice_expansion = 0.002
 water_expansion = 0.003
-water_expansion_law = "by_temperature"
+water_expansion_law = "constant"
 water_bulk_modulus = 2000000000.0
 latent_heat = 330000.0
 water_unit_weight = 9800.0
@@ -145,7 +145,7 @@ pressurization = false
 thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] }
 region = "first_layer"
 cut_cells = "equal_thickness"
-thickness_change = "conserving"
+thickness_change = "as_printed"
 growth = "slip"
 grain_size = 0.0625
 inertial_number = 0.25
@@ -162,6 +162,7 @@ latent = false
 steam = false
 conduction = false
 advection = false
+advection_form = "as_printed"
 [heat.boundary]
 x_min = { temperature = -6.0 }
 x_max = { flux = 12.5 }
@@ -171,19 +172,18 @@ y_max = { flux = -2.0 }
 thermal_pressurization = false
 clapeyron = "printed"
 volumetric_term = true
-frozen = "none"
-residual_stress = 20000.0
-melt_contraction = true
+frozen = "ice_pressure"
+melt_contraction = false
 skeleton_compressibility = 0.001
 seepage = false
 column_top = "sealed"
 water_to_steam_viscosity = 20.0
-frozen_rows = "sealed"
+frozen_rows = "vented"
 seepage_scaling = "printed"
 thickness_direction = "vertical"
 thickness_update = "frozen"
 [block]
-bends = true
+bends = false
 )";
 
 inline const std::string rest_in_3d = R"([case]
@@ -220,20 +220,15 @@ slope_shear = true
 [basal]
 friction = "coefficient"
 friction_coefficient = 0.125
-[heat]
-advection_form = "conservative"
 [band]
 model = "columns"
 thickness = 0.5
-thickness_change = "conserving"
 [heat.boundary]
 z_min = { temperature = -8.0 }
 z_max = { flux = 3.5 }
 [pressure]
 enabled = false
-frozen = "none"
-frozen_rows = "sealed"
-melt_contraction = true
+residual_stress = 20000.0
 )";
 
 // A release on a DEM, with all that maps give.

@@ -8,6 +8,7 @@
 #include "band/base_columns.hpp"
 #include "base/error.hpp"
 #include "base/thread_choice.hpp"
+#include "sim/base_table.hpp"
 #include "sim/block.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -19,7 +20,7 @@ using namespace testing_support;
 
 template <int Dim>
 void expect_balances() {
-  Simulation<Dim, double> simulation(case_from_text(column_slab(Dim)));
+  Simulation<Dim, double> simulation(paper_case(column_slab(Dim)));
   for (const double end : {1.0, 3.0}) {
     run_until(simulation, end);
     const HistoryRow row = history_row(simulation);
@@ -40,9 +41,9 @@ TEST(BandColumns, LoseNeitherHeatNorWater3D) { expect_balances<3>(); }
 // bears more.
 TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
   const config::Case parameters =
-      case_from_text(column_slab(), {"time.end=6.0", "time.history_interval=6.0", "body.slab.max=[400.0, 80.0]",
-                                     "grid.max=[800.0, 160.0]", "body.slab.temperature=-0.1",
-                                     "body.slab.velocity=[10.0, 0.0]", "basal.friction_angle=35.0"});
+      paper_case(column_slab(),
+                 {"time.end=6.0", "time.history_interval=6.0", "body.slab.max=[400.0, 80.0]", "grid.max=[800.0, 160.0]",
+                  "body.slab.temperature=-0.1", "body.slab.velocity=[10.0, 0.0]", "basal.friction_angle=35.0"});
   Simulation<2, double> simulation(parameters);
   run_until(simulation, 6.0);
   const HistoryRow block = run_block(parameters).back();
@@ -64,8 +65,8 @@ TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
 // its area grows as exp(a t).
 TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
   Simulation<2, double> simulation(
-      case_from_text(column_slab(), {"time.end=4.0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
-                                     "body.slab.velocity=[0,0]", "material.rock.youngs_modulus=1e6"}));
+      paper_case(column_slab(), {"time.end=4.0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
+                                 "body.slab.velocity=[0,0]", "material.rock.youngs_modulus=1e6"}));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.velocity(p, 0) = 0.2 * (particles.position(p, 0) - 160.0);
@@ -87,27 +88,52 @@ TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
   EXPECT_LT(std::abs(value_of(row, "column_water_residual_kg")), 1e-12 * value_of(row, "column_water_kg"));
 }
 
+// What snapshots hold of the base is what the history's means are of.
+TEST(BandColumns, StandInATable) {
+  Simulation<3, double> simulation(paper_case(column_slab(3), {"grid.min=[-100.0, 0.0, -20.0]"}));
+  run_until(simulation, 1.0);
+  const NamedNumbers table = base_table(simulation);
+  const std::vector<double>&areas = table.at("area_m2"), &places = table.at("position_m");
+  ASSERT_EQ(places.size(), 3 * areas.size());
+  double area = 0.0, pressure = 0.0, hottest = -100.0, lowest = 1e9;
+  for (std::size_t k = 0; k < areas.size(); ++k) {
+    area += areas[k];
+    pressure += areas[k] * table.at("normal_pressure_Pa")[k];
+    hottest = std::max(hottest, table.at("hottest_C")[k]);
+    lowest = std::min(lowest, places[3 * k]);
+    EXPECT_NEAR(places[3 * k + 2], 0.0, 1e-9) << "on the ground";
+    EXPECT_LE(table.at("pore_pressure_Pa")[k], table.at("normal_pressure_Pa")[k]);
+    EXPECT_GT(table.at("slip_m")[k], 0.0);
+  }
+  const HistoryRow row = history_row(simulation);
+  EXPECT_NEAR(area, value_of(row, "base_area_m2"), 1e-9 * area);
+  EXPECT_NEAR(pressure / area, value_of(row, "band_normal_pressure_Pa"), 1e-9 * pressure / area);
+  EXPECT_EQ(hottest, value_of(row, "band_hottest_C"));
+  EXPECT_GT(lowest, 0.0) << "in the user's coordinates";
+  EXPECT_TRUE(base_table(Simulation<2, double>(paper_case(column_slab(), {"band.model=scaled"}))).empty());
+}
+
 TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
   const int threads_before = thread_count();
   std::vector<std::vector<double>> states;
   for (const int threads : {1, 3}) {
     set_thread_count(threads);
-    Simulation<3, double> simulation(case_from_text(column_slab(3)));
+    Simulation<3, double> simulation(paper_case(column_slab(3)));
     run_until(simulation, 1.0);
     states.push_back(simulation.band_columns()->state());
   }
   set_thread_count(threads_before);
   EXPECT_EQ(states[0], states[1]);
-  Simulation<3, double> other(case_from_text(column_slab(3)));
+  Simulation<3, double> other(paper_case(column_slab(3)));
   other.restore_band_columns(states[0]);
   EXPECT_EQ(other.band_columns()->state(), states[0]);
 }
 
 TEST(BandColumns, RefuseABandThickerThanTheSlideAndWhatMakesHeatOrWater) {
-  EXPECT_THROW((Simulation<2, double>(case_from_text(column_slab(), {"band.thickness=45.0"}))), UserError);
+  EXPECT_THROW((Simulation<2, double>(paper_case(column_slab(), {"band.thickness=45.0"}))), UserError);
   for (const char* set : {"pressure.frozen=ice_pressure", "pressure.frozen_rows=draining",
                           "pressure.melt_contraction=false", "band.thickness_change=as_printed"}) {
-    EXPECT_THROW(case_from_text(column_slab(), {set}), UserError) << set;
+    EXPECT_THROW(paper_case(column_slab(), {set}), UserError) << set;
   }
 }
 
