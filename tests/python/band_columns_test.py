@@ -192,7 +192,8 @@ def test_runs_without_columns_look_as_before(make_run: MakeRun) -> None:
 
 
 def test_report_of_columns(columns_run: Path) -> None:
-    assert figures_of(Run(columns_run)) == ["motion", "velocity", "plastic_strain", "force", "band", "base_along", "energy", "water"]
+    expected = ["motion", "velocity", "plastic_strain", "force", "band", "base_along", "energy", "water"]
+    assert figures_of(Run(columns_run)) == expected
     report = make_report(Run(columns_run), names=["band", "energy", "water"], dpi=40)
     page = report.page.read_text(encoding="utf-8")
     assert "Nothing in the model boils" not in page and "heat.steam is false" not in page
