@@ -210,9 +210,10 @@ class Block {
   Forces evaluate_base() {
     const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
     const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
-    const BlockBase base = std::visit([](const auto& column) { return column.base(); }, column_);
     basal_.count = 1;
     basal_.normal_pressure[0] = forces.normal / slices_.base;
+    const BlockBase base =
+        std::visit([&](const auto& column) { return column.base(basal_.normal_pressure[0]); }, column_);
     basal_.pore_pressure[0] = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
     basal_.temperature[0] = base.temperature;
     basal_.saturation[0] = base.saturation;

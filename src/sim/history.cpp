@@ -28,6 +28,8 @@ void add_band(const Simulation<Dim, Real>& simulation, const Means& means, Histo
     add("band_shear_Pa", static_cast<double>(simulation.contact().shear_force / simulation.contact().area));
     add("band_thickness_m", static_cast<double>(base.thickness));
     add("band_hottest_C", static_cast<double>(base.hottest));
+    add("band_hottest_wet_C", static_cast<double>(base.hottest_wet));
+    add("band_dry_share", static_cast<double>(base.dry_share));
     add("band_largest_pressure_ratio", static_cast<double>(base.largest_pressure_ratio));
     return;
   }

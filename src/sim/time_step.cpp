@@ -77,6 +77,9 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
            [&] { return fmt::format("the particle speed of {:.4g} m/s", largest_speed); });
     }
   }
+  if (model.contact.band_columns) {
+    return;  // columns are implicit, and particles neither conduct nor seep
+  }
   // Heat and pore pressure see the finer grid of the band.
   const double scaled = thickness * (cell / static_cast<double>(model.largest_layer));
   const double length = thickness > 0.0 ? std::min(cell, scaled) : cell;
