@@ -90,7 +90,7 @@ bool seeps_at_base(const Case& whole, const Material& material) {
 }
 
 std::vector<Parameter<Material>> material_parameters() {
-  const std::string when_broken = "of broken rock and ice";
+  const char* const when_broken = "of broken rock and ice";
   const std::string when_plastic =
       "when the law is \"mohr_coulomb\" and mechanics.enabled and mechanisms.deformation are true";
   const std::string when_mechanical = "when mechanics.enabled is true";

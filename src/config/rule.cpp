@@ -39,7 +39,7 @@ bool Usual::is_told() const {
 
 std::string Usual::text(const std::string& unit) const {
   return is_told() ? fmt::format("{:g} to {:g}{}{}{}{} (not checked)", low, high, unit.empty() ? "" : " ", unit,
-                                 where.empty() ? "" : " ", where)
+                                 *where == '\0' ? "" : " ", where)
                    : "";
 }
 

@@ -32,7 +32,7 @@ Range inside(double low, double high);
 struct Usual {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  std::string where = {};  // "on a glacier"; empty: nothing more to say
+  const char* where = "";  // "on a glacier"
 
   [[nodiscard]] bool is_told() const;
   [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
