@@ -322,6 +322,8 @@ struct Case {
   Report report;
 };
 
+inline bool has_band_columns(const Case& parameters) { return parameters.band.model == BandKind::columns; }
+
 // Where a key was written, for messages; the case file where it was not.
 inline const std::string& place_of(const Case& parameters, const std::string& dotted) {
   const auto found = parameters.places.find(dotted);

@@ -8,8 +8,6 @@ namespace thawslide::config {
 
 namespace {
 
-bool has_a_base(const Case& parameters) { return parameters.band.model == BandKind::columns; }
-
 bool has_pore_water(const Case& parameters) { return parameters.pressure.enabled && parameters.heat.enabled; }
 
 bool seeps(const Case& parameters) {
@@ -44,8 +42,8 @@ bool is_given(const Case& parameters, const MovedDefault& moved) {
 
 const std::vector<MovedDefault>& moved_defaults() {
   static const std::vector<MovedDefault> all{
-      {"band", "model", "\"scaled\"", "\"columns\"", has_a_base},
-      {"band", "thickness_change", "\"as_printed\"", "\"conserving\"", has_a_base},
+      {"band", "model", "\"scaled\"", "\"columns\"", has_band_columns},
+      {"band", "thickness_change", "\"as_printed\"", "\"conserving\"", has_band_columns},
       {"heat", "advection_form", "\"as_printed\"", "\"conservative\"", seeps},
       {"pressure", "frozen", "\"ice_pressure\"", "\"none\"", has_pore_water},
       {"pressure", "frozen_rows", "\"draining\"", "\"sealed\"", seeps},

@@ -107,12 +107,32 @@ def test_stresses_stand_beside_each_other(columns_run: Path) -> None:
     figure = FIGURES["band"].draw(run)
     stresses = titled(figure, "(a)")
     assert stresses.get_ylabel() == "stress (MPa)"
-    for label, column in (
-        ("normal pressure N", "band_normal_pressure_Pa"),
-        ("pore pressure P", "band_pore_pressure_Pa"),
-        ("shear traction (effective strength)", "band_shear_Pa"),
+    load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
+    for label, values in (
+        ("normal pressure N", load),
+        ("pore pressure P", pore_pressure),
+        ("effective normal stress N − P", load - pore_pressure),
+        ("shear traction of the base", run.history["band_shear_Pa"]),
     ):
-        np.testing.assert_allclose(line(stresses, label)[1] * 1e6, run.history[column])
+        np.testing.assert_allclose(line(stresses, label)[1] * 1e6, values)
+    assert 'of the law "coefficient" N alone' in FIGURES["band"].caption_of(run)
+
+
+def test_no_legend_covers_the_stresses(columns_run: Path) -> None:
+    targets = next(columns_run.glob("**/*targets*.csv"))
+    for reported in ("", "band_pore_pressure,4,9e5,Pa,some laboratory\n"):
+        targets.write_text("quantity,time_s,value,unit,source\n" + reported)
+        figure = FIGURES["band"].draw(Run(columns_run))
+        figure.draw_without_rendering()
+        stresses = titled(figure, "(a)")
+        legend = stresses.get_legend()
+        assert legend is not None
+        assert len(legend.get_texts()) == 4 + bool(reported)
+        box, panel = legend.get_window_extent(), stresses.get_window_extent()
+        assert box.y1 <= panel.y1
+        assert panel.x0 <= box.x0 < box.x1 <= panel.x1
+        highest = max(float(np.nanmax(drawn.get_ydata())) for drawn in stresses.lines)
+        assert box.y0 > stresses.transData.transform((0.0, highest))[1]
 
 
 def test_pieces_of_base_along_the_section(columns_run: Path) -> None:

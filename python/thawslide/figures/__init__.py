@@ -136,8 +136,9 @@ FIGURES: dict[str, FigureKind] = {
         "Gaps: no particle there at that time.",
         band,
         of_columns="Means over the base by area, as its columns have it. The shear traction is what the base resists "
-        "with, cohesion and friction, over the area in contact. Under its own N no column's water gets hotter than "
-        "where it boils; the line is for the mean N. P and N of each column are compared with N averaged over "
+        "with, cohesion and friction, over the area in contact: friction follows the effective normal stress N − P, "
+        'and on substrates of the law "coefficient" N alone. Under its own N no column\'s water gets hotter than where '
+        "it boils; the line is for the mean N. P and N of each column are compared with N averaged over "
         "band.load_time.",
     ),
     "base_along": FigureKind(

@@ -146,14 +146,6 @@ thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] }
 region = "first_layer"
 cut_cells = "equal_thickness"
 thickness_change = "as_printed"
-growth = "slip"
-grain_size = 0.0625
-inertial_number = 0.25
-growth_per_slip = 0.125
-mixing_slip = 250.0
-load_time = 1.5
-column_step = 0.125
-ground_temperature = -3.0
 [heat]
 enabled = false
 update = "apparent_capacity"
@@ -223,9 +215,12 @@ friction_coefficient = 0.125
 [band]
 model = "columns"
 thickness = 0.5
-[heat.boundary]
-z_min = { temperature = -8.0 }
-z_max = { flux = 3.5 }
+growth = "slip"
+growth_per_slip = 0.125
+mixing_slip = 250.0
+load_time = 1.5
+column_step = 0.125
+ground_temperature = -3.0
 [pressure]
 enabled = false
 residual_stress = 20000.0
@@ -278,14 +273,19 @@ polygons = ["glacier"]
 name_attribute = "kind"
 friction = "coefficient"
 friction_coefficient = 0.125
+[heat.boundary]
+z_min = { temperature = -8.0 }
+z_max = { flux = 3.5 }
 )";
 
-// The same release between two surfaces, and the substrate from a raster.
+// The same release between two surfaces, on columns that grow, and the substrate from a raster.
 inline std::string release_of_a_surface() {
   using namespace case_messages;
   std::string text =
       changed({{"outline = \"inputs/release.shp\"\npolygons = [\"glacier\"]\nname_attribute = \"kind\"\n",
-                "raster = \"inputs/codes.tif\"\ncode = 3\n"}},
+                "raster = \"inputs/codes.tif\"\ncode = 3\n"},
+               {"[heat.boundary]\nz_min = { temperature = -8.0 }\nz_max = { flux = 3.5 }\n",
+                "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"}},
               release_on_dem);
   const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");
   return text.replace(begin, end - begin, "thickness = { surface = \"inputs/before.tif\" }\nsurface_tolerance = 0.5\n");
