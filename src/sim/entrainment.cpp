@@ -118,6 +118,16 @@ NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(const typename ter
   return one;
 }
 
+// What contact nodes have taken in this step.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::collect_bed() {
+  if (bed_in_reach() != nullptr) {
+    bed_->collect(grid_, nodes_, dt_);
+    ledger_.bed_work += contact_.bed_work;
+    ledger_.bed_impulse += contact_.bed_impulse;
+  }
+}
+
 // What is loose joins as soon as it makes a particle; as a smaller one where nothing is left of the bed, or where the
 // slide has gone on by a cell.
 template <int Dim, class Real>
@@ -152,6 +162,7 @@ void Simulation<Dim, Real>::take_up_bed() {
                                                                       const Model<Dim, Real>&);                     \
   template NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(                                           \
       const typename terrain::Bed<Dim, Real>::Column&, const terrain::LooseMatter<Dim, Real>&, std::int64_t) const; \
+  template void Simulation<Dim, Real>::collect_bed();                                                               \
   template void Simulation<Dim, Real>::take_up_bed();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -46,7 +46,7 @@ void Simulation<Dim, Real>::step(double dt) {
   last_step_ = dt;
   stop_if_bad();
   handle_left_particles();
-  if (bed_ && !model_.contact.base_holds) {
+  if (bed_in_reach() != nullptr) {
     stopwatch_.time("take_up_bed", [&] { take_up_bed(); });
   }
 }
@@ -89,12 +89,8 @@ void Simulation<Dim, Real>::resolve_contact() {
   }
   band_columns_to_nodes();
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
-                                      dt_, nodes_, bed_ && !model_.contact.base_holds ? &*bed_ : nullptr);
-  ledger_.bed_work += contact_.bed_work;
-  ledger_.bed_impulse += contact_.bed_impulse;
-  if (bed_ && !model_.contact.base_holds) {
-    bed_->collect(grid_, nodes_, dt_);
-  }
+                                      dt_, nodes_, bed_in_reach());
+  collect_bed();
   ledger_.friction_work += contact_.friction_work;
   ledger_.converted += model_.band.heat ? contact_.converted : contact_.friction_work;
   ledger_.contact_loss += contact_.loss;

@@ -103,6 +103,11 @@ class Simulation {
   void drain_pore_pressure();
   void take_new_positions();
   void handle_left_particles();
+  // Null where there is none, and while the base holds.
+  [[nodiscard]] const terrain::Bed<Dim, Real>* bed_in_reach() const {
+    return model_.contact.base_holds ? nullptr : bed();
+  }
+  void collect_bed();
   void take_up_bed();
 
   void seed();

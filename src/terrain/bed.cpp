@@ -48,31 +48,39 @@ typename Bed<Dim, Real>::Column Bed<Dim, Real>::column_at(std::size_t number) co
 }
 
 template <int Dim, class Real>
-void Bed<Dim, Real>::share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
+void Bed<Dim, Real>::share_out(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                               mpm::Nodes<Dim, Real>& nodes) const {
   nodes.bed.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.base.holds(b); });
-  // Nodes that press on the ground where some of the bed is left, with its number there.
   struct Pressing {
     std::size_t block, node, column;
   };
+  struct Pressed {
+    Real load = 0, covered = 0, area = 0;  // [kg m/s], [m2], [m2]
+  };
   std::vector<Pressing> pressing;
-  std::map<std::size_t, Real> load;  // by column [kg m/s]
+  std::map<std::size_t, Pressed> pressed;  // by column where some of the bed is left
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    if (!nodes.base.holds(b)) {
-      continue;
-    }
-    for (std::size_t k = 0; k < nodes.base.nodes; ++k) {
+    for (std::size_t k = 0; nodes.base.holds(b) && k < nodes.base.nodes; ++k) {
       nodes.bed.of_block(b)[k] = {};
-      const Real of_node = nodes.base(b, k)[BaseLayout::load];
       const Column column = column_of(grid, b, k);
-      if (of_node > Real(0) && holds(column) && left_[number_of(column)] > Real(0)) {
+      if (!ground.block(b)[k].candidate || !holds(column) || !(left_[number_of(column)] > Real(0))) {
+        continue;
+      }
+      const auto& base = nodes.base(b, k);
+      Pressed& all = pressed[number_of(column)];
+      all.load += base[BaseLayout::load];
+      all.covered += base[BaseLayout::covered];
+      all.area += ground.block(b)[k].area;
+      if (base[BaseLayout::load] > Real(0)) {
         pressing.push_back({b, k, number_of(column)});
-        load[number_of(column)] += of_node;
       }
     }
   }
   for (const Pressing& at : pressing) {
-    const Real share = nodes.base(at.block, at.node)[BaseLayout::load] / load[at.column];
-    nodes.bed.of_block(at.block)[at.node][Layout::available] = share * left_[at.column];
+    const Pressed& all = pressed[at.column];
+    const Real bare = all.area > all.covered ? initial_[at.column] * (Real(1) - all.covered / all.area) : Real(0);
+    const Real share = nodes.base(at.block, at.node)[BaseLayout::load] / all.load;
+    nodes.bed.of_block(at.block)[at.node][Layout::available] = share * std::max(left_[at.column] - bare, Real(0));
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "mpm/nodes.hpp"
 #include "physics/entrainment.hpp"
+#include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
 
@@ -53,8 +54,9 @@ class Bed {
       : matter_(matter), columns_(columns), initial_(std::move(mass)), left_(initial_) {}
 
   // Shares out what is left below each column among its nodes, by how they press on the ground (nodes.base): none takes
-  // what another one does. Fills nodes.bed.
-  void share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
+  // what another one does, and none what the slide does not cover. Fills nodes.bed.
+  void share_out(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                 mpm::Nodes<Dim, Real>& nodes) const;
 
   // Of a node of so much mass [kg] that slides at `speed` > 0 [m/s] after friction of the strength `shear` [Pa].
   [[nodiscard]] Bite<Real> bite(Real available, Real mass, Real speed, Real shear, Real normal_pressure, Real area,
