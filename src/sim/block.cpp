@@ -276,6 +276,10 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
                     "Give case.dimension = 2 and a terrain.type other than \"none\", or use `thawslide run`.",
                     parameters.file));
   }
+  if (parameters.bed.law != config::BedLaw::none) {
+    throw UserError(fmt::format("{}: the block model takes up no bed. Remove [bed], or use `thawslide run`.",
+                                config::place_of(parameters, "bed.law")));
+  }
   require_one_body(parameters);
   const Model<2, double> model = make_model<2, double>(parameters, site);
   mpm::Particles<2, double> particles;

@@ -30,7 +30,8 @@ template <int Dim, class Real, class Take>
 void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                 const mpm::Particles<Dim, Real>& particles, const Take& take) {
   const double cell = parameters.grid.cell;
-  double smallest_density = HUGE_VAL;
+  // What is taken up of the bed counts from the start.
+  double smallest_density = model.bed_density > Real(0) ? static_cast<double>(model.bed_density) : HUGE_VAL;
   double largest_speed = 0.0;
   double largest_diffusivity = 0.0;
   double largest_seepage = 0.0;
