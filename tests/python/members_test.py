@@ -120,7 +120,7 @@ def test_members_differ_in_their_seed_alone() -> None:
 
 def test_variants_are_told_against_the_case() -> None:
     sets = [row.sets[0] for row in variant_rows(CASE)]
-    assert len(sets) == 11
+    assert len(sets) == 16
     assert "substrate.glacier.friction_coefficient=0.10" not in sets  # as it is in this case
     assert {"pressure.frozen_rows=sealed", "band.load_time=2", "heat.steam=false", "band.growth=inertial"} < set(sets)
     other = CASE | {"pressure": {"frozen_rows": "sealed", "skeleton_compressibility": 1e-8}, "heat": {"steam": False}}
