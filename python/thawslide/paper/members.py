@@ -80,8 +80,8 @@ QUANTITIES = (
     Quantity("runout", "runout: front at the end less rear at the start", "runout", "km", "10.5", "9 to 11.5", 9.0,
              11.5, ".1f"),
     Quantity("stop", "stop: mean velocity below 0.1 m/s", "stop", "s", "before 200", "before 200", NONE, 200.0, ".0f"),
-    Quantity("force", f"force, band-passed {INVERSION.words}", f"force {INVERSION.words}", "TN", "0.28", "0.22 to 0.34", 0.22, 0.34,
-             ".2f"),
+    Quantity("force", f"force, band-passed {INVERSION.words}", f"force {INVERSION.words}", "TN", "0.28",
+             "0.22 to 0.34", 0.22, 0.34, ".2f"),
     Quantity("hottest", "hottest of any column", "hottest column", "°C", "", "below 210", NONE, 210.0, ".0f"),
     Quantity("ratio", "largest P over averaged N", "P over N", "", "", "at most 1", NONE, 1.0, ".3f", True),
 )  # fmt: skip
