@@ -89,5 +89,29 @@ def gather(grid: Grid, snapshot: Snapshot, width: float) -> Columns:
     )
 
 
+@dataclass(frozen=True)
+class BaseColumns:
+    """Means over the band columns of each cell of a grid, by area; nan where no piece of base lies."""
+
+    pressure_ratio: Map  # pore pressure over normal pressure
+    temperature: Map  # C, of the band
+
+
+def gather_base(grid: Grid, snapshot: Snapshot, width: float) -> BaseColumns:
+    """Return what the pieces of base in a snapshot have on the cells of a grid; each is `width` [m] wide."""
+    pieces = snapshot.base
+    if not pieces:
+        nothing = np.full((grid.rows, grid.columns), np.nan)
+        return BaseColumns(Map(grid, nothing, "1", ""), Map(grid, nothing, "C", ""))
+    x, y = pieces["position_m"][:, 0], pieces["position_m"][:, 1]
+    area = pieces["area_m2"]
+    amounts = [area * pieces[name] for name in ("normal_pressure_Pa", "pore_pressure_Pa", "temperature_C")]
+    areas, loads, pressures, warmth = spread(grid, x, y, width, [area, *amounts])
+    return BaseColumns(
+        Map(grid, _ratio(pressures, loads), "1", "pore pressure over normal pressure"),
+        Map(grid, _ratio(warmth, areas), "C", "temperature of the band"),
+    )
+
+
 def _ratio(above: Numbers, below: Numbers) -> Numbers:
     return np.divide(above, below, out=np.full_like(above, np.nan), where=below > 0.0)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from thawslide.clock import SETS_CLOCK, own_time, time_of_speed
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.force import band_of, force_in_band, reported_bands, reported_forces, seismic_force
 from thawslide.figures.style import area_text, prefixed, volume_text
@@ -57,18 +58,6 @@ def stop_time(run: Run, below: float | None = None) -> float | None:
     return float(run.history["time_s"][last + 1]) if last + 1 < len(speed) else None
 
 
-def time_of_speed(run: Run, speed: float) -> float:
-    """Return when [s] the mean velocity first reaches a speed [m/s], between the rows of the history; nan for never."""
-    time, found = run.history["time_s"], run.history["mean_velocity_m_s"]
-    reached = np.flatnonzero(found >= speed)
-    if not reached.size:
-        return float("nan")
-    at = int(reached[0])
-    if at == 0:
-        return float(time[0])
-    return float(np.interp(speed, found[at - 1 : at + 1], time[at - 1 : at + 1]))
-
-
 def key_numbers(run: Run) -> list[KeyNumber]:
     """Return the rows that this run has columns for."""
     history = run.history
@@ -95,6 +84,11 @@ def key_numbers(run: Run) -> list[KeyNumber]:
         rows.append(
             KeyNumber("Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mean of mass")
         )
+    if "entrained_volume_m3" in history:
+        per = "/m of width" if run.per_metre else ""
+        share = float(history["entrained_mass_kg"][-1] / history["mass_kg"][0])
+        volume = shown(float(history["entrained_volume_m3"][-1]), f"m³{per}")
+        rows.append(KeyNumber("Bed taken up", volume, f"{shown(share)} of the slide's mass at the start"))
     rows += _map_numbers(run)
     rows += _band_numbers(run)
     if "seismic_force_x_N" in history:
@@ -110,9 +104,12 @@ def key_numbers(run: Run) -> list[KeyNumber]:
 def found_for(run: Run, target: Target) -> str:
     """Return what a run has for a reported value, with its unit; "" where it has nothing to compare."""
     history = run.history
+    if target.quantity == SETS_CLOCK:
+        start = time_of_speed(run, target.value)
+        return f"at {shown(start, 's')}" if np.isfinite(start) else "never"
     column = COLUMN_OF_TARGET.get(target.quantity, "")
-    if column in history and target.time <= history["time_s"][-1]:
-        return shown(float(np.interp(target.time, history["time_s"], history[column])), target.unit.strip("-"))
+    if column in history and (time := own_time(run, target)) <= history["time_s"][-1]:
+        return shown(float(np.interp(time, history["time_s"], history[column])), target.unit.strip("-"))
     if target in reported_forces(run) and "seismic_force_x_N" in history and not run.per_metre:
         band = band_of(target)
         magnitude = seismic_force(run)[1] if band is None else force_in_band(run, band)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from thawslide.clock import clock_note
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures import FIGURES
 from thawslide.figures.animation import Film
@@ -87,7 +88,9 @@ def _page(run: Run, report: Report) -> str:
             for t in run.targets
         )
         head = ("quantity", "time", "reported", "this run", "source of the report")
-        parts.append(_details("Reported values to compare with", _table(rows, "facts", head)))
+        table = _table(rows, "facts", head)
+        note = f'<p class="clock">{html.escape(clock_note(run))}</p>'
+        parts.append(_details("Reported values to compare with", f"{table}\n{note}"))
     for name, path in report.figures.items():
         kind = FIGURES[name]
         heading, link = html.escape(kind.heading), f"figures/{path.name}"
@@ -201,7 +204,7 @@ body { font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: #
   max-width: 1080px; margin: 2.5rem auto; padding: 0 1.25rem; }
 h1 { font-size: 1.8rem; line-height: 1.2; margin: 0; }
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .7rem; padding-bottom: .3rem; border-bottom: 1px solid #d8dee4; }
-.where, figcaption, td:last-child:not(:nth-child(2)) { color: #59636e; }
+.where, .clock, figcaption, td:last-child:not(:nth-child(2)) { color: #59636e; }
 .where { margin: .3rem 0 0; }
 nav { margin: .8rem 0; font-size: .9rem; }
 a { color: #0a5fb4; text-decoration: none; }

@@ -47,7 +47,11 @@ class History(Mapping[str, Numbers]):
 
 
 class Snapshot(Mapping[str, NDArray[Any]]):
-    """Every particle at one time: points [m] of shape (n, 3) and the fields by name, rows sorted by id."""
+    """Every particle at one time: points [m] of shape (n, 3) and the fields by name, rows sorted by id.
+
+    `base` has what each piece of base with a band column holds, by name with its unit, of shape (pieces,), and
+    "position_m" of shape (pieces, 3); it is empty where the band is not of columns.
+    """
 
     def __init__(self, path: Path, fields: Collection[str] | None = None) -> None:
         """Read one snapshot file, all its fields or those named; ReportError when it is damaged or incomplete."""
@@ -66,6 +70,8 @@ class Snapshot(Mapping[str, NDArray[Any]]):
                     continue
                 self._fields[name] = np.asarray(data)
                 self._units[name] = _text(data.attrs.get("unit", ""))
+            base: dict[str, h5py.Dataset] = dict(file.get("base", {}))
+            self.base: dict[str, Numbers] = {name: np.asarray(base[name], dtype=np.float64) for name in base}
         for name, values in self._fields.items():
             if len(values) != len(self.points):
                 raise ReportError(f"{path}: field {name} has {len(values)} rows for {len(self.points)} particles")

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/boiling_note.hpp"
 #include "app/progress.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
@@ -15,17 +16,6 @@
 namespace thawslide::app {
 
 namespace {
-
-constexpr double boiling = 100.0;  // C
-
-template <int Dim>
-double warmest(const sim::Simulation<Dim, double>& simulation) {
-  double temperature = -HUGE_VAL;
-  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
-    temperature = std::max(temperature, simulation.particles().temperature(p));
-  }
-  return temperature;
-}
 
 // What the progress line tells of the front.
 class FrontWatch {
@@ -138,12 +128,12 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
       }
       if (snapshots.reached(simulation.time(), dt)) {
         output.write_snapshot(simulation);
-        if (!warned && warmest(simulation) > boiling) {
-          warned = true;
-          progress.note(
-              fmt::format("note: at {:g} s the base passes {:g} C. Nothing in the model boils: beyond this "
-                          "temperatures are a bookkeeping of heat, not a forecast.",
-                          simulation.time(), boiling));
+        if (!warned) {
+          const std::string note = note_on_boiling<Dim>(simulation);
+          warned = !note.empty();
+          if (warned) {
+            progress.note(note);
+          }
         }
       }
       if (checkpoints.reached(simulation.time(), dt)) {

@@ -7,6 +7,7 @@
 #include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
 #include "io/terrain_csv.hpp"
+#include "sim/base_table.hpp"
 #include "sim/history.hpp"
 
 namespace thawslide::app {
@@ -210,8 +211,10 @@ void RunOutput<Dim>::write_snapshot(const Simulation& simulation) {
       fronts_.push_back({simulation.time(), front->place});
     }
     stopwatch_.time("write_snapshot", [&] {
-      snapshots_.add(io::take_snapshot<Dim, double>(simulation.particles(), simulation.model().origin,
-                                                    simulation.time(), simulation.step_number()));
+      io::Snapshot snapshot = io::take_snapshot<Dim, double>(simulation.particles(), simulation.model().origin,
+                                                             simulation.time(), simulation.step_number());
+      snapshot.base = sim::base_table(simulation);
+      snapshots_.add(std::move(snapshot));
     });
   }
 }
@@ -226,6 +229,9 @@ void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
     }
     if (const auto* columns = simulation.band_columns()) {
       blocks["band_columns"] = columns->state();
+    }
+    if (const auto* bed = simulation.bed()) {
+      blocks["bed"] = bed->state();
     }
     io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(),
                                       simulation.particles_at_start(), simulation.scalars(), blocks);

@@ -86,6 +86,7 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters) {
 
 int run_block_model(const BlockOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
+  print_notices(parameters);
   const auto start = std::chrono::steady_clock::now();
   const std::vector<sim::HistoryRow> rows =
       parameters.terrain.kind == config::TerrainKind::dem ? block_along_path(parameters) : sim::run_block(parameters);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "config/strips.hpp"
 #include "physics/basal/laws.hpp"
 
 namespace thawslide::app {
@@ -65,9 +64,6 @@ void print_substrates(const config::Case& parameters, const config::Site& site) 
   }
   fmt::print("              elsewhere [basal], {:.3g} % of the domain; {}\n", 100.0 * std::max(0.0, left),
              strength_of(parameters.basal));
-  for (const std::string& note : config::notes_on_gaps(parameters)) {
-    fmt::print("note: {}\n", note);
-  }
 }
 
 }  // namespace thawslide::app

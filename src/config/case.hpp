@@ -47,6 +47,7 @@ enum class ClapeyronSign { usual, printed };
 enum class SeepageScaling { consistent, printed };
 enum class ThicknessDirection { normal, vertical };
 enum class ThicknessUpdate { each_step, frozen };
+enum class BedLaw { none, strength, momentum };
 enum class HeatBoundaryKind { insulated, temperature, flux };
 
 struct General {
@@ -94,7 +95,7 @@ struct Phases {
   double rock_heat_capacity = 858, ice_heat_capacity = 2040, water_heat_capacity = 4180;
   double rock_conductivity = 3.0, ice_conductivity = 2.22, water_conductivity = 0.58;
   double rock_expansion = 3e-5, ice_expansion = 5.1e-5, water_expansion = 2.75e-4;
-  WaterExpansionLaw water_expansion_law = WaterExpansionLaw::constant;
+  WaterExpansionLaw water_expansion_law = WaterExpansionLaw::by_temperature;
   double water_bulk_modulus = 1e9;
   double latent_heat = 333.5e3;
   double water_unit_weight = 9810;
@@ -113,7 +114,7 @@ struct Material {
   double youngs_modulus = 0, poisson_ratio = 0;
   double friction_angle = 0, residual_friction_angle = 0, dilation_angle = 0;
   double cohesion = 0, residual_cohesion = 0;  // softening: c_f + (c_0 - c_f) exp(-eps/eps_c); equal: none
-  double softening_strain = 1.0;               // eps_c, Sec. 4
+  double softening_strain = 0.05;              // eps_c
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
   bool gaps_close_first = false;                                    // torn matter bears nothing until its gap is closed
   double viscosity_time = 0;                                        // s, Kelvin-Voigt
@@ -213,16 +214,28 @@ struct Substrate : GroundStrength {
   [[nodiscard]] bool is_strip() const { return outline.empty() && raster.empty(); }
 };
 
+// What lies on the ground and the slide takes up.
+struct Bed {
+  BedLaw law = BedLaw::none;
+  InitialField depth;         // m, vertical: a number, a table over x, a raster
+  double strength = 0;        // Pa, c_b
+  double friction_angle = 0;  // phi_b
+  double depth_per_slip = 0;  // 1
+  std::string material;
+  double temperature = -10.0, porosity = 0.9;
+  int particles_per_axis = 2;  // per cell and axis, of what is taken up
+};
+
 struct Mechanisms {  // Sec. 3.3
   bool deformation = true, lubrication = true, pressurization = true;
 };
 
 struct Band {
-  BandKind model = BandKind::scaled;
-  Table thickness;  // m over time; empty: no band, xi = 1
+  BandKind model = BandKind::scaled;  // where no file says otherwise: parameters_model.cpp
+  Table thickness;                    // m over time; empty: no band, xi = 1
   BandRegion region = BandRegion::all;
   CutCells cut_cells = CutCells::as_they_are;
-  ThicknessChange thickness_change = ThicknessChange::as_printed;
+  ThicknessChange thickness_change = ThicknessChange::conserving;
   BandGrowth growth = BandGrowth::none;
   double grain_size = 0.05;                                      // m, BandGrowth::inertial
   double inertial_number = 0.3;                                  // BandGrowth::inertial
@@ -246,7 +259,7 @@ struct Heat {
   bool steam = true;
   bool conduction = true;
   bool advection = true;
-  AdvectionForm advection_form = AdvectionForm::as_printed;
+  AdvectionForm advection_form = AdvectionForm::conservative;
   std::array<HeatBoundary, 6> boundary{};
 };
 
@@ -255,12 +268,12 @@ struct Pressure {
   bool thermal_pressurization = true;  // off: once melted the liquid keeps r^-1 P_I
   ClapeyronSign clapeyron = ClapeyronSign::usual;
   bool volumetric_term = false;
-  FrozenPressure frozen = FrozenPressure::ice_pressure;
+  FrozenPressure frozen = FrozenPressure::none;
   double residual_stress = std::numeric_limits<double>::infinity();  // Pa, s0; infinity: no excess pressure on thawing
-  bool melt_contraction = false;                                     // melt leaves a void, filled before P rises
-  double skeleton_compressibility = 0;                               // 1/Pa, m_v; 0: rigid pore
+  bool melt_contraction = true;                                      // melt leaves a void, filled before P rises
+  double skeleton_compressibility = 2e-9;                            // 1/Pa, m_v; 0: rigid pore
   bool seepage = true;
-  FrozenRows frozen_rows = FrozenRows::draining;
+  FrozenRows frozen_rows = FrozenRows::sealed;
   EndOfWater column_top = EndOfWater::vented;
   double water_to_steam_viscosity = 0;  // ratio; 0: steam does not seep
   SeepageScaling seepage_scaling = SeepageScaling::consistent;
@@ -269,7 +282,7 @@ struct Pressure {
 };
 
 struct Block {
-  bool bends = false;  // their pressure counts
+  bool bends = true;  // their pressure counts
 };
 
 struct Checkpoint {
@@ -311,6 +324,7 @@ struct Case {
   Mechanics mechanics;
   Basal basal;
   std::map<std::string, Substrate> substrates;
+  Bed bed;
   Mechanisms mechanisms;
   Band band;
   Heat heat;
@@ -321,6 +335,8 @@ struct Case {
   std::map<std::string, Probe> probes;
   Report report;
 };
+
+inline bool has_band_columns(const Case& parameters) { return parameters.band.model == BandKind::columns; }
 
 // Where a key was written, for messages; the case file where it was not.
 inline const std::string& place_of(const Case& parameters, const std::string& dotted) {

@@ -321,9 +321,10 @@ hydraulic_conductivity = 1.0e-6  # m/s; the smaller, the longer meltwater stays 
 [basal]
 friction = "lubricated"  # "constant": plain Coulomb friction
 friction_angle = 25.0  # degrees, before anything has melted: what the result hangs on most
-heat_fraction = 0.35  # share of the friction work that heats the band
+heat_fraction = 0.9  # share of the friction work that heats the band
 
 [band]
+model = "columns"
 thickness = 0.2  # m; the thinner, the sooner it melts
 )";
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,8 @@ namespace {
 constexpr double fewest_cells = 2.0;  // of the domain along each axis
 constexpr double most_cells = 5e5;    // what the numbers of the sparse grid's tiles can hold
 const char* const axis_names[] = {"x", "y", "z"};
+const std::array side_names{"heat.boundary.x_min", "heat.boundary.x_max", "heat.boundary.y_min",
+                            "heat.boundary.y_max", "heat.boundary.z_min", "heat.boundary.z_max"};
 
 void check_grid(const Case& checked, Reading& reading) {
   const Grid& grid = checked.grid;
@@ -200,9 +203,10 @@ void check_switches(const Case& checked, Reading& reading) {
   }
 }
 
-// Band columns have none of the forms that make heat or water from nothing.
+// Beside band columns particles keep the temperature and pore pressure of t = 0, so what works on those does nothing.
+// Columns have none of the forms that make heat or water from nothing.
 void check_band_columns(const Case& checked, Reading& reading) {
-  if (!reading.sound({"band.model"}) || checked.band.model != BandKind::columns) {
+  if (!reading.sound({"band.model"}) || !has_band_columns(checked)) {
     return;
   }
   const auto require = [&](bool met, const char* key, const char* found, const char* allowed) {
@@ -216,13 +220,28 @@ void check_band_columns(const Case& checked, Reading& reading) {
   require(checked.terrain.kind != TerrainKind::none, "terrain.type", "\"none\"", "any terrain");
   require(!checked.band.thickness.value.empty(), "band.thickness", "not given",
           "a thickness in m, constant or over time");
+  require(checked.mechanics.enabled, "mechanics.enabled", "false", "true");
+  require(!checked.mechanics.effective_stress, "mechanics.effective_stress", "true", "false");
   require(checked.heat.enabled, "heat.enabled", "false", "true");
+  require(checked.heat.update == HeatUpdate::enthalpy, "heat.update", "\"apparent_capacity\"", "\"enthalpy\"");
+  require(checked.heat.masses == HeatMasses::initial, "heat.masses", "\"current\"", "\"initial\"");
+  require(checked.heat.advection, "heat.advection", "false", "true");
+  require(checked.heat.advection_form == AdvectionForm::conservative, "heat.advection_form", "\"as_printed\"",
+          "\"conservative\"");
+  require(checked.pressure.clapeyron == ClapeyronSign::usual, "pressure.clapeyron", "\"printed\"", "\"usual\"");
+  require(!checked.pressure.volumetric_term, "pressure.volumetric_term", "true", "false");
+  require(checked.pressure.seepage_scaling == SeepageScaling::consistent, "pressure.seepage_scaling", "\"printed\"",
+          "\"consistent\"");
   require(checked.pressure.frozen == FrozenPressure::none, "pressure.frozen", "\"ice_pressure\"", "\"none\"");
   require(checked.pressure.frozen_rows != FrozenRows::draining, "pressure.frozen_rows", "\"draining\"",
           "\"sealed\" or \"vented\"");
   require(checked.pressure.melt_contraction, "pressure.melt_contraction", "false", "true");
   require(checked.band.thickness_change == ThicknessChange::conserving, "band.thickness_change", "\"as_printed\"",
           "\"conserving\"");
+  for (std::size_t side = 0; side < side_names.size(); ++side) {
+    require(checked.heat.boundary[side].kind == HeatBoundaryKind::insulated, side_names[side], "not \"insulated\"",
+            "\"insulated\"");
+  }
 }
 
 // The same of heat and water in the band.
@@ -288,6 +307,20 @@ ProfileTable checked_profile(const Case& checked, Reading& reading) {
 
 }  // namespace
 
+void check_material(const Case& checked, const std::string& table, const std::string& name, Reading& reading) {
+  std::vector<std::string> known;
+  for (const auto& [material, unused] : checked.materials) {
+    known.push_back(material);
+  }
+  if (reading.sound({table + ".material"}) && checked.materials.count(name) == 0) {
+    const std::string hint = did_you_mean(name, known);
+    reading.report(table + ".material",
+                   fmt::format("{}.material is '{}', and there is no [material.{}]{} Allowed: {}.", table, name, name,
+                               hint.empty() ? "." : hint,
+                               known.empty() ? "none, as the case has no [material.NAME]" : list_words(known)));
+  }
+}
+
 void check_case(const Case& checked, Reading& reading) {
   if (reading.dimension == 0) {
     return;
@@ -296,6 +329,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_times(checked, reading);
   check_materials(checked, reading);
   check_grounds(checked, reading);
+  check_bed(checked, reading);
   check_switches(checked, reading);
   check_band_switches(checked, reading);
   check_band_columns(checked, reading);

@@ -31,6 +31,25 @@ struct Meaning {
   std::string decided_by;
 };
 
+// A number of the case outside the usual ones.
+struct Unusual {
+  std::string key;  // dotted
+  double value = 0.0;
+  const Rule* rule = nullptr;
+};
+
+// The numbers that a value holds; of most types none.
+template <class T>
+std::vector<double> numbers_in(const T& value) {
+  if constexpr (std::is_same_v<T, double>) {
+    return {value};
+  } else if constexpr (std::is_same_v<T, Table>) {
+    return value.value;
+  } else {
+    return {};
+  }
+}
+
 template <class Section>
 class Parameter {
  public:
@@ -49,6 +68,10 @@ class Parameter {
     parameter.write = [access](const Section& section, const Rule& its_rule, const WriteContext& context) {
       Section copy = section;
       return Value<T>::write(std::invoke(access, copy), its_rule, context);
+    };
+    parameter.numbers = [access](const Section& section) {
+      Section copy = section;
+      return numbers_in<T>(std::invoke(access, copy));
     };
     return parameter;
   }
@@ -79,6 +102,13 @@ class Parameter {
     return std::move(*this);
   }
 
+  // The numbers that are usual where the condition holds; nothing is said of others.
+  Parameter usually(Usual usual, std::function<bool(const Case&, const Section&)> condition) && {
+    rule.usual = std::move(usual);
+    has_usual = std::move(condition);
+    return std::move(*this);
+  }
+
   // The default as TOML, from the member's initialiser; empty where there is none.
   [[nodiscard]] std::string default_text() const {
     const bool has_default = required_words.empty() && otherwise_words.empty();
@@ -96,6 +126,8 @@ class Parameter {
   std::function<std::string(const Section&, const Rule&, const WriteContext&)> write;
   std::function<bool(const Case&, const Section&)> is_required;
   std::function<bool(const Case&, const Section&)> has_meaning;  // empty: always
+  std::function<bool(const Case&, const Section&)> has_usual;    // empty: never
+  std::function<std::vector<double>(const Section&)> numbers;
   std::function<void(const Case&, Section&)> fill;
 };
 
@@ -129,6 +161,7 @@ class TableDeclaration {
   // Reports missing keys and fills in what follows from other keys.
   virtual void complete(Case& result, Reading& reading) const = 0;
   virtual void write(const Case& source, const WriteContext& context, std::string& out) const = 0;
+  virtual void find_unusual(const Case& source, std::vector<Unusual>& found) const = 0;
   // The names in the case of a named table.
   [[nodiscard]] virtual std::vector<std::string> names(const Case& source) const = 0;
 };
@@ -139,11 +172,13 @@ using Tables = std::vector<std::unique_ptr<TableDeclaration>>;
 const Tables& tables();
 
 // The parts of tables(): parameters_run.cpp, parameters_material.cpp, parameters_bodies.cpp and
-// parameters_model.cpp, among whose tables that of parameters_basal.cpp stands.
+// parameters_model.cpp, among whose tables those of parameters_basal.cpp and
+// parameters_bed.cpp stand.
 void declare_run(Tables& tables);
 void declare_material(Tables& tables);
 void declare_bodies(Tables& tables);
 void declare_model(Tables& tables);
 void declare_basal(Tables& tables);
+void declare_bed(Tables& tables);
 
 }  // namespace thawslide::config

@@ -34,6 +34,11 @@ std::string range_text(const Entry& entry) {
   return is_number ? entry.rule->range.text() : "";
 }
 
+// "usually 0.01 to 2 (not checked)"; empty where nothing is told.
+std::string usual_text(const Entry& entry) {
+  return entry.rule->usual.is_told() ? "usually " + entry.rule->usual.text() : "";
+}
+
 std::string words_text(const Entry& entry, const std::string& separator) {
   std::string text;
   for (const Word& word : entry.words) {
@@ -51,6 +56,7 @@ std::string in_table_cell(std::string text) {
 
 Json described(const Entry& entry) {
   Json json{{"key", entry.rule->key}, {"type", entry.type}, {"unit", entry.rule->unit}, {"allowed", range_text(entry)}};
+  json["usual"] = entry.rule->usual.text();
   json["default"] = entry.default_text.empty() ? Json(nullptr) : Json(entry.default_text);
   json["required"] = entry.required;
   json["otherwise"] = entry.otherwise;
@@ -92,8 +98,8 @@ std::string describe_text() {
       const std::string unit = entry.rule->unit.empty() ? "" : " [" + entry.rule->unit + "]";
       out += fmt::format("  {:<26}{}{}\n", entry.rule->key, entry.rule->text, unit);
       std::string line = entry.type;
-      for (const std::string& part :
-           {range_text(entry), absence(entry).empty() ? "" : "default: " + absence(entry), entry.rule->source}) {
+      for (const std::string& part : {range_text(entry), usual_text(entry),
+                                      absence(entry).empty() ? "" : "default: " + absence(entry), entry.rule->source}) {
         line += part.empty() || line.find(part) != std::string::npos ? "" : "; " + part;
       }
       if (!entry.required.empty()) {
@@ -129,7 +135,9 @@ std::string describe_markdown() {
         "\n## `{}`\n\n{}.\n\n| key | unit | allowed | default | meaning | source |\n|---|---|---|---|---|---|\n",
         table->title(), table->text);
     for (const Entry& entry : table->entries()) {
-      const std::string allowed = entry.words.empty() ? entry.type : words_text(entry, "<br>");
+      const std::string usual = usual_text(entry);
+      const std::string allowed =
+          entry.words.empty() ? entry.type + (usual.empty() ? "" : "; " + usual) : words_text(entry, "<br>");
       out +=
           fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", entry.rule->key, entry.rule->unit, in_table_cell(allowed),
                       in_table_cell(absence(entry)), in_table_cell(entry.rule->text), entry.rule->source);

@@ -2,52 +2,29 @@
 
 #include <fmt/format.h>
 
+#include "config/declaration.hpp"
+#include "config/moved_defaults.hpp"
+#include "config/strips.hpp"
+
 namespace thawslide::config {
-
-namespace {
-
-// What docs/theory/stress.md has for broken rock and ice; its sources are not checked.
-constexpr double least_softening_strain = 0.005, most_softening_strain = 0.05;
-constexpr double least_broken_angle = 20.0, most_broken_angle = 35.0;  // degrees
-constexpr double most_broken_cohesion = 50e3;                          // Pa
-
-// The paper's softening, of cohesion alone over a plastic strain of 1, is left as it is.
-bool softens_otherwise(const Material& material) {
-  const bool falls = material.residual_cohesion < material.cohesion;
-  const bool loses_friction = material.residual_friction_angle < material.friction_angle;
-  return loses_friction || (falls && material.softening_strain != Material{}.softening_strain);
-}
-
-void add_of_broken_matter(const Case& parameters, const std::string& name, const Material& material,
-                          std::vector<std::string>& notices) {
-  const auto note = [&](const std::string& key, const std::string& found, const std::string& rest) {
-    const std::string dotted = "material." + name + "." + key;
-    notices.push_back(fmt::format("{}: {} is {}, {}", place_of(parameters, dotted), dotted, found, rest));
-  };
-  if (material.softening_strain < least_softening_strain || material.softening_strain > most_softening_strain) {
-    note("softening_strain", fmt::format("{:g}", material.softening_strain),
-         fmt::format("outside the {:g} to {:g} over which broken rock and ice usually lose their strength",
-                     least_softening_strain, most_softening_strain));
-  }
-  if (material.residual_friction_angle < least_broken_angle || material.residual_friction_angle > most_broken_angle) {
-    note("residual_friction_angle", fmt::format("{:g} degrees", material.residual_friction_angle),
-         fmt::format("outside the {:g} to {:g} degrees that are usual for broken rock and ice", least_broken_angle,
-                     most_broken_angle));
-  }
-  if (material.residual_cohesion > most_broken_cohesion) {
-    note("residual_cohesion", fmt::format("{:g} Pa", material.residual_cohesion),
-         fmt::format("above the {:g} Pa that broken rock and ice usually have at most", most_broken_cohesion));
-  }
-}
-
-}  // namespace
 
 std::vector<std::string> notices(const Case& parameters) {
   std::vector<std::string> notices;
-  for (const auto& [name, material] : parameters.materials) {
-    if (material.law == LawKind::mohr_coulomb && softens_otherwise(material)) {
-      add_of_broken_matter(parameters, name, material, notices);
-    }
+  if (const std::string moved = notice_of_moved_defaults(parameters); !moved.empty()) {
+    notices.push_back(moved);
+  }
+  std::vector<Unusual> unusual;
+  for (const auto& table : tables()) {
+    table->find_unusual(parameters, unusual);
+  }
+  for (const Unusual& found : unusual) {
+    const Rule& rule = *found.rule;
+    notices.push_back(fmt::format("{}: {} is {:g}{}{}, outside the usual {}", place_of(parameters, found.key),
+                                  found.key, found.value, rule.unit.empty() ? "" : " ", rule.unit,
+                                  rule.usual.text(rule.unit)));
+  }
+  for (const std::string& gap : notes_on_gaps(parameters)) {
+    notices.push_back(gap);
   }
   return notices;
 }

@@ -85,7 +85,14 @@ Parameter<Section> law_parameter(const LawNumber& of, std::string GroundStrength
         "when " + of.chosen(word_key), word_key,
         [of, word](const Case&, const Section& section) { return of.is_of(section.*word); });
   }
-  return parameter;
+  const bool is_cohesion = word == &GroundStrength::cohesion_law;
+  return std::move(parameter).usually(
+      {of.number->usual_low, of.number->usual_high, of.number->usual_where},
+      [of, word, is_cohesion](const Case& whole, const Section& section) {
+        const std::string law = of.number->usual_law;
+        const bool is_felt = !is_cohesion || section.numbers(physics::basal::initial_cohesion) > 0.0;
+        return has_band_columns(whole) && is_felt && of.is_of(section.*word) && (law.empty() || law == section.*word);
+      });
 }
 
 // The friction of one kind of ground; `prefix`: of its keys in messages, "basal." or nothing.
@@ -149,7 +156,8 @@ std::vector<Parameter<Basal>> strength_parameters() {
                 {.key = "heat_fraction",
                  .range = between(0, 1),
                  .text = "energy conversion coefficient: share of the friction work that heats the slide",
-                 .source = "Eq. 20, Secs. 3.3, 4"}),
+                 .source = "Eq. 20, Secs. 3.3, 4"})
+          .usually({0.8, 1}, [](const Case& whole, const Basal&) { return has_band_columns(whole); }),
       parameter(&Basal::distance_check,
                 {.key = "distance_check",
                  .text = "contact waits until the particles' own edges reach the ground; off: it acts as soon as nodes "

@@ -76,7 +76,21 @@ bool is_plastic(const Case& whole, const Material& material) {
   return whole.mechanics.enabled && material.law == LawKind::mohr_coulomb && whole.mechanisms.deformation;
 }
 
+// The paper's softening, of cohesion alone over a plastic strain of 1, is left as it is.
+bool breaks(const Case&, const Material& material) {
+  constexpr double strain_of_the_paper = 1.0;
+  const bool falls = material.residual_cohesion < material.cohesion;
+  const bool loses_friction = material.residual_friction_angle < material.friction_angle;
+  return material.law == LawKind::mohr_coulomb &&
+         (loses_friction || (falls && material.softening_strain != strain_of_the_paper));
+}
+
+bool seeps_at_base(const Case& whole, const Material& material) {
+  return has_band_columns(whole) && material.hydraulic_conductivity > 0.0;
+}
+
 std::vector<Parameter<Material>> material_parameters() {
+  const char* const when_broken = "of broken rock and ice";
   const std::string when_plastic =
       "when the law is \"mohr_coulomb\" and mechanics.enabled and mechanisms.deformation are true";
   const std::string when_mechanical = "when mechanics.enabled is true";
@@ -115,7 +129,8 @@ std::vector<Parameter<Material>> material_parameters() {
                  .text = "cohesion after large plastic strain eps, c_f: c = c_f + (c_0 - c_f) exp(-eps/eps_c)",
                  .source = "Sec. 4"})
           .otherwise("cohesion, that is no softening",
-                     [](const Case&, Material& material) { material.residual_cohesion = material.cohesion; }),
+                     [](const Case&, Material& material) { material.residual_cohesion = material.cohesion; })
+          .usually({0, 50e3, when_broken}, breaks),
       parameter(&Material::residual_friction_angle,
                 {.key = "residual_friction_angle",
                  .unit = "degrees",
@@ -123,13 +138,15 @@ std::vector<Parameter<Material>> material_parameters() {
                  .text = "friction angle after large plastic strain, phi_f; its sine falls with the cohesion"})
           .otherwise(
               "friction_angle, that is no softening of friction",
-              [](const Case&, Material& material) { material.residual_friction_angle = material.friction_angle; }),
+              [](const Case&, Material& material) { material.residual_friction_angle = material.friction_angle; })
+          .usually({20, 35, when_broken}, breaks),
       parameter(&Material::softening_strain,
                 {.key = "softening_strain",
                  .range = above(0),
                  .text = "plastic strain eps_c over which what softens of cohesion and friction falls to 1/e; the "
                          "paper's is 1",
-                 .source = "Sec. 4"}),
+                 .source = "Sec. 4"})
+          .usually({0.005, 0.05, when_broken}, breaks),
       parameter(&Material::tension_cutoff,
                 {.key = "tension_cutoff",
                  .unit = "Pa",
@@ -148,7 +165,8 @@ std::vector<Parameter<Material>> material_parameters() {
                                                     .unit = "m/s",
                                                     .range = at_least(0),
                                                     .text = "hydraulic conductivity k_L; 0: pore water does not seep",
-                                                    .source = "Eq. 22"}),
+                                                    .source = "Eq. 22"})
+          .usually({1e-8, 1e-5, "of a base"}, seeps_at_base),
   };
 }
 

@@ -89,55 +89,83 @@ std::vector<Parameter<Band>> band_parameters() {
   const auto grows = [](BandGrowth growth) {
     return [growth](const Case&, const Band& band) { return band.model == BandKind::columns && band.growth == growth; };
   };
+  const auto is_scaled = [](const Case&, const Band& band) { return band.model == BandKind::scaled; };
+  const auto has_columns = [](const Case&, const Band& band) { return band.model == BandKind::columns; };
+  const std::string when_scaled = "when band.model is \"scaled\"", when_columns = "when band.model is \"columns\"";
+  const std::string when_inertial = when_columns + " and band.growth is \"inertial\"";
+  const std::string when_slip = when_columns + " and band.growth is \"slip\"";
   return {
-      parameter(&Band::model, {.key = "model", .text = "what carries heat and pore pressure along the ground"}),
+      parameter(&Band::model, {.key = "model", .text = "what carries heat and pore pressure along the ground"})
+          .otherwise(
+              "\"columns\" where there is a terrain, band.thickness is given, and mechanics and heat are enabled; "
+              "\"scaled\" elsewhere",
+              [](const Case& read, Band& band) {
+                const bool have_a_base = read.terrain.kind != TerrainKind::none && !band.thickness.value.empty() &&
+                                         read.mechanics.enabled && read.heat.enabled;
+                band.model = have_a_base ? BandKind::columns : BandKind::scaled;
+              }),
       parameter(
           &Band::thickness,
           {.key = "thickness",
            .unit = "m",
            .range = above(0),
-           .text =
-               "thickness e of the shear band, constant or over time; scales heat and seepage by xi = grid.cell / e",
+           .text = "thickness e of the shear band, constant or over time: with band.model \"columns\" that of their "
+                   "band, with \"scaled\" it scales heat and seepage by xi = grid.cell / e",
            .source = "Sec. 2.3, Eq. 19"})
-          .otherwise("no band: xi = 1"),
-      parameter(&Band::region,
-                {.key = "region", .text = "particles that the scaling xi acts on", .source = "Sec. 2.3"}),
-      parameter(&Band::cut_cells, {.key = "cut_cells", .text = "the band where the ground cuts through cells"}),
+          .otherwise("no band: xi = 1")
+          .usually({0.01, 2}, has_columns),
+      parameter(&Band::region, {.key = "region",
+                                .text = "particles that the scaling xi of band.model \"scaled\" acts on",
+                                .source = "Sec. 2.3"})
+          .only_if(when_scaled, "model", is_scaled),
+      parameter(&Band::cut_cells,
+                {.key = "cut_cells", .text = "band.model \"scaled\" where the ground cuts through cells"})
+          .only_if(when_scaled, "model", is_scaled),
       parameter(&Band::thickness_change,
                 {.key = "thickness_change",
                  .text = "what becomes of heat where e changes over time, or with band.cut_cells along the ground, and "
                          "where particles leave the first layer"}),
-      parameter(&Band::growth, {.key = "growth", .text = "how the band of columns grows thicker"}),
+      parameter(&Band::growth, {.key = "growth", .text = "how the band of columns grows thicker"})
+          .only_if(when_columns, "model", has_columns),
       parameter(&Band::grain_size, {.key = "grain_size",
                                     .unit = "m",
                                     .range = above(0),
                                     .text = "size d of grains, of growth \"inertial\"",
-                                    .source = "Jop et al. 2006 (not checked)"}),
+                                    .source = "Jop et al. 2006 (not checked)"})
+          .only_if(when_inertial, "growth", grows(BandGrowth::inertial)),
       parameter(&Band::inertial_number, {.key = "inertial_number",
                                          .range = above(0),
                                          .text = "inertial number I up to which the band stays, of growth \"inertial\"",
-                                         .source = "Jop et al. 2006 (not checked)"}),
+                                         .source = "Jop et al. 2006 (not checked)"})
+          .only_if(when_inertial, "growth", grows(BandGrowth::inertial)),
       parameter(&Band::growth_per_slip,
                 {.key = "growth_per_slip", .range = above(0), .text = "thickness gained over slip, of growth \"slip\""})
-          .required_if("when band.growth is \"slip\"", grows(BandGrowth::slip)),
+          .required_if(when_slip, grows(BandGrowth::slip))
+          .only_if(when_slip, "growth", grows(BandGrowth::slip)),
       parameter(&Band::mixing_slip,
                 {.key = "mixing_slip",
                  .unit = "m",
                  .range = {.low = 0, .low_open = true, .infinity_allowed = true},
                  .text = "slip over which shear mixes the heat and water of a band column to 1/e of "
-                         "their differences; inf: it does not mix"}),
+                         "their differences; inf: it does not mix"})
+          .only_if(when_columns, "model", has_columns),
       parameter(&Band::load_time, {.key = "load_time",
                                    .unit = "s",
                                    .range = above(0),
                                    .text = "time over which columns average the normal pressure N, which switches on "
-                                           "and off at nodes"}),
+                                           "and off at nodes"})
+          .only_if(when_columns, "model", has_columns)
+          .usually({0.1, 10}, has_columns),
       parameter(&Band::column_step,
-                {.key = "column_step", .unit = "s", .range = above(0), .text = "largest time step of columns"}),
+                {.key = "column_step", .unit = "s", .range = above(0), .text = "largest time step of columns"})
+          .only_if(when_columns, "model", has_columns)
+          .usually({0.001, 0.5}, has_columns),
       parameter(&Band::ground_temperature, {.key = "ground_temperature",
                                             .unit = "C",
                                             .range = {.low = -100, .high = 100},
                                             .text = "temperature of the ground below columns at the start"})
-          .otherwise("that of the body's base"),
+          .otherwise("that of the body's base")
+          .only_if(when_columns, "model", has_columns),
   };
 }
 
@@ -207,7 +235,8 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
                  .unit = "1/Pa",
                  .range = at_least(0),
                  .text = "volume by which the skeleton gives way per volume and effective stress, m_v: pores store "
-                         "n/K_L + m_v per pressure, and P follows the load above; 0: rigid pore"}),
+                         "n/K_L + m_v per pressure, and P follows the load above; 0: rigid pore"})
+          .usually({1e-9, 1e-7}, [](const Case& whole, const Pressure&) { return has_band_columns(whole); }),
       parameter(
           &Pressure::seepage,
           {.key = "seepage", .text = "Darcy flow of melted pore water (Eq. 22); false: undrained", .source = "Eq. 22"}),
@@ -247,6 +276,7 @@ void declare_model(Tables& tables) {
   tables.push_back(std::make_unique<SingleTable<Mechanics>>("mechanics", "Momentum and stress", &Case::mechanics,
                                                             mechanics_parameters()));
   declare_basal(tables);
+  declare_bed(tables);
   tables.push_back(std::make_unique<SingleTable<Mechanisms>>("mechanisms", "The mechanisms of Sec. 3.3, on or off",
                                                              &Case::mechanisms, mechanism_parameters()));
   tables.push_back(

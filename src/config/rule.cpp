@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace thawslide::config {
 
@@ -29,6 +30,17 @@ std::string Range::text() const {
     text = fmt::format("{} {}", high_open ? "<" : "<=", plain_number(high));
   }
   return infinity_allowed ? text + ", or inf" : text;
+}
+
+bool Usual::is_told() const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return low > -infinity || high < infinity;
+}
+
+std::string Usual::text(const std::string& unit) const {
+  return is_told() ? fmt::format("{:g} to {:g}{}{}{}{} (not checked)", low, high, unit.empty() ? "" : " ", unit,
+                                 *where == '\0' ? "" : " ", where)
+                   : "";
 }
 
 Range above(double low) {

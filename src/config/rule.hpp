@@ -27,6 +27,19 @@ Range between(double low, double high);
 // Both ends excluded.
 Range inside(double low, double high);
 
+// The numbers that are usual. Nothing holds a case to them; it is told where it has others. Their sources are not
+// checked.
+struct Usual {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  const char* where = "";  // "on a glacier"
+
+  [[nodiscard]] bool is_told() const;
+  [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
+  // "0.01 to 2 (not checked)", "0.05 to 0.15 on a glacier (not checked)"; empty where none is told
+  [[nodiscard]] std::string text(const std::string& unit = "") const;
+};
+
 // One of the words a key may hold.
 struct Word {
   std::string word;
@@ -43,7 +56,8 @@ struct Rule {
   int dimension = 0;             // 2 or 3: has a meaning only there
   bool is_path = false;          // a file, told relative to the case file
   bool horizontal = false;       // of a point: x and y only, in three dimensions too
-  std::string formerly = {};     // what the key was called before; a file that still says so is told the new name
+  Usual usual = {};
+  std::string formerly = {};  // what the key was called before; a file that still says so is told the new name
 };
 
 // Shortest decimal text that reads back to the same number, as TOML wants it: always with a point or an exponent.

@@ -109,6 +109,22 @@ class SectionParameters {
     }
   }
 
+  // Of a value over time the first number that is unusual.
+  void find_unusual(const std::string& dotted, const Case& whole, const Section& section,
+                    std::vector<Unusual>& found) const {
+    for (const auto& p : parameters_) {
+      if (!p.has_usual || !p.has_usual(whole, section) || (p.has_meaning && !p.has_meaning(whole, section))) {
+        continue;
+      }
+      const std::vector<double> numbers = p.numbers(section);
+      const auto outside =
+          std::find_if(numbers.begin(), numbers.end(), [&](double n) { return !p.rule.usual.holds(n); });
+      if (outside != numbers.end()) {
+        found.push_back({join(dotted, p.rule.key), *outside, &p.rule});
+      }
+    }
+  }
+
  private:
   std::vector<Parameter<Section>> parameters_;
 };
@@ -152,6 +168,9 @@ class SingleTable : public TableDeclaration {
     section_.write(source, source.*member_, context, lines);
     out += lines.empty() ? "" : "\n[" + name + "]\n" + lines;
   }
+  void find_unusual(const Case& source, std::vector<Unusual>& found) const override {
+    section_.find_unusual(name, source, source.*member_, found);
+  }
   [[nodiscard]] std::vector<std::string> names(const Case&) const override { return {}; }
 
  private:
@@ -192,6 +211,11 @@ class NamedTable : public TableDeclaration {
     for (const auto& [own_name, section] : source.*member_) {
       out += "\n[" + join(name, own_name) + "]\n";
       section_.write(source, section, context, out);
+    }
+  }
+  void find_unusual(const Case& source, std::vector<Unusual>& found) const override {
+    for (const auto& [own_name, section] : source.*member_) {
+      section_.find_unusual(join(name, own_name), source, section, found);
     }
   }
   [[nodiscard]] std::vector<std::string> names(const Case& source) const override {

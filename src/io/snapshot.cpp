@@ -28,6 +28,19 @@ SnapshotField take_field(const mpm::FieldBase& field, const std::vector<std::siz
   return taken;
 }
 
+// The group "base": a dataset a column, its unit told by the end of its name.
+void write_base(hid_t file, const NamedNumbers& base) {
+  if (base.empty()) {
+    return;
+  }
+  const hdf5::Handle group = hdf5::make_group(file, "base");
+  const std::size_t pieces = base.at("position_m").size() / 3;
+  for (const auto& [name, numbers] : base) {
+    const hdf5::Shape shape = numbers.size() == pieces ? hdf5::Shape{pieces} : hdf5::Shape{pieces, 3};
+    hdf5::write_dataset(group, name, shape, numbers.data());
+  }
+}
+
 }  // namespace
 
 template <int Dim, class Real>
@@ -43,7 +56,7 @@ template <int Dim, class Real>
 Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<double, Dim>& origin, double time,
                        std::int64_t step) {
   const std::vector<std::size_t> order = order_by_id(particles);
-  Snapshot snapshot{time, step, {}, {}};
+  Snapshot snapshot{time, step, {}, {}, {}};
   snapshot.points.reserve(3 * order.size());
   for (const std::size_t p : order) {
     for (int a = 0; a < 3; ++a) {
@@ -90,6 +103,7 @@ std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
     const hdf5::Handle dataset(H5Dopen2(data, field.name.c_str(), H5P_DEFAULT), H5Dclose, field.name.c_str());
     hdf5::write_attribute(dataset, "unit", field.unit);
   }
+  write_base(file.root(), snapshot.base);
   return file.bytes();
 }
 

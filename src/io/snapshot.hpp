@@ -1,5 +1,5 @@
 // One state of the particles as a VTKHDF file: PolyData with one vertex a particle, readable by ParaView, PyVista,
-// h5py.
+// h5py. What else there is of the base stands beside it, in a group of its own.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/named_numbers.hpp"
 #include "mpm/particles.hpp"
 
 namespace thawslide::io {
@@ -24,6 +25,7 @@ struct Snapshot {
   std::int64_t step;
   std::vector<double> points;  // x y z of each particle [m]
   std::vector<SnapshotField> fields;
+  NamedNumbers base;  // pieces of base: a row each of position_m (x y z) and of what else there is; empty: none
 
   [[nodiscard]] std::size_t particles() const { return points.size() / 3; }
 };

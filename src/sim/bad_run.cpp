@@ -104,8 +104,9 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
   }
   return fmt::format(
       "Likely cause: the pores of {} particles have closed, and the pressure of their water has no bound (hottest "
-      "particle: {:.4g} C). Rock that expands with heat (Eq. 6) fills its pores at some thousand degrees; nothing "
-      "boils or melts in this model. A thicker band, less basal.heat_fraction or less cohesion keep it cooler.",
+      "particle: {:.4g} C). Rock that expands with heat (Eq. 6) fills its pores at some thousand degrees; rock "
+      "melts nowhere in the model, and water boils in band columns alone. A thicker band, less basal.heat_fraction or "
+      "less cohesion keep it cooler.",
       closed, hottest);
 }
 

@@ -33,8 +33,19 @@ def test_check_lists_substrates_and_gaps(thawslide: Program, small_case: Path) -
         "  substrate   moraine: up to x = 5 m, 5 m or 25 % of the domain; "
         'friction "constant", cohesion 1000 Pa, "bonds"\n'
         '              elsewhere [basal], 35 % of the domain; friction "lubricated", no cohesion\n'
-        "note: between the substrates moraine and glacier, from x = 5 to 12 m, none lies: [basal] holds there\n"
     ) in outcome.stdout
+
+
+def test_gaps_are_told_by_every_command_that_uses_the_base(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    case = small_case / "case.toml"
+    case.write_text(case.read_text() + GLACIER + MORAINE)
+    for words in (["check", case], ["run", case, "--output", tmp_path / "run"], ["block", case]):
+        outcome = thawslide(*words)
+        assert outcome.returncode == 0, outcome.stderr
+        note = "note: between the substrates moraine and glacier, from x = 5 to 12 m, none lies: [basal] holds there\n"
+        assert outcome.stdout.count(note) == 1, words
 
 
 def test_check_says_nothing_of_substrates_without_any(thawslide: Program, small_case: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from conftest import MakeRun, history_columns, write_history
@@ -48,12 +49,29 @@ def column_history(rows: int = 101) -> dict[str, np.ndarray]:
     return columns
 
 
+def add_base(folder: Path) -> None:
+    """Give each snapshot but the first 20 pieces of base, out of order."""
+    x = 20.0 + np.random.default_rng(1).permutation(20)
+    for number, path in enumerate(Run(folder).snapshot_files[1:]):
+        with h5py.File(path, "a") as file:
+            for name, values in {
+                "position_m": np.stack([x, 100.0 - 0.5 * x, 0.0 * x], axis=1),
+                "area_m2": np.full(20, 1.0),
+                "normal_pressure_Pa": 1.0e6 + 1e4 * x,
+                "pore_pressure_Pa": 1.0e4 * x * number / 10,
+                "temperature_C": 2.0 * x,
+                "hottest_C": 3.0 * x,
+            }.items():
+                file[f"base/{name}"] = values
+
+
 @pytest.fixture
 def columns_run(make_run: MakeRun) -> Path:
     folder = make_run()
     write_history(folder / "history.csv", column_history())
     with (folder / "case.toml").open("a") as case:
         case.write(STEAM.format("true"))
+    add_base(folder)
     return folder
 
 
@@ -89,12 +107,51 @@ def test_stresses_stand_beside_each_other(columns_run: Path) -> None:
     figure = FIGURES["band"].draw(run)
     stresses = titled(figure, "(a)")
     assert stresses.get_ylabel() == "stress (MPa)"
-    for label, column in (
-        ("normal pressure N", "band_normal_pressure_Pa"),
-        ("pore pressure P", "band_pore_pressure_Pa"),
-        ("shear traction (effective strength)", "band_shear_Pa"),
+    load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
+    for label, values in (
+        ("normal pressure N", load),
+        ("pore pressure P", pore_pressure),
+        ("effective normal stress N − P", load - pore_pressure),
+        ("shear traction of the base", run.history["band_shear_Pa"]),
     ):
-        np.testing.assert_allclose(line(stresses, label)[1] * 1e6, run.history[column])
+        np.testing.assert_allclose(line(stresses, label)[1] * 1e6, values)
+    assert 'of the law "coefficient" N alone' in FIGURES["band"].caption_of(run)
+
+
+def test_no_legend_covers_the_stresses(columns_run: Path) -> None:
+    targets = next(columns_run.glob("**/*targets*.csv"))
+    for reported in ("", "band_pore_pressure,4,9e5,Pa,some laboratory\n"):
+        targets.write_text("quantity,time_s,value,unit,source\n" + reported)
+        figure = FIGURES["band"].draw(Run(columns_run))
+        figure.draw_without_rendering()
+        stresses = titled(figure, "(a)")
+        legend = stresses.get_legend()
+        assert legend is not None
+        assert len(legend.get_texts()) == 4 + bool(reported)
+        box, panel = legend.get_window_extent(), stresses.get_window_extent()
+        assert box.y1 <= panel.y1
+        assert panel.x0 <= box.x0 < box.x1 <= panel.x1
+        highest = max(float(np.nanmax(drawn.get_ydata())) for drawn in stresses.lines)
+        assert box.y0 > stresses.transData.transform((0.0, highest))[1]
+
+
+def test_pieces_of_base_along_the_section(columns_run: Path) -> None:
+    run = Run(columns_run)
+    figure = FIGURES["base_along"].draw(run)
+    stress, heat = figure.axes[-2], figure.axes[-1]
+    x, load = line(stress, "normal pressure N")
+    np.testing.assert_array_equal(x, np.arange(20.0, 40.0))
+    np.testing.assert_allclose(load, 1.0 + 0.01 * x)
+    np.testing.assert_allclose(line(heat, "mean of the band")[1], 2.0 * x)
+    np.testing.assert_allclose(line(heat, "boils at N")[1], boiling_temperature(1.0e6 + 1e4 * x))
+    assert "no contact yet" in texts(figure.axes[0])
+
+
+def test_snapshots_without_base_are_told(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    assert not FIGURES["base_along"].suits(run)
+    with pytest.raises(NotInRunError, match="no snapshot has pieces of base"):
+        FIGURES["base_along"].draw(run)
 
 
 def test_temperatures_stand_beside_boiling(columns_run: Path) -> None:
@@ -155,7 +212,8 @@ def test_runs_without_columns_look_as_before(make_run: MakeRun) -> None:
 
 
 def test_report_of_columns(columns_run: Path) -> None:
-    assert figures_of(Run(columns_run)) == ["motion", "velocity", "plastic_strain", "force", "band", "energy", "water"]
+    expected = ["motion", "velocity", "plastic_strain", "force", "band", "base_along", "energy", "water"]
+    assert figures_of(Run(columns_run)) == expected
     report = make_report(Run(columns_run), names=["band", "energy", "water"], dpi=40)
     page = report.page.read_text(encoding="utf-8")
     assert "Nothing in the model boils" not in page and "heat.steam is false" not in page

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, Run
 from thawslide.band_pass import band_passed
+from thawslide.clock import time_of_speed
 from thawslide.figures import FIGURES
 from thawslide.figures.bars import bars
 from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, normalisation
@@ -22,7 +23,6 @@ from thawslide.figures.energy import relative_residual
 from thawslide.figures.snapshots import Stretch, chosen_snapshots, velocity
 from thawslide.figures.style import prefixed
 from thawslide.figures.window import fit
-from thawslide.key_numbers import time_of_speed
 
 SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure")
 

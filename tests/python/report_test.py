@@ -11,9 +11,10 @@ import pytest
 from conftest import MakeRun, history_columns, write_history
 
 from thawslide import Run
+from thawslide.clock import clock_note, own_time
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
-from thawslide.key_numbers import key_numbers, shown, stop_time
+from thawslide.key_numbers import found_for, key_numbers, shown, stop_time
 from thawslide.report import make_report
 
 IN_SECTION = ["motion", "velocity", "plastic_strain", "temperature", "pore_pressure", "force", "band", "energy"]
@@ -190,3 +191,26 @@ def test_command_refuses_odd_resolutions(make_run: MakeRun, dpi: str, capsys: py
         main([str(make_run()), "--dpi", dpi])
     assert stop.value.code == 2
     assert f"expected a whole number from 30 to 1200, found '{dpi}'" in capsys.readouterr().err
+
+
+def test_reported_values_are_compared_on_the_clock_they_name(make_run: MakeRun) -> None:
+    folder = make_run()
+    run = Run(folder)
+    assert "Compared at the run&#x27;s own times." in make_report(run, names=["motion"], dpi=50).page.read_text()
+    targets = next(folder.glob("**/*targets*.csv"))
+    # 12 sin2(pi t/10) m/s comes to 6 m/s at 2.5 s of its own.
+    targets.write_text("quantity,time_s,value,unit,source\nstart_velocity,4,6,m/s,x\nmean_displacement,7,50,m,x\n")
+    run = Run(folder)
+    start, displacement = run.targets
+    assert own_time(run, displacement) == pytest.approx(5.5, abs=1e-3)
+    assert found_for(run, displacement) == "44 m"  # 8 m/s for 5.5 s
+    assert found_for(run, start) == "at 2.5 s"
+    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    assert "comes to 6 m/s at 4 s, as this run does at 2.5 s of its own: compared 1.5 s earlier there" in page
+    panel = FIGURES["motion"].draw(run).axes[1]
+    marks = next(drawn for drawn in panel.lines if str(drawn.get_label()).startswith("reported mean"))
+    assert marks.get_xdata()[0] == pytest.approx(5.5, abs=1e-3)
+    targets.write_text("quantity,time_s,value,unit,source\nstart_velocity,4,60,m/s,x\nmean_displacement,7,50,m,x\n")
+    run = Run(folder)
+    assert [found_for(run, target) for target in run.targets] == ["never", ""]
+    assert "This run never does" in clock_note(run)

@@ -9,8 +9,10 @@ from matplotlib.figure import Figure
 
 from thawslide.figures.animation import Film, animation
 from thawslide.figures.band import band
+from thawslide.figures.base import base_along, base_pressure, base_temperature
 from thawslide.figures.cross_sections import cross_sections
 from thawslide.figures.energy import energy
+from thawslide.figures.entrainment import entrainment
 from thawslide.figures.force import force
 from thawslide.figures.largest import extent_maps, impact_maps
 from thawslide.figures.motion import motion
@@ -48,8 +50,26 @@ _FROM_ABOVE = (
 )
 
 
+_BASE_FROM_ABOVE = (
+    "From above at chosen times: means over the pieces of base on each cell of the maps. At 1 of pore pressure over "
+    "normal pressure the base floats."
+)
+
+
 def _in_section(run: Run) -> bool:
     return not on_map(run)
+
+
+def _with_heat_on_map(run: Run) -> bool:
+    return on_map(run) and not run.has_band_columns
+
+
+def _base_on_map(run: Run) -> bool:
+    return on_map(run) and run.has_band_columns
+
+
+def _base_in_section(run: Run) -> bool:
+    return _in_section(run) and run.has_band_columns
 
 
 def _with_heat_in_section(run: Run) -> bool:
@@ -73,7 +93,9 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "slide_speed": FigureKind("Speed from above", _FROM_ABOVE, slide_speed, on_map),
     "slide_thickness": FigureKind("Thickness from above", _FROM_ABOVE, slide_thickness, on_map),
-    "slide_temperature": FigureKind("Temperature from above", _FROM_ABOVE, slide_temperature, on_map),
+    "slide_temperature": FigureKind("Temperature from above", _FROM_ABOVE, slide_temperature, _with_heat_on_map),
+    "base_temperature": FigureKind("Temperature of the band", _BASE_FROM_ABOVE, base_temperature, _base_on_map),
+    "base_pressure": FigureKind("Pore pressure of the band", _BASE_FROM_ABOVE, base_pressure, _base_on_map),
     "cross_sections": FigureKind(
         "Sections",
         "Through terrain and slide along the path line, and across it; where thin, the slide is drawn thicker than it "
@@ -115,14 +137,30 @@ FIGURES: dict[str, FigureKind] = {
         "Gaps: no particle there at that time.",
         band,
         of_columns="Means over the base by area, as its columns have it. The shear traction is what the base resists "
-        "with, cohesion and friction, over the area in contact. Under its own N no column's water gets hotter than "
-        "where it boils; the line is for the mean N. P and N of each column are compared with N averaged over "
+        "with, cohesion and friction, over the area in contact: friction follows the effective normal stress N − P, "
+        'and on substrates of the law "coefficient" N alone. Under its own N no column\'s water gets hotter than where '
+        "it boils; the line is for the mean N. P and N of each column are compared with N averaged over "
         "band.load_time.",
+    ),
+    "base_along": FigureKind(
+        "Along the base",
+        "Left: what presses on each piece of base, averaged over band.load_time, and the mean pore pressure of its "
+        "band; friction acts on what is left, in green. Right: the hottest cell of each column, the mean of its band, "
+        "and where water boils under its N.",
+        base_along,
+        _base_in_section,
     ),
     "energy": FigureKind(
         "Energy ledger",
         "Every account as its change since the start; the residual is what the accounts of a ledger leave over.",
         energy,
+    ),
+    "entrainment": FigureKind(
+        "Bed taken up",
+        "Mass that the slide took off the erodible bed, the work that it lost to setting it in motion, and the depth "
+        "that was taken up along x, by where particles joined.",
+        entrainment,
+        lambda run: "entrained_mass_kg" in run.history,
     ),
     "water": FigureKind(
         "Water of the band",

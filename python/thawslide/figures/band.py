@@ -113,20 +113,23 @@ def _draw_mean(axes: Axes, run: Run, column: str, words: str, colour: str, quant
 
 
 def _draw_stresses(axes: Axes, run: Run) -> None:
-    """Draw N, P and the shear traction on one axis, so that the eye takes N - P and the strength that is left of it."""
+    """Draw N, P, what is left between them, and the shear traction on one axis."""
+    load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
     lines = (
-        ("band_normal_pressure_Pa", "normal pressure N", BLACK),
-        ("band_pore_pressure_Pa", "pore pressure P", BLUE),
-        ("band_shear_Pa", "shear traction (effective strength)", RED),
+        (load, "normal pressure N", BLACK),
+        (pore_pressure, "pore pressure P", BLUE),
+        (load - pore_pressure, "effective normal stress N − P", GREEN),
+        (run.history["band_shear_Pa"], "shear traction of the base", RED),
     )
-    values = {column: run.history[column] for column, *_ in lines}
-    divisor, unit = prefixed(np.concatenate(list(values.values())), "Pa")
+    divisor, unit = prefixed(np.concatenate([values for values, *_ in lines]), "Pa")
     axes.set_ylabel(f"stress ({unit})")
-    for column, words, colour in lines:
-        time_line(axes, run.history["time_s"], values[column] / divisor, color=colour, label=words)
+    for values, words, colour in lines:
+        time_line(axes, run.history["time_s"], values / divisor, color=colour, label=words)
     draw_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
-    axes.set_ylim(bottom=0.0)
-    axes.legend(loc="best")
+    legend = axes.legend(loc="upper center", ncols=2, columnspacing=1.0, handlelength=1.5)
+    rows = (len(legend.get_texts()) + 1) // 2
+    highest = axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1.0  # before any contact there is nothing
+    axes.set_ylim(0.0, highest / (1.0 - 0.06 - 0.09 * rows))  # the lines end below the legend
 
 
 def _draw_temperatures(axes: Axes, run: Run) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from thawslide.clock import own_time
 from thawslide.figures.style import BLUE, GREEN, NOTE, RED, letters, prefixed, styled, time_axis, time_line
 from thawslide.run import Run
 
@@ -21,7 +22,8 @@ def draw_targets(
     """
     end = float(run.history["time_s"][-1])
     asked = [target for target in run.targets if target.quantity in quantities]
-    found = [target for target in asked if target.time <= end]
+    times = {target: own_time(run, target) for target in asked}
+    found = [target for target in asked if times[target] <= end]
     if len(found) < len(asked):
         # One line of note for each call on the same panel.
         height = 0.02 + 0.06 * len(axes.texts)
@@ -31,7 +33,7 @@ def draw_targets(
     for number, source in enumerate(sources):
         of_source = [target for target in found if target.source == source]
         axes.plot(
-            [target.time for target in of_source],
+            [times[target] for target in of_source],
             [target.value / divisor for target in of_source],
             marker=_MARKERS[number % len(_MARKERS)],
             markerfacecolor="white",

@@ -17,8 +17,8 @@ from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_b
 from thawslide.figures.site import Site, make_site
 from thawslide.figures.snapshots import chosen_snapshots
 from thawslide.figures.style import styled
-from thawslide.maps import Map
-from thawslide.run import Run
+from thawslide.maps import Grid, Map
+from thawslide.run import Run, Snapshot
 
 SPEED = replace(VELOCITY, words="speed, mean over the thickness")
 BASE_TEMPERATURE = replace(TEMPERATURE, words="temperature next to the ground")
@@ -61,9 +61,18 @@ def slide_temperature(run: Run) -> Figure:
 
 
 def _draw(run: Run, painting: Painting, field_of: Callable[[Columns], Map]) -> Figure:
+    return draw_on_map(run, painting, lambda grid, shot: field_of(gather(grid, shot, cell_of(run))))
+
+
+def draw_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot], Map]) -> Figure:
+    """Draw a field at chosen times from above, where the slide is thick enough to be drawn."""
     site = make_site(run)
-    gathered = [gather(site.grid, shot, cell_of(run)) for shot in chosen_snapshots(run, FIELDS)]
-    fields = [where_thick(field_of(columns), columns, site.threshold) for columns in gathered]
+    shots = chosen_snapshots(run, FIELDS)
+    gathered = [gather(site.grid, shot, cell_of(run)) for shot in shots]
+    fields = [
+        where_thick(field_of(site.grid, shot), columns, site.threshold)
+        for shot, columns in zip(shots, gathered, strict=True)
+    ]
     values = np.concatenate([field.values.ravel() for field in fields])
     if not np.isfinite(values).any():
         raise NotInRunError(f"no snapshot has a {painting.words} to show on the map")
@@ -79,12 +88,13 @@ def _draw(run: Run, painting: Painting, field_of: Callable[[Columns], Map]) -> F
         paint(axes, field, painter)
         site.draw_release(axes, 1.0)
         finite = field.values[np.isfinite(field.values)]
-        remark = f"max {number_text(float(finite.max()))} {painting.unit}" if finite.size else ""
+        unit = "" if painting.unit == "1" else f" {painting.unit}"
+        remark = f"max {number_text(float(finite.max()))}{unit}" if finite.size else ""
         panels.append((axes, f"t = {number_text(columns.time)} s", remark))
         if number == 0:
             scale_bar(axes, corner)
     page.name(panels)
     bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    bar.set_label(f"{painting.words} ({painting.unit})", labelpad=1)
+    bar.set_label(painting.words + (f" ({painting.unit})" if painting.unit != "1" else ""), labelpad=1)
     return page.figure

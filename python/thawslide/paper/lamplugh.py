@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+from thawslide.clock import time_of_speed
 from thawslide.errors import NotInRunError
 from thawslide.figures.force import Band, force_in_band, seismic_force
 from thawslide.figures.motion import draw_targets
 from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_axis, time_line
-from thawslide.key_numbers import STOPPED_SHARE, stop_time, time_of_speed
+from thawslide.key_numbers import STOPPED_SHARE, stop_time
 from thawslide.paper.block import at
 from thawslide.paper.runs import LAMPLUGH_BLOCKS
 from thawslide.paper.stages import balance

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from thawslide.clock import time_of_speed
 from thawslide.figures.force import force_in_band
-from thawslide.key_numbers import stop_time, time_of_speed
+from thawslide.key_numbers import stop_time
 from thawslide.paper.lamplugh import INVERSION
 from thawslide.paper.one_at_a_time import Row, refusal, why_not_whole
 from thawslide.run import Run

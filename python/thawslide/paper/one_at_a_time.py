@@ -19,7 +19,8 @@ from typing import Any
 
 import numpy as np
 
-from thawslide.key_numbers import stop_time, time_of_speed
+from thawslide.clock import time_of_speed
+from thawslide.key_numbers import stop_time
 from thawslide.run import Run
 
 Tell = Callable[[str], None]

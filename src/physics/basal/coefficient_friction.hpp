@@ -9,12 +9,14 @@
 
 namespace thawslide::physics::basal {
 
-inline constexpr Parameter friction_coefficient{
-    .key = "friction_coefficient",
-    .is_needed = true,
-    .only_with_its_laws = true,
-    .low = 0.0,
-    .text = "friction over the normal stress N, mu, of {laws}; 0.05 to 0.15 on a glacier (not checked)"};
+inline constexpr Parameter friction_coefficient{.key = "friction_coefficient",
+                                                .is_needed = true,
+                                                .only_with_its_laws = true,
+                                                .low = 0.0,
+                                                .usual_low = 0.05,
+                                                .usual_high = 0.15,
+                                                .usual_where = "on a glacier",
+                                                .text = "friction over the normal stress N, mu, of {laws}"};
 
 template <class Real>
 struct CoefficientFriction {

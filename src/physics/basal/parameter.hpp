@@ -22,7 +22,11 @@ struct Parameter {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false, high_open = false;
-  const char* text = "";  // "{laws}" in it: the law "x", or the laws "x" and "y", that take the number
+  double usual_low = -std::numeric_limits<double>::infinity();  // of a base with band columns, not checked
+  double usual_high = std::numeric_limits<double>::infinity();
+  const char* usual_where = "";  // "on a glacier"
+  const char* usual_law = "";    // word of the only law that these are usual of; empty: of any
+  const char* text = "";         // "{laws}" in it: the law "x", or the laws "x" and "y", that take the number
   const char* source = "";
 };
 

@@ -26,6 +26,10 @@ inline constexpr Parameter slip_distance{.key = "slip_distance",
                                          .is_needed = true,
                                          .low = 0.0,
                                          .low_open = true,
+                                         .usual_low = 1.0,
+                                         .usual_high = 100.0,
+                                         .usual_where = "of bonds",
+                                         .usual_law = "bonds",
                                          .text = "slip over which the cohesion falls to 1/e, d_c, of {laws}"};
 
 }  // namespace thawslide::physics::basal

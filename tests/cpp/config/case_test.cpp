@@ -62,34 +62,56 @@ TEST(CaseFile, DefaultsAreThoseOfThePaper) {
   EXPECT_EQ(found.basal.numbers(physics::basal::residual_cohesion), 0.0);
   EXPECT_EQ(found.basal.clamp, FrictionClamp::keep_cohesion);
   EXPECT_EQ(found.pressure.clapeyron, ClapeyronSign::usual);
-  EXPECT_EQ(found.phases.water_expansion_law, WaterExpansionLaw::constant);
-  EXPECT_EQ(found.pressure.frozen, FrozenPressure::ice_pressure);
-  EXPECT_TRUE(std::isinf(found.pressure.residual_stress));
-  EXPECT_FALSE(found.pressure.melt_contraction);
-  EXPECT_EQ(found.pressure.skeleton_compressibility, 0.0);
-  EXPECT_EQ(found.pressure.frozen_rows, FrozenRows::draining);
-  EXPECT_EQ(found.band.thickness_change, ThicknessChange::as_printed);
-  EXPECT_EQ(found.heat.advection_form, AdvectionForm::as_printed);
   EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::ugimp);
-  EXPECT_EQ(found.materials.at("rock").softening_strain, 1.0);
-  EXPECT_FALSE(found.block.bends);
+  EXPECT_EQ(found.bed.law, BedLaw::none);
+  EXPECT_EQ(found.bed.friction_angle, 0.0);
+  EXPECT_EQ(found.bed.temperature, -10.0);
+  EXPECT_EQ(found.bed.porosity, 0.9);
+  EXPECT_EQ(found.bed.particles_per_axis, 2);
   EXPECT_EQ(found.mechanics.transfer, Transfer::flip);
   EXPECT_EQ(found.mechanics.fmpm_order, 2);
   EXPECT_EQ(found.bodies.at("block").porosity.at(0.0, 0.0), 0.375);
 }
 
+// Where the paper's forms make heat or water, or let pressure pass the load, the defaults are others.
+TEST(CaseFile, DefaultsOfTheBaseMakeNothingFromNothing) {
+  const Case found = case_from_text(sound);
+  EXPECT_EQ(found.band.model, BandKind::scaled) << "no band";
+  EXPECT_EQ(found.phases.water_expansion_law, WaterExpansionLaw::by_temperature);
+  EXPECT_EQ(found.pressure.frozen, FrozenPressure::none);
+  EXPECT_TRUE(std::isinf(found.pressure.residual_stress));
+  EXPECT_TRUE(found.pressure.melt_contraction);
+  EXPECT_EQ(found.pressure.skeleton_compressibility, 2e-9);
+  EXPECT_EQ(found.pressure.frozen_rows, FrozenRows::sealed);
+  EXPECT_EQ(found.band.thickness_change, ThicknessChange::conserving);
+  EXPECT_EQ(found.heat.advection_form, AdvectionForm::conservative);
+  EXPECT_EQ(found.materials.at("rock").softening_strain, 0.05);
+  EXPECT_TRUE(found.block.bends);
+}
+
+TEST(CaseFile, ABandIsOfColumnsWhereThereIsABase) {
+  const std::string with_band = changed({{"[basal]", "[band]\nthickness = 0.1\n[basal]"}});
+  EXPECT_EQ(case_from_text(with_band).band.model, BandKind::columns);
+  for (const char* without :
+       {"terrain.type=none", "heat.enabled=false", "mechanics.enabled=false", "band.model=scaled"}) {
+    EXPECT_EQ(case_from_text(with_band, {without}).band.model, BandKind::scaled) << without;
+  }
+}
+
 TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   write_map_files();
   const std::string wall = "[frame.wall]\nmin = [90.0, 0.0]\nmax = [95.0, 5.0]\naxis = \"x\"\nvelocity = 0.0\n";
-  const std::set<std::string> given{"case.dimension", "terrain.type", "material.law", "body.shape"};
+  const std::set<std::string> given{"case.dimension", "terrain.type", "material.law", "body.shape", "bed.law"};
   const std::string noise = "[initial]\nnoise = 0.1\n";
   std::map<std::string, bool> in_force;  // whether a key's default could be told in one of the cases
   std::string of_surface = sound_on_dem;
   const std::string number = "thickness = 10.0";
   of_surface.replace(of_surface.find(number), number.size(), "thickness = { surface = \"map.tif\" }");
+  const std::string bed =
+      "[bed]\nlaw = \"momentum\"\ndepth = 2.0\nstrength = 0.0\ndepth_per_slip = 0.5\nmaterial = \"rock\"\n";
   const std::string ice = "[substrate.ice]\nfriction_angle = 5.0\n";
-  for (const std::string& text : {sound + wall + ice + "x_min = 50.0\n", sound + noise, sound_on_dem, of_surface,
-                                  sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
+  for (const std::string& text : {sound + wall + ice + "x_min = 50.0\n", sound + noise, sound + bed, sound_on_dem,
+                                  of_surface, sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = resolved_toml(found, "inputs");
     for (const auto& table : tables()) {

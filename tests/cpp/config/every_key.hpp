@@ -56,7 +56,7 @@ water_conductivity = 0.75
 rock_expansion = 0.001
 ice_expansion = 0.002
 water_expansion = 0.003
-water_expansion_law = "by_temperature"
+water_expansion_law = "constant"
 water_bulk_modulus = 2000000000.0
 latent_heat = 330000.0
 water_unit_weight = 9800.0
@@ -137,6 +137,16 @@ cohesion_law = "bonds"
 residual_cohesion = 15000.0
 slip_distance = 40.0
 cohesion_loss_time = 30.0
+[bed]
+law = "momentum"
+depth = { x = [0.0, 40.0], value = [0.5, 1.5] }
+strength = 2000.0
+friction_angle = 12.0
+depth_per_slip = 0.125
+material = "rock"
+temperature = -2.5
+porosity = 0.75
+particles_per_axis = 4
 [mechanisms]
 deformation = false
 lubrication = false
@@ -145,15 +155,7 @@ pressurization = false
 thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] }
 region = "first_layer"
 cut_cells = "equal_thickness"
-thickness_change = "conserving"
-growth = "slip"
-grain_size = 0.0625
-inertial_number = 0.25
-growth_per_slip = 0.125
-mixing_slip = 250.0
-load_time = 1.5
-column_step = 0.125
-ground_temperature = -3.0
+thickness_change = "as_printed"
 [heat]
 enabled = false
 update = "apparent_capacity"
@@ -162,6 +164,7 @@ latent = false
 steam = false
 conduction = false
 advection = false
+advection_form = "as_printed"
 [heat.boundary]
 x_min = { temperature = -6.0 }
 x_max = { flux = 12.5 }
@@ -171,19 +174,18 @@ y_max = { flux = -2.0 }
 thermal_pressurization = false
 clapeyron = "printed"
 volumetric_term = true
-frozen = "none"
-residual_stress = 20000.0
-melt_contraction = true
+frozen = "ice_pressure"
+melt_contraction = false
 skeleton_compressibility = 0.001
 seepage = false
 column_top = "sealed"
 water_to_steam_viscosity = 20.0
-frozen_rows = "sealed"
+frozen_rows = "vented"
 seepage_scaling = "printed"
 thickness_direction = "vertical"
 thickness_update = "frozen"
 [block]
-bends = true
+bends = false
 )";
 
 inline const std::string rest_in_3d = R"([case]
@@ -220,20 +222,18 @@ slope_shear = true
 [basal]
 friction = "coefficient"
 friction_coefficient = 0.125
-[heat]
-advection_form = "conservative"
 [band]
 model = "columns"
 thickness = 0.5
-thickness_change = "conserving"
-[heat.boundary]
-z_min = { temperature = -8.0 }
-z_max = { flux = 3.5 }
+growth = "slip"
+growth_per_slip = 0.125
+mixing_slip = 250.0
+load_time = 1.5
+column_step = 0.125
+ground_temperature = -3.0
 [pressure]
 enabled = false
-frozen = "none"
-frozen_rows = "sealed"
-melt_contraction = true
+residual_stress = 20000.0
 )";
 
 // A release on a DEM, with all that maps give.
@@ -283,14 +283,19 @@ polygons = ["glacier"]
 name_attribute = "kind"
 friction = "coefficient"
 friction_coefficient = 0.125
+[heat.boundary]
+z_min = { temperature = -8.0 }
+z_max = { flux = 3.5 }
 )";
 
-// The same release between two surfaces, and the substrate from a raster.
+// The same release between two surfaces, on columns that grow, and the substrate from a raster.
 inline std::string release_of_a_surface() {
   using namespace case_messages;
   std::string text =
       changed({{"outline = \"inputs/release.shp\"\npolygons = [\"glacier\"]\nname_attribute = \"kind\"\n",
-                "raster = \"inputs/codes.tif\"\ncode = 3\n"}},
+                "raster = \"inputs/codes.tif\"\ncode = 3\n"},
+               {"[heat.boundary]\nz_min = { temperature = -8.0 }\nz_max = { flux = 3.5 }\n",
+                "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"}},
               release_on_dem);
   const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");
   return text.replace(begin, end - begin, "thickness = { surface = \"inputs/before.tif\" }\nsurface_tolerance = 0.5\n");

@@ -1,44 +1,160 @@
 // What a user is told of values that are sound but unusual.
 #include "config/notices.hpp"
 
+#include <array>
+
 #include "case_messages.hpp"
+#include "config/declaration.hpp"
+#include "config/moved_defaults.hpp"
+#include "config/strips.hpp"
 
 namespace thawslide::config {
 namespace {
 
 using namespace case_messages;
 
-std::vector<std::string> notices_of(const std::string& of_material) {
-  const Case found = testing_support::case_from_text(
-      changed({{"law = \"elastic\"", "friction_angle = 40.0\ncohesion = 1e6\n" + of_material}}));
-  std::vector<std::string> notices_without_folder;
-  for (std::string notice : notices(found)) {
-    const std::string folder = testing_support::folder_of_this_test().string();
+std::vector<std::string> without_folder(std::vector<std::string> notices) {
+  const std::string folder = testing_support::folder_of_this_test().string();
+  for (std::string& notice : notices) {
     if (const std::size_t at = notice.find(folder); at != std::string::npos) {
       notice.replace(at, folder.size(), "FOLDER");
     }
-    notices_without_folder.push_back(notice);
   }
-  return notices_without_folder;
+  return notices;
+}
+
+std::vector<std::string> notices_of(const std::string& of_material) {
+  const Case found = testing_support::case_from_text(
+      changed({{"law = \"elastic\"", "friction_angle = 40.0\ncohesion = 1e6\n" + of_material},
+               {"[basal]", "[block]\nbends = true\n[basal]"}}));
+  return without_folder(notices(found));
 }
 
 TEST(Notices, TellOfBrokenMatterThatIsUnusual) {
   EXPECT_EQ(
       notices_of("residual_cohesion = 6e4\nresidual_friction_angle = 12.0\nsoftening_strain = 0.5"),
       (std::vector<std::string>{
-          "FOLDER/case.toml:16:20: material.rock.softening_strain is 0.5, outside the 0.005 to 0.05 over which broken "
-          "rock and ice usually lose their strength",
-          "FOLDER/case.toml:15:27: material.rock.residual_friction_angle is 12 degrees, outside the 20 to 35 degrees "
-          "that are usual for broken rock and ice",
-          "FOLDER/case.toml:14:21: material.rock.residual_cohesion is 60000 Pa, above the 50000 Pa that broken rock "
-          "and ice usually have at most"}));
+          "FOLDER/case.toml:14:21: material.rock.residual_cohesion is 60000 Pa, outside the usual 0 to 50000 Pa of "
+          "broken rock and ice (not checked)",
+          "FOLDER/case.toml:15:27: material.rock.residual_friction_angle is 12 degrees, outside the usual 20 to 35 "
+          "degrees of broken rock and ice (not checked)",
+          "FOLDER/case.toml:16:20: material.rock.softening_strain is 0.5, outside the usual 0.005 to 0.05 of broken "
+          "rock and ice (not checked)"}));
 }
 
 TEST(Notices, HaveNothingAgainstUsualBrokenMatterNorThePaper) {
   const std::vector<std::string> none;
   EXPECT_EQ(notices_of("residual_cohesion = 1e4\nresidual_friction_angle = 25.0\nsoftening_strain = 0.02"), none);
-  EXPECT_EQ(notices_of("residual_cohesion = 1e5"), none) << "the paper's";
+  EXPECT_EQ(notices_of("residual_cohesion = 1e5\nsoftening_strain = 1.0"), none) << "the paper's";
   EXPECT_EQ(notices_of("softening_strain = 0.5"), none) << "nothing softens";
+}
+
+// A base with band columns, bonds and a glacier, all of usual numbers.
+const std::vector<Change> with_columns{
+    {"law = \"elastic\"", "law = \"elastic\"\nhydraulic_conductivity = 1e-7"},
+    {"[basal]",
+     "[band]\nthickness = 0.5\n[substrate.ice]\nx_min = 50.0\nfriction = \"coefficient\"\nfriction_coefficient = "
+     "0.1\n[basal]\ncohesion = 1e5\ncohesion_law = \"bonds\"\nslip_distance = 20.0"}};
+
+TEST(Notices, TellOfAnUnusualBase) {
+  const std::vector<std::string> none;
+  // Key, what is given, and what the notice says after "KEY is ".
+  const std::vector<std::array<std::string, 3>> unusual{
+      {"band.thickness", "5.0", "5 m, outside the usual 0.01 to 2 m (not checked)"},
+      {"band.thickness", "60", "60 m, outside the usual 0.01 to 2 m (not checked)"},
+      {"band.thickness", "{time = [0, 1], value = [0.5, 3]}", "3 m, outside the usual 0.01 to 2 m (not checked)"},
+      {"band.load_time", "1000.0", "1000 s, outside the usual 0.1 to 10 s (not checked)"},
+      {"band.column_step", "100.0", "100 s, outside the usual 0.001 to 0.5 s (not checked)"},
+      {"basal.heat_fraction", "0.1", "0.1, outside the usual 0.8 to 1 (not checked)"},
+      {"basal.slip_distance", "5000.0", "5000 m, outside the usual 1 to 100 m of bonds (not checked)"},
+      {"material.rock.hydraulic_conductivity", "1e-2",
+       "0.01 m/s, outside the usual 1e-08 to 1e-05 m/s of a base (not checked)"},
+      {"pressure.skeleton_compressibility", "1e-3", "0.001 1/Pa, outside the usual 1e-09 to 1e-07 1/Pa (not checked)"},
+      {"substrate.ice.friction_coefficient", "0.6", "0.6, outside the usual 0.05 to 0.15 on a glacier (not checked)"}};
+  const std::string known = "pressure.frozen=none";  // else one of defaults that have moved joins
+  const std::string text = changed(with_columns);
+  EXPECT_EQ(notices(testing_support::case_from_text(text, {known})), none);
+  for (const auto& [key, value, said] : unusual) {
+    const std::string set = key + "=" + value;
+    EXPECT_EQ(notices(testing_support::case_from_text(text, {known, set})),
+              std::vector<std::string>{"--set " + set + ": " + key + " is " + said});
+  }
+}
+
+TEST(Notices, LeaveOutWhatTheBaseDoesNotHave) {
+  const std::vector<std::string> none;
+  const std::string text = changed(with_columns);
+  const auto notices_with = [&](std::vector<std::string> sets) {
+    sets.emplace_back("pressure.frozen=none");
+    return notices(testing_support::case_from_text(text, sets));
+  };
+  EXPECT_EQ(notices_with({"material.rock.hydraulic_conductivity=0"}), none) << "undrained";
+  EXPECT_EQ(notices_with({"basal.cohesion=0", "basal.slip_distance=5000"}), none) << "nothing to lose";
+  EXPECT_EQ(notices_with({"basal.cohesion_law=slip", "basal.slip_distance=5000"}), none) << "not of bonds";
+  EXPECT_EQ(notices_with({"band.model=scaled", "band.thickness=5", "basal.heat_fraction=0.35",
+                          "basal.slip_distance=300", "pressure.skeleton_compressibility=0",
+                          "material.rock.hydraulic_conductivity=1e-4", "substrate.ice.friction_coefficient=0.6"}),
+            none)
+      << "the paper's band is no column";
+}
+
+TEST(Notices, TellOfGapsBetweenSubstrates) {
+  const Case found = testing_support::case_from_text(
+      changed({{"[basal]",
+                "[substrate.ice]\nx_max = 50.0\nfriction_angle = 5.0\n[substrate.snow]\nx_min = 60.0\nfriction_angle = "
+                "5.0\n[basal]"}}),
+      {"block.bends=true"});
+  EXPECT_EQ(notices(found), notes_on_gaps(found));
+  EXPECT_EQ(notices(found).size(), 1U);
+}
+
+const std::vector<Change> with_band{
+    {"[basal]", "[band]\nthickness = 0.1\n[basal]"},
+    {"law = \"elastic\"",
+     "friction_angle = 35.0\ncohesion = 1e6\nresidual_cohesion = 1e4\nhydraulic_conductivity = 1e-7"}};
+
+TEST(Notices, OneTellsAFileOfEarlierVersionsWhatChanged) {
+  const Case found = testing_support::case_from_text(changed(with_band));
+  EXPECT_EQ(without_folder(notices(found)),
+            (std::vector<std::string>{
+                "FOLDER/case.toml: the file gives none of these keys, whose defaults are no longer the paper's forms:\n"
+                "  band.model = \"columns\"  # was \"scaled\"\n"
+                "  band.thickness_change = \"conserving\"  # was \"as_printed\"\n"
+                "  heat.advection_form = \"conservative\"  # was \"as_printed\"\n"
+                "  pressure.frozen = \"none\"  # was \"ice_pressure\"\n"
+                "  pressure.frozen_rows = \"sealed\"  # was \"draining\"\n"
+                "  pressure.melt_contraction = true  # was false\n"
+                "  pressure.skeleton_compressibility = 2e-09  # was 0.0\n"
+                "  phases.water_expansion_law = \"by_temperature\"  # was \"constant\"\n"
+                "  material.NAME.softening_strain = 0.05  # was 1.0\n"
+                "  With the values of before it gives what it gave. Give one of them, and this note goes; "
+                "docs/choosing-the-base.md says why."}));
+}
+
+TEST(Notices, SayNothingOfDefaultsWhereOneIsGivenOrNoneIsFelt) {
+  const std::vector<std::string> none;
+  for (const MovedDefault& moved : moved_defaults()) {
+    const std::string table = moved.table == "material.NAME" ? "material.rock" : moved.table;
+    const Case found = testing_support::case_from_text(changed(with_band), {table + "." + moved.key + "=" + moved.now});
+    EXPECT_EQ(notices(found), none) << moved.key;
+  }
+  EXPECT_EQ(notices(testing_support::case_from_text(sound, {"heat.enabled=false"})), none);
+}
+
+// What the notice says of the present is what the declarations say.
+TEST(Notices, NameThePresentDefaults) {
+  for (const MovedDefault& moved : moved_defaults()) {
+    bool is_found = false;
+    for (const auto& table : tables()) {
+      for (const Entry& entry : table->entries()) {
+        if ((table->is_named() ? table->name + ".NAME" : table->name) == moved.table && entry.rule->key == moved.key) {
+          is_found = true;
+          EXPECT_TRUE(entry.default_text == moved.now || entry.otherwise.rfind(moved.now, 0) == 0) << moved.key;
+        }
+      }
+    }
+    EXPECT_TRUE(is_found) << moved.table << "." << moved.key;
+  }
 }
 
 }  // namespace

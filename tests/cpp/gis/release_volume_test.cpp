@@ -18,7 +18,7 @@ namespace thawslide::gis {
 namespace {
 
 using namespace map_files;
-using testing_support::case_from_text;
+using testing_support::paper_case;
 
 constexpr double west = 400000.0, south = 300000.0;
 
@@ -98,8 +98,8 @@ porosity = 0.3
 config::Case case_of(const std::string& placement, const std::string& along, const std::string& thickness) {
   geotiff("dem.tif", raster_of(height, west, south, 5.0, 141, 121));
   geojson("outlines.geojson", {polygons[0].feature(), polygons[1].feature()});
-  return case_from_text(slide + fmt::format("thickness = {}\nthickness_along = \"{}\"\nplacement = \"{}\"\n", thickness,
-                                            along, placement));
+  return paper_case(slide + fmt::format("thickness = {}\nthickness_along = \"{}\"\nplacement = \"{}\"\n", thickness,
+                                        along, placement));
 }
 
 struct Sums {

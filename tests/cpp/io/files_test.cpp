@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/hdf5_file.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"
 #include "io/run_folder.hpp"
@@ -212,8 +213,30 @@ TEST_F(Files, RunFoldersAreNeverOverwrittenByAccident) {
             std::string::npos);
 }
 
+TEST_F(Files, SnapshotHoldsTheBaseBesideTheParticles) {
+  Snapshot snapshot{0.0, 0, {1.0, 2.0, 0.0}, {}, {}};
+  const auto has_base = [&] {
+    SnapshotSeries series(folder_);
+    series.add(snapshot);
+    series.finish_writing();
+    const hdf5::Handle file(H5Fopen((folder_ / "snapshots" / "000000.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+                            H5Fclose, "snapshot");
+    if (H5Lexists(file, "base", H5P_DEFAULT) <= 0) {
+      return false;
+    }
+    const hdf5::Handle places(H5Dopen2(file, "base/position_m", H5P_DEFAULT), H5Dclose, "position_m");
+    std::vector<double> read(6);
+    EXPECT_GE(H5Dread(places, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
+    EXPECT_EQ(read, snapshot.base.at("position_m"));
+    return true;
+  };
+  EXPECT_FALSE(has_base());
+  snapshot.base = {{"position_m", {1.0, 2.0, 0.0, 3.0, 4.0, 0.0}}, {"area_m2", {5.0, 6.0}}};
+  EXPECT_TRUE(has_base());
+}
+
 TEST_F(Files, SnapshotThatCouldNotBeWrittenIsToldByTheNextCall) {
-  const Snapshot snapshot{0.0, 0, {1.0, 2.0, 0.0}, {}};
+  const Snapshot snapshot{0.0, 0, {1.0, 2.0, 0.0}, {}, {}};
   SnapshotSeries series(folder_);
   series.add(snapshot);
   series.finish_writing();

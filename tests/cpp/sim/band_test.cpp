@@ -67,7 +67,7 @@ TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
                 "A melted slab of 50 m driven at 1 m/s, band of 0.05 m in cells of 10 m, no conduction and no seepage.",
                 "tau = mu (N - P0) exp(-1.25 mu Lambda V t/(C e)), 1.25 = 2 (w1^2 + w2^2)/(w1 + w2), w = 3/4 and 1/4",
                 "Rice 2006, with the band's two rows");
-  Simulation<2, double> simulation(case_from_text(slab, base_free));
+  Simulation<2, double> simulation(paper_case(slab, base_free));
   const auto& model = simulation.model();
   const auto& phases = model.motion.phases;
   const double n = 0.375, gravity = 9.81, height = 50.0, thickness = 0.05, mu = 0.2, speed = 1.0;
@@ -96,8 +96,8 @@ TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
 
 TEST(AdiabaticBand, BlockModelFollowsTheSameExponential) {
   // A block heavy enough to keep its speed: gravity turned so that it slides at constant speed while friction stays.
-  const config::Case parameters = case_from_text(
-      slab, {"time.end=0.5", "body.slab.velocity=[1.0,0.0]", "case.gravity_tilt=0.0", "time.step=0.0005"});
+  const config::Case parameters =
+      paper_case(slab, {"time.end=0.5", "body.slab.velocity=[1.0,0.0]", "case.gravity_tilt=0.0", "time.step=0.0005"});
   Record record("The same band in the rigid block", "The rigid-block model with its base as above.",
                 "ln(N - P) falls by 1.25 mu Lambda/(C e) per metre of slip", "docs/theory/block-model.md");
   const auto rows = run_block(parameters);
@@ -151,7 +151,7 @@ thickness = 0.05
 )";
 
 TEST(BlockModel, AgreesWithTheMaterialPoints) {
-  const config::Case parameters = case_from_text(sliding, {"time.step=0.0005"});
+  const config::Case parameters = paper_case(sliding, {"time.step=0.0005"});
   const auto rows = run_block(parameters);
   Simulation<2, double> simulation(parameters);
   run_until(simulation, parameters.time.end);
@@ -179,10 +179,10 @@ TEST(BlockModel, AgreesWithTheMaterialPoints) {
 // followed.
 TEST(BlockModel, AgreesWithTheMaterialPointsByTheBalanceOfWater) {
   const config::Case parameters =
-      case_from_text(sliding, {"time.step=0.0005", "pressure.frozen=none", "pressure.residual_stress=2e5",
-                               "pressure.frozen_rows=sealed", "pressure.skeleton_compressibility=5e-9",
-                               "phases.water_expansion_law=by_temperature", "body.slab.temperature=-0.05",
-                               "material.rock.hydraulic_conductivity=1e-10"});
+      paper_case(sliding, {"time.step=0.0005", "pressure.frozen=none", "pressure.residual_stress=2e5",
+                           "pressure.frozen_rows=sealed", "pressure.skeleton_compressibility=5e-9",
+                           "phases.water_expansion_law=by_temperature", "body.slab.temperature=-0.05",
+                           "material.rock.hydraulic_conductivity=1e-10"});
   const auto rows = run_block(parameters);
   Simulation<2, double> simulation(parameters);
   run_until(simulation, parameters.time.end);
@@ -198,8 +198,8 @@ TEST(BlockModel, AgreesWithTheMaterialPointsByTheBalanceOfWater) {
 
 // With the scaling on the band alone, the rows above conduct less heat out of it.
 TEST(BlockModel, FollowsTheRegionOfTheScaling) {
-  const config::Case parameters = case_from_text(sliding, {"band.region=first_layer"});
-  const auto block = run_block(parameters).back(), scaled_all = run_block(case_from_text(sliding)).back();
+  const config::Case parameters = paper_case(sliding, {"band.region=first_layer"});
+  const auto block = run_block(parameters).back(), scaled_all = run_block(paper_case(sliding)).back();
   Simulation<2, double> simulation(parameters);
   run_until(simulation, parameters.time.end);
   const auto row = history_row(simulation);
@@ -212,14 +212,14 @@ TEST(BlockModel, FollowsTheRegionOfTheScaling) {
 // Adaptive stepping takes the limits of the run, with the cap that time.step sets, and gives what a fixed step gives.
 TEST(BlockModel, StepsAdaptively) {
   const std::vector<std::string> adaptive{"time.stepping=adaptive", "time.step=0.002"};
-  const auto fixed = run_block(case_from_text(sliding, {"time.step=0.001"}));
-  const auto rows = run_block(case_from_text(sliding, adaptive));
+  const auto fixed = run_block(paper_case(sliding, {"time.step=0.001"}));
+  const auto rows = run_block(paper_case(sliding, adaptive));
   EXPECT_NEAR(value_of(rows.back(), "velocity_m_s") / value_of(fixed.back(), "velocity_m_s"), 1.0, 1e-3);
   std::string text = sliding;
   const std::string step = "step = ";
   const std::size_t at = text.find(step);
   text.erase(at, text.find('\n', at) - at + 1);
-  const auto free = run_block(case_from_text(text, {"time.stepping=adaptive"}));
+  const auto free = run_block(paper_case(text, {"time.stepping=adaptive"}));
   EXPECT_NEAR(value_of(free.back(), "velocity_m_s") / value_of(fixed.back(), "velocity_m_s"), 1.0, 2e-3);
 }
 

@@ -12,7 +12,7 @@
 namespace thawslide::sim {
 namespace {
 
-using testing_support::case_from_text;
+using testing_support::paper_case;
 
 std::string slab(const std::string& state, const std::string& more = "") {
   return R"(
@@ -53,14 +53,14 @@ max = [200.0, 50.0]
 
 // At -1 C the power law leaves a saturation of 1/(1 + ...) of water; given as such, the state is the same.
 TEST(Block, TakesSaturationAndIceContentForTemperatureAndPorosity) {
-  const auto rows = run_block(case_from_text(slab("temperature = -1.0\nporosity = 0.4\n")));
+  const auto rows = run_block(paper_case(slab("temperature = -1.0\nporosity = 0.4\n")));
   double saturation = 0.0;
   for (const auto& [name, value] : rows.front()) {
     saturation = name == "band_saturation" ? value : saturation;
   }
   ASSERT_GT(saturation, 0.0);
   ASSERT_LT(saturation, 1.0);
-  const auto same = run_block(case_from_text(
+  const auto same = run_block(paper_case(
       slab(fmt::format("saturation = {:.17g}\nice_content = {:.17g}\n", saturation, 0.4 * (1.0 - saturation)))));
   ASSERT_EQ(rows.size(), same.size());
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -74,8 +74,7 @@ TEST(Block, TakesSaturationAndIceContentForTemperatureAndPorosity) {
 // Rows gain the heat of friction, all of it; with masses that follow the porosity some is made beside it.
 TEST(Block, TakesTheMassesThatHoldHeatFromTheCase) {
   const auto gain_over_friction_heat = [](const std::string& masses) {
-    const auto rows =
-        run_block(case_from_text(slab("temperature = -1.0\nporosity = 0.4\n"), {"heat.masses=" + masses}));
+    const auto rows = run_block(paper_case(slab("temperature = -1.0\nporosity = 0.4\n"), {"heat.masses=" + masses}));
     const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
     EXPECT_GT(last.at("friction_heat_J_m2"), 1e5);
     return last.at("heat_gain_J_m2") / last.at("friction_heat_J_m2");
@@ -91,7 +90,7 @@ min = [210.0, 0.0]
 max = [250.0, 20.0]
 )";
   try {
-    run_block(case_from_text(slab("temperature = -1.0\nporosity = 0.4\n", second)));
+    run_block(paper_case(slab("temperature = -1.0\nporosity = 0.4\n", second)));
     FAIL() << "no error";
   } catch (const UserError& error) {
     EXPECT_NE(std::string(error.what())

@@ -62,7 +62,7 @@ struct Standing {
 };
 
 Standing stand(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(case_from_text(slab_on_plane(), sets));
+  Simulation<2, double> simulation(paper_case(slab_on_plane(), sets));
   run_until(simulation, 1.5);
   Standing mean;
   int count = 0;
@@ -104,7 +104,7 @@ TEST(ContactArea, CohesionActsOnTheBase) {
 // The momentum of the slab is that at t = 0 and the impulses of gravity, ground and walls, to round-off.
 TEST(Ledger, OfMomentumCloses) {
   Simulation<2, double> simulation(
-      case_from_text(slab_on_plane(), {"grid.boundary.x_min=roller", "mechanics.mass_damping=0.1"}));
+      paper_case(slab_on_plane(), {"grid.boundary.x_min=roller", "mechanics.mass_damping=0.1"}));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
   for (const std::string axis : {"x", "y"}) {
@@ -151,7 +151,7 @@ pressurization = false
 )";
 
 TEST(Walls, HoldWhereTheyMeetTheGround) {
-  Simulation<2, double> simulation(case_from_text(cornered));
+  Simulation<2, double> simulation(paper_case(cornered));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
   EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.02);
@@ -164,7 +164,7 @@ TEST(Walls, HoldWhereTheyMeetTheGround) {
 // Without the distance check contact is felt up to a cell early; a body that hovers by half a cell still has all of its
 // base.
 TEST(ContactArea, OfAHoveringSlabIsItsBase) {
-  Simulation<2, double> simulation(case_from_text(
+  Simulation<2, double> simulation(paper_case(
       cornered, {"case.gravity_tilt=0", "grid.boundary.x_min=open", "terrain.elevation=-2.5", "body.block.min=[20,0]",
                  "body.block.max=[60,20]", "body.block.velocity=[10,0]", "basal.friction_angle=0", "basal.cohesion=1e4",
                  "basal.cohesion_law=constant", "mechanics.initial_stress=settle", "mechanics.settle_time=5.0",
@@ -189,7 +189,7 @@ struct Ringing {
 };
 
 Ringing ring(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(case_from_text(cornered, sets));
+  Simulation<2, double> simulation(paper_case(cornered, sets));
   simulation.settle();
   const double weight = sum_over_body(simulation).mass * 9.81;
   Ringing seen;
@@ -219,7 +219,7 @@ TEST(Settling, LeavesTheBaseCarryingItsWeight) {
 TEST(Settling, ChangesNothingButStress) {
   const std::vector<std::string> sets{"case.gravity_tilt=0.0", "mechanics.initial_stress=settle",
                                       "mechanics.settle_time=2.0", "mechanics.settle_damping=5.0"};
-  const config::Case parameters = case_from_text(cornered, sets);
+  const config::Case parameters = paper_case(cornered, sets);
   Simulation<2, double> seeded(parameters), settled(parameters);
   ASSERT_TRUE(settled.needs_settling());
   settled.settle();

@@ -59,7 +59,7 @@ struct Jump {
 
 Jump jump(const std::string& change, double temperature) {
   Simulation<2, double> simulation(
-      case_from_text(column, {jumps, "band.thickness_change=" + change, "pressure.enabled=false"}));
+      paper_case(column, {jumps, "band.thickness_change=" + change, "pressure.enabled=false"}));
   auto& particles = simulation.particles();
   Jump found{};
   found.cold = particles.heat_content(0);
@@ -88,7 +88,7 @@ TEST(ThicknessChange, ConservingMixesInMatterAsItWas) {
     const double brought = 4.5 * found.cold;
     EXPECT_NEAR(heat(found.thick), 0.5 * found.hot + brought, 1e-9 * std::abs(found.hot));
     EXPECT_NEAR(value_of(found.thick, "band_rescale_J"), brought, 1e-9 * std::abs(brought));
-    Simulation<2, double> simulation(case_from_text(column));
+    Simulation<2, double> simulation(paper_case(column));
     const double mixed = simulation.model().band.with_heat_content([&](const auto& content) {
       return content.temperature(0.1 * found.hot + 0.9 * found.cold, 0.375, temperature);
     });
@@ -116,10 +116,10 @@ struct Mixture {
   double temperature, pressure, gas_void, void_of_melt;
 };
 Mixture mixture(const std::string& melt_contraction, double thickness) {
-  Simulation<2, double> simulation(case_from_text(
-      column, {fmt::format("band.thickness={{time=[0.0,0.5,0.5,9.0],value=[0.05,0.05,{0},{0}]}}", thickness),
-               "band.thickness_change=conserving", "phases.rock_expansion=0.0", "pressure.seepage=false",
-               "pressure.melt_contraction=" + melt_contraction}));
+  Simulation<2, double> simulation(
+      paper_case(column, {fmt::format("band.thickness={{time=[0.0,0.5,0.5,9.0],value=[0.05,0.05,{0},{0}]}}", thickness),
+                          "band.thickness_change=conserving", "phases.rock_expansion=0.0", "pressure.seepage=false",
+                          "pressure.melt_contraction=" + melt_contraction}));
   auto& particles = simulation.particles();
   const bool holds = particles.pore_void.is_kept();
   const double all = holds ? particles.pore_void(3) : 0.0;
@@ -170,7 +170,7 @@ double stir(Simulation<2, double>& simulation, double swing) {
 }
 
 TEST(ConservativeAdvection, MakesNoHeat) {
-  Simulation<2, double> simulation(case_from_text(column, seeping));
+  Simulation<2, double> simulation(paper_case(column, seeping));
   const double before = heat(history_row(simulation)) + stir(simulation, 20.0);
   run_until(simulation, 4000.0);
   const auto row = history_row(simulation);
@@ -186,7 +186,7 @@ TEST(ConservativeAdvection, MakesNoHeat) {
 TEST(ConservativeAdvection, CarriesTheHeatOfTheWater) {
   auto on_small_cells = seeping;
   on_small_cells.emplace_back("grid.cell=0.25");
-  Simulation<2, double> simulation(case_from_text(column, on_small_cells));
+  Simulation<2, double> simulation(paper_case(column, on_small_cells));
   stir(simulation, 20.0);
   const auto& particles = simulation.particles();
   const auto moment = [&] {
@@ -208,7 +208,7 @@ TEST(ConservativeAdvection, CarriesTheHeatOfTheWater) {
 
 // Water that leaves a body of one temperature leaves it so, at its drained top as well.
 TEST(ConservativeAdvection, LeavesOneTemperatureAlone) {
-  Simulation<2, double> simulation(case_from_text(column, seeping));
+  Simulation<2, double> simulation(paper_case(column, seeping));
   stir(simulation, 0.0);
   run_until(simulation, 4000.0);
   const auto row = history_row(simulation);

@@ -46,8 +46,8 @@ x_min = { temperature = 8.0 }
 
 // Root mean square error against 2 + 6 erfc(x/sqrt(4 a t)).
 double conduction_error(double cell) {
-  const config::Case parameters = case_from_text(
-      bar, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 1000.0 * cell * cell / 0.01)});
+  const config::Case parameters =
+      paper_case(bar, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 1000.0 * cell * cell / 0.01)});
   Simulation<2, double> simulation(parameters);
   run_until(simulation, parameters.time.end);
   const auto& particles = simulation.particles();
@@ -74,7 +74,7 @@ TEST(Conduction, HalfSpaceConvergesAtSecondOrder) {
 TEST(Conduction, FluxBringsItsHeat) {
   std::string text = bar;
   text.replace(text.find("{ temperature = 8.0 }"), 21, "{ flux = 2.0 }");
-  Simulation<2, double> simulation(case_from_text(text));
+  Simulation<2, double> simulation(paper_case(text));
   run_until(simulation, 4.0e5);
   const auto row = history_row(simulation);
   // 2 W/m2 over 0.4 m for 4e5 s.
@@ -84,8 +84,8 @@ TEST(Conduction, FluxBringsItsHeat) {
 
 TEST(Conduction, BandScalingMakesTheGridFiner) {
   // With xi = 10, cells of 0.1 m conduct as cells of 0.01 m would: the same curve over x/xi, 100 times sooner.
-  const config::Case plain = case_from_text(bar, {"time.step=1000.0"});
-  const config::Case scaled = case_from_text(bar, {"time.step=10.0", "time.end=4000.0", "band.thickness=0.01"});
+  const config::Case plain = paper_case(bar, {"time.step=1000.0"});
+  const config::Case scaled = paper_case(bar, {"time.step=10.0", "time.end=4000.0", "band.thickness=0.01"});
   Simulation<2, double> slow(plain), fast(scaled);
   run_until(slow, plain.time.end);
   run_until(fast, scaled.time.end);
@@ -96,7 +96,7 @@ TEST(Conduction, BandScalingMakesTheGridFiner) {
 
 TEST(Conduction, StepAboveTheLimitOfALaterThinnerBandIsRefused) {
   EXPECT_THROW((Simulation<2, double>(
-                   case_from_text(bar, {"band.thickness={time=[0.0,1e5],value=[0.1,0.001]}", "time.step=500.0"}))),
+                   paper_case(bar, {"band.thickness={time=[0.0,1e5],value=[0.1,0.001]}", "time.step=500.0"}))),
                UserError);
 }
 
@@ -129,7 +129,7 @@ seepage = false
 [heat.boundary]
 x_min = { flux = 40.0 }
 )";
-  Simulation<2, double> simulation(case_from_text(heated));
+  Simulation<2, double> simulation(paper_case(heated));
   const auto& particles = simulation.particles();
   std::vector<double> start(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {

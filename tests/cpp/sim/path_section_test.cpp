@@ -16,7 +16,7 @@
 namespace thawslide::sim {
 namespace {
 
-using testing_support::case_from_text;
+using testing_support::paper_case;
 using testing_support::raster;
 using testing_support::value_of;
 
@@ -75,7 +75,7 @@ config::Case flat_case(double slope_beyond) {
   file.close();
   std::string text = on_plane;
   text.replace(text.find("TERRAIN"), 7, "type = \"profile\"\nfile = \"profile.csv\"");
-  return case_from_text(text);
+  return paper_case(text);
 }
 
 struct InSpace {

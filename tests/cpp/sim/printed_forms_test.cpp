@@ -54,7 +54,7 @@ TEST(SeepageScaling, PrintedIsSlowerByXi) {
     auto sets = still;
     sets.insert(sets.end(), {"pressure.seepage_scaling=" + scaling, fmt::format("time.step={}", step),
                              fmt::format("time.end={}", end)});
-    Simulation<2, double> simulation(case_from_text(bar, sets));
+    Simulation<2, double> simulation(paper_case(bar, sets));
     auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e5 * std::cos(pi<double> * particles.position(p, 0));
@@ -80,7 +80,7 @@ double frequency(const std::vector<std::string>& sets, double* residual = nullpt
   auto all = sets;
   all.insert(all.end(), {"heat.enabled=false", "pressure.seepage=false", "time.step=4e-6", "time.end=1e-3",
                          "grid.boundary={x_min=\"roller\",x_max=\"roller\",y_min=\"roller\",y_max=\"roller\"}"});
-  Simulation<2, double> simulation(case_from_text(bar, all));
+  Simulation<2, double> simulation(paper_case(bar, all));
   auto& particles = simulation.particles();
   const auto mode = [&](std::size_t p) { return std::sin(pi<double> * particles.position(p, 0) / 2.0); };
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -151,8 +151,8 @@ friction_angle = 30.0
 )";
 
 TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
-  Simulation<2, double> total(case_from_text(slab));
-  Simulation<2, double> effective(case_from_text(slab, {"mechanics.effective_stress=true"}));
+  Simulation<2, double> total(paper_case(slab));
+  Simulation<2, double> effective(paper_case(slab, {"mechanics.effective_stress=true"}));
   for (std::size_t p = 0; p < total.particles().size(); ++p) {
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(effective.particles().stress(p, c),
@@ -173,7 +173,7 @@ TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
 
 // What softens, cohesion and friction both, is the strength of the effective stress.
 TEST(EffectiveStress, SoftensAsAnyOther) {
-  Simulation<2, double> simulation(case_from_text(
+  Simulation<2, double> simulation(paper_case(
       slab, {"mechanics.effective_stress=true", "material.rock.cohesion=2e4", "material.rock.residual_cohesion=0.0",
              "material.rock.residual_friction_angle=20.0", "material.rock.softening_strain=1e-5"}));
   auto& particles = simulation.particles();
@@ -210,7 +210,7 @@ const std::vector<std::string> cooled = {"mechanics.enabled=false", "pressure.en
 HistoryRow after_cooling(const std::string& update, double step) {
   auto sets = cooled;
   sets.insert(sets.end(), {"heat.update=" + update, fmt::format("time.step={}", step), "time.end=400000"});
-  const config::Case parameters = case_from_text(bar, sets);
+  const config::Case parameters = paper_case(bar, sets);
   Simulation<2, double> simulation(parameters);
   run_until(simulation, parameters.time.end);
   return history_row(simulation);
@@ -233,8 +233,8 @@ TEST(HeatUpdate, ApparentCapacityMakesHeatThatItsColumnShows) {
 
 // A bar at -1 C that swelled by a tenth in volume, its grains as Eq. 6 has them, one step later.
 HistoryRow after_swelling(const std::string& masses, double& made_by_hand, double& pore_mass_by_hand) {
-  Simulation<2, double> simulation(case_from_text(bar, {"mechanics.enabled=false", "pressure.enabled=false",
-                                                        "body.bar.temperature=-1.0", "heat.masses=" + masses}));
+  Simulation<2, double> simulation(paper_case(bar, {"mechanics.enabled=false", "pressure.enabled=false",
+                                                    "body.bar.temperature=-1.0", "heat.masses=" + masses}));
   auto& particles = simulation.particles();
   const auto& band = simulation.model().band;
   made_by_hand = pore_mass_by_hand = 0.0;
@@ -316,7 +316,7 @@ enabled = false
 
 // Heat put in per area over the capacity and the mean rise of the band, in units of e.
 double effective_thickness(const std::string& text, const std::string& cut_cells) {
-  Simulation<2, double> simulation(case_from_text(text, {"band.cut_cells=" + cut_cells}));
+  Simulation<2, double> simulation(paper_case(text, {"band.cut_cells=" + cut_cells}));
   run_until(simulation, 0.2);
   const HistoryRow row = history_row(simulation);
   const double heat = value_of(row, "friction_heat_J");

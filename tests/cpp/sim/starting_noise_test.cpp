@@ -87,7 +87,7 @@ Fields fields_of(const Simulation<Dim, double>& simulation) {
 
 // more: tables of further bodies.
 Fields on_flat_ground(const Sets& sets, const std::string& more = "") {
-  return fields_of(Simulation<2, double>(case_from_text(wedge_and_block + more, sets)));
+  return fields_of(Simulation<2, double>(paper_case(wedge_and_block + more, sets)));
 }
 
 Simulation<3, double> on_slope(const Sets& sets) {

@@ -33,7 +33,7 @@ enabled = false
 )";
 
 TEST(TimeStep, TheLastFixedStepEndsWithTheRun) {
-  Simulation<2, double> simulation(case_from_text(block, {"time.step=0.003", "time.end=0.01"}));
+  Simulation<2, double> simulation(paper_case(block, {"time.step=0.003", "time.end=0.01"}));
   while (simulation.time() < 0.01) {
     simulation.step(simulation.next_step(0.01));
   }

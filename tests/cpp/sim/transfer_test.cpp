@@ -55,7 +55,7 @@ const std::vector<Transfer> transfers{{"flip", {}},
 
 config::Case block_with(const std::string& shape, std::vector<std::string> sets) {
   sets.push_back("mechanics.shape_function=" + shape);
-  return case_from_text(block, sets);
+  return paper_case(block, sets);
 }
 
 template <class Work>

@@ -139,7 +139,7 @@ struct Dense {
 template <int Dim>
 void expect_the_filter_of_matrices(int order) {
   SCOPED_TRACE(order);
-  Simulation<Dim, double> simulation(case_from_text(block<Dim>(), {fmt::format("mechanics.fmpm_order={}", order)}));
+  Simulation<Dim, double> simulation(paper_case(block<Dim>(), {fmt::format("mechanics.fmpm_order={}", order)}));
   const Dense<Dim> dense(points_of(simulation));
   const Velocities before = random_velocities(dense.mass.size());
   set_velocities(simulation, before);
@@ -172,7 +172,7 @@ TEST(VelocityFilter, IsThatOfMatrices) {
 // fall, and whatever is filtered out has neither momentum nor angular momentum.
 template <int Dim>
 void expect_a_contraction_that_keeps_rigid_motions() {
-  const Simulation<Dim, double> simulation(case_from_text(block<Dim>()));
+  const Simulation<Dim, double> simulation(paper_case(block<Dim>()));
   const Dense<Dim> dense(points_of(simulation));
   const Eigen::MatrixXd weighed = dense.mass.asDiagonal() * dense.transfer;
   EXPECT_LT((weighed - weighed.transpose()).cwiseAbs().maxCoeff(), 1e-12 * weighed.cwiseAbs().maxCoeff());
@@ -192,7 +192,7 @@ TEST(VelocityFilter, IsAContractionThatKeepsRigidMotions) {
 TEST(VelocityFilter, LetsASpinPass) {
   for (const char* shape : {"ugimp", "linear", "quadratic"}) {
     SCOPED_TRACE(shape);
-    Simulation<2, double> simulation(case_from_text(block<2>(), {std::string("mechanics.shape_function=") + shape}));
+    Simulation<2, double> simulation(paper_case(block<2>(), {std::string("mechanics.shape_function=") + shape}));
     const Dense<2> dense(points_of(simulation));
     const Velocities spin = dense.rigid * Eigen::Vector3d(3.0, -1.0, 2.0);
     set_velocities(simulation, spin);
@@ -212,8 +212,8 @@ TEST(VelocityFilter, ActsOnceAnInterval) {
   for (const std::string stepping : {"fixed", "adaptive"}) {
     SCOPED_TRACE(stepping);
     const std::vector<std::string> sets{"time.stepping=" + stepping, "mechanics.fmpm_interval=0.02"};
-    Simulation<2, double> filtered(case_from_text(block<2>(), sets));
-    Simulation<2, double> flip(case_from_text(without_filter(), {"time.stepping=" + stepping}));
+    Simulation<2, double> filtered(paper_case(block<2>(), sets));
+    Simulation<2, double> flip(paper_case(without_filter(), {"time.stepping=" + stepping}));
     set_velocities(filtered, random_velocities(velocities_of(filtered).size()));
     int times = 0;
     while (filtered.time() < 0.201) {
@@ -279,7 +279,7 @@ struct Swing {
   double determinant, trace;
 };
 Swing swing(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(case_from_text(bar, sets));
+  Simulation<2, double> simulation(paper_case(bar, sets));
   const auto points = points_of(simulation);
   const ScalarTransfer<2> to_nodes{static_cast<double>(bar_cells)};
   Velocities form = Velocities::Zero(2 * static_cast<Eigen::Index>(points.size()));

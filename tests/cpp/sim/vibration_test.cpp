@@ -52,7 +52,7 @@ enabled = false
 enabled = false
 )",
                                        0.1 * cell / bar_wave_speed, cell, 2.0 * cell, 2.0 * cell);
-  return case_from_text(text, sets);
+  return paper_case(text, sets);
 }
 
 struct Mode {

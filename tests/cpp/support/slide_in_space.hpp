@@ -10,7 +10,7 @@ namespace thawslide::testing_support {
 // A frictionless box of 6 x 4 x 3 m on a plane of 25 degrees that falls towards +x, with warm ice in it, on a grid of
 // 1 m; `body`: more keys of the box.
 inline config::Case slide_in_space(const std::string& body = "", const std::vector<std::string>& sets = {}) {
-  return case_from_text(fmt::format(R"(
+  return paper_case(fmt::format(R"(
 [case]
 dimension = 3
 gravity_tilt = 25.0
@@ -44,8 +44,8 @@ friction_angle = 5.0
 [band]
 thickness = 0.1
 )",
-                                    body),
-                        sets);
+                                body),
+                    sets);
 }
 
 }  // namespace thawslide::testing_support

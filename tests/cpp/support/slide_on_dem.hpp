@@ -68,7 +68,7 @@ inline config::Case case_on_dem(const std::string& text, const std::vector<std::
   const std::filesystem::path folder = folder_of_this_test();
   std::ofstream(folder / "dem.tif");
   std::ofstream(folder / "thickness.tif");
-  return case_from_text(text, sets);
+  return paper_case(text, sets);
 }
 
 // Points `cell` [m] apart over the rectangle between two places.

@@ -20,7 +20,7 @@ config::Case two_bodies(double cohesion, double length = 7.0, double height = 5.
     return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, z > 0.0 ? 3.0 : 0.0, z);
   };
   const auto along_slope = Dim == 2 ? fmt::format("[{}, 0.0]", speed) : fmt::format("[{}, 0.0, 0.0]", speed);
-  return case_from_text(fmt::format(R"(
+  return paper_case(fmt::format(R"(
 [case]
 dimension = {}
 gravity_tilt = 35.0
@@ -70,12 +70,12 @@ friction_angle = 25.0
 [band]
 thickness = 0.1
 )",
-                                    Dim, Dim == 2 ? "[-4.0, -4.0]" : "[-4.0, -4.0, -4.0]",
-                                    Dim == 2 ? fmt::format("[{}, {}]", std::ceil(length) + 33.0, height + 15.0)
-                                             : fmt::format("[{}, 10.0, {}]", std::ceil(length) + 33.0, height + 15.0),
-                                    terrain, cohesion, cohesion, 0.5 * cohesion, at(0.0, 0.0), at(length, height),
-                                    along_slope, at(length, 0.0), at(length + 4.3, 4.1), along_slope),
-                        sets);
+                                Dim, Dim == 2 ? "[-4.0, -4.0]" : "[-4.0, -4.0, -4.0]",
+                                Dim == 2 ? fmt::format("[{}, {}]", std::ceil(length) + 33.0, height + 15.0)
+                                         : fmt::format("[{}, 10.0, {}]", std::ceil(length) + 33.0, height + 15.0),
+                                terrain, cohesion, cohesion, 0.5 * cohesion, at(0.0, 0.0), at(length, height),
+                                along_slope, at(length, 0.0), at(length + 4.3, 4.1), along_slope),
+                    sets);
 }
 
 }  // namespace thawslide::testing_support

@@ -59,9 +59,9 @@ struct Work {
 };
 
 Work work_on(const std::string& text) {
-  sim::Simulation<2, double> simulation(case_from_text(text));
+  sim::Simulation<2, double> simulation(paper_case(text));
   run_until(simulation, simulation.parameters().time.end);
-  const auto rows = sim::run_block(case_from_text(text));
+  const auto rows = sim::run_block(paper_case(text));
   const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
   return {value_of(sim::history_row(simulation), "friction_work_J") / length, last.at("friction_work_J_m2")};
 }
@@ -85,11 +85,11 @@ struct Distance {
 };
 
 Distance distance_on(const std::string& text, const std::vector<std::string>& sets) {
-  sim::Simulation<2, double> simulation(case_from_text(text, sets));
+  sim::Simulation<2, double> simulation(paper_case(text, sets));
   run_until(simulation, simulation.parameters().time.end);
   const auto row = sim::history_row(simulation);
   EXPECT_LT(value_of(row, "mean_velocity_m_s"), 1e-2) << "it still slides";
-  const auto rows = sim::run_block(case_from_text(text, sets));
+  const auto rows = sim::run_block(paper_case(text, sets));
   const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
   EXPECT_LT(last.at("velocity_m_s"), 1e-9) << "it still slides";
   return {value_of(row, "mean_displacement_m"), last.at("displacement_m")};

@@ -89,7 +89,7 @@ TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
                 "A slab 10 m thick comes down a slope of 40 degrees into an arc of 300 m radius and runs through it, "
                 "points of the profile each metre; as a rigid block with block.bends.",
                 "N = rho h (g cos + v^2/R)", "balance of momentum across the path");
-  const config::Case parameters = case_from_text(slide_into_bend(), {"block.bends=true"});
+  const config::Case parameters = paper_case(slide_into_bend(), {"block.bends=true"});
   const auto rows = sim::run_block(parameters);
   const double length = 70.0 / std::cos(Ground::steepest), half = 0.5 * length / radius;
   const double middle_before_arc = (365.0 - radius * std::sin(Ground::steepest)) / std::cos(Ground::steepest);
@@ -118,7 +118,7 @@ TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
 TEST(BendPressure, OfTheBlockIsLeftOutUnlessAskedFor) {
   const auto pressures = [](const std::vector<std::string>& sets) {
     std::vector<double> found;
-    for (const auto& row : sim::run_block(case_from_text(slide_into_bend(), sets))) {
+    for (const auto& row : sim::run_block(paper_case(slide_into_bend(), sets))) {
       found.push_back(value_of(row, "normal_pressure_Pa") / (density * thickness * gravity));
     }
     return found;
@@ -137,7 +137,7 @@ TEST(BendPressure, IsNeverBelowZero) {
   EXPECT_DOUBLE_EQ(physics::load_in_bend(2.0, 9.0, 30.0, -1.0 / 200.0), 9.0);
   EXPECT_DOUBLE_EQ(physics::load_in_bend(2.0, 9.0, 30.0, 1.0 / 200.0), 27.0);
   const auto crest = [](double x) { return 100.0 - x * x / 400.0; };
-  const auto rows = sim::run_block(case_from_text(
+  const auto rows = sim::run_block(paper_case(
       case_of_profile(crest, -120.0, -60.0, [&](double x) { return crest(x) + thickness; }),
       {"block.bends=true", "body.slide.velocity=[60.0, 20.0]", "grid.min=[-450.0, -300.0]", "time.end=2.0"}));
   double lowest = HUGE_VAL;
@@ -181,7 +181,7 @@ TEST(BendPressure, OfTheSlideIsThatOfTheArc) {
                 "The same slab, of broken rock (35 degrees, 1 kPa), in cells of 2.5 m: the force of the slide across "
                 "the ground, summed over nodes, in means over half a second.",
                 "sum over particles of m (g cos + v^2/r)", "balance of momentum across the path");
-  Simulation<2, double> simulation(case_from_text(slide_into_bend()));
+  Simulation<2, double> simulation(paper_case(slide_into_bend()));
   double largest = 0.0, most = 0.0;
   Curve curve{"time [s]", "force across the ground over weight", {}, {}, {}};
   double expected = 0.0, found = 0.0, mass = 0.0;

@@ -68,7 +68,7 @@ Errors errors_on(double cell, double start, std::vector<std::string> sets, const
   sets.push_back(fmt::format("grid.cell={}", cell));
   sets.push_back(fmt::format("time.step={}", 1000.0 * cell * cell / 0.01));
   sets.push_back(fmt::format("body.bar.max=[4.0,{}]", cell));
-  Simulation<2, double> simulation(case_from_text(bar, sets));
+  Simulation<2, double> simulation(paper_case(bar, sets));
   if (start > 0.0) {
     set_temperatures(simulation, [&](double x, double /*y*/) { return exact(simulation, x, start); });
   }
@@ -187,7 +187,7 @@ struct Manufactured {
 };
 
 double manufactured_error(double cell) {
-  Simulation<2, double> simulation(case_from_text(
+  Simulation<2, double> simulation(paper_case(
       bar, {"grid.max=[2.0,2.0]", "body.bar.max=[2.0,2.0]", fmt::format("grid.cell={}", cell),
             fmt::format("time.step={}", 256.0 * cell * cell / 0.01), "time.end=8e4", "freezing.exponent=2.0"}));
   auto& particles = simulation.particles();

@@ -52,7 +52,7 @@ enabled = false
 
 // The bar on cells of a size, its lower end at a height; steps are a fifth of what a wave needs to cross one.
 Simulation<2, double> falling_bar(double cell, double height, bool distance_check = true) {
-  return Simulation<2, double>(case_from_text(
+  return Simulation<2, double>(paper_case(
       falling,
       {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-4 * cell),
        fmt::format("body.bar.min=[0.0,{}]", height), fmt::format("body.bar.max=[{},{}]", 2.0 * cell, 20.0 + height),
@@ -213,8 +213,8 @@ TEST(Turning, CarriesItsStressRound) {
   std::vector<double> errors, spins;
   for (const double cell : cells) {
     Simulation<2, double> simulation(
-        case_from_text(turning, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-3 * cell),
-                                 "body.disc.vertices=" + circle(10.0)}));
+        paper_case(turning, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-3 * cell),
+                             "body.disc.vertices=" + circle(10.0)}));
     auto& particles = simulation.particles();
     const physics::exact::TurningCylinder exact{particles.mass(0) / particles.volume(0), 0.3, 1.0, 10.0};
     for (std::size_t p = 0; p < particles.size(); ++p) {

@@ -72,7 +72,7 @@ sim::Simulation<2, double> in_profile() {
     csv << fmt::format("{:.17g},{:.17g}\n", x, elevation(x));
   }
   csv.close();
-  return sim::Simulation<2, double>(case_from_text(text_of(2)));
+  return sim::Simulation<2, double>(paper_case(text_of(2)));
 }
 
 sim::Simulation<3, double> in_space() {

@@ -67,12 +67,12 @@ template <class Exact>
 double error_on(double cell, double frozen, double k_ice, double k_water, const Exact& exact, Curve* curve) {
   const double share = 0.3;
   Simulation<2, double> simulation(
-      case_from_text(bar, {fmt::format("grid.cell={}", cell), fmt::format("body.bar.max=[6.0,{}]", cell),
-                           fmt::format("time.step={}", 540.0 * cell * cell / 0.01),
-                           fmt::format("phases.latent_heat={}", latent_heat / (1000.0 * share)),
-                           fmt::format("phases.ice_conductivity={}", (k_ice - (1.0 - share) * 2.0) / share),
-                           fmt::format("phases.water_conductivity={}", (k_water - (1.0 - share) * 2.0) / share),
-                           fmt::format("freezing.slope={}", -1.0 / frozen)}));
+      paper_case(bar, {fmt::format("grid.cell={}", cell), fmt::format("body.bar.max=[6.0,{}]", cell),
+                       fmt::format("time.step={}", 540.0 * cell * cell / 0.01),
+                       fmt::format("phases.latent_heat={}", latent_heat / (1000.0 * share)),
+                       fmt::format("phases.ice_conductivity={}", (k_ice - (1.0 - share) * 2.0) / share),
+                       fmt::format("phases.water_conductivity={}", (k_water - (1.0 - share) * 2.0) / share),
+                       fmt::format("freezing.slope={}", -1.0 / frozen)}));
   const auto& particles = simulation.particles();
   std::vector<double> errors;
   for (int sample = 20; sample <= 40; ++sample) {

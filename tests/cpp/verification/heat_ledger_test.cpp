@@ -42,7 +42,7 @@ TEST(HeatLedger, ClosesThroughMelting) {
   Record record("Heat of an insulated body that melts", "Half a body at 30 C melts the other half, at -3 C.",
                 "the heat content does not change", "energy balance");
   for (const std::string curve : {"power_law", "linear"}) {
-    Simulation<2, double> simulation(case_from_text(melting, {"freezing.curve=" + curve}));
+    Simulation<2, double> simulation(paper_case(melting, {"freezing.curve=" + curve}));
     auto& particles = simulation.particles();
     std::vector<double> start(particles.size());
     double ice = 0.0;
@@ -94,7 +94,7 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
                 "over the volume; not at all without it",
                 "energy balance");
   for (const bool on : {true, false}) {
-    Simulation<2, double> simulation(case_from_text(seeping, {on ? "heat.advection=true" : "heat.advection=false"}));
+    Simulation<2, double> simulation(paper_case(seeping, {on ? "heat.advection=true" : "heat.advection=false"}));
     auto& particles = simulation.particles();
     const auto before = history_row(simulation);
     double stirred = 0.0;
@@ -173,7 +173,7 @@ pressurization = false
 TEST(HeatLedger, FrictionHeatsTheSlide) {
   Record record("Friction work becomes heat", "A block of rock and ice brakes on level ground and melts at its base.",
                 "work of friction = kinetic energy lost; 0.35 of it is heat in the block", "energy balance");
-  Simulation<2, double> simulation(case_from_text(braking));
+  Simulation<2, double> simulation(paper_case(braking));
   const auto before = history_row(simulation);
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);

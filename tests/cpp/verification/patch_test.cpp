@@ -42,7 +42,7 @@ enabled = false
 )";
 
 config::Case patch_case(const std::string& shape, const std::string& transfer) {
-  return case_from_text(patch, {"mechanics.shape_function=" + shape, "mechanics.transfer=" + transfer});
+  return paper_case(patch, {"mechanics.shape_function=" + shape, "mechanics.transfer=" + transfer});
 }
 
 // Moves the body by a share of a cell along both axes.

@@ -62,8 +62,8 @@ struct Manufactured {
 };
 
 double error_on(double cell, Curve* curve) {
-  Simulation<2, double> simulation(case_from_text(
-      square, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.0 * cell * cell / 0.01)}));
+  Simulation<2, double> simulation(
+      paper_case(square, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.0 * cell * cell / 0.01)}));
   auto& particles = simulation.particles();
   const auto& phases = simulation.model().motion.phases;
   const Manufactured exact{phases.water_bulk_modulus * 1e-9 / phases.water_unit_weight};

@@ -52,8 +52,8 @@ TEST(UndrainedHeating, FollowsLambda) {
   std::vector<double> errors;
   for (const double dt : steps) {
     Simulation<2, double> simulation(
-        case_from_text(column, {"phases.rock_expansion=3e-3", "pressure.seepage=false", "time.end=8000.0",
-                                "heat.boundary.y_min={flux=400.0}", fmt::format("time.step={}", dt)}));
+        paper_case(column, {"phases.rock_expansion=3e-3", "pressure.seepage=false", "time.end=8000.0",
+                            "heat.boundary.y_min={flux=400.0}", fmt::format("time.step={}", dt)}));
     run_until(simulation, 8000.0);
     const auto& particles = simulation.particles();
     const auto& phases = simulation.model().motion.phases;
@@ -79,7 +79,7 @@ TEST(Consolidation, OfAMeltedColumn) {
     auto sets = on_cells(cell);
     sets.push_back("material.soil.hydraulic_conductivity=1e-9");
     sets.push_back(fmt::format("time.step={}", 4.0 * cell * cell / 0.01));
-    Simulation<2, double> simulation(case_from_text(column, sets));
+    Simulation<2, double> simulation(paper_case(column, sets));
     auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e6;

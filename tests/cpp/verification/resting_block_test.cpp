@@ -54,7 +54,7 @@ struct Pressing {
 };
 
 Pressing press(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(case_from_text(resting, sets));
+  Simulation<2, double> simulation(paper_case(resting, sets));
   simulation.settle();
   const double weight = sum_over_body(simulation).mass * 9.81;
   const double mean = weight / 40.0;
@@ -131,7 +131,7 @@ TEST(AngleSweep, SticksBelowAndSlidesAboveTheFrictionAngle) {
   const double degree = pi<double> / 180.0;
   Curve curve{"slope [degrees]", "acceleration [m/s2]", {}, {}, {}};
   for (const double slope : {15.0, 18.0, 19.0, 19.9, 20.1, 21.0, 22.0, 25.0, 30.0}) {
-    Simulation<2, double> simulation(case_from_text(sweep, {fmt::format("case.gravity_tilt={}", slope)}));
+    Simulation<2, double> simulation(paper_case(sweep, {fmt::format("case.gravity_tilt={}", slope)}));
     run_until(simulation, 1.0);  // by then the block's elastic start is over
     const double before = value_of(history_row(simulation), "mean_velocity_m_s");
     run_until(simulation, 2.0);

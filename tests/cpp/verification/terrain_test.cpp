@@ -66,7 +66,7 @@ TEST(TiltedTerrain, SlidesAlikeAtAnyAngleToTheGrid) {
   const double friction = std::tan(20.0 * degree);
   const double acceleration = physics::exact::acceleration_on_plane(35.0 * degree, friction, 9.81);
   for (const double ground : {0.0, 10.0, 26.565051177, 45.0}) {
-    Simulation<2, double> simulation(case_from_text(slab_on_plane(ground)));
+    Simulation<2, double> simulation(paper_case(slab_on_plane(ground)));
     run_until(simulation, 2.0);
     const auto row = history_row(simulation);
     const double velocity = 2.0 * acceleration;
@@ -154,7 +154,7 @@ TEST(CurvedTerrain, SwingsLikeThePendulumWithFriction) {
   for (const double cell : {5.0, 2.5}) {
     const std::string file = testing::TempDir() + "arc.csv";
     write_arc(file);
-    Simulation<2, double> simulation(case_from_text(
+    Simulation<2, double> simulation(paper_case(
         arc, {"terrain.file=" + file, fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 7e-4 * cell)}));
     const Turning start(simulation);
     const physics::exact::ArcSlide exact{radius, start.centre.norm(), start.inertia, std::tan(10.0 * degree), 9.81};

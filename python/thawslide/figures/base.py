@@ -1,0 +1,75 @@
+"""The pieces of a slide's base, each with its band column, at chosen times: along the section, or from above."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from thawslide.binning import gather_base
+from thawslide.boiling import boiling_temperature
+from thawslide.errors import NotInRunError
+from thawslide.figures.colours import TEMPERATURE, Painting
+from thawslide.figures.slide_on_map import cell_of, draw_on_map
+from thawslide.figures.snapshots import chosen_snapshots
+from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, RED, SKY, prefixed, say, styled
+from thawslide.run import Run, Snapshot
+
+_RATIO = Painting("pore_pressure", "pore pressure over normal pressure", "1", "viridis")
+_HEAT = Painting("temperature", "temperature of the band", TEMPERATURE.unit, TEMPERATURE.colours)
+_ROW = 1.65  # inches
+
+
+@styled
+def base_along(run: Run) -> Figure:
+    """Draw N, P and what is left of N, and the band's temperatures, of each piece over its distance."""
+    shots = chosen_snapshots(run, ())
+    if not any(len(shot.base) for shot in shots):
+        raise NotInRunError(f"{run.folder}: no snapshot has pieces of base, as a run on band columns writes")
+    loads = [shot.base["normal_pressure_Pa"] for shot in shots if len(shot.base)]
+    divisor, unit = prefixed(np.concatenate(loads), "Pa")
+    figure = Figure(figsize=(10.0, 0.9 + _ROW * len(shots)), layout="constrained")
+    figure.suptitle(f"{run.title}: along the base", x=0.01, ha="left", size=12)
+    rows = figure.subplots(len(shots), 2, squeeze=False)
+    for number, (row, shot) in enumerate(zip(rows, shots, strict=True)):
+        _draw_row(row[0], row[1], shot, divisor)
+        row[0].set_title(f"t = {shot.time:g} s", loc="left")
+        row[0].set_ylabel(f"stress ({unit})")
+        row[1].set_ylabel("temp. (°C)")
+        if number == 0:
+            row[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
+            row[1].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
+    for axes in rows[-1]:
+        axes.set_xlabel("distance (m)")
+    return figure
+
+
+def _draw_row(stress: Axes, heat: Axes, shot: Snapshot, divisor: float) -> None:
+    if not len(shot.base):
+        for axes in (stress, heat):
+            say(axes, "no contact yet")
+        return
+    order = np.argsort(shot.base["position_m"][:, 0], kind="stable")
+    value = {name: numbers[order] for name, numbers in shot.base.items()}
+    x = value["position_m"][:, 0]
+    load, pressure = value["normal_pressure_Pa"] / divisor, value["pore_pressure_Pa"] / divisor
+    stress.plot(x, load, color=BLACK, label="normal pressure N")
+    stress.plot(x, pressure, color=BLUE, label="pore pressure P")
+    stress.fill_between(x, pressure, load, where=load > pressure, color=GREEN, alpha=0.25, label="N − P", linewidth=0)
+    stress.set_ylim(bottom=0.0)
+    heat.plot(x, value["hottest_C"], color=ORANGE, label="hottest")
+    heat.plot(x, value["temperature_C"], color=RED, label="mean of the band")
+    heat.plot(x, boiling_temperature(value["normal_pressure_Pa"]), color=SKY, linestyle="--", label="boils at N")
+    heat.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
+
+
+@styled
+def base_pressure(run: Run) -> Figure:
+    """Draw the pore pressure of the band over the normal pressure from above."""
+    return draw_on_map(run, _RATIO, lambda grid, shot: gather_base(grid, shot, cell_of(run)).pressure_ratio)
+
+
+@styled
+def base_temperature(run: Run) -> Figure:
+    """Draw the mean temperature of the band from above."""
+    return draw_on_map(run, _HEAT, lambda grid, shot: gather_base(grid, shot, cell_of(run)).temperature)

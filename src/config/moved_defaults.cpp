@@ -1,0 +1,78 @@
+#include "config/moved_defaults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace thawslide::config {
+
+namespace {
+
+bool has_pore_water(const Case& parameters) { return parameters.pressure.enabled && parameters.heat.enabled; }
+
+bool seeps(const Case& parameters) {
+  return has_pore_water(parameters) && parameters.pressure.seepage &&
+         std::any_of(parameters.materials.begin(), parameters.materials.end(),
+                     [](const auto& each) { return each.second.hydraulic_conductivity > 0.0; });
+}
+
+bool softens(const Case& parameters) {
+  return parameters.mechanics.enabled &&
+         std::any_of(parameters.materials.begin(), parameters.materials.end(), [](const auto& each) {
+           const Material& material = each.second;
+           return material.law == LawKind::mohr_coulomb && (material.residual_cohesion < material.cohesion ||
+                                                            material.residual_friction_angle < material.friction_angle);
+         });
+}
+
+bool has_bends(const Case& parameters) {
+  return parameters.terrain.kind == TerrainKind::profile || parameters.terrain.kind == TerrainKind::dem;
+}
+
+bool is_given(const Case& parameters, const MovedDefault& moved) {
+  if (moved.table != "material.NAME") {
+    return parameters.places.count(moved.table + "." + moved.key) > 0;
+  }
+  return std::any_of(parameters.materials.begin(), parameters.materials.end(), [&](const auto& each) {
+    return parameters.places.count("material." + each.first + "." + moved.key) > 0;
+  });
+}
+
+}  // namespace
+
+const std::vector<MovedDefault>& moved_defaults() {
+  static const std::vector<MovedDefault> all{
+      {"band", "model", "\"scaled\"", "\"columns\"", has_band_columns},
+      {"band", "thickness_change", "\"as_printed\"", "\"conserving\"", has_band_columns},
+      {"heat", "advection_form", "\"as_printed\"", "\"conservative\"", seeps},
+      {"pressure", "frozen", "\"ice_pressure\"", "\"none\"", has_pore_water},
+      {"pressure", "frozen_rows", "\"draining\"", "\"sealed\"", seeps},
+      {"pressure", "melt_contraction", "false", "true", has_pore_water},
+      {"pressure", "skeleton_compressibility", "0.0", "2e-09", has_pore_water},
+      {"phases", "water_expansion_law", "\"constant\"", "\"by_temperature\"", has_pore_water},
+      {"material.NAME", "softening_strain", "1.0", "0.05", softens},
+      {"block", "bends", "false", "true", has_bends},
+  };
+  return all;
+}
+
+std::string notice_of_moved_defaults(const Case& parameters) {
+  std::string changed;
+  for (const MovedDefault& moved : moved_defaults()) {
+    if (is_given(parameters, moved)) {
+      return "";
+    }
+    if (moved.matters(parameters)) {
+      changed += fmt::format("\n  {}.{} = {}  # was {}", moved.table, moved.key, moved.now, moved.before);
+    }
+  }
+  if (changed.empty()) {
+    return "";
+  }
+  return fmt::format(
+      "{}: the file gives none of these keys, whose defaults are no longer the paper's forms:{}\n  With the values of "
+      "before it gives what it gave. Give one of them, and this note goes; docs/choosing-the-base.md says why.",
+      parameters.file, changed);
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,42 @@
+#include "sim/base_table.hpp"
+
+#include <algorithm>
+
+#include "base/instances.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim, class Real>
+NamedNumbers base_table(const Simulation<Dim, Real>& simulation) {
+  NamedNumbers table;
+  const auto* columns = simulation.band_columns();
+  if (columns == nullptr) {
+    return table;
+  }
+  const auto add = [&](const char* name, Real number) { table[name].push_back(static_cast<double>(number)); };
+  for (const band::BasePiece<Dim, Real>& piece : columns->pieces()) {
+    const physics::BandMeans<Real> means = columns->means_of(piece);
+    const Real* slide = piece.column.temperature + physics::ColumnCells::ground;
+    for (int a = 0; a < 3; ++a) {
+      table["position_m"].push_back(
+          a < Dim ? static_cast<double>(piece.position[a]) + simulation.model().origin[std::min(a, Dim - 1)] : 0.0);
+    }
+    add("area_m2", piece.area);
+    add("thickness_m", piece.column.thickness);
+    add("normal_pressure_Pa", piece.load);
+    add("pore_pressure_Pa", means.pore_pressure);
+    add("temperature_C", means.temperature);
+    add("hottest_C", *std::max_element(slide, slide + physics::ColumnCells::slide));
+    add("liquid_saturation", means.saturation);
+    add("opening_m", means.opening);
+    add("slip_m", piece.slip);
+    add("slip_speed_m_s", piece.speed);
+  }
+  return table;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template NamedNumbers base_table<Dim, Real>(const Simulation<Dim, Real>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim
