@@ -8,9 +8,7 @@
 #include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "physics/exact/drained_band.hpp"
-#include "physics/mixture.hpp"
 #include "sim/block.hpp"
-#include "sim/simulation.hpp"
 
 namespace thawslide::verification {
 namespace {
@@ -21,9 +19,10 @@ using physics::exact::DrainedBand;
 constexpr double slope = 10.0, friction = 0.3, heat_fraction = 0.9, porosity = 0.375;
 constexpr double water_expansion = 2.1e-4, rock_expansion = 1e-5;
 
-// The band melts at once (0.1 K, without latent heat; melt as heavy as ice leaves no void) and stands under matter that stays frozen and leads to
-// air: P = 0 at its top. Nothing conducts, ground lets no water through. Its pressure follows friction within some
-// hundredths of a second, the block's speed within seconds: no time is given to the band to come to its balance.
+// The band melts at once (0.1 K, without latent heat; melt as heavy as ice leaves no void) and stands under matter that
+// stays frozen and leads to air: P = 0 at its top. Nothing conducts, ground lets no water through. Its pressure follows
+// friction within some hundredths of a second, the block's speed within seconds: no time is given to the band to come
+// to its balance.
 const std::string block = R"(
 [case]
 gravity_tilt = 10.0
@@ -84,10 +83,10 @@ struct Start {
 // Whether a block of this speed at the start is twice as fast before it stands.
 bool runs_away(const Start& start, double conductivity) {
   const auto rows = sim::run_block(case_from_text(
-      block, {fmt::format("material.rock.hydraulic_conductivity={:.6e}", conductivity),
-              fmt::format("body.slab.velocity=[{}, 0.0]", start.speed),
-              fmt::format("band.thickness={}", start.thickness),
-              fmt::format("basal.friction_angle={:.12f}", std::atan(friction) * 180.0 / pi<double>)}));
+      block,
+      {fmt::format("material.rock.hydraulic_conductivity={:.6e}", conductivity),
+       fmt::format("body.slab.velocity=[{}, 0.0]", start.speed), fmt::format("band.thickness={}", start.thickness),
+       fmt::format("basal.friction_angle={:.12f}", std::atan(friction) * 180.0 / pi<double>)}));
   for (const auto& row : rows) {
     const double speed = value_of(row, "velocity_m_s");
     if (speed > 2.0 * start.speed || speed <= 0.0) {
