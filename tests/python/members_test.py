@@ -120,9 +120,12 @@ def test_members_differ_in_their_seed_alone() -> None:
 
 def test_variants_are_told_against_the_case() -> None:
     sets = [row.sets[0] for row in variant_rows(CASE)]
-    assert len(sets) == 11
+    assert len(sets) == 16
+    assert "band.growth_per_slip=1e-12" not in sets
     assert "substrate.glacier.friction_coefficient=0.10" not in sets  # as it is in this case
     assert {"pressure.frozen_rows=sealed", "band.load_time=2", "heat.steam=false", "band.growth=inertial"} < set(sets)
+    grown = [row.sets[0] for row in variant_rows(CASE | {"band": CASE["band"] | {"growth": "slip"}})]
+    assert "band.growth_per_slip=1e-12" in grown and "band.growth=inertial" not in grown
     other = CASE | {"pressure": {"frozen_rows": "sealed", "skeleton_compressibility": 1e-8}, "heat": {"steam": False}}
     found = [row.sets[0] for row in variant_rows(other)]
     assert "pressure.frozen_rows=vented" in found

@@ -1,0 +1,149 @@
+// A block on a band that drains arrests or runs away by the hydraulic conductivity k of the band, as in Goren and
+// Aharonov (2009); their numbers are not compared.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
+#include "base/portability.hpp"
+#include "physics/exact/drained_band.hpp"
+#include "sim/block.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using physics::exact::DrainedBand;
+
+constexpr double slope = 10.0, friction = 0.3, heat_fraction = 0.9, porosity = 0.375;
+constexpr double water_expansion = 2.1e-4, rock_expansion = 1e-5;
+
+// The band melts at once (0.1 K, without latent heat; melt as heavy as ice leaves no void) and stands under matter that
+// stays frozen and leads to air: P = 0 at its top. Nothing conducts, ground lets no water through. Its pressure follows
+// friction within some hundredths of a second, the block's speed within seconds: no time is given to the band to come
+// to its balance.
+const std::string block = R"(
+[case]
+gravity_tilt = 10.0
+[time]
+end = 120.0
+step = 0.0025
+history_interval = 0.1
+[grid]
+cell = 2.5
+min = [-100.0, -20.0]
+max = [2000.0, 80.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[phases]
+ice_density = 1000.0
+water_expansion = 2.1e-4
+rock_expansion = 1e-5
+water_expansion_law = "constant"
+[freezing]
+curve = "linear"
+slope = 50.0
+[material.rock]
+youngs_modulus = 2e8
+poisson_ratio = 0.2
+law = "elastic"
+[body.slab]
+material = "rock"
+min = [0.0, 0.0]
+max = [100.0, 5.0]
+temperature = -0.1
+porosity = 0.375
+[basal]
+friction = "constant"
+cohesion = 0.0
+heat_fraction = 0.9
+[heat]
+latent = false
+conduction = false
+steam = false
+[band]
+model = "columns"
+growth = "none"
+thickness_change = "conserving"
+load_time = 0.01
+column_step = 0.0025
+[pressure]
+frozen = "none"
+frozen_rows = "vented"
+melt_contraction = true
+skeleton_compressibility = 0.0
+)";
+
+struct Start {
+  double speed, thickness;  // of the block at the start [m/s], of the band [m]
+};
+
+// Whether a block of this speed at the start is twice as fast before it stands.
+bool runs_away(const Start& start, double conductivity) {
+  const auto rows = sim::run_block(case_from_text(
+      block,
+      {fmt::format("material.rock.hydraulic_conductivity={:.6e}", conductivity),
+       fmt::format("body.slab.velocity=[{}, 0.0]", start.speed), fmt::format("band.thickness={}", start.thickness),
+       fmt::format("basal.friction_angle={:.12f}", std::atan(friction) * 180.0 / pi<double>)}));
+  for (const auto& row : rows) {
+    const double speed = value_of(row, "velocity_m_s");
+    if (speed > 2.0 * start.speed || speed <= 0.0) {
+      return speed > 0.0;
+    }
+  }
+  ADD_FAILURE() << "neither by the end, k = " << conductivity;
+  return false;
+}
+
+// By bisection, within 2 %.
+double boundary(const Start& start, double low, double high) {
+  EXPECT_TRUE(runs_away(start, low));
+  EXPECT_FALSE(runs_away(start, high));
+  while (high > 1.02 * low) {
+    const double middle = std::sqrt(low * high);
+    (runs_away(start, middle) ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
+}
+
+DrainedBand band_of(double thickness) {
+  const config::Phases phases;
+  const double capacity = porosity * phases.water_density * phases.water_heat_capacity +
+                          (1.0 - porosity) * phases.rock_density * phases.rock_heat_capacity;
+  return {friction,
+          porosity * water_expansion + (1.0 - porosity) * rock_expansion,
+          phases.water_unit_weight,
+          heat_fraction,
+          thickness,
+          capacity};
+}
+
+TEST(ArrestOrRunaway, IsDecidedByConductivity) {
+  Record record("Arrest or runaway by permeability",
+                "rigid block on 10 degrees, friction 0.3, on a band column that drains through its top, at a speed of "
+                "its own at the start; k by bisection",
+                "k = A v/(mu/tan a - 1) of the steady drained band, A = mu beta_m gamma_w eta e/(3 C): with less it "
+                "runs away, with more it arrests",
+                "closed form; after Goren and Aharonov (2009), not compared with their numbers");
+  const double angle = slope * pi<double> / 180.0;
+  Curve curve{"speed at the start (m/s)", "k between arrest and runaway (m/s)", {}, {}, {}};
+  for (const Start& start : {Start{2.0, 0.002}, Start{4.0, 0.002}, Start{6.0, 0.002}, Start{4.0, 0.004}}) {
+    const double exact = band_of(start.thickness).boundary_conductivity(start.speed, angle);
+    EXPECT_NEAR(band_of(start.thickness).strength(start.speed, exact), std::tan(angle), 1e-12);
+    const double found = boundary(start, 0.5 * exact, 2.0 * exact);
+    record.expect_near(fmt::format("k over closed form, {} m/s, band of {} mm", start.speed, 1e3 * start.thickness),
+                       found / exact, 1.0, 0.1);
+    if (start.thickness == 0.002) {
+      curve.x.push_back(start.speed);
+      curve.computed.push_back(found);
+      curve.exact.push_back(exact);
+    }
+  }
+  record.explain("The block loses speed until the band has come to its pressure: the boundary lies a little lower.");
+  record.draw(curve);
+}
+
+}  // namespace
+}  // namespace thawslide::verification
