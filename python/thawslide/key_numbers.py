@@ -84,6 +84,11 @@ def key_numbers(run: Run) -> list[KeyNumber]:
         rows.append(
             KeyNumber("Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mean of mass")
         )
+    if "entrained_volume_m3" in history:
+        per = "/m of width" if run.per_metre else ""
+        share = float(history["entrained_mass_kg"][-1] / history["mass_kg"][0])
+        volume = shown(float(history["entrained_volume_m3"][-1]), f"m³{per}")
+        rows.append(KeyNumber("Bed taken up", volume, f"{shown(share)} of the slide's mass at the start"))
     rows += _map_numbers(run)
     rows += _band_numbers(run)
     if "seismic_force_x_N" in history:

@@ -73,6 +73,9 @@ int resume_run(const ResumeOptions& options) {
     if (simulation.band_columns() != nullptr) {
       simulation.restore_band_columns(blocks.at("band_columns"));
     }
+    if (simulation.bed() != nullptr) {
+      simulation.restore_bed(blocks.at("bed"));
+    }
     if (simulation.time() >= parameters.time.end - 0.5 * simulation.last_step()) {
       fmt::print("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
       return static_cast<int>(ExitCode::done);

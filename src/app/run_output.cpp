@@ -230,6 +230,9 @@ void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
     if (const auto* columns = simulation.band_columns()) {
       blocks["band_columns"] = columns->state();
     }
+    if (const auto* bed = simulation.bed()) {
+      blocks["bed"] = bed->state();
+    }
     io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(),
                                       simulation.particles_at_start(), simulation.scalars(), blocks);
   });

@@ -130,7 +130,7 @@ Json section_json(const sim::Simulation<Dim, double>& simulation) {
     json["terrain"] = {{"x", x}, {"z", z}};
   }
   json["substrates"] = substrates_json<Dim>(simulation, numbers);
-  for (std::size_t b = 0; b < model.body_names.size(); ++b) {
+  for (std::size_t b = 0; b < parameters.bodies.size(); ++b) {
     const auto& body = parameters.bodies.at(model.body_names[b]);
     Json points = Json::array();
     for (std::size_t p = 0; p < simulation.particles().size(); ++p) {

@@ -1,7 +1,6 @@
 #include "band/base_columns.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
@@ -10,6 +9,12 @@ namespace thawslide::band {
 
 using mpm::BaseState;
 using mpm::Contact;
+
+namespace {
+
+constexpr double longest = 1.5;  // side of a piece along some axis, in cells
+
+}  // namespace
 
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
@@ -23,7 +28,7 @@ void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mp
   for (const Piece& piece : pieces_) {
     const physics::BandMeans<Real> means = means_of(piece);
     const Stencil stencil(grid, piece.position);
-    const Real ratio = piece.load > Real(0) ? means.pore_pressure / piece.load : Real(0);
+    const Real ratio = pressure_ratio(means, piece);
     for (std::size_t k = 0; k < stencil.count; ++k) {
       if (nodes.base_state.holds(stencil.block[k])) {
         auto& record = nodes.base_state.of_block(stencil.block[k])[stencil.node[k]];
@@ -66,136 +71,7 @@ void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, cons
     }
   }
   pieces_.resize(kept);
-  part_long_pieces(Real(1.5) * grid.cell(), ground);
-}
-
-template <int Dim, class Real>
-typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_cell(const mpm::SparseGrid<Dim, Real>& grid,
-                                                                              const Vector<Real, Dim>& place) const {
-  Lattice cell;
-  for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    cell[a] = static_cast<int>(std::floor(place[static_cast<int>(a)] * grid.inverse_cell()));
-  }
-  return cell;
-}
-
-template <int Dim, class Real>
-bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
-                                               const mpm::Nodes<Dim, Real>& nodes) const {
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
-      if (nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0))) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-// Pieces are laid in the cells of a horizontal lattice, so that they do not depend on the order of nodes: where a node
-// in contact has its foot, unless some piece lies within three quarters of a cell of the cell's middle.
-template <int Dim, class Real>
-void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                        const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim, Real>& nodes) {
-  const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
-  std::set<Lattice> bare;
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
-      const auto& contact = nodes.contact(b, k);
-      const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
-      if (contact[Contact::touching] > Real(0) && (unseen || contact[Contact::area] > least_area)) {
-        const NodeGround near = node_ground(b, k);
-        bare.insert(lattice_cell(grid, mpm::node_position(grid, b, k) + near.distance * *near.normal));
-      }
-    }
-  }
-  for (const Piece& piece : pieces_) {  // covers the cells whose middle is near
-    const Lattice own = lattice_cell(grid, piece.position);
-    for (int k = 0; k < mpm::power(3, Dim - 1); ++k) {
-      Lattice cell = own;
-      Real furthest = 0;
-      for (std::size_t a = 0, rest = static_cast<std::size_t>(k); a + 1 < Dim; ++a, rest /= 3) {
-        cell[a] += static_cast<int>(rest % 3) - 1;
-        const Real middle = (static_cast<Real>(cell[a]) + Real(0.5)) * grid.cell();
-        furthest = std::max(furthest, std::abs(piece.position[static_cast<int>(a)] - middle));
-      }
-      if (furthest < Real(0.75) * grid.cell()) {
-        bare.erase(cell);
-      }
-    }
-  }
-  const std::size_t known = pieces_.size();
-  for (const Lattice& cell : bare) {
-    pieces_.push_back(new_piece(cell, grid.cell(), ground));
-    add_area(grid, pieces_.back(), nodes);
-  }
-  std::vector<InContact> contacts;
-  for (std::size_t p = known; p < pieces_.size(); ++p) {
-    contacts.push_back(in_contact(grid, nodes, pieces_[p]));
-  }
-  for (std::size_t p = known; p < pieces_.size(); ++p) {  // at the edge of the slide a piece is smaller than its cell
-    Piece& piece = pieces_[p];
-    const InContact& contact = contacts[p - known];
-    const Real share = std::clamp(contact.area / piece.area, Real(0.1), Real(1));
-    add_area(grid, piece, nodes, share - Real(1));
-    piece.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
-    piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
-    follow_load(model_, contact.normal_force / contact.area, Real(0), piece);
-    start_column_of(model_, thickness, piece);
-    ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
-    ledger_.laid_water += piece.area * physics::water_of(piece.column);
-  }
-}
-
-// Adds a share of a piece's area to what nodes see.
-template <int Dim, class Real>
-void BaseColumns<Dim, Real>::add_area(const mpm::SparseGrid<Dim, Real>& grid, const Piece& piece,
-                                      mpm::Nodes<Dim, Real>& nodes, Real share) const {
-  const Stencil stencil(grid, piece.position);
-  for (std::size_t k = 0; k < stencil.count; ++k) {
-    if (nodes.base_state.holds(stencil.block[k])) {
-      nodes.base_state.of_block(stencil.block[k])[stencil.node[k]][BaseState::area] +=
-          share * stencil.weight[k] * piece.area;
-    }
-  }
-}
-
-// What of contact falls to a piece, as nodes share it out among those that they see.
-template <int Dim, class Real>
-typename BaseColumns<Dim, Real>::InContact BaseColumns<Dim, Real>::in_contact(const mpm::SparseGrid<Dim, Real>& grid,
-                                                                              const mpm::Nodes<Dim, Real>& nodes,
-                                                                              const Piece& piece) const {
-  const Stencil stencil(grid, piece.position);
-  InContact result;
-  for (std::size_t k = 0; k < stencil.count; ++k) {
-    const Real seen = nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
-    if (seen > Real(0)) {
-      const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
-      const Real share = stencil.weight[k] * piece.area / seen;
-      result.area += share * contact[Contact::area];
-      result.normal_force += share * contact[Contact::normal_force];
-    }
-  }
-  return result;
-}
-
-template <int Dim, class Real>
-BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Lattice& cell, Real cell_size, const Ground& ground) {
-  Piece piece;
-  piece.id = next_id_++;
-  piece.position.setZero();
-  piece.sides.setZero();
-  for (int a = 0; a + 1 < Dim; ++a) {
-    piece.position[a] = (static_cast<Real>(cell[static_cast<std::size_t>(a)]) + Real(0.5)) * cell_size;
-    piece.sides(a, a) = cell_size;
-  }
-  piece.normal = ground.normal(piece.position.template head<Dim - 1>());
-  piece.position[Dim - 1] = ground.height(piece.position.template head<Dim - 1>());
-  for (int a = 0; a + 1 < Dim; ++a) {
-    piece.sides(Dim - 1, a) = -piece.normal[a] / piece.normal[Dim - 1] * cell_size;
-  }
-  piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
-  return piece;
+  part_long_pieces(Real(longest) * grid.cell(), ground);
 }
 
 // The velocity of the slide at a piece, and how it changes along the ground: a linear fit to the nodes about it, each
@@ -292,13 +168,13 @@ void BaseColumns<Dim, Real>::move(const Ground& ground, const Nearby& slide, Rea
   piece.area = area_of<Dim, Real>(piece.sides);
 }
 
-// A piece with a side that reaches further than `longest` along some axis parts in two along this side.
+// A piece with a side that reaches further than `most` along some axis parts in two along this side.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::part_long_pieces(Real longest, const Ground& ground) {
+void BaseColumns<Dim, Real>::part_long_pieces(Real most, const Ground& ground) {
   const std::size_t count = pieces_.size();
   for (std::size_t p = 0; p < count; ++p) {
     for (int side = 0; side + 1 < Dim; ++side) {
-      if (pieces_[p].sides.col(side).cwiseAbs().maxCoeff() <= longest) {
+      if (pieces_[p].sides.col(side).cwiseAbs().maxCoeff() <= most) {
         continue;
       }
       const Vector<Real, Dim> quarter = Real(0.25) * pieces_[p].sides.col(side);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <set>
 #include <vector>
 
 #include "band/piece_step.hpp"
@@ -36,7 +38,9 @@ struct ColumnLedger {
 template <class Real>
 struct BaseMeans {
   Real temperature = 0, saturation = 0, pore_pressure = 0, load = 0, thickness = 0;
-  Real hottest = 0, largest_pressure_ratio = 0;  // of P over averaged N
+  Real hottest = 0, hottest_wet = 0;  // of any cell above the ground, and of those that hold water [C]
+  Real dry_share = 0;                 // of the base: where some cell of the band has no water left
+  Real largest_pressure_ratio = 0;    // of P over averaged N
 };
 
 template <int Dim, class Real>
@@ -85,7 +89,17 @@ class BaseColumns {
   using Stencil = BaseStencil<Dim, Real>;
 
   using Lattice = std::array<int, Dim - 1>;  // a cell of the horizontal lattice on which pieces are laid
+  // Where a piece is wanted in a cell of the lattice. On steep ground the cell comes in parts along each axis, since a
+  // piece sees no further than its stencil.
+  struct BareCell {
+    Lattice parts;
+    std::set<Lattice> bare;
+  };
+  using BareCells = std::map<Lattice, BareCell>;
   [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const;
+  [[nodiscard]] BareCells feet_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
+                                          const mpm::Nodes<Dim, Real>& nodes) const;
+  void leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid, BareCells& cells) const;
   [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
                                        const mpm::Nodes<Dim, Real>& nodes) const;
   void lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
@@ -95,9 +109,12 @@ class BaseColumns {
   struct InContact {
     Real area = 0, normal_force = 0;  // [m2], [N]
   };
+  void begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const InContact& contact, Real thickness,
+                   mpm::Nodes<Dim, Real>& nodes, Piece& piece);
   [[nodiscard]] InContact in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
                                      const Piece& piece) const;
-  [[nodiscard]] Piece new_piece(const Lattice& cell, Real cell_size, const Ground& ground);
+  [[nodiscard]] Piece new_piece(const Vector<Real, Dim - 1>& middle, const Vector<Real, Dim - 1>& size,
+                                const Ground& ground);
   // How the slide about a piece moves.
   struct Nearby {
     Vector<Real, Dim> velocity;  // along the ground [m/s]
@@ -108,7 +125,7 @@ class BaseColumns {
                                   const Stencil& stencil, const mpm::Nodes<Dim, Real>& nodes, const Piece& piece) const;
   void take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const;
   void move(const Ground& ground, const Nearby& slide, Real dt, Piece& piece) const;
-  void part_long_pieces(Real longest, const Ground& ground);
+  void part_long_pieces(Real most, const Ground& ground);
   void take_up(const Piece& piece);
   void place_on(const Ground& ground, Piece& piece) const;
 

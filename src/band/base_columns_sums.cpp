@@ -1,5 +1,6 @@
 // What the columns of a slide's base hold together, and what a checkpoint keeps of them.
 #include <algorithm>
+#include <limits>
 
 #include "band/base_columns.hpp"
 #include "base/error.hpp"
@@ -34,6 +35,13 @@ void for_each_number(BasePiece<Dim, Real>& piece, const Visit& visit) {
   }
 }
 
+// Whether some cell of the band has no water left, as ice or melt.
+template <int Dim, class Real>
+bool is_dry(const BasePiece<Dim, Real>& piece) {
+  const Real* water = piece.column.water;
+  return std::any_of(water, water + physics::ColumnCells::band, [](Real of_cell) { return !(of_cell > Real(0)); });
+}
+
 }  // namespace
 
 template <int Dim, class Real>
@@ -54,24 +62,32 @@ ColumnSums<Real> BaseColumns<Dim, Real>::sums() const {
 template <int Dim, class Real>
 BaseMeans<Real> BaseColumns<Dim, Real>::means() const {
   BaseMeans<Real> result;
-  Real area = 0;
+  constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
+  Real area = 0, dry_area = 0, hottest = -celsius_to_kelvin<Real>, hottest_wet = hottest;
   for (const Piece& piece : pieces_) {
     const physics::BandMeans<Real> means = means_of(piece);
     area += piece.area;
+    dry_area += is_dry(piece) ? piece.area : Real(0);
+    for (int k = 0; k < physics::ColumnCells::slide; ++k) {
+      const Real temperature = piece.column.temperature[physics::ColumnCells::ground + k];
+      hottest = std::max(hottest, temperature);
+      hottest_wet = piece.column.water[k] > Real(0) ? std::max(hottest_wet, temperature) : hottest_wet;
+    }
     result.temperature += piece.area * means.temperature;
     result.saturation += piece.area * means.saturation;
     result.pore_pressure += piece.area * means.pore_pressure;
     result.load += piece.area * piece.load;
     result.thickness += piece.area * piece.column.thickness;
-    const Real* slide = piece.column.temperature + physics::ColumnCells::ground;
-    result.hottest = std::max(result.hottest, *std::max_element(slide, slide + physics::ColumnCells::slide));
     const Real highest = *std::max_element(piece.column.pressure, piece.column.pressure + physics::ColumnCells::slide);
     if (piece.load > Real(0)) {
-      result.largest_pressure_ratio = std::max(result.largest_pressure_ratio, highest / piece.load);
+      result.largest_pressure_ratio = std::max(result.largest_pressure_ratio, std::min(highest / piece.load, Real(1)));
     }
   }
+  result.hottest = area > Real(0) ? hottest : nothing;
+  result.hottest_wet = area > Real(0) ? hottest_wet : nothing;
+  result.dry_share = area > Real(0) ? dry_area / area : nothing;
   for (Real* mean : {&result.temperature, &result.saturation, &result.pore_pressure, &result.load, &result.thickness}) {
-    *mean = area > Real(0) ? *mean / area : static_cast<Real>(std::nan(""));
+    *mean = area > Real(0) ? *mean / area : nothing;
   }
   return result;
 }

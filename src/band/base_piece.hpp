@@ -26,7 +26,7 @@ struct BasePiece {
   Real slip = 0;               // [m]
   Real speed = 0;              // of slip [m/s]
   Real load = 0;               // normal pressure N, averaged over time [Pa]
-  Real heat = 0;               // friction heat since the column's last step [J/m2]
+  Real heat = 0;               // friction heat of its whole area since the column's last step [J]
   bool touched = false;        // has ever carried load
   physics::BandColumn<Real> column;
 };

@@ -34,6 +34,10 @@ template <int Dim, class Real>
 HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                             bool first_step, mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);
 
+// A particle gets heat [J] and has the temperature that follows. particle: its place in memory.
+template <int Dim, class Real>
+void add_heat(const BandModel<Dim, Real>& model, Real heat, std::size_t particle, mpm::Particles<Dim, Real>& particles);
+
 // Sets heat content and saturation from temperature and porosity, of particles that begin: of those that stand in
 // memory from `first` on.
 template <int Dim, class Real>

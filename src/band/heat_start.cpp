@@ -83,11 +83,26 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
   return added;
 }
 
+template <int Dim, class Real>
+void add_heat(const BandModel<Dim, Real>& model, Real heat, std::size_t particle,
+              mpm::Particles<Dim, Real>& particles) {
+  const auto p = static_cast<std::uint32_t>(particle);
+  const mpm::One<Real> one{{p}};
+  const Real before = particles.temperature(p);
+  particles.heat_content(p) += heat * particles.thermal_scaling(p) / particles.initial_volume(p);
+  with_particle_heat(model, [&](const auto& law) {
+    particles.temperature(p) = law.temperature(particles, one, particles.heat_content(p), before);
+    follow_temperature(model.phases, law, particles, one, true, before);
+  });
+  particles.previous_temperature(p) = particles.temperature(p);
+}
+
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
   template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&, std::size_t); \
   template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real,      \
                                         const std::function<Real(const Vector<Real, Dim - 1>&)>&,                  \
-                                        mpm::Particles<Dim, Real>&, std::size_t);
+                                        mpm::Particles<Dim, Real>&, std::size_t);                                  \
+  template void add_heat<Dim, Real>(const BandModel<Dim, Real>&, Real, std::size_t, mpm::Particles<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

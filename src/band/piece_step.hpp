@@ -37,6 +37,12 @@ struct ColumnsModel {
 template <int Dim, class Real>
 physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece);
 
+// P over the averaged N, 0 to 1: times the N of the moment it is the pore pressure that the law of the base sees.
+template <int Dim, class Real>
+Real pressure_ratio(const physics::BandMeans<Real>& means, const BasePiece<Dim, Real>& piece) {
+  return piece.load > Real(0) ? means.pore_pressure / piece.load : Real(0);
+}
+
 // A new column of the body's matter, with a band of this thickness [m], under the piece's load.
 template <int Dim, class Real>
 void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasePiece<Dim, Real>& piece);

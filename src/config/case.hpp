@@ -47,6 +47,7 @@ enum class ClapeyronSign { usual, printed };
 enum class SeepageScaling { consistent, printed };
 enum class ThicknessDirection { normal, vertical };
 enum class ThicknessUpdate { each_step, frozen };
+enum class BedLaw { none, strength, momentum };
 enum class HeatBoundaryKind { insulated, temperature, flux };
 
 struct General {
@@ -213,6 +214,18 @@ struct Substrate : GroundStrength {
   [[nodiscard]] bool is_strip() const { return outline.empty() && raster.empty(); }
 };
 
+// What lies on the ground and the slide takes up.
+struct Bed {
+  BedLaw law = BedLaw::none;
+  InitialField depth;         // m, vertical: a number, a table over x, a raster
+  double strength = 0;        // Pa, c_b
+  double friction_angle = 0;  // phi_b
+  double depth_per_slip = 0;  // 1
+  std::string material;
+  double temperature = -10.0, porosity = 0.9;
+  int particles_per_axis = 2;  // per cell and axis, of what is taken up
+};
+
 struct Mechanisms {  // Sec. 3.3
   bool deformation = true, lubrication = true, pressurization = true;
 };
@@ -311,6 +324,7 @@ struct Case {
   Mechanics mechanics;
   Basal basal;
   std::map<std::string, Substrate> substrates;
+  Bed bed;
   Mechanisms mechanisms;
   Band band;
   Heat heat;

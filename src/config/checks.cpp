@@ -305,6 +305,20 @@ ProfileTable checked_profile(const Case& checked, Reading& reading) {
 
 }  // namespace
 
+void check_material(const Case& checked, const std::string& table, const std::string& name, Reading& reading) {
+  std::vector<std::string> known;
+  for (const auto& [material, unused] : checked.materials) {
+    known.push_back(material);
+  }
+  if (reading.sound({table + ".material"}) && checked.materials.count(name) == 0) {
+    const std::string hint = did_you_mean(name, known);
+    reading.report(table + ".material",
+                   fmt::format("{}.material is '{}', and there is no [material.{}]{} Allowed: {}.", table, name, name,
+                               hint.empty() ? "." : hint,
+                               known.empty() ? "none, as the case has no [material.NAME]" : list_words(known)));
+  }
+}
+
 void check_case(const Case& checked, Reading& reading) {
   if (reading.dimension == 0) {
     return;
@@ -313,6 +327,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_times(checked, reading);
   check_materials(checked, reading);
   check_grounds(checked, reading);
+  check_bed(checked, reading);
   check_switches(checked, reading);
   check_band_switches(checked, reading);
   check_band_columns(checked, reading);

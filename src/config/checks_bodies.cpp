@@ -249,17 +249,7 @@ void check_surface(const Case& checked, const ProfileTable& profile, const std::
 void check_body(const Case& checked, const ProfileTable& profile, const std::string& name, const Body& body,
                 Reading& reading) {
   const std::string table = "body." + name;
-  std::vector<std::string> known;
-  for (const auto& [material, unused] : checked.materials) {
-    known.push_back(material);
-  }
-  if (reading.sound({table + ".material"}) && checked.materials.count(body.material) == 0) {
-    const std::string hint = did_you_mean(body.material, known);
-    reading.report(table + ".material",
-                   fmt::format("{}.material is '{}', and there is no [material.{}]{} Allowed: {}.", table,
-                               body.material, body.material, hint.empty() ? "." : hint,
-                               known.empty() ? "none, as the case has no [material.NAME]" : list_words(known)));
-  }
+  check_material(checked, table, body.material, reading);
   if (!reading.sound({table + ".shape", "grid.cell"})) {
     return;
   }

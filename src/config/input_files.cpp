@@ -49,6 +49,9 @@ std::vector<std::string> map_files(const Case& parameters) {
   for (const auto& [name, substrate] : parameters.substrates) {
     files.insert(files.end(), {substrate.outline, substrate.raster});
   }
+  if (parameters.bed.depth.over == InitialField::Over::raster) {
+    files.push_back(parameters.bed.depth.source);
+  }
   for (const auto& [name, probe] : parameters.probes) {
     files.push_back(probe.line);
   }

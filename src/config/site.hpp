@@ -52,6 +52,7 @@ struct Site {
   std::vector<SubstrateStretch> stretches;          // of a 2D case cut out of maps, in place of all substrates' own
   Polyline2 path;                                   // along which the front is measured; empty: none given
   std::map<std::string, Polyline2> probes;          // by name: one point, or a line
+  Raster bed_depth;                                 // [m], at the points of the ground; empty: no raster gives it
   std::string crs;                                  // of all of them, as WKT
   std::string crs_name;                             // "EPSG:31287", or its title; empty: none is known
 };

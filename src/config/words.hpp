@@ -44,6 +44,15 @@ inline std::vector<Choice<CurveKind>> choices(CurveKind) {
   return {{CurveKind::power_law, "power_law", "S_L = (1 - (T - Tref))^-exponent below Tref (Eq. 24)"},
           {CurveKind::linear, "linear", "S_L = 1 + slope (T - Tref), between 0 and 1 (Sec. 3.1)"}};
 }
+inline std::vector<Choice<BedLaw>> choices(BedLaw) {
+  return {{BedLaw::none, "none", "there is no bed that the slide could take up"},
+          {BedLaw::strength, "strength",
+           "where the shear of the base reaches the bed's strength, depth_per_slip is taken up; the impulse of that is "
+           "a drag beside friction"},
+          {BedLaw::momentum, "momentum",
+           "what the shear of the base has beyond the bed's strength sets bed matter in motion, as much as it has "
+           "impulse for"}};
+}
 inline std::vector<Choice<BodyShape>> choices(BodyShape) {
   return {{BodyShape::box, "box", "between min and max"},
           {BodyShape::polygon, "polygon", "inside vertices (2D)"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "gis/bed.hpp"
 #include "gis/dem.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
@@ -108,6 +109,7 @@ SiteAndNotes load_site(const config::Case& parameters) {
   }
   if (!dem.raster.empty()) {
     site.substrates = load_substrates(parameters, dem, loaded.notes);
+    site.bed_depth = load_bed_depth(parameters, dem, loaded.notes);
     site.terrain_model = {{{dem.span.min_x, dem.span.min_y}, {dem.span.max_x, dem.span.max_y}}};
     site.ground = std::make_shared<const Raster>(less_what_is_cut(parameters, site.releases, std::move(dem.raster)));
   }

@@ -37,6 +37,7 @@ struct Nodes {
   SparseRecords<Dim, Real, BaseLayout::size> base;
   SparseRecordsOf<Contact, Dim, Real> contact;
   SparseRecordsOf<NearGround, Dim, Real> near_ground{room};
+  SparseRecords<Dim, Real, BedLayout<Dim>::size> bed;  // where the ground is erodible
   SparseRecordsOf<OrphanHeat, Dim, Real> orphan_heat;
   SparseRecordsOf<BaseState, Dim, Real> base_state;    // where band columns lie under the slide
   SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change

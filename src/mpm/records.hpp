@@ -105,6 +105,16 @@ struct Contact {
   static auto& in(auto& nodes) { return nodes.contact; }
 };
 
+// What contact nodes may take of the bed below, and take.
+template <int Dim>
+struct BedLayout {
+  static constexpr std::size_t available = 0;  // [kg]
+  static constexpr std::size_t taken = 1;      // [kg]
+  static constexpr std::size_t work = 2;       // that the slide loses to it [J]
+  static constexpr std::size_t impulse = 3;    // that it gets from the slide [N s]
+  static constexpr int size = 3 + Dim;
+};
+
 // What contact nodes see of the band columns about them: sums over pieces of base of their weight and area [m2] times
 // each quantity.
 struct BaseState {

@@ -65,12 +65,21 @@ struct ColumnConductance {
   }
 
  private:
+  // Pores conduct as far as they are full of ice and water; steam and air do not.
+  THAWSLIDE_HD static Real of_slide(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
+                                    const BandColumn<Real>& column, int k) {
+    const Real saturation = model.curve.saturation(column.temperature[k]);
+    const Real full = saturation * model.phases.water_density + (Real(1) - saturation) * model.phases.ice_density;
+    const Real volume = column.water[k - ColumnCells::ground] / (full * grid.height(k));
+    const Real rock = (Real(1) - model.porosity) * model.phases.rock_conductivity;
+    const Real of_pores = conductivity(model.phases, model.porosity, saturation) - rock;
+    return rock + of_pores * min(Real(1), max(Real(0), volume / model.porosity));
+  }
+
   THAWSLIDE_HD static Real half_resistance(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
                                            const BandColumn<Real>& column, int k) {
-    const Real k_of_cell = k < ColumnCells::ground ? model.ground_conductivity
-                                                   : conductivity(model.phases, model.porosity,
-                                                                  model.curve.saturation(column.temperature[k]));
-    return grid.height(k) / (Real(2) * k_of_cell);
+    return grid.height(k) /
+           (Real(2) * (k < ColumnCells::ground ? model.ground_conductivity : of_slide(model, grid, column, k)));
   }
 };
 

@@ -6,12 +6,12 @@
 
 namespace thawslide::physics {
 
-// What the friction of the base sees of a column: means over the band, and the lowest cell's neighbourhood needs no
-// more.
+// What the friction of the base sees of a column: means over the band. P is at most the load as it is now: the load may
+// fall between two steps of the column, and what water then has no room for is opening.
 template <class Real>
 struct BandMeans {
   Real temperature, pore_pressure, saturation, solid_fraction;  // [C], [Pa], S, n_e of Eq. 2
-  Real opening, gas_void;                                       // of the whole column [m]
+  Real opening, gas_void, liquid;                               // of the whole column; liquid: volume of water [m]
 };
 
 // The faces of a column's cells move: with the band's thickness, and against matter that spreads as the piece
@@ -162,13 +162,15 @@ THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, R
       means.opening += grid.slide_height(k) * filling.opening;
       means.gas_void += grid.slide_height(k) * filling.gas_void;
     }
+    const Real melted = model.curve.saturation(column.temperature[ColumnCells::ground + k]);
+    means.liquid += melted * column.water[k] / model.phases.water_density;
   }
   constexpr Real share = Real(1) / ColumnCells::band;
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
     const Real temperature = column.temperature[ColumnCells::ground + k];
     const Real saturation = model.curve.saturation(temperature);
     means.temperature += share * temperature;
-    means.pore_pressure += share * column.pressure[k];
+    means.pore_pressure += share * min(column.pressure[k], normal_pressure);
     means.saturation += share * saturation;
     means.solid_fraction += share * effective_solid_fraction(model.phases, model.porosity, saturation);
   }

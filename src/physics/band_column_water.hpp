@@ -31,19 +31,21 @@ THAWSLIDE_HD void fill_pores(const ColumnModel<Real, Curve>& model, const Column
   }
 }
 
-// Where water passes, per pressure and area [m/s/Pa]: between cells k - 1 and k, and from cells into air.
+// Where water passes, per pressure and area [m/s/Pa]: between cells k - 1 and k, and from cells into air. Water takes
+// the share of the pores that it fills, steam the rest.
 template <class Real>
 struct ColumnMobility {
   Real between[ColumnCells::slide + 1];
-  Real to_air[ColumnCells::slide];
+  Real to_air[ColumnCells::slide], steam_to_air[ColumnCells::slide];
 };
 
 template <class Real, class Curve>
 THAWSLIDE_HD ColumnMobility<Real> mobilities(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
                                              const BandColumn<Real>& column) {
   const Real mobility = model.hydraulic_conductivity / model.phases.water_unit_weight;
-  const auto wet = [&](int k) {  // the share of its pores that water fills passes it on
-    return min(Real(1), column.water[k] / (model.phases.water_density * grid.slide_height(k) * model.porosity));
+  const auto wet = [&](int k) {
+    const Real filled = column.water[k] / (model.phases.water_density * grid.slide_height(k) * model.porosity);
+    return min(Real(1), max(Real(0), filled));
   };
   ColumnMobility<Real> result{};
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
@@ -55,13 +57,15 @@ THAWSLIDE_HD ColumnMobility<Real> mobilities(const ColumnModel<Real, Curve>& mod
       const int from = column.pressure[k] < column.pressure[k + 1] ? k + 1 : k;
       result.between[k + 1] = Real(2) * mobility * wet(from) / (grid.slide_height(k) + grid.slide_height(k + 1));
     }
-    const Real half = Real(2) * mobility * wet(k) / grid.slide_height(k);
+    Real open = 0;  // to the air
     if ((top ? model.at_top : model.at_frozen) == EndOfWater::vented && (top || !is_melted(model, column, k + 1))) {
-      result.to_air[k] += half;
+      open += Real(2) * mobility / grid.slide_height(k);
     }
     if (k > 0 && model.at_frozen == EndOfWater::vented && !is_melted(model, column, k - 1)) {
-      result.to_air[k] += half;
+      open += Real(2) * mobility / grid.slide_height(k);
     }
+    result.to_air[k] = open * wet(k);
+    result.steam_to_air[k] = open * (Real(1) - wet(k));
   }
   return result;
 }
@@ -101,7 +105,8 @@ THAWSLIDE_HD void carry_water(const ColumnModel<Real, Curve>& model, const Real*
   Real share[count], water[count + 1] = {}, heat[count + 1] = {};
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
     const Real out = density * (max(flow[k + 1], Real(0)) + max(-flow[k], Real(0)) + to_air[k]);
-    share[k] = out > column.water[k] ? max(column.water[k], Real(0)) / out : Real(1);
+    const Real held = max(column.water[k], Real(0));  // round-off may leave less than nothing
+    share[k] = out > held ? held / out : Real(1);
   }
   const auto enthalpy_in = [&](int k) { return water_enthalpy(model, column.temperature[ColumnCells::ground + k]); };
   THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
@@ -126,11 +131,11 @@ template <class Real, class Curve>
 THAWSLIDE_HD void vent_steam(const ColumnModel<Real, Curve>& model, const ColumnMobility<Real>& mobility, Real dt,
                              BandColumn<Real>& column, ColumnAccount<Real>& account) {
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
-    const Real pressure = mobility.to_air[k] > Real(0) ? steam_pressure(model, column, k) : Real(0);
+    const Real pressure = mobility.steam_to_air[k] > Real(0) ? steam_pressure(model, column, k) : Real(0);
     if (pressure > Real(0)) {
       const Real absolute = column.temperature[ColumnCells::ground + k] + celsius_to_kelvin<Real>;
       const Real density = (pressure + Steam<Real>::atmosphere) / (Steam<Real>::gas_constant * absolute);
-      const Real volume = dt * mobility.to_air[k] * model.water_to_steam_viscosity * pressure;
+      const Real volume = dt * mobility.steam_to_air[k] * model.water_to_steam_viscosity * pressure;
       give_off_steam(model, min(column.water[k], density * volume), k, column, account);
     }
   }

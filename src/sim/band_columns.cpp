@@ -19,7 +19,6 @@ ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Rea
   double volume = 0.0;
   std::int32_t material = -1;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    matter.depth = std::max(matter.depth, static_cast<double>(particles.flow_depth(p)));
     if (particles.in_band(p) == 0) {
       continue;
     }
@@ -32,6 +31,7 @@ ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Rea
     material = particles.material(p);
     const auto of_particle = static_cast<double>(particles.initial_volume(p));
     volume += of_particle;
+    matter.depth += of_particle * static_cast<double>(particles.flow_depth(p));
     matter.temperature += of_particle * static_cast<double>(particles.temperature(p));
     matter.porosity += of_particle * static_cast<double>(particles.initial_porosity(p));
   }
@@ -41,6 +41,7 @@ ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Rea
                     "the ground, or set band.model = \"scaled\".",
                     config::place_of(parameters, "band.model")));
   }
+  matter.depth /= volume;
   matter.temperature /= volume;
   matter.porosity /= volume;
   matter.hydraulic_conductivity =
@@ -59,9 +60,9 @@ void Simulation<Dim, Real>::start_band_columns() {
   const double thickest =
       *std::max_element(parameters_.band.thickness.value.begin(), parameters_.band.thickness.value.end());
   if (thickest >= matter.depth) {
-    throw UserError(
-        fmt::format("{}: the band is up to {} m thick, and the slide above it {:.4g} m. Use a thinner band.",
-                    config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
+    throw UserError(fmt::format(
+        "{}: the band is up to {} m thick, and the slide above it {:.4g} m in the mean. Use a thinner band.",
+        config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
   }
   band_columns_.emplace(make_columns_model(parameters_, model_, matter));
   column_time_ = 0.0;

@@ -210,9 +210,10 @@ class Block {
   Forces evaluate_base() {
     const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
     const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
-    const BlockBase base = std::visit([](const auto& column) { return column.base(); }, column_);
     basal_.count = 1;
     basal_.normal_pressure[0] = forces.normal / slices_.base;
+    const BlockBase base =
+        std::visit([&](const auto& column) { return column.base(basal_.normal_pressure[0]); }, column_);
     basal_.pore_pressure[0] = model_.contact.pore_pressure ? base.pore_pressure : 0.0;
     basal_.temperature[0] = base.temperature;
     basal_.saturation[0] = base.saturation;
@@ -274,6 +275,10 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
         fmt::format("{}: the block model slides a 2D section along a terrain, or a 3D case on a DEM. "
                     "Give case.dimension = 2 and a terrain.type other than \"none\", or use `thawslide run`.",
                     parameters.file));
+  }
+  if (parameters.bed.law != config::BedLaw::none) {
+    throw UserError(fmt::format("{}: the block model takes up no bed. Remove [bed], or use `thawslide run`.",
+                                config::place_of(parameters, "bed.law")));
   }
   require_one_body(parameters);
   const Model<2, double> model = make_model<2, double>(parameters, site);

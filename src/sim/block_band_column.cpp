@@ -29,9 +29,10 @@ double BlockBandColumn::step(const BlockDrive& drive) {
   return physics::heat_of(piece_.column) + piece_.heat - before;
 }
 
-BlockBase BlockBandColumn::base() const {
+BlockBase BlockBandColumn::base(double normal_pressure) const {
   const physics::BandMeans<double> means = band::means_of(model_, piece_);
-  return {means.pore_pressure, means.saturation, means.solid_fraction, means.temperature};
+  return {band::pressure_ratio(means, piece_) * normal_pressure, means.saturation, means.solid_fraction,
+          means.temperature};
 }
 
 BlockBand BlockBandColumn::band() const {

@@ -15,7 +15,8 @@ class BlockBandColumn {
 
   // Returns the heat that the column gained [J/m2], with what waits for its next step.
   double step(const BlockDrive& drive);
-  [[nodiscard]] BlockBase base() const;
+  // What the law of the base sees under a normal pressure [Pa].
+  [[nodiscard]] BlockBase base(double normal_pressure) const;
   [[nodiscard]] BlockBand band() const;
   [[nodiscard]] const band::BasePiece<2, double>& piece() const { return piece_; }
 

@@ -105,7 +105,7 @@ double BlockColumn::heat() const {
   return sum;
 }
 
-BlockBase BlockColumn::base() const {
+BlockBase BlockColumn::base(double /*normal_pressure*/) const {
   BlockBase base{};
   double weights = 0.0;
   for (std::uint32_t p = 0; p < rows_.size(); ++p) {

@@ -44,7 +44,7 @@ class BlockColumn {
 
   // Per base area; heights above the base, in the MPM's unscaled cells.
   [[nodiscard]] const mpm::Particles<2, double>& rows() const { return rows_; }
-  [[nodiscard]] BlockBase base() const;
+  [[nodiscard]] BlockBase base(double normal_pressure) const;
   [[nodiscard]] BlockBand band() const;
 
  private:

@@ -42,11 +42,13 @@ const std::vector<MapKind>& map_kinds() {
        "elevation of the surface at the end less that at the start: final thickness less thickness at the start. Of a "
        "body cut out of the ground too: what it left is lower by the thickness that was cut",
        [](const MapCell& c) { return c.thickness - c.thickness_at_start; }},
-      {"max_basal_temperature", "C", "largest temperature of the column's particles in the band, averaged by volume",
+      {"max_basal_temperature", "C",
+       "largest temperature of the band, averaged by volume of its particles, or by area of its columns",
        [](const MapCell& c) { return c.max_basal_temperature; }},
       {"max_melt", "m", "largest volume of liquid water in the column over the cell's area, that of the band over xi",
        [](const MapCell& c) { return c.max_melt; }},
-      {"max_pore_pressure", "Pa", "largest pore pressure of the column's particles in the band, averaged by volume",
+      {"max_pore_pressure", "Pa",
+       "largest pore pressure of the band, averaged by volume of its particles, or by area of its columns",
        [](const MapCell& c) { return c.max_pore_pressure; }},
   };
   return kinds;
@@ -180,7 +182,7 @@ THAWSLIDE_ALWAYS_INLINE void FlowMaps::add_box(const Particles& particles, std::
                         mass * particles.velocity(p, 2),
                         // Cells of metres stand for a band of centimetres: its matter counts as for heat.
                         volume * particles.porosity(p) * particles.liquid_saturation(p) / particles.thermal_scaling(p)};
-  const bool in_band = particles.in_band(p) != 0;
+  const bool in_band = band_is_of_particles_ && particles.in_band(p) != 0;
   const BandSums band{volume, volume * particles.temperature(p), volume * particles.pore_pressure(p)};
   for (int row = y.first; row <= y.last; ++row) {
     const double row_share = y.share(row);
@@ -221,7 +223,34 @@ void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Sta
   }
 }
 
-void FlowMaps::gather(const Grid& grid, const Particles& particles, double time) {
+// Its heat and pressure count to the cells that the slide may reach, by the share of its width over each.
+void FlowMaps::add_piece(const PieceBelow& piece) {
+  using One = Lanes<double>;
+  const CellRange x = cell_spans(One((piece.x - corner_x_) * inverse_cell_x_), One(piece.half_x * inverse_cell_x_),
+                                 One(0.5 * map_grid_.cell_x / piece.half_x), map_grid_.columns)
+                          .of_lane(0);
+  const CellRange y = cell_spans(One((piece.y - corner_y_) * inverse_cell_y_), One(piece.half_y * inverse_cell_y_),
+                                 One(0.5 * map_grid_.cell_y / piece.half_y), map_grid_.rows)
+                          .of_lane(0);
+  const BandSums band{piece.area, piece.area * piece.temperature, piece.area * piece.pressure};
+  for (int row = y.first; row <= y.last; ++row) {
+    for (int column = x.first; column <= x.last; ++column) {
+      const std::int32_t number = tile_index_.find(tile_key(column >> edge_bits, row >> edge_bits));
+      if (number == KeyIndex::absent || !tiles_[static_cast<std::size_t>(number)]->active) {
+        continue;
+      }
+      MapTile& below = *tiles_[static_cast<std::size_t>(number)];
+      const std::size_t place = place_in_tile(column, row);
+      const double share = y.share(row) * x.share(column);
+      below.band[place].add(share, band);
+      below.sums[place].water += share * piece.area * piece.liquid;
+    }
+  }
+}
+
+void FlowMaps::gather(const Grid& grid, const Particles& particles, double time,
+                      const std::vector<PieceBelow>* pieces) {
+  band_is_of_particles_ = pieces == nullptr;
   const bool same_tiles = std::equal(seen_.begin(), seen_.end(), grid.tiles().begin(), grid.tiles().end(),
                                      [](std::uint64_t key, const auto& tile) { return key == tile.key; });
   if (!same_tiles) {
@@ -230,6 +259,9 @@ void FlowMaps::gather(const Grid& grid, const Particles& particles, double time)
   for (std::size_t c = 0; c + 1 < colours_.size(); ++c) {
     const std::size_t first = colours_[c];
     parallel_for(colours_[c + 1] - first, [&](std::size_t k) { add_stack(grid, particles, stacks_[first + k]); });
+  }
+  if (pieces != nullptr) {
+    std::for_each(pieces->begin(), pieces->end(), [&](const PieceBelow& piece) { add_piece(piece); });
   }
   parallel_for(active_.size(), [&](std::size_t k) {
     MapTile& tile = *active_[k];

@@ -35,6 +35,13 @@ struct Deposit {
   double area = 0.0;    // [m2], horizontal
 };
 
+// A piece of base with a band column, in the particles' frame.
+struct PieceBelow {
+  double x, y, half_x, half_y;           // its middle and half of its width [m]
+  double area;                           // [m2]
+  double temperature, pressure, liquid;  // means over the band [C], [Pa]; volume of water over the area [m]
+};
+
 // A particle's volume, mass and momentum count to the cells below its box, by the share of the box over each. The sum
 // of thickness times cell area is the particles' volume: of a box that pokes out of the grid all counts to the cells at
 // its edge. Sums go by stack of the background grid's tiles, in an order that follows from the tiles, so that results
@@ -50,7 +57,9 @@ class FlowMaps {
            double arrival_thickness);
 
   // Takes the particles as they are at a time [s], with the tiles and the order of the step that brought them there.
-  void gather(const Grid& grid, const Particles& particles, double time);
+  // pieces: of the base, where the band is of columns, which then tell its heat and pressure in place of the particles.
+  void gather(const Grid& grid, const Particles& particles, double time,
+              const std::vector<PieceBelow>* pieces = nullptr);
   // The same at t = 0: what changes of elevation count from.
   void start(const Grid& grid, const Particles& particles);
 
@@ -111,6 +120,7 @@ class FlowMaps {
   void set_window(const Grid& grid, double reach, Stack& stack);
   void note_active();
   void add_stack(const Grid& grid, const Particles& particles, const Stack& stack);
+  void add_piece(const PieceBelow& piece);
   void add_box(const Particles& particles, std::size_t particle, const CellRange& x, const CellRange& y,
                const Stack& stack);
   [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;
@@ -121,6 +131,7 @@ class FlowMaps {
   double largest_half_ = 0.0;               // of particles [m]
   mpm::BodySizes<double> sizes_;            // of particles [m]
   double arrival_thickness_;                // [m]
+  bool band_is_of_particles_ = true;
   KeyIndex tile_index_;
   std::vector<std::unique_ptr<MapTile>> tiles_;     // in the order in which the slide came
   std::vector<MapTile*> active_, formerly_active_;  // those that particles may reach

@@ -28,6 +28,8 @@ void add_band(const Simulation<Dim, Real>& simulation, const Means& means, Histo
     add("band_shear_Pa", static_cast<double>(simulation.contact().shear_force / simulation.contact().area));
     add("band_thickness_m", static_cast<double>(base.thickness));
     add("band_hottest_C", static_cast<double>(base.hottest));
+    add("band_hottest_wet_C", static_cast<double>(base.hottest_wet));
+    add("band_dry_share", static_cast<double>(base.dry_share));
     add("band_largest_pressure_ratio", static_cast<double>(base.largest_pressure_ratio));
     return;
   }
@@ -65,6 +67,27 @@ Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
   add("column_opening_m3", sums.opening);
   add("column_void_m3", sums.gas_void);
   return sums.heat + heat_out - heat_in;
+}
+
+// What the slide has taken up of an erodible bed, what is left of that, and the balances of both. `add` takes the name
+// and a number per metre of width.
+template <int Dim, class Real, class Add>
+void add_bed(const Simulation<Dim, Real>& simulation, const Add& add) {
+  const auto* bed = simulation.bed();
+  if (bed == nullptr) {
+    return;
+  }
+  const auto sums = bed->sums();
+  const Ledger<Dim, Real>& ledger = simulation.ledger();
+  const Real taken = sums.loose + ledger.bed_joined_mass;
+  add("entrained_mass_kg", taken);
+  add("entrained_volume_m3", taken / bed->matter().density);
+  add("entrained_work_J", ledger.bed_work);
+  add("entrained_heat_J", ledger.bed_heat);
+  add("loose_mass_kg", sums.loose);
+  add("bed_mass_kg", sums.left);
+  add("bed_residual_kg", sums.left + taken - sums.initial);
+  add("bed_residual_J", ledger.bed_work - ledger.bed_joined_kinetic - ledger.bed_heat - sums.loose_work);
 }
 
 // Mass-weighted sums over the body and over the band, in canonical order.
@@ -124,7 +147,8 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("drained_heat_J", ledger.drained_heat);
   add("numerical_J", ledger.numerical);
   add("mechanical_residual_J", stored + dissipated + ledger.pore_work - ledger.frame_work - ledger.numerical +
-                                   ledger.left_mechanical - ledger.joined_mechanical - ledger.initial_mechanical);
+                                   ledger.left_mechanical + ledger.bed_work - ledger.joined_mechanical -
+                                   ledger.initial_mechanical);
   const Real in_columns = add_columns(simulation, add);
   add("thermal_residual_J", in_columns + sums.sensible + sums.latent - ledger.initial_thermal - ledger.friction_heat -
                                 ledger.boundary_heat - ledger.band_rescale - ledger.advection - ledger.capacity_heat -
@@ -143,9 +167,10 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("left_mass_kg", ledger.left_mass);
   add("left_mechanical_J", ledger.left_mechanical);
   add("left_heat_J", ledger.left_thermal);
-  const Vector<Real, Dim> residual = sums.momentum + ledger.left_momentum - ledger.joined_momentum -
-                                     ledger.initial_momentum - ledger.gravity_impulse - ledger.ground_impulse -
-                                     ledger.constraint_impulse;
+  add_bed(simulation, add);
+  const Vector<Real, Dim> residual = sums.momentum + ledger.left_momentum + ledger.bed_impulse -
+                                     ledger.joined_momentum - ledger.initial_momentum - ledger.gravity_impulse -
+                                     ledger.ground_impulse - ledger.constraint_impulse;
   const auto add_vector = [&](const char* name, const char* unit, const Vector<Real, Dim>& value) {
     for (int a = 0; a < Dim; ++a) {
       row.emplace_back(fmt::format("{}_{}_{}", name, Dim == 2 ? "xy"[a] : "xyz"[a], unit),
@@ -157,6 +182,9 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add_vector("gravity_impulse", "N_s", ledger.gravity_impulse);
   add_vector("ground_impulse", "N_s", ledger.ground_impulse);
   add_vector("constraint_impulse", "N_s", ledger.constraint_impulse);
+  if (simulation.bed() != nullptr) {
+    add_vector("entrained_momentum", "N_s", ledger.bed_impulse);
+  }
   add_vector("momentum_residual", "N_s", residual);
 }
 

@@ -29,6 +29,10 @@ struct Ledger {
   // Brought in by particles that were appended.
   Real joined_mechanical = 0, joined_thermal = 0, joined_mass = 0;
   Vector<Real, Dim> joined_momentum = Vector<Real, Dim>::Zero();
+  // Taken from an erodible bed: work that the slide lost to what it took up, what of it became heat of particles that
+  // joined, and the impulse.
+  Real bed_work = 0, bed_heat = 0, bed_joined_mass = 0, bed_joined_kinetic = 0;
+  Vector<Real, Dim> bed_impulse = Vector<Real, Dim>::Zero();
   // Carried away by particles that left and were removed.
   Real left_mechanical = 0, left_thermal = 0, left_mass = 0;
   Vector<Real, Dim> left_momentum = Vector<Real, Dim>::Zero();
@@ -37,15 +41,16 @@ struct Ledger {
   template <class Visit>
   void for_each(const Visit& visit) {
     for (Real* account :
-         {&stress_work,  &plastic,         &viscous,       &damping,       &friction_work,      &contact_loss,
-          &frame_work,   &numerical,       &pore_work,     &friction_heat, &converted,          &boundary_heat,
-          &band_rescale, &advection,       &capacity_heat, &porosity_heat, &initial_mechanical, &initial_thermal,
-          &initial_mass, &left_mechanical, &left_thermal,  &left_mass,     &joined_mechanical,  &joined_thermal,
-          &joined_mass,  &drained_heat,    &drained_water, &vented_water,  &left_seeped}) {
+         {&stress_work,  &plastic,         &viscous,           &damping,       &friction_work,      &contact_loss,
+          &frame_work,   &numerical,       &pore_work,         &friction_heat, &converted,          &boundary_heat,
+          &band_rescale, &advection,       &capacity_heat,     &porosity_heat, &initial_mechanical, &initial_thermal,
+          &initial_mass, &left_mechanical, &left_thermal,      &left_mass,     &joined_mechanical,  &joined_thermal,
+          &joined_mass,  &drained_heat,    &drained_water,     &vented_water,  &left_seeped,        &bed_work,
+          &bed_heat,     &bed_joined_mass, &bed_joined_kinetic}) {
       visit(*account);
     }
     for (Vector<Real, Dim>* impulse : {&gravity_impulse, &ground_impulse, &constraint_impulse, &initial_momentum,
-                                       &left_momentum, &joined_momentum}) {
+                                       &left_momentum, &joined_momentum, &bed_impulse}) {
       for (int a = 0; a < Dim; ++a) {
         visit((*impulse)[a]);
       }

@@ -322,6 +322,10 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
     model.body_names.push_back(name);
     model.motion.sizes.add(Real(1) / static_cast<Real>(2 * body.particles_per_axis));
   }
+  if (parameters.bed.law != config::BedLaw::none) {  // what is taken up is a body of its own
+    model.body_names.emplace_back("bed");
+    model.motion.sizes.add(Real(1) / static_cast<Real>(2 * parameters.bed.particles_per_axis));
+  }
   model.constraints = make_constraints<Dim, Real>(parameters, model.origin);
   model.contact.law = make_basal_law<Real>(parameters);
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
@@ -329,6 +333,12 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
   model.contact.band_columns = parameters.band.model == config::BandKind::columns;
   model.contact.distance_check = parameters.basal.distance_check;
   model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
+  if (parameters.bed.law != config::BedLaw::none) {
+    const auto saturation = model.band.with_heat_content(
+        [&](const auto& content) { return content.curve.saturation(static_cast<Real>(parameters.bed.temperature)); });
+    model.bed_density =
+        physics::mixture_density(model.band.phases, static_cast<Real>(parameters.bed.porosity), saturation);
+  }
   model.profile = make_profile<Dim>(parameters, site, model.origin);
   model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile);
   model.substrates = make_substrates(parameters, site);

@@ -32,7 +32,8 @@ struct Model {
   // the step.
   std::function<Real(const Vector<Real, Dim - 1>&)> layer_thickness;
   Real largest_layer = 0;
-  std::vector<std::string> body_names, material_names;  // by number
+  Real bed_density = 0;                                 // of the erodible bed [kg/m3]; 0: there is none
+  std::vector<std::string> body_names, material_names;  // by number; the last body is what is taken up of the bed
 };
 
 // site: what the map files of the case hold; needed where the terrain is a DEM.

@@ -59,8 +59,13 @@ void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& jo
   if (model_.ground) {
     terrain::set_contact_offset(grid_, ground_, model_.band.sizes, particles_, first);
   }
-  band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_,
-                     first);
+  if (!model_.contact.band_columns) {
+    band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_,
+                       first);
+  }
+  for (std::size_t k = 0; model_.band.heat && k < joining.size(); ++k) {
+    band::add_heat(model_.band, joining[k].heat, first + k, particles_);
+  }
   std::vector<std::uint8_t> is_new(particles_.size(), 0);
   std::fill(is_new.begin() + static_cast<std::ptrdiff_t>(first), is_new.end(), std::uint8_t{1});
   const BodySums<Dim, Real> sums = sum_over_body(*this, &is_new);

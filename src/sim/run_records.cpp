@@ -60,6 +60,23 @@ double highest_point(const Simulation<3, double>& simulation) {
   return highest + simulation.model().origin[2];
 }
 
+// The pieces of base as maps take them; none where the band is not of columns.
+std::vector<PieceBelow> pieces_below(const Simulation<3, double>& simulation) {
+  std::vector<PieceBelow> pieces;
+  const auto* columns = simulation.band_columns();
+  if (columns == nullptr) {
+    return pieces;
+  }
+  pieces.reserve(columns->pieces().size());
+  for (const auto& piece : columns->pieces()) {
+    const auto means = columns->means_of(piece);
+    const Vector<double, 3> half = 0.5 * piece.sides.cwiseAbs().rowwise().sum();
+    pieces.push_back({piece.position[0], piece.position[1], half[0], half[1], piece.area, means.temperature,
+                      means.pore_pressure, means.liquid});
+  }
+  return pieces;
+}
+
 const std::vector<double>& block(const NamedNumbers& blocks, const char* name) {
   const auto found = blocks.find(name);
   THAWSLIDE_ASSERT(found != blocks.end(), "no block '{}' among {}", name, blocks.size());
@@ -99,7 +116,9 @@ void RunRecords<Dim>::start(const Simulation& simulation) {
 template <int Dim>
 void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
-    maps_->gather(simulation.grid(), simulation.particles(), simulation.time());
+    const std::vector<PieceBelow> pieces = pieces_below(simulation);
+    maps_->gather(simulation.grid(), simulation.particles(), simulation.time(),
+                  simulation.band_columns() != nullptr ? &pieces : nullptr);
     note_way(simulation);
   }
 }

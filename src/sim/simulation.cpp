@@ -9,6 +9,7 @@
 #include "base/instances.hpp"
 #include "mpm/velocity_filter.hpp"
 #include "sim/bodies.hpp"
+#include "sim/entrainment.hpp"
 #include "terrain/band_marks.hpp"
 #include "terrain/map_back.hpp"
 #include "terrain/near_ground.hpp"
@@ -45,6 +46,9 @@ void Simulation<Dim, Real>::step(double dt) {
   last_step_ = dt;
   stop_if_bad();
   handle_left_particles();
+  if (bed_in_reach() != nullptr) {
+    stopwatch_.time("take_up_bed", [&] { take_up_bed(); });
+  }
 }
 
 template <int Dim, class Real>
@@ -85,7 +89,8 @@ void Simulation<Dim, Real>::resolve_contact() {
   }
   band_columns_to_nodes();
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
-                                      dt_, nodes_);
+                                      dt_, nodes_, bed_in_reach());
+  collect_bed();
   ledger_.friction_work += contact_.friction_work;
   ledger_.converted += model_.band.heat ? contact_.converted : contact_.friction_work;
   ledger_.contact_loss += contact_.loss;
@@ -200,7 +205,8 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
     : parameters_(parameters),
       site_(site),
       model_(make_model<Dim, Real>(parameters, site)),
-      grid_(static_cast<Real>(parameters.grid.cell)) {
+      grid_(static_cast<Real>(parameters.grid.cell)),
+      bed_(make_bed<Dim, Real>(parameters, site, model_)) {
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
     const StepLimit limit = sim::step_limit(parameters_, model_, smallest_thickness(parameters_), particles_);

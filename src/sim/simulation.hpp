@@ -29,6 +29,7 @@ struct NewParticle {
   Real temperature = 0, porosity = 0;                      // [C], [1]
   Real flow_depth = 0;                                     // below the surface across the ground [m]: what ice bears
   SymmetricTensor<Real> stress = SymmetricTensor<Real>::Zero();  // total [Pa]
+  Real heat = 0;  // that it has beyond what its temperature says [J]: it warms or melts it
 };
 
 template <int Dim, class Real>
@@ -72,6 +73,9 @@ class Simulation {
     return band_columns_ ? &*band_columns_ : nullptr;
   }
   void restore_band_columns(const std::vector<double>& state) { band_columns_->restore(state); }
+  // Null where there is none that is erodible.
+  [[nodiscard]] const terrain::Bed<Dim, Real>* bed() const { return bed_ ? &*bed_ : nullptr; }
+  void restore_bed(const std::vector<double>& state) { bed_->restore(state); }
   [[nodiscard]] const Stopwatch& stopwatch() const { return stopwatch_; }
   [[nodiscard]] double rear_at_start() const { return rear_at_start_; }
   [[nodiscard]] std::size_t particles_at_start() const { return particles_at_start_; }
@@ -99,6 +103,12 @@ class Simulation {
   void drain_pore_pressure();
   void take_new_positions();
   void handle_left_particles();
+  // Null where there is none, and while the base holds.
+  [[nodiscard]] const terrain::Bed<Dim, Real>* bed_in_reach() const {
+    return model_.contact.base_holds ? nullptr : bed();
+  }
+  void collect_bed();
+  void take_up_bed();
 
   void seed();
   // Everything that follows from positions and stress at t = 0.
@@ -113,6 +123,9 @@ class Simulation {
   void band_columns_to_nodes();
   void band_columns_follow();
   void start_ledger();
+  [[nodiscard]] NewParticle<Dim, Real> particle_of_bed(const typename terrain::Bed<Dim, Real>::Column& column,
+                                                       const terrain::LooseMatter<Dim, Real>& matter,
+                                                       std::int64_t number) const;
   void stop_if_bad();
   [[nodiscard]] double band_thickness() const;
 
@@ -125,6 +138,7 @@ class Simulation {
   terrain::GroundOnGrid<Dim, Real> ground_;
   band::FlowDepth<Dim, Real> flow_depth_;
   std::optional<band::BaseColumns<Dim, Real>> band_columns_;
+  std::optional<terrain::Bed<Dim, Real>> bed_;
   terrain::ContactWork<Dim, Real> contact_;
   Ledger<Dim, Real> ledger_;
   mpm::BadParticle bad_;

@@ -30,7 +30,8 @@ template <int Dim, class Real, class Take>
 void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                 const mpm::Particles<Dim, Real>& particles, const Take& take) {
   const double cell = parameters.grid.cell;
-  double smallest_density = HUGE_VAL;
+  // What is taken up of the bed counts from the start.
+  double smallest_density = model.bed_density > Real(0) ? static_cast<double>(model.bed_density) : HUGE_VAL;
   double largest_speed = 0.0;
   double largest_diffusivity = 0.0;
   double largest_seepage = 0.0;
@@ -76,6 +77,9 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
       take(particle_share * cell / largest_speed,
            [&] { return fmt::format("the particle speed of {:.4g} m/s", largest_speed); });
     }
+  }
+  if (model.contact.band_columns) {
+    return;  // columns are implicit, and particles neither conduct nor seep
   }
   // Heat and pore pressure see the finer grid of the band.
   const double scaled = thickness * (cell / static_cast<double>(model.largest_layer));

@@ -180,25 +180,56 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
   });
 }
 
-// Applies the contact impulse of one node and adds its work. state.momentum goes from trial to final.
+// What a sliding node takes of the bed, whose record it fills; its momentum along the slip is still that after
+// friction.
+template <int Dim, class Real>
+Bite<Real> bite_of_node(const Bed<Dim, Real>& bed, const physics::ContactImpulse<Real>& impulse,
+                        const Vector<Real, Dim>& along, Real tangential_size, Real area, Real strength, Real dt,
+                        Real mass, typename decltype(mpm::Nodes<Dim, Real>::bed)::Record& record) {
+  using Layout = mpm::BedLayout<Dim>;
+  const Real available = record[Layout::available];
+  if (!impulse.slides || !(available > Real(0))) {
+    return {};
+  }
+  const Real speed = (tangential_size - impulse.tangential) / mass;
+  const Bite<Real> bite = bed.bite(available, mass, speed, strength, impulse.normal / (area * dt), area, dt);
+  record[Layout::taken] = bite.taken;
+  mpm::set_vector<Dim>(record, Layout::impulse, Vector<Real, Dim>(bite.impulse * along));
+  return bite;
+}
+
+// Applies the contact impulse of one node and adds its work. state.momentum goes from trial to final. `bed` may be
+// null.
 template <int Dim, class Real>
 void apply_contact(const mpm::BlockConstraints<Dim, Real>& constraints, std::size_t k, const Vector<Real, Dim>& normal,
                    Real load, Real area, Real strength, Real friction, Real heat_fraction, Real dt,
+                   const Bed<Dim, Real>* bed, typename decltype(mpm::Nodes<Dim, Real>::bed)::Record* of_bed,
                    NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
                    typename mpm::RecordsOf<Contact, Dim, Real>::Record& left) {
   const Vector<Real, Dim> tangential = state.momentum - state.momentum.dot(normal) * normal;
   const Real tangential_size = tangential.norm();
-  const auto impulse = physics::contact_impulse(load, tangential_size, area, dt, strength);
+  auto impulse = physics::contact_impulse(load, tangential_size, area, dt, strength);
   Vector<Real, Dim> along = Vector<Real, Dim>::Zero();
   if (tangential_size > Real(0)) {
     along = tangential / tangential_size;
   }
+  Bite<Real> bite;
+  if (bed != nullptr) {
+    bite = bite_of_node(*bed, impulse, along, tangential_size, area, strength, dt, state.mass, *of_bed);
+    impulse.tangential -= bite.of_friction;
+  }
   const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
-  state.momentum += total;
+  const Vector<Real, Dim> to_bed = bite.impulse * along;
+  state.momentum += total - to_bed;
   constrain(constraints, k, state);  // walls and frames outrank the ground
   const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
   const Real slip_speed = std::max(Real(0), middle.dot(along));
   const Real friction_work = impulse.slides ? impulse.tangential * slip_speed : Real(0);
+  if (bite.taken > Real(0)) {
+    (*of_bed)[mpm::BedLayout<Dim>::work] = to_bed.dot(middle);
+    work.bed_work += to_bed.dot(middle);
+    work.bed_impulse += to_bed;
+  }
   work.friction_work += friction_work;
   work.converted += (Real(1) - heat_fraction) * friction_work;
   work.loss += -total.dot(middle) - friction_work;
@@ -273,13 +304,16 @@ template <int Dim, class Real>
 ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                                        const mpm::Constraints<Dim, Real>& constraints,
                                        const ContactModel<Dim, Real>& model, Real time, Real dt,
-                                       mpm::Nodes<Dim, Real>& nodes) {
+                                       mpm::Nodes<Dim, Real>& nodes, const Bed<Dim, Real>* bed) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   nodes.motion.resize(grid.blocks().size());
   hold_contact(grid, ground, nodes);
   const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
   if (ground != nullptr) {
     press_on_ground(grid, *ground, constraints, model, time, dt, nodes);
+  }
+  if (bed != nullptr) {
+    bed->share_out(grid, *ground, nodes);
   }
   using Work = ContactWork<Dim, Real>;
   return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {
@@ -311,7 +345,8 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
       const std::size_t k = contact.node[c];
       const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
       apply_contact(on_block, k, (*known)[k].normal, nodes.base(b, k)[BaseLayout::load], contact.area[c], strength,
-                    contact.basal.friction[c], model.law.heat_fraction, dt, contact.state[c], work,
+                    contact.basal.friction[c], model.law.heat_fraction, dt, bed,
+                    bed != nullptr ? &nodes.bed.of_block(b)[k] : nullptr, contact.state[c], work,
                     nodes.contact.of_block(b)[k]);
       finish(contact.state[c], k);
     }
@@ -323,7 +358,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                          mpm::Nodes<Dim, Real>&);                                            \
   template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                \
       const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&, \
-      const ContactModel<Dim, Real>&, Real, Real, mpm::Nodes<Dim, Real>&);
+      const ContactModel<Dim, Real>&, Real, Real, mpm::Nodes<Dim, Real>&, const Bed<Dim, Real>*);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -8,6 +8,7 @@
 #include "mpm/constraints.hpp"
 #include "mpm/nodes.hpp"
 #include "terrain/basal_law.hpp"
+#include "terrain/bed.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
@@ -24,9 +25,11 @@ struct ContactWork {
   Real area = 0;                                        // in contact
   Real friction_area = 0;                               // sum mu_e A
   Real shear_force = 0;                                 // of the ground on the slide, whichever way
+  Real bed_work = 0;                                    // that the slide loses to bed matter that it takes up
   Vector<Real, Dim> force = Vector<Real, Dim>::Zero();  // on the ground
   // On the slide, of walls, frames and mass damping [N s].
   Vector<Real, Dim> constraint_impulse = Vector<Real, Dim>::Zero();
+  Vector<Real, Dim> bed_impulse = Vector<Real, Dim>::Zero();  // of the slide on bed matter that it takes up [N s]
 
   ContactWork& operator+=(const ContactWork& part) {
     friction_work += part.friction_work;
@@ -40,6 +43,8 @@ struct ContactWork {
     shear_force += part.shear_force;
     force += part.force;
     constraint_impulse += part.constraint_impulse;
+    bed_work += part.bed_work;
+    bed_impulse += part.bed_impulse;
     return *this;
   }
 };
@@ -55,12 +60,13 @@ struct ContactModel {
 };
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null.
-// nodes.averages, nodes.state and, with ground, nodes.near_ground must hold what this step made.
+// nodes.averages, nodes.state and, with ground, nodes.near_ground must hold what this step made. What nodes take of the
+// bed stands in nodes.bed; null: there is none.
 template <int Dim, class Real>
 ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                                        const mpm::Constraints<Dim, Real>& constraints,
                                        const ContactModel<Dim, Real>& model, Real time, Real dt,
-                                       mpm::Nodes<Dim, Real>& nodes);
+                                       mpm::Nodes<Dim, Real>& nodes, const Bed<Dim, Real>* bed = nullptr);
 
 // Fills nodes.contact before anything has moved: no node is in contact. `ground` may be null.
 template <int Dim, class Real>

@@ -46,6 +46,17 @@ def test_a_stopped_run_goes_on_to_the_same_bits(
     assert after["particle_steps_per_second"] == pytest.approx(rate)
 
 
+def test_a_stopped_run_on_band_columns_goes_on_to_the_same_bits(
+    thawslide: Program, interrupted: Interrupted, tmp_path: Path
+) -> None:
+    case, whole, run = LAMPLUGH.parent / "lamplugh-columns", tmp_path / "whole", tmp_path / "run"
+    assert thawslide("run", case, "--output", whole, *WORDS).returncode == 0
+    assert interrupted(case, run, WORDS, signal.SIGTERM, 30) == 4
+    assert thawslide("resume", run, "--threads", 1).returncode == 0
+    assert_same_bits(whole, run)
+    assert (run / "checkpoint.bin").read_bytes() == (whole / "checkpoint.bin").read_bytes()
+
+
 def test_a_killed_run_goes_on_from_its_last_checkpoint(
     thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path
 ) -> None:

@@ -6,6 +6,7 @@
 #include "physics/band_column_step.hpp"
 #include "physics/basal/laws.hpp"
 #include "physics/basal_friction.hpp"
+#include "physics/entrainment.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/contact.hpp"
 #include "physics/elasticity.hpp"
@@ -234,6 +235,14 @@ __global__ void basal_contact(FrictionClamp clamp, bool cap_pressure, Real dt, R
   result.put(impulse.normal);
   result.put(impulse.tangential);
   result.put(impulse.slides ? Real(1) : Real(0));
+}
+
+__global__ void entrainment(Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const Real strength = bed_strength(row.take(), row.take(), row.take()), speed = row.take();
+  result.put(erosion_by_strength(row.take(), strength, speed, row.take()));
+  result.put(erosion_by_momentum(row.take(), strength, row.take(), speed, row.take()));
+  result.put(speed_with_taken(row.take(), speed, row.take()));
 }
 
 }  // namespace thawslide::physics

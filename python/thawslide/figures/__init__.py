@@ -12,6 +12,7 @@ from thawslide.figures.band import band
 from thawslide.figures.base import base_along, base_pressure, base_temperature
 from thawslide.figures.cross_sections import cross_sections
 from thawslide.figures.energy import energy
+from thawslide.figures.entrainment import entrainment
 from thawslide.figures.force import force
 from thawslide.figures.largest import extent_maps, impact_maps
 from thawslide.figures.motion import motion
@@ -153,6 +154,13 @@ FIGURES: dict[str, FigureKind] = {
         "Energy ledger",
         "Every account as its change since the start; the residual is what the accounts of a ledger leave over.",
         energy,
+    ),
+    "entrainment": FigureKind(
+        "Bed taken up",
+        "Mass that the slide took off the erodible bed, the work that it lost to setting it in motion, and the depth "
+        "that was taken up along x, by where particles joined.",
+        entrainment,
+        lambda run: "entrained_mass_kg" in run.history,
     ),
     "water": FigureKind(
         "Water of the band",

@@ -36,6 +36,7 @@ MECHANICAL = {
     "pore_work_J": ("work on pore water", "#BCBD22"),
     "friction_work_J": ("basal friction", RED),
     "contact_loss_J": ("impact on the ground", PURPLE),
+    "entrained_work_J": ("lost to bed taken up", "#17BECF"),
     "frame_work_J": ("work of frames", GREEN),
     "numerical_J": ("numerical", "#999999"),
 }

@@ -39,13 +39,13 @@ def relative_water_residual(run: Run) -> Numbers | None:
     return np.abs(run.history[RESIDUAL]) / largest if largest > 0.0 else None
 
 
-def _scaled(largest: float, steps: tuple[tuple[float, str], ...]) -> tuple[float, str]:
+def scaled(largest: float, steps: tuple[tuple[float, str], ...]) -> tuple[float, str]:
     """Return (divisor, unit) of the first step that a value reaches, or of the last."""
     return next((step for step in steps if largest >= step[0]), steps[-1])
 
 
-_MASSES = ((1e9, "million t"), (1e6, "thousand t"), (1e3, "t"), (1.0, "kg"))
-_VOLUMES = ((1e6, "million m³"), (1e3, "thousand m³"), (1.0, "m³"))
+MASSES = ((1e9, "million t"), (1e6, "thousand t"), (1e3, "t"), (1.0, "kg"))
+VOLUMES = ((1e6, "million m³"), (1e3, "thousand m³"), (1.0, "m³"))
 
 
 def _draw(
@@ -53,7 +53,7 @@ def _draw(
 ) -> None:
     """Draw accounts over time, each in its colour, in a unit that suits the largest of them."""
     largest = max(float(np.nanmax(np.abs(run.history[name]))) for name in accounts)
-    divisor, unit = _scaled(largest, steps)
+    divisor, unit = scaled(largest, steps)
     for name, (words, colour) in accounts.items():
         time_line(axes, run.history["time_s"], run.history[name] / divisor, color=colour, label=words)
     axes.set_ylabel(f"{quantity} ({unit}{'/m of width' if run.per_metre else ''})")
@@ -70,9 +70,9 @@ def water(run: Run) -> Figure:
     figure = Figure(figsize=(10.0, 9.0), layout="constrained")
     figure.suptitle(f"{run.title}: water of the band", x=0.01, ha="left", size=12)
     held, lost, spaces, residual = panels = list(figure.subplots(4, 1, sharex=True, height_ratios=(1.2, 1.0, 1.0, 0.7)))
-    _draw(held, run, HELD, "mass", _MASSES)
-    _draw(lost, run, LOST, "mass", _MASSES)
-    _draw(spaces, run, SPACES, "volume", _VOLUMES)
+    _draw(held, run, HELD, "mass", MASSES)
+    _draw(lost, run, LOST, "mass", MASSES)
+    _draw(spaces, run, SPACES, "volume", VOLUMES)
     relative = relative_water_residual(run)
     residual.set_ylabel("|residual| / largest")
     if relative is not None and np.any(relative > 0.0):

@@ -63,6 +63,11 @@ TEST(CaseFile, DefaultsAreThoseOfThePaper) {
   EXPECT_EQ(found.basal.clamp, FrictionClamp::keep_cohesion);
   EXPECT_EQ(found.pressure.clapeyron, ClapeyronSign::usual);
   EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::ugimp);
+  EXPECT_EQ(found.bed.law, BedLaw::none);
+  EXPECT_EQ(found.bed.friction_angle, 0.0);
+  EXPECT_EQ(found.bed.temperature, -10.0);
+  EXPECT_EQ(found.bed.porosity, 0.9);
+  EXPECT_EQ(found.bed.particles_per_axis, 2);
   EXPECT_EQ(found.mechanics.transfer, Transfer::flip);
   EXPECT_EQ(found.mechanics.fmpm_order, 2);
   EXPECT_EQ(found.bodies.at("block").porosity.at(0.0, 0.0), 0.375);
@@ -96,17 +101,19 @@ TEST(CaseFile, ABandIsOfColumnsWhereThereIsABase) {
 TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   write_map_files();
   const std::string wall = "[frame.wall]\nmin = [90.0, 0.0]\nmax = [95.0, 5.0]\naxis = \"x\"\nvelocity = 0.0\n";
-  const std::set<std::string> given{"case.dimension", "terrain.type", "material.law", "body.shape"};
+  const std::set<std::string> given{"case.dimension", "terrain.type", "material.law", "body.shape", "bed.law"};
   const std::string noise = "[initial]\nnoise = 0.1\n";
   const std::string columns = "[band]\nthickness = 0.5\n", growth = "growth = \"inertial\"\n";
   std::map<std::string, bool> in_force;  // whether a key's default could be told in one of the cases
   std::string of_surface = sound_on_dem;
   const std::string number = "thickness = 10.0";
   of_surface.replace(of_surface.find(number), number.size(), "thickness = { surface = \"map.tif\" }");
+  const std::string bed =
+      "[bed]\nlaw = \"momentum\"\ndepth = 2.0\nstrength = 0.0\ndepth_per_slip = 0.5\nmaterial = \"rock\"\n";
   const std::string ice = "[substrate.ice]\nfriction_angle = 5.0\n";
   for (const std::string& text :
-       {sound + wall + ice + "x_min = 50.0\n", sound + noise, sound + columns, sound + columns + growth, sound_on_dem,
-        of_surface, sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
+       {sound + wall + ice + "x_min = 50.0\n", sound + noise, sound + bed, sound + columns, sound + columns + growth,
+        sound_on_dem, of_surface, sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = resolved_toml(found, "inputs");
     for (const auto& table : tables()) {

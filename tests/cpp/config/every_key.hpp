@@ -137,6 +137,16 @@ cohesion_law = "bonds"
 residual_cohesion = 15000.0
 slip_distance = 40.0
 cohesion_loss_time = 30.0
+[bed]
+law = "momentum"
+depth = { x = [0.0, 40.0], value = [0.5, 1.5] }
+strength = 2000.0
+friction_angle = 12.0
+depth_per_slip = 0.125
+material = "rock"
+temperature = -2.5
+porosity = 0.75
+particles_per_axis = 4
 [mechanisms]
 deformation = false
 lubrication = false

@@ -56,6 +56,9 @@ TEST(BandColumn, LoadThatGoesTakesPressureAlong) {
   drive.normal_pressure = load;
   step_column(model, drive, column);
   EXPECT_NEAR(column.pressure[0], 3e5, 1e-3);
+  // Between two steps of the column the law of the base sees no more pressure than there is load.
+  EXPECT_NEAR(band_means(model, load, column).pore_pressure, 3e5, 1e-3);
+  EXPECT_NEAR(band_means(model, 1e5, column).pore_pressure, 1e5, 1e-3);
 }
 
 // Melt fills r of the pore that its ice filled: the void n (1 - r) takes up the first expansion.

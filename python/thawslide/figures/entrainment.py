@@ -1,0 +1,87 @@
+"""What a slide takes up of an erodible bed: how much over time, from where along the ground, and what it costs."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from thawslide.errors import NotInRunError
+from thawslide.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    RED,
+    letters,
+    prefixed,
+    say,
+    styled,
+    time_axis,
+    time_line,
+)
+from thawslide.figures.water import MASSES, scaled
+from thawslide.run import Numbers, Run
+
+
+def depth_taken(run: Run) -> tuple[Numbers, Numbers]:
+    """Return edges of cells along x [m], and the depth [m] that particles of the bed in the last snapshot stood for.
+
+    Where each of them joined follows from its displacement. The depth is a mean over the width in 3D too.
+    """
+    cell = float(run.section("grid")["cell"])
+    low, high = float(run.section("grid")["min"][0]), float(run.section("grid")["max"][0])
+    edges = low + cell * (np.arange(round((high - low) / cell) + 2) - 0.5)
+    shot = run.snapshot(len(run.times) - 1)
+    of_bed = np.asarray(shot["body"]) == len(run.section("body"))
+    joined_at = shot.points[of_bed, 0] - np.asarray(shot["displacement"])[of_bed, 0]
+    last = -1
+    density = run.history["entrained_mass_kg"][last] / max(run.history["entrained_volume_m3"][last], 1e-300)
+    volume = np.asarray(shot["mass"])[of_bed] / density if density > 0.0 else np.zeros(int(of_bed.sum()))
+    across = 1.0 if run.dimension == 2 else float(run.section("grid")["max"][1]) - float(run.section("grid")["min"][1])
+    return edges, np.histogram(joined_at, edges, weights=volume)[0] / (cell * across)
+
+
+@styled
+def entrainment(run: Run) -> Figure:
+    """Draw (a) mass taken up and still loose, (b) work lost to it and heat, (c) depth taken up along x."""
+    if "entrained_mass_kg" not in run.history:
+        raise NotInRunError("the case has no bed: history.csv has no account of what was taken up")
+    time = run.history["time_s"]
+    figure = Figure(figsize=(10.0, 8.0), layout="constrained")
+    figure.suptitle(f"{run.title}: bed taken up", x=0.01, ha="left", size=12)
+    mass, work, depth = figure.subplots(3, 1)
+    per = "/m of width" if run.per_metre else ""
+    divisor, unit = scaled(float(np.nanmax(run.history["mass_kg"])), MASSES)
+    for name, words, colour in (
+        ("mass_kg", "mass of the slide", BLACK),
+        ("entrained_mass_kg", "taken up", BLUE),
+        ("loose_mass_kg", "of that, not joined yet", ORANGE),
+    ):
+        time_line(mass, time, run.history[name] / divisor, color=colour, label=words)
+    mass.set_ylabel(f"mass ({unit}{per})")
+    divisor, unit = prefixed([float(np.nanmax(run.history["entrained_work_J"]))], "J")
+    time_line(work, time, run.history["entrained_work_J"] / divisor, color=RED, label="work that the slide lost")
+    time_line(work, time, run.history["entrained_heat_J"] / divisor, color=GREEN, label="of that, heat in what joined")
+    work.set_ylabel(f"energy ({unit}{per})")
+    for axes in (mass, work):
+        time_axis(axes, time, label=axes is work)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    _draw_depth(depth, run)
+    letters(
+        (mass, work, depth),
+        ("mass of the slide, and what it took up", "what taking it up cost", "depth taken up, by where it joined"),
+    )
+    return figure
+
+
+def _draw_depth(axes: Axes, run: Run) -> None:
+    edges, depth = depth_taken(run)
+    taken = np.flatnonzero(depth > 0.0)
+    axes.set_xlabel("x (m)")
+    axes.set_ylabel("depth (m)")
+    if not taken.size:
+        say(axes, "nothing has been taken up")
+        return
+    window = slice(max(int(taken[0]) - 10, 0), int(taken[-1]) + 11)
+    axes.stairs(depth[window], edges[window.start : window.start + len(depth[window]) + 1], fill=True, color=BLUE)

@@ -1,0 +1,207 @@
+// Where pieces of base are laid as the slide comes to ground that none covers.
+#include <algorithm>
+
+#include "band/base_columns.hpp"
+#include "base/instances.hpp"
+
+namespace thawslide::band {
+
+using mpm::BaseState;
+using mpm::Contact;
+
+namespace {
+
+constexpr double highest_part = 1.5;  // of a cell of the lattice on steep ground, in cells
+constexpr double most_parts = 64.0;   // of such a cell, on ground as steep as a wall
+
+}  // namespace
+
+template <int Dim, class Real>
+typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_cell(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                              const Vector<Real, Dim>& place) const {
+  Lattice cell;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    cell[a] = static_cast<int>(std::floor(place[static_cast<int>(a)] * grid.inverse_cell()));
+  }
+  return cell;
+}
+
+template <int Dim, class Real>
+bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
+                                               const mpm::Nodes<Dim, Real>& nodes) const {
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
+      if (nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0))) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// The cells of the lattice, and their parts, in which nodes in contact have their feet: of those that see no piece, and
+// of those with so much contact that a piece should lie there.
+template <int Dim, class Real>
+typename BaseColumns<Dim, Real>::BareCells BaseColumns<Dim, Real>::feet_in_contact(
+    const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground, const mpm::Nodes<Dim, Real>& nodes) const {
+  const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
+  BareCells cells;
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
+      const auto& contact = nodes.contact(b, k);
+      const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
+      if (!(contact[Contact::touching] > Real(0)) || !(unseen || contact[Contact::area] > least_area)) {
+        continue;
+      }
+      const NodeGround near = node_ground(b, k);
+      const Vector<Real, Dim> foot = mpm::node_position(grid, b, k) + near.distance * *near.normal;
+      const Lattice cell = lattice_cell(grid, foot);
+      const auto [found, is_new] = cells.try_emplace(cell);
+      Lattice part;
+      for (std::size_t a = 0; a + 1 < Dim; ++a) {
+        const auto axis = static_cast<int>(a);
+        const Real gradient = std::abs((*near.normal)[axis] / (*near.normal)[Dim - 1]);
+        if (is_new) {
+          found->second.parts[a] =
+              static_cast<int>(std::clamp(std::ceil(gradient / Real(highest_part)), Real(1), Real(most_parts)));
+        }
+        const int parts = found->second.parts[a];
+        const Real within = foot[axis] * grid.inverse_cell() - static_cast<Real>(cell[a]);
+        part[a] = std::clamp(static_cast<int>(within * static_cast<Real>(parts)), 0, parts - 1);
+      }
+      found->second.bare.insert(part);
+    }
+  }
+  return cells;
+}
+
+// A piece covers the parts whose middle lies within three quarters of their size of its own along each axis.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid, BareCells& cells) const {
+  for (const Piece& piece : pieces_) {
+    const Lattice own = lattice_cell(grid, piece.position);
+    for (int k = 0; k < mpm::power(3, Dim - 1); ++k) {
+      Lattice cell = own;
+      for (std::size_t a = 0, rest = static_cast<std::size_t>(k); a + 1 < Dim; ++a, rest /= 3) {
+        cell[a] += static_cast<int>(rest % 3) - 1;
+      }
+      const auto found = cells.find(cell);
+      if (found == cells.end()) {
+        continue;
+      }
+      const Lattice& parts = found->second.parts;
+      std::erase_if(found->second.bare, [&](const Lattice& part) {
+        Real furthest = 0;  // in sizes of the part
+        for (std::size_t a = 0; a + 1 < Dim; ++a) {
+          const auto count = static_cast<Real>(parts[a]);
+          const Real middle = static_cast<Real>(cell[a]) + (static_cast<Real>(part[a]) + Real(0.5)) / count;
+          const Real place = piece.position[static_cast<int>(a)] * grid.inverse_cell();
+          furthest = std::max(furthest, std::abs(place - middle) * count);
+        }
+        return furthest < Real(0.75);
+      });
+    }
+  }
+}
+
+// Pieces are laid in the cells of a horizontal lattice, so that they do not depend on the order of nodes: where a node
+// in contact has its foot, unless some piece covers the place.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                        const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim, Real>& nodes) {
+  BareCells cells = feet_in_contact(grid, node_ground, nodes);
+  leave_out_covered(grid, cells);
+  const std::size_t known = pieces_.size();
+  for (const auto& [cell, wanted] : cells) {
+    for (const Lattice& part : wanted.bare) {
+      Vector<Real, Dim - 1> middle, size;
+      for (std::size_t a = 0; a + 1 < Dim; ++a) {
+        const auto axis = static_cast<int>(a);
+        size[axis] = grid.cell() / static_cast<Real>(wanted.parts[a]);
+        middle[axis] = static_cast<Real>(cell[a]) * grid.cell() + (static_cast<Real>(part[a]) + Real(0.5)) * size[axis];
+      }
+      pieces_.push_back(new_piece(middle, size, ground));
+      add_area(grid, pieces_.back(), nodes);
+    }
+  }
+  std::vector<InContact> contacts;
+  for (std::size_t p = known; p < pieces_.size(); ++p) {
+    contacts.push_back(in_contact(grid, nodes, pieces_[p]));
+  }
+  for (std::size_t p = known; p < pieces_.size(); ++p) {
+    begin_piece(grid, contacts[p - known], thickness, nodes, pieces_[p]);
+  }
+}
+
+// At the edge of the slide a piece is smaller than its part of the lattice.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const InContact& contact,
+                                         Real thickness, mpm::Nodes<Dim, Real>& nodes, Piece& piece) {
+  const Real share = std::clamp(contact.area / piece.area, Real(0.1), Real(1));
+  add_area(grid, piece, nodes, share - Real(1));
+  piece.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
+  piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
+  follow_load(model_, contact.area > Real(0) ? contact.normal_force / contact.area : Real(0), Real(0), piece);
+  start_column_of(model_, thickness, piece);
+  ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
+  ledger_.laid_water += piece.area * physics::water_of(piece.column);
+}
+
+// Adds a share of a piece's area to what nodes see.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::add_area(const mpm::SparseGrid<Dim, Real>& grid, const Piece& piece,
+                                      mpm::Nodes<Dim, Real>& nodes, Real share) const {
+  const Stencil stencil(grid, piece.position);
+  for (std::size_t k = 0; k < stencil.count; ++k) {
+    if (nodes.base_state.holds(stencil.block[k])) {
+      nodes.base_state.of_block(stencil.block[k])[stencil.node[k]][BaseState::area] +=
+          share * stencil.weight[k] * piece.area;
+    }
+  }
+}
+
+// What of contact falls to a piece, as nodes share it out among those that they see.
+template <int Dim, class Real>
+typename BaseColumns<Dim, Real>::InContact BaseColumns<Dim, Real>::in_contact(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                              const mpm::Nodes<Dim, Real>& nodes,
+                                                                              const Piece& piece) const {
+  const Stencil stencil(grid, piece.position);
+  InContact result;
+  for (std::size_t k = 0; k < stencil.count; ++k) {
+    const Real seen = nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
+    if (seen > Real(0)) {
+      const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
+      const Real share = stencil.weight[k] * piece.area / seen;
+      result.area += share * contact[Contact::area];
+      result.normal_force += share * contact[Contact::normal_force];
+    }
+  }
+  return result;
+}
+
+template <int Dim, class Real>
+BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Vector<Real, Dim - 1>& middle,
+                                                       const Vector<Real, Dim - 1>& size, const Ground& ground) {
+  Piece piece;
+  piece.id = next_id_++;
+  piece.sides.setZero();
+  piece.normal = ground.normal(middle);
+  piece.position.template head<Dim - 1>() = middle;
+  piece.position[Dim - 1] = ground.height(middle);
+  for (int a = 0; a + 1 < Dim; ++a) {
+    piece.sides(a, a) = size[a];
+    piece.sides(Dim - 1, a) = -piece.normal[a] / piece.normal[Dim - 1] * size[a];
+  }
+  piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
+  return piece;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                             \
+  template bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>&,         \
+                                                          const mpm::Nodes<Dim, Real>&) const;       \
+  template void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>&, const Ground&, \
+                                                   const NodeGroundOf&, Real, mpm::Nodes<Dim, Real>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::band

@@ -1,0 +1,39 @@
+#include "gis/bed.hpp"
+
+#include <cmath>
+
+#include "gis/map_raster.hpp"
+#include "gis/sampling.hpp"
+#include "gis/told_at.hpp"
+
+namespace thawslide::gis {
+
+Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::vector<std::string>& notes) {
+  const InitialField& depth = parameters.bed.depth;
+  if (parameters.bed.law == config::BedLaw::none || depth.over != InitialField::Over::raster) {
+    return {};
+  }
+  const std::string key = "bed.depth";
+  const Rectangle domain = domain_of(parameters);
+  const Raster map = read_map(parameters, {key, depth.source, ground.raster.crs, domain, "the domain"}, notes);
+  return told_at(parameters, key, [&] {
+    Raster made = sampled(map, ground.raster, Missing::unknown);
+    for (int row = 0; row < made.rows; ++row) {
+      for (int column = 0; column < made.columns; ++column) {
+        const double x = made.x_of(column), y = made.y_of(row);
+        double& value = made.values[made.index(column, row)];
+        if (domain.holds(x, y) && !(value >= 0.0 && value <= parameters.grid.cell)) {
+          throw UserError(fmt::format(
+              "{}: at {:.10g}, {:.10g}, in the domain, the depth of the bed is {}; allowed: from 0 m, where there is "
+              "no bed, to grid.cell, {:g} m. {}",
+              depth.source, x, y, std::isnan(value) ? "missing" : fmt::format("{:g} m", value), parameters.grid.cell,
+              std::isnan(value) ? "Fill the raster with 0 over the whole domain, or make the domain smaller."
+                                : "Check the raster's unit."));
+        }
+      }
+    }
+    return made;
+  });
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,18 @@
+// The erodible bed of a case.
+#pragma once
+
+#include <optional>
+
+#include "config/case.hpp"
+#include "config/site.hpp"
+#include "sim/model.hpp"
+#include "terrain/bed.hpp"
+
+namespace thawslide::sim {
+
+// Nothing where the case has none.
+template <int Dim, class Real>
+std::optional<terrain::Bed<Dim, Real>> make_bed(const config::Case& parameters, const config::Site& site,
+                                                const Model<Dim, Real>& model);
+
+}  // namespace thawslide::sim

@@ -1,0 +1,98 @@
+// An erodible bed on the ground: how much of it is left below each column of nodes, what contact nodes take of it, and
+// what of that has not joined the slide yet.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "mpm/nodes.hpp"
+#include "physics/entrainment.hpp"
+#include "terrain/ground_on_grid.hpp"
+
+namespace thawslide::terrain {
+
+enum class BedLaw { strength, momentum };
+
+template <class Real>
+struct BedMatter {
+  BedLaw law = BedLaw::momentum;
+  Real cohesion = 0, tangent = 0;  // of what it withstands: c_b [Pa], tan(phi_b)
+  Real depth_per_slip = 0;         // [1]
+  Real density = 0;                // [kg/m3]
+};
+
+// What a contact node gives to the bed's matter in a step.
+template <class Real>
+struct Bite {
+  Real taken = 0;        // [kg]
+  Real impulse = 0;      // along the slip [N s]
+  Real of_friction = 0;  // what of it friction had taken already [N s]
+};
+
+// Bed matter that has been taken up and waits to join the slide as a particle.
+template <int Dim, class Real>
+struct LooseMatter {
+  Real mass = 0;                                           // [kg]
+  Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();  // [kg m/s]
+  Real work = 0;                                           // that the slide has lost to it [J]
+  Real normal_pressure = 0;                                // on the bed when it was last taken from [Pa]
+  Real idle = 0;                                           // since then [s]
+};
+
+template <int Dim, class Real>
+class Bed {
+ public:
+  using Column = std::array<int, Dim - 1>;  // nodes with the same indices along the horizontal axes
+  using Layout = mpm::BedLayout<Dim>;
+
+  // columns: how many along each axis, the first at the domain's lower corner; mass: of the bed below each [kg], x
+  // fastest.
+  Bed(const BedMatter<Real>& matter, const Column& columns, std::vector<Real> mass)
+      : matter_(matter), columns_(columns), initial_(std::move(mass)), left_(initial_) {}
+
+  // Shares out what is left below each column among its nodes, by how they press on the ground (nodes.base): none takes
+  // what another one does, and none what the slide does not cover. Fills nodes.bed.
+  void share_out(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                 mpm::Nodes<Dim, Real>& nodes) const;
+
+  // Of a node of so much mass [kg] that slides at `speed` > 0 [m/s] after friction of the strength `shear` [Pa].
+  [[nodiscard]] Bite<Real> bite(Real available, Real mass, Real speed, Real shear, Real normal_pressure, Real area,
+                                Real dt) const;
+
+  // What nodes took in a step of dt goes from the bed to what is loose.
+  void collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes, Real dt);
+
+  // Loose matter that is to join: join(column, matter) says whether it does, and it is loose no more.
+  void release(const std::function<bool(const Column&, const LooseMatter<Dim, Real>&)>& join);
+
+  [[nodiscard]] const BedMatter<Real>& matter() const { return matter_; }
+  [[nodiscard]] bool is_exhausted(const Column& column) const { return !(left_[number_of(column)] > Real(0)); }
+  [[nodiscard]] const std::vector<Real>& left() const { return left_; }  // [kg], by column
+  [[nodiscard]] const Column& columns() const { return columns_; }
+
+  // Over all columns [kg, J].
+  struct Sums {
+    Real initial = 0, left = 0, loose = 0, loose_work = 0;
+  };
+  [[nodiscard]] Sums sums() const;
+
+  // Everything a checkpoint must hold, and its way back.
+  [[nodiscard]] std::vector<double> state() const;
+  void restore(const std::vector<double>& numbers);
+
+ private:
+  [[nodiscard]] Column column_of(const mpm::SparseGrid<Dim, Real>& grid, std::size_t block, std::size_t node) const;
+  [[nodiscard]] bool holds(const Column& column) const;
+  [[nodiscard]] std::size_t number_of(const Column& column) const;
+  [[nodiscard]] Column column_at(std::size_t number) const;
+
+  BedMatter<Real> matter_;
+  Column columns_;
+  std::vector<Real> initial_, left_;                     // [kg], by column
+  std::map<std::size_t, LooseMatter<Dim, Real>> loose_;  // by number of the column
+};
+
+}  // namespace thawslide::terrain

@@ -1,0 +1,166 @@
+// A slide that takes up an erodible bed, with every mechanism: balances, what is left of the bed, and bits on any
+// threads and after a stop.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "../support/fields.hpp"
+#include "../support/two_bodies.hpp"
+#include "base/parallel.hpp"
+#include "io/checkpoint.hpp"
+#include "sim/block.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+template <int Dim>
+constexpr int steps = Dim == 2 ? 150 : 60;
+
+template <int Dim>
+config::Case slide_over_bed(std::vector<std::string> sets) {
+  const std::vector<std::string> bed{"bed.depth={x=[-4.0,8.0],value=[0.2,0.6]}",
+                                     "bed.strength=100.0",
+                                     "bed.friction_angle=5.0",
+                                     "bed.depth_per_slip=0.2",
+                                     "bed.material=melted",
+                                     "bed.temperature=-0.5",
+                                     "bed.porosity=0.9",
+                                     "bed.particles_per_axis=4"};
+  sets.insert(sets.begin(), bed.begin(), bed.end());
+  return two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets);
+}
+
+// The run as it ends, and what was noted on the way.
+struct Seen {
+  std::map<std::string, std::vector<double>> state;
+  HistoryRow row;
+  double mass = 0.0, momentum = 0.0, heat = 0.0, work = 0.0, bed = 0.0;  // largest that accounts leave over, as shares
+  double smallest = 0.0;                                                 // of what was left below any column [kg]
+  std::size_t joined = 0;
+};
+
+template <int Dim>
+void note_accounts(const Simulation<Dim, double>& simulation, Seen& seen) {
+  const HistoryRow row = history_row(simulation);
+  const double mass = simulation.ledger().initial_mass;
+  const auto value = [&](const std::string& name) { return value_of(row, name); };
+  const auto note = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
+  note(seen.mass, value("mass_residual_kg") / mass);
+  note(seen.mass, (value("mass_kg") - mass - (value("entrained_mass_kg") - value("loose_mass_kg"))) / mass);
+  for (const std::string axis : Dim == 2 ? std::vector{"x", "y"} : std::vector{"x", "y", "z"}) {
+    note(seen.momentum, value("momentum_residual_" + axis + "_N_s") / (mass * 20.0));
+  }
+  note(seen.heat, value("thermal_residual_J") / (std::abs(value("sensible_J")) + value("latent_J")));
+  note(seen.work, value("mechanical_residual_J") / (0.5 * mass * 400.0));
+  note(seen.bed, value("bed_residual_kg") / mass);
+  note(seen.bed, value("bed_residual_J") / (0.5 * mass * 400.0));
+  for (const double left : simulation.bed()->left()) {
+    seen.smallest = std::min(seen.smallest, left);
+  }
+}
+
+// stop: the step before which the run stops and goes on from its checkpoint; -1: none.
+template <int Dim>
+Seen run(const std::vector<std::string>& sets, int threads, int interval, int stop) {
+  const int threads_before = thread_count();
+  set_thread_count(threads);
+  const config::Case parameters = slide_over_bed<Dim>(sets);
+  auto simulation = std::make_unique<Simulation<Dim, double>>(parameters);
+  simulation->set_sorting_interval(interval);
+  Seen seen;
+  for (int k = 0; k < steps<Dim>; ++k) {
+    if (k == stop) {
+      const auto file = folder_of_this_test() / "checkpoint.bin";
+      NamedNumbers blocks{{"bed", simulation->bed()->state()}};
+      if (const auto* columns = simulation->band_columns()) {
+        blocks["band_columns"] = columns->state();
+      }
+      io::write_checkpoint<Dim, double>(file, simulation->particles(), simulation->particles_at_start(),
+                                        simulation->scalars(), blocks);
+      simulation = std::make_unique<Simulation<Dim, double>>(parameters);
+      simulation->set_sorting_interval(interval);
+      std::vector<double> scalars;
+      blocks = io::read_checkpoint<Dim, double>(file, simulation->particles(), scalars);
+      simulation->restore(scalars);
+      simulation->restore_bed(blocks.at("bed"));
+      if (simulation->band_columns() != nullptr) {
+        simulation->restore_band_columns(blocks.at("band_columns"));
+      }
+    }
+    simulation->step(simulation->next_step(1.0));
+    note_accounts(*simulation, seen);
+  }
+  seen.joined = simulation->particles().size() - simulation->particles_at_start();
+  seen.state = state_of(*simulation);
+  seen.state["bed"] = simulation->bed()->state();
+  seen.row = history_row(*simulation);
+  set_thread_count(threads_before);
+  return seen;
+}
+
+template <int Dim>
+void expect_sound_runs(const std::vector<std::string>& sets) {
+  const Seen first = run<Dim>(sets, 1, 0, -1);
+  EXPECT_GT(first.joined, Dim == 2 ? 10U : 20U);
+  EXPECT_LT(first.mass, 1e-13);
+  EXPECT_LT(first.momentum, 1e-13);
+  EXPECT_LT(first.heat, 1e-13);
+  EXPECT_LT(first.work, 1e-12);
+  EXPECT_LT(first.bed, 1e-13);
+  EXPECT_EQ(first.smallest, 0.0);
+  for (const auto& [threads, interval, stop] : {std::tuple(2, 7, -1), std::tuple(2, 3, steps<Dim> / 2)}) {
+    const Seen other = run<Dim>(sets, threads, interval, stop);
+    const auto when = fmt::format("{} threads, sorted every {} steps, stopped at {}", threads, interval, stop);
+    expect_the_same_state(first.state, other.state, when);
+    for (std::size_t k = 0; k < first.row.size(); ++k) {
+      EXPECT_EQ(std::memcmp(&first.row[k].second, &other.row[k].second, sizeof(double)), 0)
+          << first.row[k].first << ", " << when;
+    }
+  }
+}
+
+TEST(Entrainment, BalancesCloseAndBitsStayInThePlane) {
+  expect_sound_runs<2>({"bed.law=momentum"});
+  expect_sound_runs<2>({"bed.law=strength"});
+}
+TEST(Entrainment, BalancesCloseAndBitsStayInSpace) { expect_sound_runs<3>({"bed.law=strength"}); }
+TEST(Entrainment, BalancesCloseAndBitsStayWithOtherChoices) {
+  expect_sound_runs<2>({"bed.law=strength", "mechanics.transfer=apic", "time.stepping=adaptive"});
+  expect_sound_runs<2>({"bed.law=momentum", "mechanics.effective_stress=true", "pressure.thickness_update=frozen"});
+}
+
+// What slides loses of its motion to what it takes up: that is warmer than the bed was.
+TEST(Entrainment, WhatIsTakenUpGetsTheHeatOfThePush) {
+  const config::Case parameters = slide_over_bed<2>({"bed.law=strength", "bed.temperature=-20.0"});
+  Simulation<2, double> simulation(parameters);
+  for (int k = 0; k < steps<2>; ++k) {
+    simulation.step(0.002);
+  }
+  const HistoryRow row = history_row(simulation);
+  const double joined = value_of(row, "entrained_mass_kg") - value_of(row, "loose_mass_kg");
+  const double per_mass = value_of(row, "entrained_heat_J") / joined;
+  EXPECT_GT(per_mass, 0.4 * 18.0 * 18.0);  // about v2/2 of what moves at 20 m/s
+  EXPECT_LT(per_mass, 0.6 * 21.0 * 21.0);
+}
+
+TEST(Entrainment, TheBlockModelRefusesABed) {
+  try {
+    run_block(slide_over_bed<2>({"bed.law=strength"}));
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("the block model takes up no bed. Remove [bed], or use `thawslide run`."),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,88 @@
+"""What reports show of a run that takes up an erodible bed, and that its number of particles may change."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from conftest import MakeRun, history_columns, write_history
+from figures_test import line, titled
+
+from thawslide import NotInRunError, Run
+from thawslide.figures import FIGURES
+from thawslide.figures.entrainment import depth_taken
+from thawslide.key_numbers import key_numbers
+from thawslide.report import figures_of, make_report
+
+BED_DENSITY, JOINED = 900.0, 8  # kg/m3; particles of the bed in the last snapshot
+
+
+@pytest.fixture
+def bed_run(make_run: MakeRun) -> Path:
+    folder = make_run()
+    columns = history_columns(101, 2)
+    t = columns["time_s"]
+    columns |= {
+        "entrained_mass_kg": 2e4 * t,
+        "entrained_volume_m3": 2e4 * t / BED_DENSITY,
+        "entrained_work_J": 1e6 * t,
+        "entrained_heat_J": 4e5 * t,
+        "loose_mass_kg": np.full(101, 1e3),
+        "bed_mass_kg": 1e6 - 2e4 * t,
+        "bed_residual_kg": np.zeros(101),
+        "bed_residual_J": np.zeros(101),
+    }
+    write_history(folder / "history.csv", columns)
+    with (folder / "case.toml").open("a") as case:
+        case.write('\n[body.block]\nmaterial = "rock"\n[bed]\nlaw = "momentum"\ndepth = 1.0\n')
+    last = folder / "snapshots" / "000010.vtkhdf"
+    with h5py.File(last, "r+") as file:
+        group = file["VTKHDF"]
+        for owner, name in [(group, "Points"), *((group["PointData"], name) for name in list(group["PointData"]))]:
+            values = owner[name][:]
+            joined = values[:JOINED].copy()
+            if name == "id":
+                joined += len(values)
+            if name == "body":
+                joined[:] = 1
+            if name == "mass":
+                joined[:] = 900.0
+            if name == "displacement":
+                joined[:, 0] = group["Points"][:JOINED, 0] - 60.5  # all of one cell, from 59 to 61 m
+            unit = owner[name].attrs.get("unit")
+            del owner[name]
+            owner.create_dataset(name, data=np.concatenate([values, joined]))
+            if unit is not None:
+                owner[name].attrs["unit"] = unit
+    return folder
+
+
+def test_depth_taken_is_where_particles_joined(bed_run: Path) -> None:
+    edges, depth = depth_taken(Run(bed_run))
+    cell = int(np.searchsorted(edges, 60.5)) - 1
+    assert edges[cell] == 59.0
+    assert depth[cell] == pytest.approx(JOINED * 1.0 / 2.0)  # 1 m3 each per metre of width, in a cell 2 m wide
+    assert np.count_nonzero(depth) == 1
+
+
+def test_figure_and_key_number(bed_run: Path) -> None:
+    run = Run(bed_run)
+    assert "entrainment" in figures_of(run)
+    figure = FIGURES["entrainment"].draw(run)
+    np.testing.assert_allclose(line(titled(figure, "(b)"), "work that the slide lost")[1][-1], 10.0)  # MJ
+    found = {row.words: row.value for row in key_numbers(run)}
+    assert found["Bed taken up"].startswith("222")
+
+
+def test_report_copes_with_more_particles_at_the_end(bed_run: Path) -> None:
+    report = make_report(Run(bed_run), names=["velocity", "entrainment", "energy"], dpi=40)
+    assert set(report.figures) == {"velocity", "entrainment", "energy"}
+
+
+def test_a_run_without_a_bed_has_no_such_figure(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    assert "entrainment" not in figures_of(run)
+    with pytest.raises(NotInRunError, match="the case has no bed"):
+        FIGURES["entrainment"].draw(run)
