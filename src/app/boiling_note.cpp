@@ -13,7 +13,7 @@ namespace thawslide::app {
 namespace {
 
 constexpr double boiling = physics::Steam<double>::boiling_at_atmosphere;  // [C]
-constexpr double beyond_belief = 210.0;                                    // [C] steam of it lifts some 90 m of slide
+constexpr double beyond_belief = 210.0;                                    // [C] steam of it lifts some 80 m of slide
 
 template <int Dim>
 double warmest_particle(const sim::Simulation<Dim, double>& simulation) {
@@ -33,43 +33,57 @@ bool has_boiled_dry(const physics::BandColumn<double>& column) {
   return false;
 }
 
-// Of columns whose water boils.
-std::string note_on_columns(double time, std::ptrdiff_t dry, double hottest) {
-  if (dry == 0 && !(hottest > beyond_belief)) {
-    return "";
-  }
-  const std::string found =
-      dry > 0 ? fmt::format("{} of the base {} boiled dry, and the hottest is at {:.0f} C",
-                            dry == 1 ? "a column" : fmt::format("{} columns", dry), dry == 1 ? "has" : "have", hottest)
-              : fmt::format("the hottest column of the base passes {:g} C", beyond_belief);
+std::string of_dry(double time, std::ptrdiff_t dry, double hottest) {
   return fmt::format(
-      "note: at {:g} s {}: where no water is left nothing limits temperature and friction. A thicker band "
-      "(band.thickness) or one that mixes (band.mixing_slip) keeps it cooler; docs/choosing-the-base.md.",
-      time, found);
+      "note: at {:g} s {} of the base {} boiled dry, and the hottest is at {:.0f} C: where no water is left nothing "
+      "limits temperature and friction. A thicker band (band.thickness) or one that mixes (band.mixing_slip) keeps it "
+      "cooler; docs/choosing-the-base.md.",
+      time, dry == 1 ? "a column" : fmt::format("{} columns", dry), dry == 1 ? "has" : "have", hottest);
+}
+
+std::string of_hot(double time) {
+  const double load = physics::saturation_pressure(beyond_belief) - physics::Steam<double>::atmosphere;
+  return fmt::format(
+      "note: at {:g} s the hottest column of the base passes {:g} C, where water boils under {:.1f} MPa: there the "
+      "load "
+      "is more than that, or the water is gone; docs/choosing-the-base.md.",
+      time, beyond_belief, load / 1e6);
+}
+
+std::string of_no_boiling(double time, const char* reason) {
+  return fmt::format(
+      "note: at {:g} s the base passes {:g} C. {}: beyond this temperatures are a bookkeeping of heat, not a forecast.",
+      time, boiling, reason);
 }
 
 }  // namespace
 
 template <int Dim>
-std::string note_on_boiling(const sim::Simulation<Dim, double>& simulation) {
+std::string BoilingWatch::note(const sim::Simulation<Dim, double>& simulation) {
+  const auto once = [](bool& is_told, bool holds) {
+    const bool is_new = holds && !is_told;
+    is_told = is_told || holds;
+    return is_new;
+  };
+  const double time = simulation.time();
   const auto* columns = simulation.band_columns();
-  if (columns != nullptr && simulation.parameters().heat.steam) {
-    const auto& pieces = columns->pieces();
-    const auto dry =
-        std::count_if(pieces.begin(), pieces.end(), [](const auto& piece) { return has_boiled_dry(piece.column); });
-    return note_on_columns(simulation.time(), dry, columns->means().hottest);
+  if (columns == nullptr || !simulation.parameters().heat.steam) {
+    const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().hottest;
+    const char* const reason =
+        columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false";
+    return once(is_hot_, hottest > boiling) ? of_no_boiling(time, reason) : "";
   }
-  const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().hottest;
-  return hottest > boiling
-             ? fmt::format(
-                   "note: at {:g} s the base passes {:g} C. {}: beyond this temperatures are a bookkeeping of "
-                   "heat, not a forecast.",
-                   simulation.time(), boiling,
-                   columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false")
-             : "";
+  const auto& pieces = columns->pieces();
+  const auto dry =
+      std::count_if(pieces.begin(), pieces.end(), [](const auto& piece) { return has_boiled_dry(piece.column); });
+  const double hottest = columns->means().hottest;
+  if (once(is_dry_, dry > 0)) {
+    return of_dry(time, dry, hottest);
+  }
+  return !is_dry_ && once(is_hot_, hottest > beyond_belief) ? of_hot(time) : "";
 }
 
-template std::string note_on_boiling<2>(const sim::Simulation<2, double>&);
-template std::string note_on_boiling<3>(const sim::Simulation<3, double>&);
+template std::string BoilingWatch::note<2>(const sim::Simulation<2, double>&);
+template std::string BoilingWatch::note<3>(const sim::Simulation<3, double>&);
 
 }  // namespace thawslide::app

@@ -1,4 +1,4 @@
-// What a run says once, where the base gets too hot to be believed.
+// What a run says where the base gets too hot to be believed.
 #pragma once
 
 #include <string>
@@ -7,8 +7,15 @@
 
 namespace thawslide::app {
 
-// A note where water would boil and does not, or band columns have boiled dry; empty where neither holds.
-template <int Dim>
-std::string note_on_boiling(const sim::Simulation<Dim, double>& simulation);
+// Notes where water would boil and does not, or band columns are hot or have boiled dry; each once.
+class BoilingWatch {
+ public:
+  // What is to be told now; empty where nothing is.
+  template <int Dim>
+  std::string note(const sim::Simulation<Dim, double>& simulation);
+
+ private:
+  bool is_hot_ = false, is_dry_ = false;  // has been told
+};
 
 }  // namespace thawslide::app

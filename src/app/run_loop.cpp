@@ -88,7 +88,7 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   Schedule checkpoints(checkpoint_interval > 0.0 ? checkpoint_interval : times.end, begin, last_step, times.end);
   Progress progress(begin);
   FrontWatch front;
-  bool warned = false;
+  BoilingWatch boiling;
   const auto start = std::chrono::steady_clock::now();
   const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const int most_threads = thread_count();
@@ -128,12 +128,8 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
       }
       if (snapshots.reached(simulation.time(), dt)) {
         output.write_snapshot(simulation);
-        if (!warned) {
-          const std::string note = note_on_boiling<Dim>(simulation);
-          warned = !note.empty();
-          if (warned) {
-            progress.note(note);
-          }
+        if (const std::string note = boiling.note<Dim>(simulation); !note.empty()) {
+          progress.note(note);
         }
       }
       if (checkpoints.reached(simulation.time(), dt)) {

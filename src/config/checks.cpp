@@ -223,8 +223,6 @@ void check_band_columns(const Case& checked, Reading& reading) {
   require(checked.mechanics.enabled, "mechanics.enabled", "false", "true");
   require(!checked.mechanics.effective_stress, "mechanics.effective_stress", "true", "false");
   require(checked.heat.enabled, "heat.enabled", "false", "true");
-  require(checked.heat.update == HeatUpdate::enthalpy, "heat.update", "\"apparent_capacity\"", "\"enthalpy\"");
-  require(checked.heat.masses == HeatMasses::initial, "heat.masses", "\"current\"", "\"initial\"");
   require(checked.heat.advection, "heat.advection", "false", "true");
   require(checked.heat.advection_form == AdvectionForm::conservative, "heat.advection_form", "\"as_printed\"",
           "\"conservative\"");

@@ -191,7 +191,8 @@ std::vector<Parameter<Heat>> heat_parameters() {
                                     .source = "Eq. 18"}),
       parameter(&Heat::advection,
                 {.key = "advection",
-                 .text = "seeping water carries heat; needs pressure.enabled and a hydraulic conductivity",
+                 .text = "seeping water carries heat; needs pressure.enabled and a hydraulic conductivity. In band "
+                         "columns it always does",
                  .source = "Eq. 9"}),
       parameter(&Heat::advection_form,
                 {.key = "advection_form", .text = "form of the heat that seeping water carries", .source = "Eq. 9"}),

@@ -125,6 +125,7 @@ def test_a_run_whose_whole_slide_has_left_is_done(
         *sets(time__end=60, grid__cell=16, grid__leaving='"remove"', basal__friction_angle=3),
         *sets(grid__min=[WEST + 128, SOUTH + 176, 960], grid__max=[WEST + 512, SOUTH + 432, 1216]),
         *sets(heat__enabled="false", pressure__enabled="false", body__slide__velocity=[20, 0, 0]),
+        *sets(band__model="scaled"),
     )  # fmt: skip
     assert outcome.returncode == 0, outcome.stderr
     facts, columns = run_facts(run), history(run)

@@ -103,6 +103,7 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   const std::string wall = "[frame.wall]\nmin = [90.0, 0.0]\nmax = [95.0, 5.0]\naxis = \"x\"\nvelocity = 0.0\n";
   const std::set<std::string> given{"case.dimension", "terrain.type", "material.law", "body.shape", "bed.law"};
   const std::string noise = "[initial]\nnoise = 0.1\n";
+  const std::string columns = "[band]\nthickness = 0.5\n", growth = "growth = \"inertial\"\n";
   std::map<std::string, bool> in_force;  // whether a key's default could be told in one of the cases
   std::string of_surface = sound_on_dem;
   const std::string number = "thickness = 10.0";
@@ -110,16 +111,18 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   const std::string bed =
       "[bed]\nlaw = \"momentum\"\ndepth = 2.0\nstrength = 0.0\ndepth_per_slip = 0.5\nmaterial = \"rock\"\n";
   const std::string ice = "[substrate.ice]\nfriction_angle = 5.0\n";
-  for (const std::string& text : {sound + wall + ice + "x_min = 50.0\n", sound + noise, sound + bed, sound_on_dem,
-                                  of_surface, sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
+  for (const std::string& text :
+       {sound + wall + ice + "x_min = 50.0\n", sound + noise, sound + bed, sound + columns, sound + columns + growth,
+        sound_on_dem, of_surface, sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = resolved_toml(found, "inputs");
     for (const auto& table : tables()) {
       const std::vector<std::string> names = table->is_named() ? table->names(found) : std::vector<std::string>{""};
       for (const Entry& entry : table->entries()) {
         const std::string key = table->name + "." + entry.rule->key;
-        const bool is_noise = key == "initial.noise" && text.find(noise) != std::string::npos;
-        if (entry.default_text.empty() || given.count(key) > 0 || is_noise || names.empty()) {
+        const bool is_given = (key == "initial.noise" && text.find(noise) != std::string::npos) ||
+                              (key == "band.growth" && text.find(growth) != std::string::npos);
+        if (entry.default_text.empty() || given.count(key) > 0 || is_given || names.empty()) {
           continue;
         }
         const std::string own_name = names[0].empty() ? "" : "." + names[0];

@@ -16,8 +16,6 @@ TEST(Columns, RefuseWhatWorksOnTheHeatAndWaterOfParticles) {
       {"mechanics.enabled", "false", "false", "true"},
       {"mechanics.effective_stress", "true", "true", "false"},
       {"heat.enabled", "false", "false", "true"},
-      {"heat.update", "apparent_capacity", "\"apparent_capacity\"", "\"enthalpy\""},
-      {"heat.masses", "current", "\"current\"", "\"initial\""},
       {"heat.advection", "false", "false", "true"},
       {"heat.advection_form", "as_printed", "\"as_printed\"", "\"conservative\""},
       {"heat.boundary.x_max", "{temperature = 5}", "not \"insulated\"", "\"insulated\""},

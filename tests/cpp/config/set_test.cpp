@@ -34,9 +34,9 @@ TEST(Set, ReplacesArrays) {
 }
 
 TEST(Set, ReplacesTables) {
-  const Case found =
-      case_from_text(sound, {"band.thickness={time=[0.0, 1.0], value=[0.05, 0.5]}",
-                             "body.block.porosity={depth=[0, 10], value=[0.4, 0.2]}", "heat.boundary.y_min={flux=60}"});
+  const Case found = case_from_text(sound, {"band.thickness={time=[0.0, 1.0], value=[0.05, 0.5]}",
+                                            "body.block.porosity={depth=[0, 10], value=[0.4, 0.2]}",
+                                            "heat.boundary.y_min={flux=60}", "band.model=scaled"});
   EXPECT_DOUBLE_EQ(found.band.thickness.at(0.5), 0.275);
   EXPECT_DOUBLE_EQ(found.bodies.at("block").porosity.at(5.0, 0.0), 0.3);
   EXPECT_EQ(found.heat.boundary[2].kind, HeatBoundaryKind::flux);

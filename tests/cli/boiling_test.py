@@ -1,0 +1,60 @@
+"""What a run says, once, where its base gets too hot to be believed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from conftest import Program, sets
+
+# A block at 100 m/s whose friction no pore pressure takes away: a band of 1 mm boils dry within half a second.
+FAST = sets(
+    grid__max="[220.0, 10.0]",
+    body__block__velocity="[100.0, 0.0]",
+    basal__friction="coefficient",
+    basal__friction_coefficient=0.8,
+    band__thickness=0.001,
+    time__end=0.5,
+)
+
+Said = Callable[..., list[str]]
+
+
+def notes(stdout: str) -> list[str]:
+    return re.findall(r"^note: at .*$", stdout, flags=re.MULTILINE)
+
+
+@pytest.fixture
+def said(thawslide: Program, small_case: Path, tmp_path: Path) -> Said:
+    def run(*more: str) -> list[str]:
+        case = small_case / "case.toml"
+        case.write_text(case.read_text().replace("friction_angle = 10.0\n", ""))
+        outcome = thawslide("run", case, "--output", tmp_path / "run", "--overwrite", *more)
+        assert outcome.returncode == 0, outcome.stderr
+        return notes(outcome.stdout)
+
+    return run
+
+
+def test_columns_that_boil_dry_are_told_once(said: Said) -> None:
+    (note,) = said(*FAST)
+    found = re.match(r"note: at [\d.]+ s (\d+ columns|a column) .*boiled dry, and the hottest is at (\d+) C", note)
+    assert found, note
+    assert 100 < int(found[2]) < 5000
+    assert "nothing limits temperature and friction" in note
+
+
+def test_columns_without_steam_do_not_boil(said: Said) -> None:
+    (note,) = said(*FAST, *sets(heat__steam="false"))
+    assert "the base passes 100 C. Nothing boils, as heat.steam is false" in note
+
+
+def test_particles_of_the_scaled_band_do_not_boil(said: Said) -> None:
+    (note,) = said(*FAST, *sets(band__model="scaled", band__thickness=0.01))
+    assert "the base passes 100 C. Nothing in the model boils" in note
+
+
+def test_nothing_is_said_of_a_cold_base(said: Said) -> None:
+    assert said(*sets(basal__friction_angle=10, band__thickness=0.1)) == []
