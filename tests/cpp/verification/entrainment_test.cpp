@@ -133,7 +133,8 @@ void take_up_by_friction(const std::string& where) {
   sim::Simulation<Dim, double> simulation(case_from_text(
       thrown<Dim>(10.0, 3.0) +
       fmt::format("[basal]\nfriction = \"constant\"\nfriction_angle = {}\n[bed]\nlaw = \"momentum\"\nstrength = 0.0\n"
-                  "friction_angle = {}\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\ndepth = 5.0\n",
+                  "friction_angle = {}\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\n"
+                  "particles_per_axis = 4\ndepth = 5.0\n",
                   angle, bed_angle)));
   const double start = state_of(simulation).mass;
   run_until(simulation, 3.0);
