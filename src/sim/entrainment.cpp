@@ -151,6 +151,15 @@ NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim
   return one;
 }
 
+// The bed as the slide meets it in this step; null as bed_in_reach.
+template <int Dim, class Real>
+const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet() {
+  if (bed_in_reach() != nullptr) {
+    bed_->cover(grid_, ground_, model_.motion.sizes, particles_);
+  }
+  return bed_in_reach();
+}
+
 // What contact nodes have taken in this step.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::collect_bed() {
@@ -205,6 +214,7 @@ void Simulation<Dim, Real>::take_up_bed() {
       const std::vector<typename terrain::Bed<Dim, Real>::Column>&) const;                                      \
   template NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(                                       \
       Vector<double, Dim - 1>, const terrain::LooseMatter<Dim, Real>&, std::int64_t) const;                     \
+  template const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet();                                 \
   template void Simulation<Dim, Real>::collect_bed();                                                           \
   template void Simulation<Dim, Real>::take_up_bed();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

@@ -107,6 +107,7 @@ class Simulation {
   [[nodiscard]] const terrain::Bed<Dim, Real>* bed_in_reach() const {
     return model_.contact.base_holds ? nullptr : bed();
   }
+  const terrain::Bed<Dim, Real>* bed_to_meet();
   void collect_bed();
   void take_up_bed();
 
