@@ -15,6 +15,8 @@ namespace {
 
 // Less of a particle than this share of a whole one waits: particles almost without mass are of no use.
 constexpr double least_share = 0.01;
+// Steps from one joining to the next: each makes the grid anew about those that join.
+constexpr std::int64_t joining_interval = 8;
 
 // Volume of bed below the nodes of a column [m3]: in the part of the domain that is nearest to them. The depth is
 // looked up at as many places along each axis.
@@ -174,6 +176,9 @@ void Simulation<Dim, Real>::collect_bed() {
 // slide has gone on by a cell.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::take_up_bed() {
+  if (step_number_ % joining_interval != 0) {
+    return;
+  }
   const Real whole =
       model_.bed_density * static_cast<Real>(std::pow(parameters_.grid.cell / parameters_.bed.particles_per_axis, Dim));
   std::vector<typename terrain::Bed<Dim, Real>::Column> columns;
