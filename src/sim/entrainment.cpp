@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 // Less of a particle than this share of a whole one waits: particles almost without mass are of no use.
 constexpr double least_share = 0.01;
+// Steps from one joining to the next: each makes the grid anew about those that join.
+constexpr std::int64_t joining_interval = 8;
 
 // Volume of bed below the nodes of a column [m3]: in the part of the domain that is nearest to them. The depth is
 // looked up at as many places along each axis.
@@ -75,27 +78,59 @@ std::optional<terrain::Bed<Dim, Real>> make_bed(const config::Case& parameters, 
   return terrain::Bed<Dim, Real>(make_matter(parameters.bed, model.bed_density), columns, std::move(mass));
 }
 
-// A particle of bed matter lies on the ground, at a place of the column that differs from one to the next (Roberts'
-// sequence of low discrepancy). It bears nothing at first, so that the forces on nodes are what they were.
+// Places below the slide where what was taken off columns may join, relative to the domain's lower corner: under the
+// lowest of the particles over each. Ahead of these or beside them it would carry the slide to bed that it has not
+// reached. A column that none is over keeps its middle.
 template <int Dim, class Real>
-NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(const typename terrain::Bed<Dim, Real>::Column& column,
+std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
+    const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const {
+  struct Lowest {
+    Vector<double, Dim - 1> place;
+    double height = HUGE_VAL;
+  };
+  const double cell = parameters_.grid.cell;
+  std::map<typename terrain::Bed<Dim, Real>::Column, Lowest> lowest;
+  for (const auto& column : columns) {
+    for (int a = 0; a + 1 < Dim; ++a) {
+      lowest[column].place[a] = column[static_cast<std::size_t>(a)] * cell;
+    }
+  }
+  for (const std::uint32_t p : grid_.order()) {
+    typename terrain::Bed<Dim, Real>::Column column;
+    for (int a = 0; a + 1 < Dim; ++a) {
+      column[static_cast<std::size_t>(a)] =
+          static_cast<int>(std::lround(static_cast<double>(particles_.position(p, a)) / cell));
+    }
+    const auto found = lowest.find(column);
+    if (found != lowest.end() && static_cast<double>(particles_.position(p, Dim - 1)) < found->second.height) {
+      found->second = {particles_.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>(),
+                       static_cast<double>(particles_.position(p, Dim - 1))};
+    }
+  }
+  std::vector<Vector<double, Dim - 1>> places;
+  for (const auto& column : columns) {
+    places.push_back(lowest.at(column).place);
+  }
+  return places;
+}
+
+// A particle of bed matter lies on the ground, somewhere in the stretch of a particle's length behind a place below the
+// slide: numbers one after the other fill it evenly (multiples of the golden section). It bears nothing at first, so
+// that the forces on nodes are what they were.
+template <int Dim, class Real>
+NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim - 1> place,
                                                               const terrain::LooseMatter<Dim, Real>& matter,
                                                               std::int64_t number) const {
-  constexpr std::array<double, 2> steps =
-      Dim == 2 ? std::array{0.6180339887498949, 0.0} : std::array{0.7548776662466927, 0.5698402909980532};
   const double cell = parameters_.grid.cell;
   const auto body = static_cast<std::int32_t>(model_.body_names.size() - 1);
   const double half = static_cast<double>(model_.motion.sizes.half(static_cast<std::size_t>(body))) * cell;
-  Vector<double, Dim - 1> middle, place;
-  for (std::size_t a = 0; a < column.size(); ++a) {
-    const int i = static_cast<int>(a);
-    const double turn = steps[a] * static_cast<double>(number);
-    const double last = static_cast<double>(model_.constraints.extent[i]) - half;
-    middle[i] = std::clamp(column[a] * cell, half, last);
-    place[i] = std::clamp((column[a] + turn - std::floor(turn) - 0.5) * cell, half, last);
+  const double turn = 0.6180339887498949 * static_cast<double>(number);
+  const Vector<double, Dim - 1> along = matter.momentum.template head<Dim - 1>().template cast<double>();
+  if (along.norm() > 0.0) {
+    place -= 2.0 * half * (turn - std::floor(turn)) * along.normalized();
   }
-  if (!model_.ground->is_known(place)) {
-    place = middle;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    place[a] = std::clamp(place[a], half, static_cast<double>(model_.constraints.extent[a]) - half);
   }
   const Vector<double, Dim> normal = model_.ground->normal_below(place, cell);
   NewParticle<Dim, Real> one;
@@ -118,6 +153,15 @@ NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(const typename ter
   return one;
 }
 
+// The bed as the slide meets it in this step; null as bed_in_reach.
+template <int Dim, class Real>
+const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet() {
+  if (bed_in_reach() != nullptr) {
+    bed_->cover(grid_, ground_, model_.motion.sizes, particles_);
+  }
+  return bed_in_reach();
+}
+
 // What contact nodes have taken in this step.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::collect_bed() {
@@ -132,37 +176,51 @@ void Simulation<Dim, Real>::collect_bed() {
 // slide has gone on by a cell.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::take_up_bed() {
+  if (step_number_ % joining_interval != 0) {
+    return;
+  }
   const Real whole =
       model_.bed_density * static_cast<Real>(std::pow(parameters_.grid.cell / parameters_.bed.particles_per_axis, Dim));
-  std::vector<NewParticle<Dim, Real>> joining;
+  std::vector<typename terrain::Bed<Dim, Real>::Column> columns;
+  std::vector<terrain::LooseMatter<Dim, Real>> parts;
   bed_->release([&](const auto& column, const terrain::LooseMatter<Dim, Real>& matter) {
     const bool has_passed = matter.idle * matter.momentum.norm() > grid_.cell() * matter.mass;
     const bool is_last = bed_->is_exhausted(column) || has_passed;
     if (!(matter.mass >= whole || (is_last && matter.mass >= static_cast<Real>(least_share) * whole))) {
       return false;
     }
-    const Real parts = std::max(Real(1), std::floor(matter.mass / whole));
+    const auto count = static_cast<std::size_t>(std::max(Real(1), std::floor(matter.mass / whole)));
     terrain::LooseMatter<Dim, Real> part = matter;
-    part.mass /= parts;
-    part.momentum /= parts;
-    part.work /= parts;
-    for (Real k = 0; k < parts; ++k) {
-      joining.push_back(particle_of_bed(column, part, next_id_ + static_cast<std::int64_t>(joining.size())));
-      ledger_.bed_joined_mass += part.mass;
-      ledger_.bed_heat += joining.back().heat;
-      ledger_.bed_joined_kinetic += part.work - joining.back().heat;
-    }
+    part.mass /= static_cast<Real>(count);
+    part.momentum /= static_cast<Real>(count);
+    part.work /= static_cast<Real>(count);
+    columns.insert(columns.end(), count, column);
+    parts.insert(parts.end(), count, part);
     return true;
   });
+  if (columns.empty()) {
+    return;
+  }
+  const auto places = places_below_slide(columns);
+  std::vector<NewParticle<Dim, Real>> joining;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    joining.push_back(particle_of_bed(places[k], parts[k], next_id_ + static_cast<std::int64_t>(k)));
+    ledger_.bed_joined_mass += parts[k].mass;
+    ledger_.bed_heat += joining[k].heat;
+    ledger_.bed_joined_kinetic += parts[k].work - joining[k].heat;
+  }
   append(joining);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                            \
-  template std::optional<terrain::Bed<Dim, Real>> make_bed<Dim, Real>(const config::Case&, const config::Site&,     \
-                                                                      const Model<Dim, Real>&);                     \
-  template NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(                                           \
-      const typename terrain::Bed<Dim, Real>::Column&, const terrain::LooseMatter<Dim, Real>&, std::int64_t) const; \
-  template void Simulation<Dim, Real>::collect_bed();                                                               \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \
+  template std::optional<terrain::Bed<Dim, Real>> make_bed<Dim, Real>(const config::Case&, const config::Site&, \
+                                                                      const Model<Dim, Real>&);                 \
+  template std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(                      \
+      const std::vector<typename terrain::Bed<Dim, Real>::Column>&) const;                                      \
+  template NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(                                       \
+      Vector<double, Dim - 1>, const terrain::LooseMatter<Dim, Real>&, std::int64_t) const;                     \
+  template const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet();                                 \
+  template void Simulation<Dim, Real>::collect_bed();                                                           \
   template void Simulation<Dim, Real>::take_up_bed();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

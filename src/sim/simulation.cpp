@@ -89,7 +89,7 @@ void Simulation<Dim, Real>::resolve_contact() {
   }
   band_columns_to_nodes();
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
-                                      dt_, nodes_, bed_in_reach());
+                                      dt_, nodes_, bed_to_meet());
   collect_bed();
   ledger_.friction_work += contact_.friction_work;
   ledger_.converted += model_.band.heat ? contact_.converted : contact_.friction_work;

@@ -107,6 +107,7 @@ class Simulation {
   [[nodiscard]] const terrain::Bed<Dim, Real>* bed_in_reach() const {
     return model_.contact.base_holds ? nullptr : bed();
   }
+  const terrain::Bed<Dim, Real>* bed_to_meet();
   void collect_bed();
   void take_up_bed();
 
@@ -123,7 +124,9 @@ class Simulation {
   void band_columns_to_nodes();
   void band_columns_follow();
   void start_ledger();
-  [[nodiscard]] NewParticle<Dim, Real> particle_of_bed(const typename terrain::Bed<Dim, Real>::Column& column,
+  [[nodiscard]] std::vector<Vector<double, Dim - 1>> places_below_slide(
+      const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const;
+  [[nodiscard]] NewParticle<Dim, Real> particle_of_bed(Vector<double, Dim - 1> place,
                                                        const terrain::LooseMatter<Dim, Real>& matter,
                                                        std::int64_t number) const;
   void stop_if_bad();

@@ -1,6 +1,8 @@
 #include "terrain/bed.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "base/instances.hpp"
 
@@ -48,38 +50,74 @@ typename Bed<Dim, Real>::Column Bed<Dim, Real>::column_at(std::size_t number) co
 }
 
 template <int Dim, class Real>
-void Bed<Dim, Real>::share_out(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                               mpm::Nodes<Dim, Real>& nodes) const {
+void Bed<Dim, Real>::cover_part(const Column& part) {
+  Column column{};
+  int bit = 0;
+  for (std::size_t a = part.size(); a-- > 0;) {
+    column[a] = part[a] >= 0 ? part[a] / parts : -1;
+    bit = bit * parts + part[a] % parts;
+  }
+  if (holds(column)) {
+    covered_[number_of(column)] |= static_cast<std::uint16_t>(1U << bit);
+  }
+}
+
+// A part is covered where the box of a particle near the ground reaches its middle.
+template <int Dim, class Real>
+void Bed<Dim, Real>::cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                           const mpm::BodySizes<Real>& sizes, const mpm::Particles<Dim, Real>& particles) {
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    if (!ground.any_near(t)) {
+      continue;
+    }
+    for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      const Real half = sizes.half(static_cast<std::size_t>(particles.body(p))) * parts;  // in parts
+      Column first{}, last{};
+      for (int a = 0; a + 1 < Dim; ++a) {
+        // The first part of column 0 begins half a column below the domain's corner.
+        const Real middle = (particles.position(p, a) / grid.cell() + Real(0.5)) * parts - Real(0.5);
+        first[static_cast<std::size_t>(a)] = static_cast<int>(std::ceil(middle - half));
+        last[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(middle + half));
+      }
+      Column part = first;
+      for (part[0] = first[0]; part[0] <= last[0]; ++part[0]) {
+        if constexpr (Dim == 3) {
+          for (part[1] = first[1]; part[1] <= last[1]; ++part[1]) {
+            cover_part(part);
+          }
+        } else {
+          cover_part(part);
+        }
+      }
+    }
+  }
+}
+
+template <int Dim, class Real>
+void Bed<Dim, Real>::share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
   nodes.bed.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.base.holds(b); });
   struct Pressing {
     std::size_t block, node, column;
   };
-  struct Pressed {
-    Real load = 0, covered = 0, area = 0;  // [kg m/s], [m2], [m2]
-  };
   std::vector<Pressing> pressing;
-  std::map<std::size_t, Pressed> pressed;  // by column where some of the bed is left
+  std::map<std::size_t, Real> load;  // by column where some of the bed is left [kg m/s]
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     for (std::size_t k = 0; nodes.base.holds(b) && k < nodes.base.nodes; ++k) {
       nodes.bed.of_block(b)[k] = {};
+      const Real of_node = nodes.base(b, k)[BaseLayout::load];
       const Column column = column_of(grid, b, k);
-      if (!ground.block(b)[k].candidate || !holds(column) || !(left_[number_of(column)] > Real(0))) {
-        continue;
-      }
-      const auto& base = nodes.base(b, k);
-      Pressed& all = pressed[number_of(column)];
-      all.load += base[BaseLayout::load];
-      all.covered += base[BaseLayout::covered];
-      all.area += ground.block(b)[k].area;
-      if (base[BaseLayout::load] > Real(0)) {
+      if (of_node > Real(0) && holds(column) && left_[number_of(column)] > Real(0)) {
         pressing.push_back({b, k, number_of(column)});
+        load[number_of(column)] += of_node;
       }
     }
   }
+  constexpr int all_parts = Dim == 2 ? parts : parts * parts;
   for (const Pressing& at : pressing) {
-    const Pressed& all = pressed[at.column];
-    const Real bare = all.area > all.covered ? initial_[at.column] * (Real(1) - all.covered / all.area) : Real(0);
-    const Real share = nodes.base(at.block, at.node)[BaseLayout::load] / all.load;
+    const int bare_parts = all_parts - std::popcount(covered_[at.column]);
+    const Real bare = initial_[at.column] * static_cast<Real>(bare_parts) / Real(all_parts);
+    const Real share = nodes.base(at.block, at.node)[BaseLayout::load] / load[at.column];
     nodes.bed.of_block(at.block)[at.node][Layout::available] = share * std::max(left_[at.column] - bare, Real(0));
   }
 }
@@ -144,13 +182,14 @@ typename Bed<Dim, Real>::Sums Bed<Dim, Real>::sums() const {
   return sums;
 }
 
-// Columns that the slide has taken from, as number and what is left; then what is loose.
+// Columns that the slide has covered or taken from, as number, what is left and parts; then what is loose.
 template <int Dim, class Real>
 std::vector<double> Bed<Dim, Real>::state() const {
   std::vector<double> numbers{0.0};
   for (std::size_t c = 0; c < left_.size(); ++c) {
-    if (left_[c] != initial_[c]) {
-      numbers.insert(numbers.end(), {static_cast<double>(c), static_cast<double>(left_[c])});
+    if (left_[c] != initial_[c] || covered_[c] != 0) {
+      numbers.insert(numbers.end(),
+                     {static_cast<double>(c), static_cast<double>(left_[c]), static_cast<double>(covered_[c])});
       ++numbers[0];
     }
   }
@@ -169,14 +208,16 @@ std::vector<double> Bed<Dim, Real>::state() const {
 template <int Dim, class Real>
 void Bed<Dim, Real>::restore(const std::vector<double>& numbers) {
   left_ = initial_;
+  covered_.assign(covered_.size(), 0);
   loose_.clear();
   std::size_t k = 0;
   const auto next = [&] { return static_cast<Real>(numbers.at(k++)); };
   const auto next_column = [&] { return static_cast<std::size_t>(numbers.at(k++)); };
-  const std::size_t taken_from = next_column();
-  for (std::size_t c = 0; c < taken_from; ++c) {
+  const std::size_t changed = next_column();
+  for (std::size_t c = 0; c < changed; ++c) {
     const std::size_t column = next_column();
     left_.at(column) = next();
+    covered_.at(column) = static_cast<std::uint16_t>(next());
   }
   while (k < numbers.size()) {
     LooseMatter<Dim, Real>& matter = loose_[next_column()];

@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "mpm/body_sizes.hpp"
 #include "mpm/nodes.hpp"
 #include "physics/entrainment.hpp"
 #include "terrain/ground_on_grid.hpp"
@@ -51,12 +52,16 @@ class Bed {
   // columns: how many along each axis, the first at the domain's lower corner; mass: of the bed below each [kg], x
   // fastest.
   Bed(const BedMatter<Real>& matter, const Column& columns, std::vector<Real> mass)
-      : matter_(matter), columns_(columns), initial_(std::move(mass)), left_(initial_) {}
+      : matter_(matter), columns_(columns), initial_(std::move(mass)), left_(initial_), covered_(initial_.size(), 0) {}
+
+  // Notes which parts of the bed the slide has come to cover: so many along each axis for a column of nodes.
+  static constexpr int parts = 4;
+  void cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+             const mpm::BodySizes<Real>& sizes, const mpm::Particles<Dim, Real>& particles);
 
   // Shares out what is left below each column among its nodes, by how they press on the ground (nodes.base): none takes
-  // what another one does, and none what the slide does not cover. Fills nodes.bed.
-  void share_out(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                 mpm::Nodes<Dim, Real>& nodes) const;
+  // what another one does, and none where the slide has never been. Fills nodes.bed.
+  void share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
 
   // Of a node of so much mass [kg] that slides at `speed` > 0 [m/s] after friction of the strength `shear` [Pa].
   [[nodiscard]] Bite<Real> bite(Real available, Real mass, Real speed, Real shear, Real normal_pressure, Real area,
@@ -84,6 +89,7 @@ class Bed {
   void restore(const std::vector<double>& numbers);
 
  private:
+  void cover_part(const Column& part);
   [[nodiscard]] Column column_of(const mpm::SparseGrid<Dim, Real>& grid, std::size_t block, std::size_t node) const;
   [[nodiscard]] bool holds(const Column& column) const;
   [[nodiscard]] std::size_t number_of(const Column& column) const;
@@ -92,6 +98,7 @@ class Bed {
   BedMatter<Real> matter_;
   Column columns_;
   std::vector<Real> initial_, left_;                     // [kg], by column
+  std::vector<std::uint16_t> covered_;                   // by column: a bit for each of its parts
   std::map<std::size_t, LooseMatter<Dim, Real>> loose_;  // by number of the column
 };
 

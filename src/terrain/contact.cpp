@@ -313,7 +313,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
     press_on_ground(grid, *ground, constraints, model, time, dt, nodes);
   }
   if (bed != nullptr) {
-    bed->share_out(grid, *ground, nodes);
+    bed->share_out(grid, nodes);
   }
   using Work = ContactWork<Dim, Real>;
   return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {

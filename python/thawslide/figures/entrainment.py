@@ -31,13 +31,12 @@ def depth_taken(run: Run) -> tuple[Numbers, Numbers]:
     """
     cell = float(run.section("grid")["cell"])
     low, high = float(run.section("grid")["min"][0]), float(run.section("grid")["max"][0])
-    edges = low + cell * (np.arange(round((high - low) / cell) + 2) - 0.5)
+    edges: Numbers = low + cell * (np.arange(round((high - low) / cell) + 2, dtype=np.float64) - 0.5)
     shot = run.snapshot(len(run.times) - 1)
     of_bed = np.asarray(shot["body"]) == len(run.section("body"))
     joined_at = shot.points[of_bed, 0] - np.asarray(shot["displacement"])[of_bed, 0]
-    last = -1
-    density = run.history["entrained_mass_kg"][last] / max(run.history["entrained_volume_m3"][last], 1e-300)
-    volume = np.asarray(shot["mass"])[of_bed] / density if density > 0.0 else np.zeros(int(of_bed.sum()))
+    mass, volume_taken = run.history["entrained_mass_kg"][-1], run.history["entrained_volume_m3"][-1]
+    volume = np.asarray(shot["mass"])[of_bed] * (volume_taken / mass if mass > 0.0 else 0.0)
     across = 1.0 if run.dimension == 2 else float(run.section("grid")["max"][1]) - float(run.section("grid")["min"][1])
     return edges, np.histogram(joined_at, edges, weights=volume)[0] / (cell * across)
 

@@ -133,7 +133,8 @@ void take_up_by_friction(const std::string& where) {
   sim::Simulation<Dim, double> simulation(paper_case(
       thrown<Dim>(10.0, 3.0) +
       fmt::format("[basal]\nfriction = \"constant\"\nfriction_angle = {}\n[bed]\nlaw = \"momentum\"\nstrength = 0.0\n"
-                  "friction_angle = {}\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\ndepth = 5.0\n",
+                  "friction_angle = {}\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\n"
+                  "particles_per_axis = 4\ndepth = 5.0\n",
                   angle, bed_angle)));
   const double start = state_of(simulation).mass;
   run_until(simulation, 3.0);
@@ -158,7 +159,7 @@ TEST(Entrainment, ABedThatWithstandsTheShearStays) {
                  "depth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\ndepth = 2.0\n",
                  law, strength);
     };
-    sim::Simulation<2, double> strong(paper_case(text(1e7))), weak(case_from_text(text(1e3)));
+    sim::Simulation<2, double> strong(paper_case(text(1e7))), weak(paper_case(text(1e3)));
     run_until(strong, 1.0);
     run_until(weak, 1.0);
     EXPECT_EQ(state_of(strong).taken, 0.0) << law;
