@@ -35,6 +35,17 @@ void for_each_number(BasePiece<Dim, Real>& piece, const Visit& visit) {
   }
 }
 
+// Of melt [kg/m3].
+template <class Real>
+Real water_of_full_pores(const ColumnsModel<Real>& model) {
+  return std::visit([](const auto& column) { return column.porosity * column.phases.water_density; }, model.column);
+}
+
+template <int Dim, class Real>
+physics::ColumnGrid<Real> grid_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece) {
+  return std::visit([&](const auto& column) { return physics::grid_of(column, piece.column.thickness); }, model.column);
+}
+
 // Whether some cell of the band has no water left, as ice or melt.
 template <int Dim, class Real>
 bool is_dry(const BasePiece<Dim, Real>& piece) {
@@ -62,16 +73,20 @@ ColumnSums<Real> BaseColumns<Dim, Real>::sums() const {
 template <int Dim, class Real>
 BaseMeans<Real> BaseColumns<Dim, Real>::means() const {
   BaseMeans<Real> result;
+  constexpr Real wet_share = static_cast<Real>(1e-3);  // of full pores; less has just seeped in, and boils next
   constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
+  const Real full = water_of_full_pores(model_);
   Real area = 0, dry_area = 0, hottest = -celsius_to_kelvin<Real>, hottest_wet = hottest;
   for (const Piece& piece : pieces_) {
     const physics::BandMeans<Real> means = means_of(piece);
     area += piece.area;
     dry_area += is_dry(piece) ? piece.area : Real(0);
+    const auto grid = grid_of(model_, piece);
     for (int k = 0; k < physics::ColumnCells::slide; ++k) {
       const Real temperature = piece.column.temperature[physics::ColumnCells::ground + k];
       hottest = std::max(hottest, temperature);
-      hottest_wet = piece.column.water[k] > Real(0) ? std::max(hottest_wet, temperature) : hottest_wet;
+      const bool is_wet = piece.column.water[k] > wet_share * full * grid.slide_height(k);
+      hottest_wet = is_wet ? std::max(hottest_wet, temperature) : hottest_wet;
     }
     result.temperature += piece.area * means.temperature;
     result.saturation += piece.area * means.saturation;

@@ -6,8 +6,8 @@
 
 namespace thawslide::sim {
 
-// Columns by name, each with its unit; `position_m` has x, y, z of each piece (z = 0 in 2D). Empty where the band is not
-// of columns. P, T and S are means over the band; `hottest_C` is of the column's hottest cell above the ground.
+// Columns by name, each with its unit; `position_m` has x, y, z of each piece (z = 0 in 2D). Empty where the band is
+// not of columns. P, T and S are means over the band; `hottest_C` is of the column's hottest cell above the ground.
 template <int Dim, class Real>
 NamedNumbers base_table(const Simulation<Dim, Real>& simulation);
 
