@@ -91,9 +91,9 @@ void sweep_up(const std::string& where) {
                 "inelastic collision with matter at rest: momentum is kept");
   sim::Simulation<Dim, double> simulation(
       paper_case(thrown<Dim>(20.0, 8.0) +
-                     "[basal]\nfriction = \"constant\"\nfriction_angle = 0.0\n[bed]\nlaw = \"strength\"\n"
-                     "strength = 0.0\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\n"
-                     "depth = { x = [40.0, 40.0], value = [0.0, 2.0] }\n"));
+                 "[basal]\nfriction = \"constant\"\nfriction_angle = 0.0\n[bed]\nlaw = \"strength\"\n"
+                 "strength = 0.0\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\n"
+                 "depth = { x = [40.0, 40.0], value = [0.0, 2.0] }\n"));
   const double start = state_of(simulation).mass;
   const double per_metre = simulation.model().bed_density * depth * (Dim == 3 ? width : 1.0);
   Curve curve{"front x - x_0 [m]", "velocity [m/s]", {}, {}, {}};
