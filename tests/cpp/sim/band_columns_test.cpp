@@ -20,7 +20,7 @@ using namespace testing_support;
 
 template <int Dim>
 void expect_balances() {
-  Simulation<Dim, double> simulation(paper_case(column_slab(Dim)));
+  Simulation<Dim, double> simulation(case_from_text(column_slab(Dim)));
   while (simulation.time() < 3.0 - 1e-9) {
     simulation.step(simulation.next_step(3.0));
     for (const auto& piece : simulation.band_columns()->pieces()) {
@@ -46,9 +46,9 @@ TEST(BandColumns, LoseNeitherHeatNorWater3D) { expect_balances<3>(); }
 // bears more.
 TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
   const config::Case parameters =
-      paper_case(column_slab(),
-                 {"time.end=6.0", "time.history_interval=6.0", "body.slab.max=[400.0, 80.0]", "grid.max=[800.0, 160.0]",
-                  "body.slab.temperature=-0.1", "body.slab.velocity=[10.0, 0.0]", "basal.friction_angle=35.0"});
+      case_from_text(column_slab(), {"time.end=6.0", "time.history_interval=6.0", "body.slab.max=[400.0, 80.0]",
+                                     "grid.max=[800.0, 160.0]", "body.slab.temperature=-0.1",
+                                     "body.slab.velocity=[10.0, 0.0]", "basal.friction_angle=35.0"});
   Simulation<2, double> simulation(parameters);
   run_until(simulation, 6.0);
   const HistoryRow block = run_block(parameters).back();
@@ -69,12 +69,12 @@ TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
 // On ground as steep as 84 degrees a cell of the lattice reaches over ten cells of the grid: every node in contact
 // finds a piece all the same, or friction heat would be lost.
 TEST(BandColumns, LoseNoHeatOnSteepGround) {
-  Simulation<2, double> simulation(
-      paper_case(column_slab(),
-                 {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=84.0", "grid.cell=5.0",
-                  "grid.min=[-40.0, -300.0]", "grid.max=[100.0, 60.0]", "body.slab.shape=polygon",
-                  "body.slab.vertices=[[0.0, 0.0], [10.453, -99.452], [30.343, -97.362], [19.890, 2.091]]",
-                  "body.slab.velocity=[1.0453, -9.9452]", "basal.friction_angle=60.0", "basal.distance_check=false"}));
+  Simulation<2, double> simulation(case_from_text(
+      column_slab(),
+      {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=84.0", "grid.cell=5.0", "grid.min=[-40.0, -300.0]",
+       "grid.max=[100.0, 60.0]", "body.slab.shape=polygon",
+       "body.slab.vertices=[[0.0, 0.0], [10.453, -99.452], [30.343, -97.362], [19.890, 2.091]]",
+       "body.slab.velocity=[1.0453, -9.9452]", "basal.friction_angle=60.0", "basal.distance_check=false"}));
   run_until(simulation, 1.5);
   const HistoryRow row = history_row(simulation);
   EXPECT_GT(value_of(row, "friction_heat_J"), 1e6);
@@ -85,7 +85,7 @@ TEST(BandColumns, LoseNoHeatOnSteepGround) {
 // What keeps a step short for particles does not for columns, which are implicit.
 TEST(BandColumns, TakeThinBandsAndLargeConductivitiesAtAnyStep) {
   for (const char* hard : {"band.thickness=0.01", "material.rock.hydraulic_conductivity=1e-5"}) {
-    Simulation<2, double> simulation(paper_case(column_slab(), {hard}));
+    Simulation<2, double> simulation(case_from_text(column_slab(), {hard}));
     EXPECT_EQ(simulation.step_limit().what.rfind("the elastic wave", 0), 0U) << simulation.step_limit().what;
     run_until(simulation, 0.5);
     const HistoryRow row = history_row(simulation);
@@ -98,8 +98,8 @@ TEST(BandColumns, TakeThinBandsAndLargeConductivitiesAtAnyStep) {
 // square metre stays the same.
 TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
   Simulation<2, double> simulation(
-      paper_case(column_slab(), {"time.end=4.0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
-                                 "body.slab.velocity=[0,0]", "material.rock.youngs_modulus=1e6"}));
+      case_from_text(column_slab(), {"time.end=4.0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
+                                     "body.slab.velocity=[0,0]", "material.rock.youngs_modulus=1e6"}));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.velocity(p, 0) = 0.2 * (particles.position(p, 0) - 160.0);
@@ -126,7 +126,7 @@ TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
 
 // What snapshots hold of the base is what the history's means are of.
 TEST(BandColumns, StandInATable) {
-  Simulation<3, double> simulation(paper_case(column_slab(3), {"grid.min=[-100.0, 0.0, -20.0]"}));
+  Simulation<3, double> simulation(case_from_text(column_slab(3), {"grid.min=[-100.0, 0.0, -20.0]"}));
   run_until(simulation, 1.0);
   const NamedNumbers table = base_table(simulation);
   const std::vector<double>&areas = table.at("area_m2"), &places = table.at("position_m");
@@ -146,7 +146,7 @@ TEST(BandColumns, StandInATable) {
   EXPECT_NEAR(pressure / area, value_of(row, "band_normal_pressure_Pa"), 1e-9 * pressure / area);
   EXPECT_EQ(hottest, value_of(row, "band_hottest_C"));
   EXPECT_GT(lowest, 0.0) << "in the user's coordinates";
-  EXPECT_TRUE(base_table(Simulation<2, double>(paper_case(column_slab(), {"band.model=scaled"}))).empty());
+  EXPECT_TRUE(base_table(Simulation<2, double>(case_from_text(column_slab(), {"band.model=scaled"}))).empty());
 }
 
 TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
@@ -154,22 +154,22 @@ TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
   std::vector<std::vector<double>> states;
   for (const int threads : {1, 3}) {
     set_thread_count(threads);
-    Simulation<3, double> simulation(paper_case(column_slab(3)));
+    Simulation<3, double> simulation(case_from_text(column_slab(3)));
     run_until(simulation, 1.0);
     states.push_back(simulation.band_columns()->state());
   }
   set_thread_count(threads_before);
   EXPECT_EQ(states[0], states[1]);
-  Simulation<3, double> other(paper_case(column_slab(3)));
+  Simulation<3, double> other(case_from_text(column_slab(3)));
   other.restore_band_columns(states[0]);
   EXPECT_EQ(other.band_columns()->state(), states[0]);
 }
 
 TEST(BandColumns, RefuseABandThickerThanTheSlideAndWhatMakesHeatOrWater) {
-  EXPECT_THROW((Simulation<2, double>(paper_case(column_slab(), {"band.thickness=45.0"}))), UserError);
+  EXPECT_THROW((Simulation<2, double>(case_from_text(column_slab(), {"band.thickness=45.0"}))), UserError);
   for (const char* set : {"pressure.frozen=ice_pressure", "pressure.frozen_rows=draining",
                           "pressure.melt_contraction=false", "band.thickness_change=as_printed"}) {
-    EXPECT_THROW(paper_case(column_slab(), {set}), UserError) << set;
+    EXPECT_THROW(case_from_text(column_slab(), {set}), UserError) << set;
   }
 }
 

@@ -137,9 +137,9 @@ TEST(Entrainment, BalancesCloseAndBitsStayInThePlane) {
 TEST(Entrainment, BalancesCloseAndBitsStayInSpace) { expect_sound_runs<3>({"bed.law=strength"}); }
 TEST(Entrainment, BalancesCloseAndBitsStayWithOtherChoices) {
   expect_sound_runs<2>({"bed.law=strength", "mechanics.transfer=apic", "time.stepping=adaptive"});
-  expect_sound_runs<2>({"bed.law=strength", "band.model=columns", "band.thickness_change=conserving",
-                        "pressure.frozen=none", "pressure.frozen_rows=vented", "pressure.melt_contraction=true",
-                        "body.right.material=frozen"});
+  expect_sound_runs<2>({"bed.law=strength", "band.model=columns", "heat.advection_form=conservative",
+                        "band.thickness_change=conserving", "pressure.frozen=none", "pressure.frozen_rows=vented",
+                        "pressure.melt_contraction=true", "body.right.material=frozen"});
   expect_sound_runs<2>({"bed.law=momentum", "mechanics.effective_stress=true", "pressure.thickness_update=frozen"});
 }
 
