@@ -3,6 +3,7 @@
 // default).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -337,6 +338,12 @@ struct Case {
 };
 
 inline bool has_band_columns(const Case& parameters) { return parameters.band.model == BandKind::columns; }
+inline bool has_pore_water(const Case& parameters) { return parameters.pressure.enabled && parameters.heat.enabled; }
+inline bool water_seeps(const Case& parameters) {
+  const auto conducts = [](const auto& each) { return each.second.hydraulic_conductivity > 0.0; };
+  return has_pore_water(parameters) && parameters.pressure.seepage &&
+         std::any_of(parameters.materials.begin(), parameters.materials.end(), conducts);
+}
 
 // Where a key was written, for messages; the case file where it was not.
 inline const std::string& place_of(const Case& parameters, const std::string& dotted) {

@@ -245,7 +245,7 @@ void check_band_columns(const Case& checked, Reading& reading) {
 // The same of heat and water in the band.
 void check_band_switches(const Case& checked, Reading& reading) {
   if (reading.sound({"heat.advection_form", "heat.update", "heat.masses"}) &&
-      checked.heat.advection_form == AdvectionForm::conservative &&
+      checked.heat.advection_form == AdvectionForm::conservative && water_seeps(checked) &&
       (checked.heat.update != HeatUpdate::enthalpy || checked.heat.masses != HeatMasses::initial)) {
     reading.report_misfit(
         {"heat.advection_form", "heat.update", "heat.masses"},

@@ -8,14 +8,6 @@ namespace thawslide::config {
 
 namespace {
 
-bool has_pore_water(const Case& parameters) { return parameters.pressure.enabled && parameters.heat.enabled; }
-
-bool seeps(const Case& parameters) {
-  return has_pore_water(parameters) && parameters.pressure.seepage &&
-         std::any_of(parameters.materials.begin(), parameters.materials.end(),
-                     [](const auto& each) { return each.second.hydraulic_conductivity > 0.0; });
-}
-
 bool softens(const Case& parameters) {
   return parameters.mechanics.enabled &&
          std::any_of(parameters.materials.begin(), parameters.materials.end(), [](const auto& each) {
@@ -44,9 +36,9 @@ const std::vector<MovedDefault>& moved_defaults() {
   static const std::vector<MovedDefault> all{
       {"band", "model", "\"scaled\"", "\"columns\"", has_band_columns},
       {"band", "thickness_change", "\"as_printed\"", "\"conserving\"", has_band_columns},
-      {"heat", "advection_form", "\"as_printed\"", "\"conservative\"", seeps},
+      {"heat", "advection_form", "\"as_printed\"", "\"conservative\"", water_seeps},
       {"pressure", "frozen", "\"ice_pressure\"", "\"none\"", has_pore_water},
-      {"pressure", "frozen_rows", "\"draining\"", "\"sealed\"", seeps},
+      {"pressure", "frozen_rows", "\"draining\"", "\"sealed\"", water_seeps},
       {"pressure", "melt_contraction", "false", "true", has_pore_water},
       {"pressure", "skeleton_compressibility", "0.0", "2e-09", has_pore_water},
       {"phases", "water_expansion_law", "\"constant\"", "\"by_temperature\"", has_pore_water},

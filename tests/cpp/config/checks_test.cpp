@@ -294,7 +294,8 @@ TEST(Values, GiveOneAnotherAMeaning) {
       "--set pressure.enabled=false: mechanics.effective_stress is true, and pressure.enabled is false; there is no "
       "pore "
       "pressure to take off. Set pressure.enabled = true, or mechanics.effective_stress = false.");
-  EXPECT_EQ(error_of_changed({{"[basal]", "[heat]\nadvection_form = \"conservative\"\nmasses = \"current\"\n[basal]"}}),
+  EXPECT_EQ(error_of_changed({{"[basal]", "[heat]\nadvection_form = \"conservative\"\nmasses = \"current\"\n[basal]"}},
+                             {"material.rock.hydraulic_conductivity=1e-7"}),
             "FOLDER/case.toml:21:18: heat.advection_form is \"conservative\", and heat.update or heat.masses is as "
             "printed, which makes heat all the same; allowed with it: heat.update = \"enthalpy\" and heat.masses = "
             "\"initial\". Set both so, or heat.advection_form = \"as_printed\".");
