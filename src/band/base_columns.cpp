@@ -25,8 +25,11 @@ void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mp
                   typename mpm::RecordsOf<BaseState, Dim, Real>::Record{});
     }
   }
-  for (const Piece& piece : pieces_) {
-    const physics::BandMeans<Real> means = means_of(piece);
+  std::vector<physics::BandMeans<Real>> means_at(pieces_.size());
+  parallel_for(pieces_.size(), [&](std::size_t p) { means_at[p] = means_of(pieces_[p]); });
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const Piece& piece = pieces_[p];
+    const physics::BandMeans<Real>& means = means_at[p];
     const Stencil stencil(grid, piece.position);
     const Real ratio = pressure_ratio(means, piece);
     for (std::size_t k = 0; k < stencil.count; ++k) {
@@ -45,21 +48,25 @@ void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mp
 }
 
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                    const NodeGroundOf& node_ground, Real thickness, Real dt,
-                                    mpm::Nodes<Dim, Real>& nodes) {
+void BaseColumns<Dim, Real>::take(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                  const NodeGroundOf& node_ground, Real thickness, Real dt,
+                                  mpm::Nodes<Dim, Real>& nodes) {
   if (look_for_gaps_ || some_node_is_bare(grid, nodes)) {
     lay_pieces(grid, ground, node_ground, thickness, nodes);
     look_for_gaps_ = false;
   }
+  parallel_for(pieces_.size(), [&](std::size_t p) { take_from_nodes(grid, dt, nodes, pieces_[p]); });
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::move(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                  const NodeGroundOf& node_ground, Real duration, const mpm::Nodes<Dim, Real>& nodes) {
   std::vector<std::uint8_t> alone(pieces_.size());
   parallel_for(pieces_.size(), [&](std::size_t p) {
-    const Stencil stencil(grid, pieces_[p].position);
-    const Nearby slide = slide_near(grid, node_ground, stencil, nodes, pieces_[p]);
-    take_from_nodes(stencil, dt, nodes, pieces_[p]);
+    const Nearby slide = slide_near(grid, node_ground, nodes, pieces_[p]);
     alone[p] = slide.is_there ? 0 : 1;
     if (slide.is_there) {
-      move(ground, slide, dt, pieces_[p]);
+      move_with(slide, ground, duration, pieces_[p]);
     }
   });
   std::size_t kept = 0;
@@ -72,6 +79,8 @@ void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, cons
   }
   pieces_.resize(kept);
   part_long_pieces(Real(longest) * grid.cell(), ground);
+  join_small_pieces(grid, ground);
+  look_for_gaps_ = true;
 }
 
 // The velocity of the slide at a piece, and how it changes along the ground: a linear fit to the nodes about it, each
@@ -80,13 +89,13 @@ void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, cons
 template <int Dim, class Real>
 typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const mpm::SparseGrid<Dim, Real>& grid,
                                                                            const NodeGroundOf& node_ground,
-                                                                           const Stencil& stencil,
                                                                            const mpm::Nodes<Dim, Real>& nodes,
                                                                            const Piece& piece) const {
   constexpr Real smallest_spread = static_cast<Real>(1e-3);  // of places, in cells squared
   const auto along_ground = [&](const Vector<Real, Dim>& v) -> Vector<Real, Dim> {
     return v - v.dot(piece.normal) * piece.normal;
   };
+  const Stencil stencil(grid, piece.position);
   std::array<Real, Stencil::most> mass;
   std::array<Vector<Real, Dim>, Stencil::most> place, velocity;
   Real all = 0;
@@ -127,8 +136,9 @@ typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const
 }
 
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes,
-                                             Piece& piece) const {
+void BaseColumns<Dim, Real>::take_from_nodes(const mpm::SparseGrid<Dim, Real>& grid, Real dt,
+                                             const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const {
+  const Stencil stencil(grid, piece.position);
   Real force = 0, area = 0, heat = 0, slip = 0;
   for (std::size_t k = 0; k < stencil.count; ++k) {
     const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
@@ -161,7 +171,7 @@ void BaseColumns<Dim, Real>::place_on(const Ground& ground, Piece& piece) const 
 }
 
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::move(const Ground& ground, const Nearby& slide, Real dt, Piece& piece) const {
+void BaseColumns<Dim, Real>::move_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const {
   piece.position += dt * slide.velocity;
   piece.sides += dt * slide.gradient * piece.sides;
   place_on(ground, piece);
@@ -194,6 +204,41 @@ void BaseColumns<Dim, Real>::part_long_pieces(Real most, const Ground& ground) {
   }
 }
 
+// Shear parts pieces without end, and where the slide comes together they crowd. Two that lie in one part of the
+// lattice and together are no larger than a cell become one, a square, where the middle of both was.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground) {
+  const Real largest = static_cast<Real>(std::pow(grid.cell(), Dim - 1));
+  std::map<std::pair<Lattice, Lattice>, std::size_t> smallest_at;  // of those kept so far
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const Lattice cell = lattice_cell(grid, pieces_[p].position);
+    const Lattice part = lattice_part(grid, pieces_[p].position, cell, parts_on(pieces_[p].normal));
+    const auto [found, is_first] = smallest_at.try_emplace({cell, part}, kept);
+    Piece& small = pieces_[found->second];
+    if (!is_first && small.area + pieces_[p].area <= largest) {
+      join(pieces_[p], ground, small);
+      continue;
+    }
+    if (is_first || pieces_[p].area < small.area) {
+      found->second = kept;
+    }
+    pieces_[kept++] = pieces_[p];
+  }
+  pieces_.resize(kept);
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::join(const Piece& other, const Ground& ground, Piece& piece) const {
+  const Real share = piece.area / (piece.area + other.area);
+  const Vector<Real, Dim> middle = share * piece.position + (Real(1) - share) * other.position;
+  take_over(model_, other, piece);
+  piece.position = middle;
+  place_on(ground, piece);
+  piece.sides = sides_on<Dim, Real>(piece.normal, Vector<Real, Dim - 1>::Ones());
+  piece.sides *= std::pow(piece.area / area_of<Dim, Real>(piece.sides), Real(1) / static_cast<Real>(Dim - 1));
+}
+
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::take_up(const Piece& piece) {
   ledger_.left_heat += piece.area_of_column * physics::heat_of(piece.column) + piece.heat;
@@ -203,7 +248,6 @@ void BaseColumns<Dim, Real>::take_up(const Piece& piece) {
 
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::step(Real thickness, Real duration) {
-  look_for_gaps_ = true;
   std::vector<physics::ColumnAccount<Real>> accounts(pieces_.size());
   parallel_for(pieces_.size(),
                [&](std::size_t p) { accounts[p] = step_piece(model_, thickness, duration, pieces_[p]); });

@@ -63,18 +63,24 @@ class BaseColumns {
   // Fills nodes.base_state of the blocks that hold contact.
   void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
 
-  // After contact, at the positions that to_nodes has seen: what contact does to all pieces (load, heat, slip), new
-  // ones first where the slide touches ground that none covers. Then they move by dt, and those that have become long
-  // part.
-  void follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
-              Real thickness, Real dt, mpm::Nodes<Dim, Real>& nodes);
+  // After contact, at the positions that to_nodes has seen: what contact does in dt to all pieces (load, heat, slip),
+  // new ones first where the slide touches ground that none covers.
+  void take(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+            Real thickness, Real dt, mpm::Nodes<Dim, Real>& nodes);
 
-  // Steps all columns over `duration` [s], at the end of which the case wants a band so thick [m].
+  // Pieces move with the slide over `duration` [s]; those that have become long part, and small ones join.
+  void move(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+            Real duration, const mpm::Nodes<Dim, Real>& nodes);
+
+  // Then steps all columns over it, at the end of which the case wants a band so thick [m].
   void step(Real thickness, Real duration);
 
   [[nodiscard]] const std::vector<BasePiece<Dim, Real>>& pieces() const { return pieces_; }
   [[nodiscard]] physics::BandMeans<Real> means_of(const BasePiece<Dim, Real>& piece) const {
     return band::means_of(model_, piece);
+  }
+  [[nodiscard]] physics::ColumnVolumes<Real> volumes_of(const BasePiece<Dim, Real>& piece) const {
+    return band::volumes_of(model_, piece);
   }
   [[nodiscard]] const ColumnLedger<Real>& ledger() const { return ledger_; }
   [[nodiscard]] ColumnSums<Real> sums() const;
@@ -96,6 +102,10 @@ class BaseColumns {
     std::set<Lattice> bare;
   };
   using BareCells = std::map<Lattice, BareCell>;
+  // Its number of parts along each axis, on ground with this normal.
+  [[nodiscard]] static Lattice parts_on(const Vector<Real, Dim>& normal);
+  [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place,
+                                     const Lattice& cell, const Lattice& parts) const;
   [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const;
   [[nodiscard]] BareCells feet_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
                                           const mpm::Nodes<Dim, Real>& nodes) const;
@@ -122,10 +132,13 @@ class BaseColumns {
     bool is_there = false;
   };
   [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
-                                  const Stencil& stencil, const mpm::Nodes<Dim, Real>& nodes, const Piece& piece) const;
-  void take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const;
-  void move(const Ground& ground, const Nearby& slide, Real dt, Piece& piece) const;
+                                  const mpm::Nodes<Dim, Real>& nodes, const Piece& piece) const;
+  void take_from_nodes(const mpm::SparseGrid<Dim, Real>& grid, Real dt, const mpm::Nodes<Dim, Real>& nodes,
+                       Piece& piece) const;
+  void move_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const;
   void part_long_pieces(Real most, const Ground& ground);
+  void join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground);
+  void join(const Piece& other, const Ground& ground, Piece& piece) const;
   void take_up(const Piece& piece);
   void place_on(const Ground& ground, Piece& piece) const;
 

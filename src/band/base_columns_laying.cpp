@@ -27,6 +27,29 @@ typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_cell(co
 }
 
 template <int Dim, class Real>
+typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::parts_on(const Vector<Real, Dim>& normal) {
+  Lattice parts;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    const Real gradient = std::abs(normal[static_cast<int>(a)] / normal[Dim - 1]);
+    parts[a] = static_cast<int>(std::clamp(std::ceil(gradient / Real(highest_part)), Real(1), Real(most_parts)));
+  }
+  return parts;
+}
+
+template <int Dim, class Real>
+typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_part(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                              const Vector<Real, Dim>& place,
+                                                                              const Lattice& cell,
+                                                                              const Lattice& parts) const {
+  Lattice part;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    const Real within = place[static_cast<int>(a)] * grid.inverse_cell() - static_cast<Real>(cell[a]);
+    part[a] = std::clamp(static_cast<int>(within * static_cast<Real>(parts[a])), 0, parts[a] - 1);
+  }
+  return part;
+}
+
+template <int Dim, class Real>
 bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
                                                const mpm::Nodes<Dim, Real>& nodes) const {
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
@@ -57,19 +80,10 @@ typename BaseColumns<Dim, Real>::BareCells BaseColumns<Dim, Real>::feet_in_conta
       const Vector<Real, Dim> foot = mpm::node_position(grid, b, k) + near.distance * *near.normal;
       const Lattice cell = lattice_cell(grid, foot);
       const auto [found, is_new] = cells.try_emplace(cell);
-      Lattice part;
-      for (std::size_t a = 0; a + 1 < Dim; ++a) {
-        const auto axis = static_cast<int>(a);
-        const Real gradient = std::abs((*near.normal)[axis] / (*near.normal)[Dim - 1]);
-        if (is_new) {
-          found->second.parts[a] =
-              static_cast<int>(std::clamp(std::ceil(gradient / Real(highest_part)), Real(1), Real(most_parts)));
-        }
-        const int parts = found->second.parts[a];
-        const Real within = foot[axis] * grid.inverse_cell() - static_cast<Real>(cell[a]);
-        part[a] = std::clamp(static_cast<int>(within * static_cast<Real>(parts)), 0, parts - 1);
+      if (is_new) {
+        found->second.parts = parts_on(*near.normal);
       }
-      found->second.bare.insert(part);
+      found->second.bare.insert(lattice_part(grid, foot, cell, found->second.parts));
     }
   }
   return cells;
@@ -184,22 +198,24 @@ BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Vector<Real, Dim - 
                                                        const Vector<Real, Dim - 1>& size, const Ground& ground) {
   Piece piece;
   piece.id = next_id_++;
-  piece.sides.setZero();
   piece.normal = ground.normal(middle);
   piece.position.template head<Dim - 1>() = middle;
   piece.position[Dim - 1] = ground.height(middle);
-  for (int a = 0; a + 1 < Dim; ++a) {
-    piece.sides(a, a) = size[a];
-    piece.sides(Dim - 1, a) = -piece.normal[a] / piece.normal[Dim - 1] * size[a];
-  }
+  piece.sides = sides_on<Dim, Real>(piece.normal, size);
   piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
   return piece;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                             \
-  template bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>&,         \
-                                                          const mpm::Nodes<Dim, Real>&) const;       \
-  template void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>&, const Ground&, \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                    \
+  template std::array<int, Dim - 1> BaseColumns<Dim, Real>::lattice_cell(const mpm::SparseGrid<Dim, Real>&, \
+                                                                         const Vector<Real, Dim>&) const;   \
+  template std::array<int, Dim - 1> BaseColumns<Dim, Real>::parts_on(const Vector<Real, Dim>&);             \
+  template std::array<int, Dim - 1> BaseColumns<Dim, Real>::lattice_part(                                   \
+      const mpm::SparseGrid<Dim, Real>&, const Vector<Real, Dim>&, const std::array<int, Dim - 1>&,         \
+      const std::array<int, Dim - 1>&) const;                                                               \
+  template bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>&,                \
+                                                          const mpm::Nodes<Dim, Real>&) const;              \
+  template void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>&, const Ground&,        \
                                                    const NodeGroundOf&, Real, mpm::Nodes<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -59,13 +59,13 @@ template <int Dim, class Real>
 ColumnSums<Real> BaseColumns<Dim, Real>::sums() const {
   ColumnSums<Real> sums;
   for (const Piece& piece : pieces_) {
-    const physics::BandMeans<Real> means = means_of(piece);
+    const physics::ColumnVolumes<Real> volumes = volumes_of(piece);
     sums.area += piece.area;
     sums.heat += piece.area_of_column * physics::heat_of(piece.column) + piece.heat;
     sums.waiting_heat += piece.heat;
     sums.water += piece.area_of_column * physics::water_of(piece.column);
-    sums.opening += piece.area * means.opening;
-    sums.gas_void += piece.area * means.gas_void;
+    sums.opening += piece.area * volumes.opening;
+    sums.gas_void += piece.area * volumes.gas_void;
   }
   return sums;
 }

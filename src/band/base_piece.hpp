@@ -40,6 +40,17 @@ Real area_of(const Eigen::Matrix<Real, Dim, Dim - 1>& sides) {
   }
 }
 
+// The edges of a piece that seen from above is as long along each axis as `size`.
+template <int Dim, class Real>
+Eigen::Matrix<Real, Dim, Dim - 1> sides_on(const Vector<Real, Dim>& normal, const Vector<Real, Dim - 1>& size) {
+  Eigen::Matrix<Real, Dim, Dim - 1> sides = Eigen::Matrix<Real, Dim, Dim - 1>::Zero();
+  for (int a = 0; a + 1 < Dim; ++a) {
+    sides(a, a) = size[a];
+    sides(Dim - 1, a) = -normal[a] / normal[Dim - 1] * size[a];
+  }
+  return sides;
+}
+
 // v as it is after the turn that takes the unit vector `from` to `to` by the shortest way.
 template <int Dim, class Real>
 Vector<Real, Dim> turned(const Vector<Real, Dim>& v, const Vector<Real, Dim>& from, const Vector<Real, Dim>& to) {

@@ -47,6 +47,12 @@ physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasePie
 }
 
 template <int Dim, class Real>
+physics::ColumnVolumes<Real> volumes_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece) {
+  return std::visit([&](const auto& column) { return physics::column_volumes(column, piece.load, piece.column); },
+                    model.column);
+}
+
+template <int Dim, class Real>
 void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasePiece<Dim, Real>& piece) {
   piece.column = std::visit(
       [&](const auto& column) {
@@ -93,11 +99,32 @@ physics::ColumnAccount<Real> step_piece(const ColumnsModel<Real>& model, Real th
   return account;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                         \
-  template physics::BandMeans<Real> means_of<Dim, Real>(const ColumnsModel<Real>&, const BasePiece<Dim, Real>&); \
-  template void start_column_of<Dim, Real>(const ColumnsModel<Real>&, Real, BasePiece<Dim, Real>&);              \
-  template void follow_load<Dim, Real>(const ColumnsModel<Real>&, Real, Real, BasePiece<Dim, Real>&);            \
-  template physics::ColumnAccount<Real> step_piece<Dim, Real>(const ColumnsModel<Real>&, Real, Real,             \
+template <int Dim, class Real>
+void take_over(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& other, BasePiece<Dim, Real>& piece) {
+  const Real share = piece.area / (piece.area + other.area);
+  for (Real BasePiece<Dim, Real>::*const number :
+       {&BasePiece<Dim, Real>::slip, &BasePiece<Dim, Real>::speed, &BasePiece<Dim, Real>::load}) {
+    piece.*number = share * piece.*number + (Real(1) - share) * other.*number;
+  }
+  const Real share_of_column = piece.area_of_column / (piece.area_of_column + other.area_of_column);
+  piece.column = std::visit(
+      [&](const auto& column) {
+        return physics::joined_columns(column, share_of_column, piece.column, other.column, piece.load);
+      },
+      model.column);
+  piece.area += other.area;
+  piece.area_of_column += other.area_of_column;
+  piece.heat += other.heat;
+  piece.touched = piece.touched || other.touched;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
+  template physics::BandMeans<Real> means_of<Dim, Real>(const ColumnsModel<Real>&, const BasePiece<Dim, Real>&);       \
+  template physics::ColumnVolumes<Real> volumes_of<Dim, Real>(const ColumnsModel<Real>&, const BasePiece<Dim, Real>&); \
+  template void take_over<Dim, Real>(const ColumnsModel<Real>&, const BasePiece<Dim, Real>&, BasePiece<Dim, Real>&);   \
+  template void start_column_of<Dim, Real>(const ColumnsModel<Real>&, Real, BasePiece<Dim, Real>&);                    \
+  template void follow_load<Dim, Real>(const ColumnsModel<Real>&, Real, Real, BasePiece<Dim, Real>&);                  \
+  template physics::ColumnAccount<Real> step_piece<Dim, Real>(const ColumnsModel<Real>&, Real, Real,                   \
                                                               BasePiece<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

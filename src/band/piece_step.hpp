@@ -37,6 +37,9 @@ struct ColumnsModel {
 template <int Dim, class Real>
 physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece);
 
+template <int Dim, class Real>
+physics::ColumnVolumes<Real> volumes_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece);
+
 // P over the averaged N, 0 to 1: times the N of the moment it is the pore pressure that the law of the base sees.
 template <int Dim, class Real>
 Real pressure_ratio(const physics::BandMeans<Real>& means, const BasePiece<Dim, Real>& piece) {
@@ -56,5 +59,10 @@ void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real dt,
 template <int Dim, class Real>
 physics::ColumnAccount<Real> step_piece(const ColumnsModel<Real>& model, Real thickness, Real duration,
                                         BasePiece<Dim, Real>& piece);
+
+// Gives a piece what another one beside it has: area, heat and water, and by their areas the means of all else. Where
+// it lies and what shape it has stays.
+template <int Dim, class Real>
+void take_over(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& other, BasePiece<Dim, Real>& piece);
 
 }  // namespace thawslide::band

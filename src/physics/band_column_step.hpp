@@ -11,7 +11,12 @@ namespace thawslide::physics {
 template <class Real>
 struct BandMeans {
   Real temperature, pore_pressure, saturation, solid_fraction;  // [C], [Pa], S, n_e of Eq. 2
-  Real opening, gas_void, liquid;                               // of the whole column; liquid: volume of water [m]
+};
+
+// Of a whole column, per area [m]: by how much water lifts the slide, and the volumes of voids and of liquid water.
+template <class Real>
+struct ColumnVolumes {
+  Real opening, gas_void, liquid;
 };
 
 // The faces of a column's cells move: with the band's thickness, and against matter that spreads as the piece
@@ -154,17 +159,6 @@ template <class Real, class Curve>
 THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, Real normal_pressure,
                                         const BandColumn<Real>& column) {
   BandMeans<Real> means{};
-  const ColumnGrid<Real> grid = grid_of(model, column.thickness);
-  const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
-  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
-    if (is_melted(model, column, k)) {
-      const auto filling = pore_filling(column.surplus[k], storage, normal_pressure);
-      means.opening += grid.slide_height(k) * filling.opening;
-      means.gas_void += grid.slide_height(k) * filling.gas_void;
-    }
-    const Real melted = model.curve.saturation(column.temperature[ColumnCells::ground + k]);
-    means.liquid += melted * column.water[k] / model.phases.water_density;
-  }
   constexpr Real share = Real(1) / ColumnCells::band;
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
     const Real temperature = column.temperature[ColumnCells::ground + k];
@@ -175,6 +169,48 @@ THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, R
     means.solid_fraction += share * effective_solid_fraction(model.phases, model.porosity, saturation);
   }
   return means;
+}
+
+template <class Real, class Curve>
+THAWSLIDE_HD ColumnVolumes<Real> column_volumes(const ColumnModel<Real, Curve>& model, Real normal_pressure,
+                                                const BandColumn<Real>& column) {
+  ColumnVolumes<Real> volumes{};
+  const ColumnGrid<Real> grid = grid_of(model, column.thickness);
+  const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    if (is_melted(model, column, k)) {
+      const auto filling = pore_filling(column.surplus[k], storage, normal_pressure);
+      volumes.opening += grid.slide_height(k) * filling.opening;
+      volumes.gas_void += grid.slide_height(k) * filling.gas_void;
+    }
+    const Real melted = model.curve.saturation(column.temperature[ColumnCells::ground + k]);
+    volumes.liquid += melted * column.water[k] / model.phases.water_density;
+  }
+  return volumes;
+}
+
+// One column of two that hold `share` and the rest of its area: with their heat, their water and their rock, since the
+// heights of cells go with the band's thickness.
+template <class Real, class Curve>
+THAWSLIDE_HD BandColumn<Real> joined_columns(const ColumnModel<Real, Curve>& model, Real share,
+                                             const BandColumn<Real>& first, const BandColumn<Real>& second,
+                                             Real normal_pressure) {
+  BandColumn<Real> column = first;
+  const auto mean = [&](Real of_first, Real of_second) { return share * of_first + (Real(1) - share) * of_second; };
+  column.thickness = mean(first.thickness, second.thickness);
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) { column.heat[k] = mean(first.heat[k], second.heat[k]); }
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    column.water[k] = mean(first.water[k], second.water[k]);
+    column.thawing[k] =
+        mean(first.thickness * first.thawing[k], second.thickness * second.thawing[k]) / column.thickness;
+  }
+  const ColumnGrid<Real> grid = grid_of(model, column.thickness);
+  temperatures_from_heat(model, grid, column);
+  bool was_melted[ColumnCells::slide];
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { was_melted[k] = is_melted(model, column, k); }
+  fill_pores(model, grid, normal_pressure, was_melted, column);
+  set_pressures(model, PressureBounds<Real>(model, normal_pressure, column), column);
+  return column;
 }
 
 }  // namespace thawslide::physics

@@ -95,10 +95,13 @@ void Simulation<Dim, Real>::band_columns_follow() {
     const auto& known = ground_.block(b)[k];
     return NodeGround{&known.normal, known.distance};
   };
-  band_columns_->follow(grid_, ground, node_ground, static_cast<Real>(band_thickness()), dt_, nodes_);
+  const auto thickness = static_cast<Real>(band_thickness());
+  band_columns_->take(grid_, ground, node_ground, thickness, dt_, nodes_);
   column_time_ += static_cast<double>(dt_);
   if (column_time_ + 0.5 * static_cast<double>(dt_) > parameters_.band.column_step) {
-    band_columns_->step(static_cast<Real>(band_thickness()), static_cast<Real>(column_time_));
+    const auto duration = static_cast<Real>(column_time_);
+    band_columns_->move(grid_, ground, node_ground, duration, nodes_);
+    band_columns_->step(thickness, duration);
     column_time_ = 0.0;
   }
 }

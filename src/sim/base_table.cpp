@@ -28,7 +28,7 @@ NamedNumbers base_table(const Simulation<Dim, Real>& simulation) {
     add("temperature_C", means.temperature);
     add("hottest_C", *std::max_element(slide, slide + physics::ColumnCells::slide));
     add("liquid_saturation", means.saturation);
-    add("opening_m", means.opening);
+    add("opening_m", columns->volumes_of(piece).opening);
     add("slip_m", piece.slip);
     add("slip_speed_m_s", piece.speed);
   }

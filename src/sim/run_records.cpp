@@ -72,7 +72,7 @@ std::vector<PieceBelow> pieces_below(const Simulation<3, double>& simulation) {
     const auto means = columns->means_of(piece);
     const Vector<double, 3> half = 0.5 * piece.sides.cwiseAbs().rowwise().sum();
     pieces.push_back({piece.position[0], piece.position[1], half[0], half[1], piece.area, means.temperature,
-                      means.pore_pressure, means.liquid});
+                      means.pore_pressure, columns->volumes_of(piece).liquid});
   }
   return pieces;
 }

@@ -137,19 +137,32 @@ template __global__ void heat<LinearCurve<Real>>(HeatContent<Real, LinearCurve<R
 
 template <class Curve>
 __global__ void band_column(ColumnModel<Real, Curve> model, const Real* temperatures, const ColumnDrive<Real>* drives,
-                            BandColumn<Real>* columns, ColumnAccount<Real>* accounts, BandMeans<Real>* means) {
+                            BandColumn<Real>* columns, ColumnAccount<Real>* accounts, BandMeans<Real>* means,
+                            ColumnVolumes<Real>* volumes) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
   ColumnDrive<Real> drive = drives[k];
   drive.body_heat = body_enthalpy(model, temperatures[k]);
   accounts[k] = step_column(model, drive, columns[k]);
   means[k] = band_means(model, drive.normal_pressure, columns[k]);
+  volumes[k] = column_volumes(model, drive.normal_pressure, columns[k]);
 }
 template __global__ void band_column<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, const Real*,
                                                           const ColumnDrive<Real>*, BandColumn<Real>*,
-                                                          ColumnAccount<Real>*, BandMeans<Real>*);
+                                                          ColumnAccount<Real>*, BandMeans<Real>*, ColumnVolumes<Real>*);
 template __global__ void band_column<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const Real*,
                                                         const ColumnDrive<Real>*, BandColumn<Real>*,
-                                                        ColumnAccount<Real>*, BandMeans<Real>*);
+                                                        ColumnAccount<Real>*, BandMeans<Real>*, ColumnVolumes<Real>*);
+
+template <class Curve>
+__global__ void join_columns(ColumnModel<Real, Curve> model, const Real* shares, const BandColumn<Real>* others,
+                             Real load, BandColumn<Real>* columns) {
+  const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
+  columns[k] = joined_columns(model, shares[k], columns[k], others[k], load);
+}
+template __global__ void join_columns<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, const Real*,
+                                                           const BandColumn<Real>*, Real, BandColumn<Real>*);
+template __global__ void join_columns<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const Real*,
+                                                         const BandColumn<Real>*, Real, BandColumn<Real>*);
 
 template <class Curve>
 __global__ void start_columns(ColumnModel<Real, Curve> model, Real thickness, const Real* temperatures, Real load,

@@ -56,6 +56,33 @@ TEST(BandColumn, ShearMixesTheBand) {
   }
 }
 
+// Two columns of different thickness and heat become one that holds what both held.
+TEST(BandColumn, TwoJoinToWhatBothHold) {
+  const Model model = make_model();
+  Column hot = start_column(model, 0.3, 60.0, 5.0, load), cold = start_column(model, 0.1, -10.0, -10.0, load);
+  Drive drive = drive_of(model, 0.01, 0.3, 60.0);
+  drive.heat_flux = 1e6;
+  for (int step = 0; step < 20; ++step) {
+    step_column(model, drive, hot);
+  }
+  for (const double share : {0.0, 0.2, 0.7, 1.0}) {
+    const Column joined = joined_columns(model, share, hot, cold, load);
+    EXPECT_NEAR(joined.thickness, share * 0.3 + (1.0 - share) * 0.1, 1e-15);
+    EXPECT_NEAR(heat_of(joined), share * heat_of(hot) + (1.0 - share) * heat_of(cold), 1e-6);
+    EXPECT_NEAR(water_of(joined), share * water_of(hot) + (1.0 - share) * water_of(cold), 1e-12 * water_of(hot));
+    for (int k = 0; k < Cells::slide; ++k) {
+      EXPECT_GE(joined.pressure[k], 0.0);
+      EXPECT_LE(joined.pressure[k], load);
+    }
+  }
+  // Pressures but for what a step leaves between its seepage and its swelling.
+  const Column same = joined_columns(model, 0.4, hot, hot, load);
+  for (int k = 0; k < Cells::slide; ++k) {
+    EXPECT_NEAR(same.temperature[Cells::ground + k], hot.temperature[Cells::ground + k], 1e-9);
+    EXPECT_NEAR(same.pressure[k], hot.pressure[k], 1e-5 * load);
+  }
+}
+
 // Whatever happens to a column: heat and water are what came in less what left, and 0 <= P <= N.
 TEST(BandColumn, LosesNothingInRandomSteps) {
   std::mt19937 random(5);
@@ -94,7 +121,7 @@ TEST(BandColumn, LosesNothingInRandomSteps) {
         ASSERT_GE(column.water[k], -1e-12 * water);
         hottest = std::max(hottest, column.temperature[Cells::ground + k]);
       }
-      opening = std::max(opening, band_means(model, drive.normal_pressure, column).opening);
+      opening = std::max(opening, column_volumes(model, drive.normal_pressure, column).opening);
       vented += account.vented_water;
       steam += account.steam;
     }

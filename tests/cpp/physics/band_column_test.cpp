@@ -37,8 +37,8 @@ TEST_P(Undrained, HeatingIsTheClosedForm) {
   advance_to(60.0);
   const double end = 20.0 + 60.0 * flux / (melted_capacity(model) * e);
   EXPECT_DOUBLE_EQ(column.pressure[3], load);
-  EXPECT_NEAR(band_means(model, load, column).opening, e * (swelling(model, 20.0, end) - storage(model) * (load - 1e4)),
-              1e-9 * e);
+  EXPECT_NEAR(column_volumes(model, load, column).opening,
+              e * (swelling(model, 20.0, end) - storage(model) * (load - 1e4)), 1e-9 * e);
 }
 INSTANTIATE_TEST_SUITE_P(BandColumn, Undrained,
                          testing::Values(WaterExpansionLaw::constant, WaterExpansionLaw::by_temperature));
@@ -232,7 +232,7 @@ TEST(BandColumn, SteamPressesInAVoid) {
     step_column(model, drive, column);
   }
   EXPECT_NEAR(boiling_temperature(column.pressure[0]), column.temperature[Cells::ground], 1e-7);
-  EXPECT_GT(band_means(model, load, column).gas_void, 0.0);
+  EXPECT_GT(column_volumes(model, load, column).gas_void, 0.0);
 }
 
 // Thaw consolidation (Morgenstern and Nixon 1971): r = 1, s0 = 0, no heating; matter thaws from a drained top down to

@@ -124,6 +124,41 @@ TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
   EXPECT_LT(std::abs(value_of(row, "column_water_residual_kg")), 1e-12 * value_of(row, "column_water_kg"));
 }
 
+// One that comes together: pieces crowd, and small ones join, so that there are about as many as cells of the base;
+// what leaves at the top and what stays is all that there was.
+TEST(BandColumns, PiecesOfAShorteningSlideJoin) {
+  for (const int dimension : {2, 3}) {
+    SCOPED_TRACE(fmt::format("{}D", dimension));
+    const auto come_together = [](auto& simulation) {
+      auto& particles = simulation.particles();
+      for (std::size_t p = 0; p < particles.size(); ++p) {
+        particles.velocity(p, 0) = -0.25 * (particles.position(p, 0) - 160.0);
+      }
+      run_until(simulation, 0.5);
+      const std::size_t before = simulation.band_columns()->pieces().size();
+      const double area = simulation.band_columns()->sums().area;
+      run_until(simulation, 3.0);
+      const double shortened = simulation.band_columns()->sums().area / area;
+      EXPECT_LT(shortened, 0.8);
+      EXPECT_LT(static_cast<double>(simulation.band_columns()->pieces().size()), 0.85 * static_cast<double>(before));
+      const HistoryRow row = history_row(simulation);
+      EXPECT_LT(std::abs(value_of(row, "column_water_residual_kg")), 1e-12 * value_of(row, "column_water_kg"));
+      EXPECT_LT(std::abs(value_of(row, "thermal_residual_J")), 1e-12 * std::abs(value_of(row, "sensible_J")));
+    };
+    const config::Case parameters =
+        case_from_text(column_slab(dimension), {"time.end=4.0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
+                                                "body.slab.velocity=[0" + std::string(dimension == 3 ? ",0,0]" : ",0]"),
+                                                "material.rock.youngs_modulus=1e6"});
+    if (dimension == 2) {
+      Simulation<2, double> simulation(parameters);
+      come_together(simulation);
+    } else {
+      Simulation<3, double> simulation(parameters);
+      come_together(simulation);
+    }
+  }
+}
+
 // What snapshots hold of the base is what the history's means are of.
 TEST(BandColumns, StandInATable) {
   Simulation<3, double> simulation(case_from_text(column_slab(3), {"grid.min=[-100.0, 0.0, -20.0]"}));
