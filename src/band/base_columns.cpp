@@ -55,18 +55,22 @@ void BaseColumns<Dim, Real>::take(const mpm::SparseGrid<Dim, Real>& grid, const 
     lay_pieces(grid, ground, node_ground, thickness, nodes);
     look_for_gaps_ = false;
   }
-  parallel_for(pieces_.size(), [&](std::size_t p) { take_from_nodes(grid, dt, nodes, pieces_[p]); });
+  parallel_for(pieces_.size(), [&](std::size_t p) {
+    take_from_nodes(grid, dt, nodes, pieces_[p]);
+    pieces_[p].position += dt * pieces_[p].velocity;
+  });
 }
 
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::move(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                  const NodeGroundOf& node_ground, Real duration, const mpm::Nodes<Dim, Real>& nodes) {
+void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                    const NodeGroundOf& node_ground, Real duration,
+                                    const mpm::Nodes<Dim, Real>& nodes) {
   std::vector<std::uint8_t> alone(pieces_.size());
   parallel_for(pieces_.size(), [&](std::size_t p) {
     const Nearby slide = slide_near(grid, node_ground, nodes, pieces_[p]);
     alone[p] = slide.is_there ? 0 : 1;
     if (slide.is_there) {
-      move_with(slide, ground, duration, pieces_[p]);
+      stretch_with(slide, ground, duration, pieces_[p]);
     }
   });
   std::size_t kept = 0;
@@ -171,8 +175,8 @@ void BaseColumns<Dim, Real>::place_on(const Ground& ground, Piece& piece) const 
 }
 
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::move_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const {
-  piece.position += dt * slide.velocity;
+void BaseColumns<Dim, Real>::stretch_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const {
+  piece.velocity = slide.velocity;
   piece.sides += dt * slide.gradient * piece.sides;
   place_on(ground, piece);
   piece.area = area_of<Dim, Real>(piece.sides);
@@ -204,8 +208,9 @@ void BaseColumns<Dim, Real>::part_long_pieces(Real most, const Ground& ground) {
   }
 }
 
-// Shear parts pieces without end, and where the slide comes together they crowd. Two that lie in one part of the
-// lattice and together are no larger than a cell become one, a square, where the middle of both was.
+// Shear parts pieces without end, and where the slide comes together they crowd. Two in one part of the lattice, nearer
+// than half of its size along each axis, that together are no larger than a cell become one: a square, where the middle
+// of both was. Pieces that were laid beside each other and move along keep more distance.
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground) {
   const Real largest = static_cast<Real>(std::pow(grid.cell(), Dim - 1));
@@ -213,10 +218,19 @@ void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>&
   std::size_t kept = 0;
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     const Lattice cell = lattice_cell(grid, pieces_[p].position);
-    const Lattice part = lattice_part(grid, pieces_[p].position, cell, parts_on(pieces_[p].normal));
+    const Lattice parts = parts_on(pieces_[p].normal);
+    const Lattice part = lattice_part(grid, pieces_[p].position, cell, parts);
     const auto [found, is_first] = smallest_at.try_emplace({cell, part}, kept);
     Piece& small = pieces_[found->second];
-    if (!is_first && small.area + pieces_[p].area <= largest) {
+    const auto is_near = [&](const Vector<Real, Dim>& other) {
+      Real furthest = 0;  // in sizes of the part
+      for (std::size_t a = 0; a + 1 < Dim; ++a) {
+        const auto axis = static_cast<int>(a);
+        furthest = std::max(furthest, std::abs(other[axis] - pieces_[p].position[axis]) * static_cast<Real>(parts[a]));
+      }
+      return furthest < Real(0.5) * grid.cell();
+    };
+    if (!is_first && small.area + pieces_[p].area <= largest && is_near(small.position)) {
       join(pieces_[p], ground, small);
       continue;
     }

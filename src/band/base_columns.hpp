@@ -64,13 +64,14 @@ class BaseColumns {
   void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
 
   // After contact, at the positions that to_nodes has seen: what contact does in dt to all pieces (load, heat, slip),
-  // new ones first where the slide touches ground that none covers.
+  // new ones first where the slide touches ground that none covers. Then they move on by dt.
   void take(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
             Real thickness, Real dt, mpm::Nodes<Dim, Real>& nodes);
 
-  // Pieces move with the slide over `duration` [s]; those that have become long part, and small ones join.
-  void move(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
-            Real duration, const mpm::Nodes<Dim, Real>& nodes);
+  // Pieces take the velocity of the slide, and stretch with it as over the last `duration` [s]; those that have become
+  // long part, and small ones join.
+  void follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+              Real duration, const mpm::Nodes<Dim, Real>& nodes);
 
   // Then steps all columns over it, at the end of which the case wants a band so thick [m].
   void step(Real thickness, Real duration);
@@ -127,15 +128,15 @@ class BaseColumns {
                                 const Ground& ground);
   // How the slide about a piece moves.
   struct Nearby {
-    Vector<Real, Dim> velocity;  // along the ground [m/s]
-    Matrix<Real, Dim> gradient;  // of it, along the ground [1/s]
+    Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();  // along the ground [m/s]
+    Matrix<Real, Dim> gradient = Matrix<Real, Dim>::Zero();  // of it, along the ground [1/s]
     bool is_there = false;
   };
   [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
                                   const mpm::Nodes<Dim, Real>& nodes, const Piece& piece) const;
   void take_from_nodes(const mpm::SparseGrid<Dim, Real>& grid, Real dt, const mpm::Nodes<Dim, Real>& nodes,
                        Piece& piece) const;
-  void move_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const;
+  void stretch_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const;
   void part_long_pieces(Real most, const Ground& ground);
   void join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground);
   void join(const Piece& other, const Ground& ground, Piece& piece) const;

@@ -144,6 +144,7 @@ void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, 
   }
   for (std::size_t p = known; p < pieces_.size(); ++p) {
     begin_piece(grid, contacts[p - known], thickness, nodes, pieces_[p]);
+    pieces_[p].velocity = slide_near(grid, node_ground, nodes, pieces_[p]).velocity;
   }
 }
 

@@ -16,6 +16,7 @@ void for_each_number(BasePiece<Dim, Real>& piece, const Visit& visit) {
   for (int a = 0; a < Dim; ++a) {
     visit(piece.position[a]);
     visit(piece.normal[a]);
+    visit(piece.velocity[a]);
     for (int side = 0; side + 1 < Dim; ++side) {
       visit(piece.sides(a, side));
     }

@@ -20,14 +20,16 @@ struct BasePiece {
   std::int64_t id = 0;
   Vector<Real, Dim> position;  // of its middle, on the ground [m]
   Vector<Real, Dim> normal;    // unit vector into the ground
-  Sides sides;                 // its edges, along the ground [m]; of a 2D case one
-  Real area = 0;               // [m2], per metre of width in 2D
-  Real area_of_column = 0;     // the area that the column's numbers are per [m2]
-  Real slip = 0;               // [m]
-  Real speed = 0;              // of slip [m/s]
-  Real load = 0;               // normal pressure N, averaged over time [Pa]
-  Real heat = 0;               // friction heat of its whole area since the column's last step [J]
-  bool touched = false;        // has ever carried load
+  // Of the slide about it along the ground, as it was at the column's last step [m/s].
+  Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();
+  Sides sides;              // its edges, along the ground [m]; of a 2D case one
+  Real area = 0;            // [m2], per metre of width in 2D
+  Real area_of_column = 0;  // the area that the column's numbers are per [m2]
+  Real slip = 0;            // [m]
+  Real speed = 0;           // of slip [m/s]
+  Real load = 0;            // normal pressure N, averaged over time [Pa]
+  Real heat = 0;            // friction heat of its whole area since the column's last step [J]
+  bool touched = false;     // has ever carried load
   physics::BandColumn<Real> column;
 };
 

@@ -106,6 +106,7 @@ void take_over(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& othe
        {&BasePiece<Dim, Real>::slip, &BasePiece<Dim, Real>::speed, &BasePiece<Dim, Real>::load}) {
     piece.*number = share * piece.*number + (Real(1) - share) * other.*number;
   }
+  piece.velocity = share * piece.velocity + (Real(1) - share) * other.velocity;
   const Real share_of_column = piece.area_of_column / (piece.area_of_column + other.area_of_column);
   piece.column = std::visit(
       [&](const auto& column) {

@@ -100,7 +100,7 @@ void Simulation<Dim, Real>::band_columns_follow() {
   column_time_ += static_cast<double>(dt_);
   if (column_time_ + 0.5 * static_cast<double>(dt_) > parameters_.band.column_step) {
     const auto duration = static_cast<Real>(column_time_);
-    band_columns_->move(grid_, ground, node_ground, duration, nodes_);
+    band_columns_->follow(grid_, ground, node_ground, duration, nodes_);
     band_columns_->step(thickness, duration);
     column_time_ = 0.0;
   }
