@@ -62,8 +62,8 @@ def bed_run(make_run: MakeRun) -> Path:
 def test_depth_taken_is_where_particles_joined(bed_run: Path) -> None:
     edges, depth = depth_taken(Run(bed_run))
     cell = int(np.searchsorted(edges, 60.5)) - 1
-    assert edges[cell] == 59.0
-    assert depth[cell] == pytest.approx(JOINED * 1.0 / 2.0)  # 1 m3 each per metre of width, in a cell 2 m wide
+    assert edges[cell + 1] - edges[cell] == 8.0
+    assert depth[cell] == pytest.approx(JOINED * 1.0 / 8.0)  # 1 m3 each per metre of width, in four cells 2 m wide
     assert np.count_nonzero(depth) == 1
 
 

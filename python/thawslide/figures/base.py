@@ -12,7 +12,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.colours import TEMPERATURE, Painting
 from thawslide.figures.slide_on_map import cell_of, draw_on_map
 from thawslide.figures.snapshots import chosen_snapshots
-from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, RED, SKY, prefixed, say, styled
+from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, RED, SKY, prefixed, styled
 from thawslide.run import Run, Snapshot
 
 _RATIO = Painting("pore_pressure", "pore pressure over normal pressure", "1", "viridis")
@@ -22,11 +22,14 @@ _ROW = 1.65  # inches
 
 @styled
 def base_along(run: Run) -> Figure:
-    """Draw N, P and what is left of N, and the band's temperatures, of each piece over its distance."""
-    shots = chosen_snapshots(run, ())
-    if not any(len(shot.base) for shot in shots):
+    """Draw N, P and what is left of N, and the band's temperatures, of each piece over its distance.
+
+    At the run's chosen times, without those before the first contact.
+    """
+    shots = [shot for shot in chosen_snapshots(run, ()) if len(shot.base)]
+    if not shots:
         raise NotInRunError(f"{run.folder}: no snapshot has pieces of base, as a run on band columns writes")
-    loads = [shot.base["normal_pressure_Pa"] for shot in shots if len(shot.base)]
+    loads = [shot.base["normal_pressure_Pa"] for shot in shots]
     divisor, unit = prefixed(np.concatenate(loads), "Pa")
     figure = Figure(figsize=(10.0, 0.9 + _ROW * len(shots)), layout="constrained")
     figure.suptitle(f"{run.title}: along the base", x=0.01, ha="left", size=12)
@@ -45,10 +48,6 @@ def base_along(run: Run) -> Figure:
 
 
 def _draw_row(stress: Axes, heat: Axes, shot: Snapshot, divisor: float) -> None:
-    if not len(shot.base):
-        for axes in (stress, heat):
-            say(axes, "no contact yet")
-        return
     order = np.argsort(shot.base["position_m"][:, 0], kind="stable")
     value = {name: numbers[order] for name, numbers in shot.base.items()}
     x = value["position_m"][:, 0]

@@ -25,20 +25,21 @@ from thawslide.run import Numbers, Run
 
 
 def depth_taken(run: Run) -> tuple[Numbers, Numbers]:
-    """Return edges of cells along x [m], and the depth [m] that particles of the bed in the last snapshot stood for.
+    """Return edges along x [m], four cells apart, and the depth [m] between them that particles of the bed stood for.
 
-    Where each of them joined follows from its displacement. The depth is a mean over the width in 3D too.
+    Those of the last snapshot; where each of them joined, half a cell out at most, follows from its displacement. The
+    depth is a mean over the width in 3D too.
     """
-    cell = float(run.section("grid")["cell"])
+    wide = 4.0 * float(run.section("grid")["cell"])
     low, high = float(run.section("grid")["min"][0]), float(run.section("grid")["max"][0])
-    edges: Numbers = low + cell * (np.arange(round((high - low) / cell) + 2, dtype=np.float64) - 0.5)
+    edges: Numbers = low + wide * np.arange(int((high - low) / wide) + 2, dtype=np.float64)
     shot = run.snapshot(len(run.times) - 1)
     of_bed = np.asarray(shot["body"]) == len(run.section("body"))
     joined_at = shot.points[of_bed, 0] - np.asarray(shot["displacement"])[of_bed, 0]
     mass, volume_taken = run.history["entrained_mass_kg"][-1], run.history["entrained_volume_m3"][-1]
     volume = np.asarray(shot["mass"])[of_bed] * (volume_taken / mass if mass > 0.0 else 0.0)
     across = 1.0 if run.dimension == 2 else float(run.section("grid")["max"][1]) - float(run.section("grid")["min"][1])
-    return edges, np.histogram(joined_at, edges, weights=volume)[0] / (cell * across)
+    return edges, np.histogram(joined_at, edges, weights=volume)[0] / (wide * across)
 
 
 @styled
@@ -82,5 +83,5 @@ def _draw_depth(axes: Axes, run: Run) -> None:
     if not taken.size:
         say(axes, "nothing has been taken up")
         return
-    window = slice(max(int(taken[0]) - 10, 0), int(taken[-1]) + 11)
+    window = slice(max(int(taken[0]) - 3, 0), int(taken[-1]) + 4)
     axes.stairs(depth[window], edges[window.start : window.start + len(depth[window]) + 1], fill=True, color=BLUE)
