@@ -50,6 +50,7 @@ int run_case(const RunOptions& options) {
                simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s");
     settle<Dim>(simulation, folder);
     RunOutput<Dim> output(folder, simulation);
+    output.begin(simulation);
     return run_to_end<Dim>(simulation, output, folder);
   });
 }
@@ -57,18 +58,12 @@ int run_case(const RunOptions& options) {
 int resume_run(const ResumeOptions& options) {
   use_threads(options.threads);
   const fs::path folder = options.folder;
-  if (!fs::exists(folder / "checkpoint.bin")) {
-    throw UserError(
-        fmt::format("{} holds no checkpoint.bin to go on from. A run writes it at its end, when a signal stops "
-                    "it, and every checkpoint.interval seconds if the case sets that.",
-                    folder.string()));
-  }
+  const io::WholeCheckpoint checkpoint = io::newest_checkpoint(folder);
   const config::Case parameters = config::read_case(folder);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
     std::vector<double> scalars;
-    const NamedNumbers blocks =
-        io::read_checkpoint<Dim, double>(folder / "checkpoint.bin", simulation.particles(), scalars);
+    const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
     simulation.restore(scalars);
     if (simulation.band_columns() != nullptr) {
       simulation.restore_band_columns(blocks.at("band_columns"));
@@ -79,6 +74,9 @@ int resume_run(const ResumeOptions& options) {
     if (simulation.time() >= parameters.time.end - 0.5 * simulation.last_step()) {
       fmt::print("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
       return static_cast<int>(ExitCode::done);
+    }
+    if (!checkpoint.note.empty()) {
+      fmt::print("note: {}; going on from the checkpoint before\n", checkpoint.note);
     }
     fmt::print("going on from t = {:g} s\n", simulation.time());
     RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks);

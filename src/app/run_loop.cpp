@@ -85,6 +85,7 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   Schedule history(times.history_interval, begin, last_step, times.end);
   Schedule snapshots(times.output_interval, begin, last_step, times.end);
   const double checkpoint_interval = simulation.parameters().checkpoint.interval;
+  const double wall_between_checkpoints = simulation.parameters().checkpoint.wall_interval;
   Schedule checkpoints(checkpoint_interval > 0.0 ? checkpoint_interval : times.end, begin, last_step, times.end);
   Progress progress(begin);
   FrontWatch front;
@@ -93,7 +94,7 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const int most_threads = thread_count();
   ThreadChoice choice(most_threads, 0.0);
-  double seconds_in_steps = 0.0;
+  double seconds_in_steps = 0.0, wall_of_checkpoint = 0.0;
   const auto step = [&](double until) {
     const double before = wall();
     output.before_step(simulation);
@@ -132,8 +133,10 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
           progress.note(note);
         }
       }
-      if (checkpoints.reached(simulation.time(), dt)) {
+      const bool is_old = wall_between_checkpoints > 0.0 && wall() - wall_of_checkpoint > wall_between_checkpoints;
+      if (checkpoints.reached(simulation.time(), dt) || is_old) {
         output.write_checkpoint(simulation);
+        wall_of_checkpoint = wall();
       }
       if (progress.due(simulation.time(), times.end)) {
         progress.show(

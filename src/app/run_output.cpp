@@ -4,6 +4,7 @@
 
 #include "app/resolved_case.hpp"
 #include "base/parallel.hpp"
+#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
 #include "io/terrain_csv.hpp"
@@ -116,12 +117,19 @@ RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation)
   write_provenance(simulation, "running", "", 0.0);
   write_history(simulation);
   write_snapshot(simulation);
-  stopwatch_ = {};  // time counts from the first step on
+}
+
+template <int Dim>
+void RunOutput<Dim>::begin(const Simulation& simulation) {
+  write_state(simulation);
+  stopwatch_ = {};
 }
 
 template <int Dim>
 RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& simulation,
                                       const NamedNumbers& blocks) {
+  io::remove_unfinished_files(folder);
+  io::remove_unfinished_files(folder / "snapshots");
   RunOutput output(folder, simulation, io::HistoryWriter::continue_after(folder / "history.csv", simulation.time()),
                    io::SnapshotSeries::continue_after(folder, simulation.time()));
   output.provenance_ = start_provenance(simulation);
@@ -133,7 +141,7 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
   if (output.records_.has_probes()) {
     output.probes_.emplace(io::HistoryWriter::continue_after(folder / "probes.csv", simulation.time()));
   }
-  output.history_step_ = output.snapshot_step_ = simulation.step_number();
+  output.history_step_ = output.snapshot_step_ = output.checkpoint_step_ = simulation.step_number();
   return output;
 }
 
@@ -220,7 +228,11 @@ void RunOutput<Dim>::write_snapshot(const Simulation& simulation) {
 }
 
 template <int Dim>
-void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
+void RunOutput<Dim>::write_state(const Simulation& simulation) {
+  if (checkpoint_step_ == simulation.step_number()) {
+    return;
+  }
+  checkpoint_step_ = simulation.step_number();
   stopwatch_.time("write_checkpoint", [&] {
     snapshots_.finish_writing();  // a run that goes on from here must find all snapshots before
     NamedNumbers blocks = records_.state();
@@ -233,9 +245,14 @@ void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
     if (const auto* bed = simulation.bed()) {
       blocks["bed"] = bed->state();
     }
-    io::write_checkpoint<Dim, double>(folder_ / "checkpoint.bin", simulation.particles(),
-                                      simulation.particles_at_start(), simulation.scalars(), blocks);
+    io::write_checkpoint<Dim, double>(folder_, simulation.particles(), simulation.particles_at_start(),
+                                      simulation.scalars(), blocks);
   });
+}
+
+template <int Dim>
+void RunOutput<Dim>::write_checkpoint(const Simulation& simulation) {
+  write_state(simulation);
   write_maps(simulation);
 }
 

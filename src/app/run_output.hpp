@@ -40,6 +40,8 @@ class RunOutput {
 
   // A new run in a folder that is there and empty: writes the resolved case, the inputs and the first state.
   RunOutput(const std::filesystem::path& folder, const Simulation& simulation);
+  // The checkpoint before the first step; from here on time counts.
+  void begin(const Simulation& simulation);
   // Goes on with a run at the simulation's time; blocks: what its checkpoint holds beside the particles.
   static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation,
                           const NamedNumbers& blocks);
@@ -64,6 +66,8 @@ class RunOutput {
   void write_index() {
     stopwatch_.time("write_snapshot", [&] { snapshots_.write_index(); });
   }
+  // What `resume` goes on from; write_checkpoint writes the maps so far with it.
+  void write_state(const Simulation& simulation);
   void write_checkpoint(const Simulation& simulation);
   // run.json; status as architecture's words: running, done, stopped, failed.
   void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
@@ -89,7 +93,7 @@ class RunOutput {
   std::optional<io::HistoryWriter> probes_;  // none without probes
   io::Provenance provenance_;
   Stopwatch stopwatch_;
-  std::int64_t history_step_ = -1, snapshot_step_ = -1;
+  std::int64_t history_step_ = -1, snapshot_step_ = -1, checkpoint_step_ = -1;
 };
 
 }  // namespace thawslide::app

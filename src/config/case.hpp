@@ -287,7 +287,8 @@ struct Block {
 };
 
 struct Checkpoint {
-  double interval = 0;  // s; 0: only at the end
+  double interval = 0;         // s of simulated time; 0: at the end
+  double wall_interval = 600;  // s of wall time; 0: none
 };
 
 struct Maps {

@@ -104,7 +104,7 @@ class Parameter {
 
   // The numbers that are usual where the condition holds; nothing is said of others.
   Parameter usually(Usual usual, std::function<bool(const Case&, const Section&)> condition) && {
-    rule.usual = std::move(usual);
+    rule.usual = usual;
     has_usual = std::move(condition);
     return std::move(*this);
   }

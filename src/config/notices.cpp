@@ -4,6 +4,7 @@
 
 #include "config/declaration.hpp"
 #include "config/moved_defaults.hpp"
+#include "config/plausibility.hpp"
 #include "config/strips.hpp"
 
 namespace thawslide::config {
@@ -23,8 +24,8 @@ std::vector<std::string> notices(const Case& parameters) {
                                   found.key, found.value, rule.unit.empty() ? "" : " ", rule.unit,
                                   rule.usual.text(rule.unit)));
   }
-  for (const std::string& gap : notes_on_gaps(parameters)) {
-    notices.push_back(gap);
+  for (const auto& more : {implausible(parameters), notes_on_gaps(parameters)}) {
+    notices.insert(notices.end(), more.begin(), more.end());
   }
   return notices;
 }

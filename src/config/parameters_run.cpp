@@ -132,7 +132,13 @@ std::vector<Parameter<Checkpoint>> checkpoint_parameters() {
   return {parameter(&Checkpoint::interval, {.key = "interval",
                                             .unit = "s",
                                             .range = at_least(0),
-                                            .text = "simulated time between checkpoints; 0: only at the end"})};
+                                            .text = "simulated time between checkpoints; 0: none by simulated time"}),
+          parameter(&Checkpoint::wall_interval,
+                    {.key = "wall_interval",
+                     .unit = "s",
+                     .range = at_least(0),
+                     .text = "time on the clock between checkpoints; 0: none by the clock. One is written before the "
+                             "first step and one at the end anyhow, and the one before the last is kept"})};
 }
 
 std::vector<Parameter<Maps>> map_parameters() {

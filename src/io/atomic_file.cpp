@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "base/error.hpp"
 
@@ -25,10 +26,19 @@ namespace fs = std::filesystem;
                   file.string(), std::strerror(reason)));
 }
 
+constexpr const char* unfinished = ".part";
+
+// That a file has its name must reach the disk too.
+bool synchronise_folder(const fs::path& folder) {
+  const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+  const bool done = descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL);  // some file systems have no such
+  return (descriptor < 0 || close(descriptor) == 0) && done;
+}
+
 }  // namespace
 
-void write_file_atomically(const fs::path& file, const void* data, std::size_t bytes) {
-  const fs::path temporary = file.string() + fmt::format(".{}.part", getpid());
+void write_file_atomically(const fs::path& file, const void* data, std::size_t bytes, const fs::path& previous) {
+  const fs::path temporary = file.string() + fmt::format(".{}{}", getpid(), unfinished);
   const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   if (descriptor < 0) {
     fail(file, temporary, errno);
@@ -47,13 +57,27 @@ void write_file_atomically(const fs::path& file, const void* data, std::size_t b
       left -= static_cast<std::size_t>(written);
     }
   }
-  if (fsync(descriptor) != 0 || close(descriptor) != 0 || rename(temporary.c_str(), file.c_str()) != 0) {
+  const auto keep_previous = [&] { return rename(file.c_str(), previous.c_str()) == 0 || errno == ENOENT; };
+  if (fsync(descriptor) != 0 || close(descriptor) != 0 || (!previous.empty() && !keep_previous()) ||
+      rename(temporary.c_str(), file.c_str()) != 0 || !synchronise_folder(file.parent_path())) {
     fail(file, temporary, errno);
   }
 }
 
-void write_file_atomically(const fs::path& file, std::string_view text) {
-  write_file_atomically(file, text.data(), text.size());
+void write_file_atomically(const fs::path& file, std::string_view text, const fs::path& previous) {
+  write_file_atomically(file, text.data(), text.size(), previous);
+}
+
+void remove_unfinished_files(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == unfinished) {
+      found.push_back(entry.path());
+    }
+  }
+  for (const fs::path& file : found) {
+    fs::remove(file);
+  }
 }
 
 std::string read_file(const fs::path& file) {

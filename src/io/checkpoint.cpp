@@ -70,10 +70,46 @@ class Reader {
   std::size_t next_ = 0;
 };
 
+// What is wrong with a checkpoint's bytes; empty: they are what was written.
+std::string damage_of(const std::filesystem::path& file, const std::string& bytes) {
+  Digest stored{};
+  if (bytes.size() > stored.size()) {
+    const std::size_t body = bytes.size() - stored.size();
+    std::memcpy(stored.data(), bytes.data() + body, stored.size());
+    if (sha256(bytes.data(), body) == stored) {
+      return "";
+    }
+  }
+  return fmt::format("{} is damaged: its checksum does not fit its {} bytes", file.string(), bytes.size());
+}
+
 }  // namespace
 
+WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
+  std::string passed_over;
+  for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
+    const std::filesystem::path file = folder / name;
+    if (!std::filesystem::exists(file)) {
+      continue;
+    }
+    std::string bytes = read_file(file);
+    const std::string damage = damage_of(file, bytes);
+    if (damage.empty()) {
+      return {file, std::move(bytes), passed_over};
+    }
+    passed_over += (passed_over.empty() ? "" : "; ") + damage;
+  }
+  if (passed_over.empty()) {
+    throw UserError(
+        fmt::format("{} holds no {} to go on from. A run writes it before its first step, so this is not a run's "
+                    "folder, or the run was stopped while it set up. Run the case again.",
+                    folder.string(), checkpoint_name));
+  }
+  throw UserError(passed_over + ". Use another copy, or run the case from its start.");
+}
+
 template <int Dim, class Real>
-void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Dim, Real>& particles,
+void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim, Real>& particles,
                       std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks) {
   Writer writer;
   for (const std::uint64_t number : {magic, format_version, std::uint64_t{Dim}, std::uint64_t{sizeof(Real)},
@@ -100,25 +136,14 @@ void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Di
   }
   const Digest digest = sha256(writer.text().data(), writer.text().size());
   writer.put_raw(digest.data(), digest.size());
-  write_file_atomically(file, writer.text());
+  write_file_atomically(folder / checkpoint_name, writer.text(), folder / previous_checkpoint_name);
 }
 
 template <int Dim, class Real>
-NamedNumbers read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real>& particles,
+NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim, Real>& particles,
                              std::vector<double>& scalars) {
-  const std::string all = read_file(file);
-  Digest stored{};
-  const std::size_t body = all.size() >= stored.size() ? all.size() - stored.size() : 0;
-  if (body > 0) {
-    std::memcpy(stored.data(), all.data() + body, stored.size());
-  }
-  if (body == 0 || sha256(all.data(), body) != stored) {
-    throw UserError(
-        fmt::format("{} is damaged: its checksum does not fit its {} bytes. Use another copy, or run the case "
-                    "from its start.",
-                    file.string(), all.size()));
-  }
-  Reader reader(std::string_view(all).substr(0, body), file);
+  const std::filesystem::path& file = checkpoint.file;
+  Reader reader(std::string_view(checkpoint.bytes).substr(0, checkpoint.bytes.size() - sizeof(Digest)), file);
   reader.expect(magic, "the mark");
   reader.expect(format_version, "format");
   reader.expect(Dim, "dimension");
@@ -148,10 +173,10 @@ NamedNumbers read_checkpoint(const std::filesystem::path& file, mpm::Particles<D
   return blocks;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
-  template void write_checkpoint<Dim, Real>(const std::filesystem::path&, const mpm::Particles<Dim, Real>&,  \
-                                            std::size_t, const std::vector<double>&, const NamedNumbers&);   \
-  template NamedNumbers read_checkpoint<Dim, Real>(const std::filesystem::path&, mpm::Particles<Dim, Real>&, \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                    \
+  template void write_checkpoint<Dim, Real>(const std::filesystem::path&, const mpm::Particles<Dim, Real>&, \
+                                            std::size_t, const std::vector<double>&, const NamedNumbers&);  \
+  template NamedNumbers read_checkpoint<Dim, Real>(const WholeCheckpoint&, mpm::Particles<Dim, Real>&,      \
                                                    std::vector<double>&);
 THAWSLIDE_INSTANTIATE(2, double)
 THAWSLIDE_INSTANTIATE(3, double)

@@ -1,8 +1,9 @@
 // checkpoint.bin: everything a run needs to go on, in a container of its own. A SHA-256 over the whole file stands at
-// its end and is verified before anything is parsed.
+// its end and is verified before anything is parsed. Two generations are kept.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "base/named_numbers.hpp"
@@ -10,16 +11,31 @@
 
 namespace thawslide::io {
 
-// Rows by id, so that the bytes do not depend on storage order. at_start: how many particles there were at t = 0;
-// blocks: what else the run needs to go on.
+// The checkpoint of a run folder, and the one before it.
+inline constexpr const char* checkpoint_name = "checkpoint.bin";
+inline constexpr const char* previous_checkpoint_name = "checkpoint.previous.bin";
+
+// Writes checkpoint.bin into `folder`; what stood there becomes checkpoint.previous.bin. Rows by id, so that the bytes
+// do not depend on storage order. at_start: how many particles there were at t = 0; blocks: what else the run needs to
+// go on.
 template <int Dim, class Real>
-void write_checkpoint(const std::filesystem::path& file, const mpm::Particles<Dim, Real>& particles,
+void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim, Real>& particles,
                       std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks = {});
 
-// particles: those at t = 0, which the ones of the checkpoint replace. Returns the blocks. Throws UserError for a file
-// that is damaged, cut short, or of another kind of run (dimension, number type, fields, particles at t = 0).
+// A checkpoint as it stands in its file, its checksum verified.
+struct WholeCheckpoint {
+  std::filesystem::path file;
+  std::string bytes;
+  std::string note;  // of one that was passed over because it is damaged or absent; empty: none
+};
+
+// The newest checkpoint of a run folder that is whole. Throws UserError where there is none.
+[[nodiscard]] WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder);
+
+// particles: those at t = 0, which the ones of the checkpoint replace. Returns the blocks. Throws UserError for a
+// checkpoint of another kind of run (dimension, number type, fields, particles at t = 0).
 template <int Dim, class Real>
-NamedNumbers read_checkpoint(const std::filesystem::path& file, mpm::Particles<Dim, Real>& particles,
+NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim, Real>& particles,
                              std::vector<double>& scalars);
 
 }  // namespace thawslide::io

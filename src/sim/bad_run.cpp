@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/case_proposal.hpp"
+#include "config/plausibility.hpp"
 #include "physics/mixture.hpp"
 #include "sim/path_line.hpp"
 #include "sim/simulation.hpp"
@@ -143,6 +144,14 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   const std::string too_long =
       "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
       "is torn apart; try half of time.step, or viscosity_time or gaps_close_first in the material.";
+  const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
+  const double modulus = parameters_.materials.at(material).youngs_modulus;
+  if (modulus < config::softest_modulus) {
+    return fmt::format(
+        "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa), and its own weight squeezes it flat; broken "
+        "rock and ice have 1e7 Pa and more.",
+        material, modulus);
+  }
   const bool pressurized = model_.band.heat && model_.band.pressure;
   if (bad_.fault == mpm::Fault::state_not_finite && pressurized) {
     const std::string closed = closed_pores(particles_);

@@ -25,6 +25,23 @@ double wave_limit(double cell, double speed, double viscosity_time) {
   return (std::sqrt(1.0 + damping * damping / 4.0) - damping / 2.0) / frequency;
 }
 
+// Whether that step is less than half of what it would be without viscosity.
+bool viscosity_rules(double cell, double speed, double viscosity_time) {
+  return wave_limit(cell, speed, viscosity_time) < 0.5 * wave_limit(cell, speed, 0.0);
+}
+
+// What sets the limit by a material's wave, in words.
+std::string wave_text(const std::string& material, double cell, double speed, double viscosity_time) {
+  if (viscosity_rules(cell, speed, viscosity_time)) {
+    return fmt::format(
+        "the viscosity of material '{}' (viscosity_time {} s, at a wave speed of {:.4g} m/s) on cells of {} m",
+        material, viscosity_time, speed, cell);
+  }
+  const std::string viscosity = viscosity_time > 0.0 ? fmt::format(", viscosity {} s", viscosity_time) : "";
+  return fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", material, speed, viscosity,
+                     cell);
+}
+
 // Calls take(step [s], text) for every limit; text() says what sets it.
 template <int Dim, class Real, class Take>
 void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
@@ -64,14 +81,9 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
       const auto& material = model.motion.materials[m];
       const double modulus = static_cast<double>(material.elastic.p_wave_modulus()) + pore_stiffness;
       const double speed = std::sqrt(modulus / smallest_density);
-      take(wave_share * wave_limit(cell, speed, static_cast<double>(material.viscosity_time)), [&] {
-        return fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", model.material_names[m],
-                           speed,
-                           material.viscosity_time > Real(0)
-                               ? fmt::format(", viscosity {} s", static_cast<double>(material.viscosity_time))
-                               : std::string(),
-                           cell);
-      });
+      const auto viscosity_time = static_cast<double>(material.viscosity_time);
+      take(wave_share * wave_limit(cell, speed, viscosity_time),
+           [&] { return wave_text(model.material_names[m], cell, speed, viscosity_time); });
     }
     if (largest_speed > 0.0) {
       take(particle_share * cell / largest_speed,

@@ -35,7 +35,7 @@ def went_bad(thawslide: Program, case: Path, run: Path, *words: str) -> re.Match
     assert place[:2] == pytest.approx([float(told[5]), float(told[6])], rel=1e-4)
     with h5py.File(run / "particles.vtkhdf") as index:
         assert index["VTKHDF/Steps"].attrs["NSteps"] == len(snapshot_files(run))
-    assert not (run / "checkpoint.bin").exists()
+    assert not (run / "checkpoint.previous.bin").exists(), "only the one before the first step"
     return told
 
 
@@ -46,6 +46,14 @@ def test_body_thrown_out_of_the_domain(thawslide: Program, tmp_path: Path) -> No
     assert told[4] == "slide" and 2390.0 < float(told[6]) < 2400.0
     assert told[7] == "it left the domain"
     assert told[8] == "the slide ran further than [grid] min and max allow; widen them in its direction."
+
+
+def test_matter_as_soft_as_air(thawslide: Program, tmp_path: Path) -> None:
+    told = went_bad(thawslide, LAMPLUGH, tmp_path / "run", *sets(time__end=20, material__rock_ice__youngs_modulus=0.5))
+    assert told[8] == (
+        "material 'rock_ice' is too soft (youngs_modulus 0.5 Pa), and its own weight squeezes it flat; broken rock and "
+        "ice have 1e7 Pa and more."
+    )
 
 
 def test_domain_too_short_for_the_slide(thawslide: Program, small_case: Path, tmp_path: Path) -> None:

@@ -135,19 +135,76 @@ def test_resume_without_a_checkpoint(thawslide: Program, tmp_path: Path) -> None
     assert f"{tmp_path} holds no checkpoint.bin to go on from." in outcome.stderr
 
 
+def damaged(content: bytes, damage: str) -> bytes:
+    if damage == "a lost end":
+        return content[: len(content) // 2]
+    middle = len(content) // 2
+    return content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :]
+
+
 @pytest.mark.parametrize("damage", ["a changed byte", "a lost end"])
-def test_a_damaged_checkpoint_is_refused(thawslide: Program, small_case: Path, tmp_path: Path, damage: str) -> None:
+def test_a_damaged_checkpoint_gives_way_to_the_one_before(
+    thawslide: Program, small_case: Path, tmp_path: Path, damage: str
+) -> None:
+    run, whole = tmp_path / "run", tmp_path / "whole"
+    words = sets(checkpoint__interval=0.15)
+    assert thawslide("run", small_case, "--output", run, *words).returncode == 0
+    assert thawslide("run", small_case, "--output", whole, *words).returncode == 0
+    file = run / "checkpoint.bin"
+    file.write_bytes(damaged(file.read_bytes(), damage))
+    size = file.stat().st_size
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith(
+        f"note: {file} is damaged: its checksum does not fit its {size} bytes; going on from the checkpoint before\n"
+        "going on from t = 0.15 s\n"
+    )
+    assert_same_bits(whole, run)
+    assert file.read_bytes() == (whole / "checkpoint.bin").read_bytes()
+
+
+@pytest.mark.parametrize("damage", ["a changed byte", "a lost end"])
+def test_two_damaged_checkpoints_are_refused(thawslide: Program, small_case: Path, tmp_path: Path, damage: str) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
-    file = run / "checkpoint.bin"
-    content = bytearray(file.read_bytes())
-    if damage == "a changed byte":
-        content[len(content) // 2] ^= 1
-    else:
-        content = content[: len(content) // 2]
-    file.write_bytes(content)
+    files = [run / "checkpoint.bin", run / "checkpoint.previous.bin"]
+    for file in files:
+        file.write_bytes(damaged(file.read_bytes(), damage))
     rows, snapshots = (run / "history.csv").read_bytes(), len(snapshot_files(run))
     outcome = thawslide("resume", run)
     assert outcome.returncode == 2
-    assert f"{file} is damaged" in outcome.stderr
+    for file in files:
+        assert f"{file} is damaged" in outcome.stderr
     assert (run / "history.csv").read_bytes() == rows and len(snapshot_files(run)) == snapshots
+
+
+def test_a_run_killed_before_its_first_checkpoint_is_due_starts_again(
+    thawslide: Program, binary: Path, plain_environment: dict[str, str], tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    words = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.45)
+    command = [str(binary), "run", str(LAMPLUGH), "--output", str(run), *words]
+    with subprocess.Popen(command, env=plain_environment, stdout=subprocess.DEVNULL) as process:
+        while not (run / "checkpoint.bin").exists():
+            assert process.poll() is None
+        process.kill()
+    torn = run / "snapshots" / "000007.vtkhdf.17.part"
+    torn.write_bytes(b"half a file")
+    outcome = thawslide("resume", run, "--threads", 1)
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith("going on from t = 0 s\n")
+    assert not torn.exists()
+    twin = tmp_path / "twin"
+    assert thawslide("run", LAMPLUGH, "--output", twin, *words).returncode == 0
+    assert_same_bits(twin, run)
+
+
+def test_checkpoints_come_by_the_clock_too(binary: Path, plain_environment: dict[str, str], tmp_path: Path) -> None:
+    """A second one stands long before the end, which alone would bring one otherwise."""
+    run = tmp_path / "run"
+    command = [str(binary), "run", str(LAMPLUGH), "--output", str(run), *sets(checkpoint__wall_interval=0.2)]
+    with subprocess.Popen(command, env=plain_environment, stdout=subprocess.DEVNULL) as process:
+        while not (run / "checkpoint.previous.bin").exists():
+            assert process.poll() is None
+        process.kill()
+    assert run_facts(run)["status"] == "running"

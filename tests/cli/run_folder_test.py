@@ -58,6 +58,7 @@ def test_folder_holds_the_files_of_a_run_and_no_others(lamplugh: Path) -> None:
         [
             "case.toml",
             "checkpoint.bin",
+            "checkpoint.previous.bin",
             "history.csv",
             "inputs",
             "particles.vtkhdf",

@@ -39,6 +39,7 @@ extend = true
 representation = "rigid_points"
 layers = 3
 [checkpoint]
+wall_interval = 60.0
 interval = 3.0
 [report]
 times = [1.0, 2.5]

@@ -88,7 +88,6 @@ TEST(Notices, LeaveOutWhatTheBaseDoesNotHave) {
     sets.emplace_back("pressure.frozen=none");
     return notices(testing_support::case_from_text(text, sets));
   };
-  EXPECT_EQ(notices_with({"material.rock.hydraulic_conductivity=0"}), none) << "undrained";
   EXPECT_EQ(notices_with({"basal.cohesion=0", "basal.slip_distance=5000"}), none) << "nothing to lose";
   EXPECT_EQ(notices_with({"basal.cohesion_law=slip", "basal.slip_distance=5000"}), none) << "not of bonds";
   EXPECT_EQ(notices_with({"band.model=scaled", "band.thickness=5", "basal.heat_fraction=0.35",
@@ -96,6 +95,38 @@ TEST(Notices, LeaveOutWhatTheBaseDoesNotHave) {
                           "material.rock.hydraulic_conductivity=1e-4", "substrate.ice.friction_coefficient=0.6"}),
             none)
       << "the paper's band is no column";
+}
+
+TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
+  // Key, what is given, and what the notice says after "KEY is ".
+  const std::vector<std::array<std::string, 3>> doubtful{
+      {"material.rock.hydraulic_conductivity", "0",
+       "0 m/s: pore water never drains, and what is under pressure may never stop. Of the base of a slide 1e-8 to 1e-5 "
+       "m/s is said."},
+      {"material.rock.youngs_modulus", "0.5",
+       "0.5 Pa: so soft that a slide is squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa "
+       "and more."},
+      {"material.rock.youngs_modulus", "1e12",
+       "1000000000000 Pa: stiffer than any rock, and steps are the shorter for it. Usual for slides are 1e8 to 1e10 "
+       "Pa."},
+      {"basal.friction_angle", "0.6",
+       "0.6 degrees: was a coefficient meant? Angles are in degrees; for a coefficient set friction = \"coefficient\" "
+       "and friction_coefficient."},
+      {"body.block.temperature", "5.0",
+       "5 C: its pores hold water from the start, no ice. Was a temperature below 0 meant?"},
+      {"time.output_interval", "1000",
+       "1000 s: longer than the run of 1 s, which leaves a snapshot of its start and one of its end."},
+      {"time.output_interval", "1e-5", "1e-05 s: that is 100000 snapshots, which may fill the disk."}};
+  const std::string known = "pressure.frozen=none", text = changed(with_columns);
+  for (const auto& [key, value, said] : doubtful) {
+    const std::string set = key + "=" + value;
+    EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "time.end=1", set})),
+              std::vector<std::string>{"--set " + set + ": " + key + " is " + said});
+  }
+  EXPECT_EQ(notices(testing_support::case_from_text(
+                text, {known, "mechanisms.pressurization=false", "material.rock.hydraulic_conductivity=0"})),
+            std::vector<std::string>())
+      << "nothing is under pressure";
 }
 
 TEST(Notices, TellOfGapsBetweenSubstrates) {

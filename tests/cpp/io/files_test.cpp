@@ -134,9 +134,9 @@ TEST_F(Files, CheckpointComesBackWhateverTheStorageOrder) {
   loaded.resize(particles.size());
   const std::vector<double> scalars{1.5, -2.0, 1e300};
   const NamedNumbers blocks{{"maps", {1.0, 2.0, 3.0}}, {"none", {}}};
-  write_checkpoint<2, double>(folder_ / "a.bin", particles, particles.size(), scalars, blocks);
+  write_checkpoint<2, double>(folder_, particles, particles.size(), scalars, blocks);
   std::vector<double> back;
-  const NamedNumbers blocks_back = read_checkpoint<2, double>(folder_ / "a.bin", loaded, back);
+  const NamedNumbers blocks_back = read_checkpoint<2, double>(newest_checkpoint(folder_), loaded, back);
   EXPECT_EQ(back, scalars);
   EXPECT_EQ(blocks_back, blocks);
   for (std::size_t f = 0; f < particles.fields.all().size(); ++f) {
@@ -144,32 +144,71 @@ TEST_F(Files, CheckpointComesBackWhateverTheStorageOrder) {
         << particles.fields.all()[f]->info().name;
   }
   particles.reorder(another_order(particles.size()));
-  write_checkpoint<2, double>(folder_ / "b.bin", particles, particles.size(), scalars, blocks);
-  EXPECT_EQ(read_file(folder_ / "a.bin"), read_file(folder_ / "b.bin"));
+  write_checkpoint<2, double>(folder_, particles, particles.size(), scalars, blocks);
+  EXPECT_EQ(read_file(folder_ / checkpoint_name), read_file(folder_ / previous_checkpoint_name));
 }
 
 TEST_F(Files, DamagedCheckpointsAreRefused) {
+  mpm::Particles<2, double> particles;
+  fill(particles);
+  write_checkpoint<2, double>(folder_, particles, particles.size(), {1.0}, {{"maps", std::vector<double>(2000, 1.5)}});
+  const std::filesystem::path file = folder_ / checkpoint_name;
+  const std::string good = read_file(file);
+  const auto expect_damage = [&](std::string_view bad) {
+    write_file_atomically(file, bad);
+    const std::string message = failure_of([&] { (void)newest_checkpoint(folder_); });
+    EXPECT_NE(message.find("is damaged: its checksum does not fit"), std::string::npos) << message;
+  };
+  std::mt19937 random(5);
+  for (int k = 0; k < 200; ++k) {
+    std::string bad = good;
+    bad[random() % bad.size()] ^= static_cast<char>(1 + random() % 255);
+    expect_damage(bad);
+  }
+  for (const std::size_t left : {good.size() / 2, good.size() - 1, std::size_t{32}, std::size_t{1}, std::size_t{0}}) {
+    expect_damage(std::string_view(good).substr(0, left));
+  }
+}
+
+// The one before is there whatever happens to the last, or while it is being written; the note says so.
+TEST_F(Files, ADamagedCheckpointGivesWayToTheOneBefore) {
   mpm::Particles<2, double> particles, loaded;
   fill(particles);
   loaded.resize(particles.size());
-  write_checkpoint<2, double>(folder_ / "good.bin", particles, particles.size(), {1.0},
-                              {{"maps", std::vector<double>(2000, 1.5)}});
-  const std::string good = read_file(folder_ / "good.bin");
+  const std::filesystem::path last = folder_ / checkpoint_name, before = folder_ / previous_checkpoint_name;
+  EXPECT_NE(failure_of([&] { (void)newest_checkpoint(folder_); }).find("holds no checkpoint.bin"), std::string::npos);
+  write_checkpoint<2, double>(folder_, particles, particles.size(), {1.0});
+  EXPECT_FALSE(std::filesystem::exists(before));
+  write_checkpoint<2, double>(folder_, particles, particles.size(), {2.0});
+  EXPECT_EQ(newest_checkpoint(folder_).file, last);
+  EXPECT_EQ(newest_checkpoint(folder_).note, "");
+  write_file_atomically(last, "torn");
+  const WholeCheckpoint found = newest_checkpoint(folder_);
+  EXPECT_EQ(found.note, last.string() + " is damaged: its checksum does not fit its 4 bytes");
   std::vector<double> scalars;
-  std::mt19937 random(5);
-  for (int k = 0; k < 50; ++k) {
-    std::string bad = good;
-    bad[random() % bad.size()] ^= static_cast<char>(1 + random() % 255);
-    write_file_atomically(folder_ / "bad.bin", bad);
-    const std::string message = failure_of([&] { read_checkpoint<2, double>(folder_ / "bad.bin", loaded, scalars); });
-    EXPECT_NE(message.find("is damaged: its checksum does not fit"), std::string::npos) << message;
-  }
-  write_file_atomically(folder_ / "bad.bin", std::string_view(good).substr(0, good.size() / 2));
-  EXPECT_NE(failure_of([&] { read_checkpoint<2, double>(folder_ / "bad.bin", loaded, scalars); }).find("is damaged"),
-            std::string::npos);
+  read_checkpoint<2, double>(found, loaded, scalars);
+  EXPECT_EQ(scalars, std::vector<double>{1.0});
+  std::filesystem::remove(last);
+  EXPECT_EQ(newest_checkpoint(folder_).file, before);
+}
+
+TEST_F(Files, ACheckpointOfAnotherRunIsRefused) {
+  mpm::Particles<2, double> particles, loaded;
+  fill(particles);
+  write_checkpoint<2, double>(folder_, particles, particles.size(), {1.0});
   loaded.resize(36);
-  const std::string message = failure_of([&] { read_checkpoint<2, double>(folder_ / "good.bin", loaded, scalars); });
+  std::vector<double> scalars;
+  const std::string message =
+      failure_of([&] { read_checkpoint<2, double>(newest_checkpoint(folder_), loaded, scalars); });
   EXPECT_NE(message.find("has particles at t = 0: 37; this run needs 36"), std::string::npos) << message;
+}
+
+TEST_F(Files, UnfinishedFilesAreRemoved) {
+  write_file_atomically(folder_ / "whole.csv", "whole");
+  std::ofstream(folder_ / "whole.csv.17.part") << "who";
+  remove_unfinished_files(folder_);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "whole.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "whole.csv.17.part"));
 }
 
 TEST_F(Files, SnapshotsStandByIdAndGiveTheSameBytes) {

@@ -124,13 +124,13 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
       }
     }
     if (k == stop) {
-      const auto file = folder_of_this_test() / "checkpoint.bin";
-      io::write_checkpoint<Dim, double>(file, simulation->particles(), simulation->particles_at_start(),
+      const auto folder = folder_of_this_test();
+      io::write_checkpoint<Dim, double>(folder, simulation->particles(), simulation->particles_at_start(),
                                         simulation->scalars());
       simulation = std::make_unique<Simulation<Dim, double>>(parameters);
       simulation->set_sorting_interval(interval);
       std::vector<double> scalars;
-      io::read_checkpoint<Dim, double>(file, simulation->particles(), scalars);
+      io::read_checkpoint<Dim, double>(io::newest_checkpoint(folder), simulation->particles(), scalars);
       simulation->restore(scalars);
     }
     const std::size_t before = simulation->particles().size();

@@ -78,17 +78,17 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
   Seen seen;
   for (int k = 0; k < steps<Dim>; ++k) {
     if (k == stop) {
-      const auto file = folder_of_this_test() / "checkpoint.bin";
+      const auto folder = folder_of_this_test();
       NamedNumbers blocks{{"bed", simulation->bed()->state()}};
       if (const auto* columns = simulation->band_columns()) {
         blocks["band_columns"] = columns->state();
       }
-      io::write_checkpoint<Dim, double>(file, simulation->particles(), simulation->particles_at_start(),
+      io::write_checkpoint<Dim, double>(folder, simulation->particles(), simulation->particles_at_start(),
                                         simulation->scalars(), blocks);
       simulation = std::make_unique<Simulation<Dim, double>>(parameters);
       simulation->set_sorting_interval(interval);
       std::vector<double> scalars;
-      blocks = io::read_checkpoint<Dim, double>(file, simulation->particles(), scalars);
+      blocks = io::read_checkpoint<Dim, double>(io::newest_checkpoint(folder), simulation->particles(), scalars);
       simulation->restore(scalars);
       simulation->restore_bed(blocks.at("bed"));
       if (simulation->band_columns() != nullptr) {

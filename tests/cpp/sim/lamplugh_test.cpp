@@ -162,6 +162,18 @@ TEST(TimeStep, AboveTheLimitIsAnErrorThatNamesIt) {
   }
 }
 
+TEST(TimeStep, ViscosityIsNamedWhereItSetsTheLimit) {
+  try {
+    const Simulation<2, double> simulation(lamplugh({"material.rock_ice.viscosity_time=0.2"}));
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("set by the viscosity of material 'rock_ice' (viscosity_time 0.2 s, at a wave speed of "),
+              std::string::npos)
+        << message;
+  }
+}
+
 TEST(TimeStep, AdaptiveStaysWithinTheLimit) {
   Simulation<2, double> simulation(lamplugh({"time.stepping=adaptive"}));
   for (int k = 0; k < 20; ++k) {

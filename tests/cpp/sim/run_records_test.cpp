@@ -213,8 +213,8 @@ TEST(RunRecords, AreTheSameBitsAfterAStopAndAResume) {
   RunRecords<3> of_whole(whole, site);
   of_whole.start(whole);
   steps(whole, of_whole, 40);
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "records_of_a_stop.bin";
-  io::write_checkpoint<3, double>(file, whole.particles(), whole.particles_at_start(), whole.scalars(),
+  const std::filesystem::path folder = testing_support::folder_of_this_test();
+  io::write_checkpoint<3, double>(folder, whole.particles(), whole.particles_at_start(), whole.scalars(),
                                   of_whole.state());
   const HistoryRow probes_then = of_whole.probe_row(whole);
   steps(whole, of_whole, 60);
@@ -222,7 +222,7 @@ TEST(RunRecords, AreTheSameBitsAfterAStopAndAResume) {
   Simulation<3, double> resumed(parameters);
   std::vector<double> scalars;
   RunRecords<3> of_resumed(resumed, site);
-  of_resumed.restore(io::read_checkpoint<3, double>(file, resumed.particles(), scalars));
+  of_resumed.restore(io::read_checkpoint<3, double>(io::newest_checkpoint(folder), resumed.particles(), scalars));
   resumed.restore(scalars);
   EXPECT_EQ(of_resumed.probe_row(resumed), probes_then);
   steps(resumed, of_resumed, 60);

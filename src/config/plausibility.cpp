@@ -1,0 +1,109 @@
+#include "config/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "physics/basal/shared_parameters.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+constexpr double stiffest = 1e11;       // [Pa]; fresh rock has some 5e10
+constexpr double smallest_angle = 3.0;  // [degrees]; tan 3 is 0.05, the least that is said of ice on ice
+constexpr double warm = 0.0;            // [C]
+constexpr double most_snapshots = 10000.0;
+
+class Doubts {
+ public:
+  explicit Doubts(const Case& parameters) : case_(parameters) {}
+  // About a key [dotted], in words after its value.
+  template <class Value>
+  void add(const std::string& key, const Value& value, const std::string& unit, const std::string& words) {
+    found_.push_back(fmt::format("{}: {} is {}{}: {}", place_of(case_, key), key, value, unit, words));
+  }
+  [[nodiscard]] std::vector<std::string> take() { return std::move(found_); }
+
+ private:
+  const Case& case_;
+  std::vector<std::string> found_;
+};
+
+void doubt_materials(const Case& parameters, Doubts& doubts) {
+  const bool deforms = parameters.mechanics.enabled && parameters.mechanisms.deformation;
+  const bool is_pressed = has_pore_water(parameters) && parameters.mechanisms.pressurization &&
+                          parameters.pressure.seepage && !parameters.band.thickness.value.empty();
+  for (const auto& [name, material] : parameters.materials) {
+    const std::string table = "material." + name + ".";
+    if (deforms && material.youngs_modulus < softest_modulus) {
+      doubts.add(table + "youngs_modulus", material.youngs_modulus, " Pa",
+                 "so soft that a slide is squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa "
+                 "and more.");
+    }
+    if (deforms && material.youngs_modulus > stiffest) {
+      doubts.add(table + "youngs_modulus", material.youngs_modulus, " Pa",
+                 "stiffer than any rock, and steps are the shorter for it. Usual for slides are 1e8 to 1e10 Pa.");
+    }
+    if (deforms && material.law == LawKind::mohr_coulomb && material.friction_angle > 0.0 &&
+        material.friction_angle < smallest_angle) {
+      doubts.add(table + "friction_angle", material.friction_angle, " degrees",
+                 "was a coefficient meant? Angles are in degrees; 35 is a coefficient of 0.7.");
+    }
+    if (is_pressed && material.hydraulic_conductivity == 0.0) {
+      doubts.add(table + "hydraulic_conductivity", material.hydraulic_conductivity, " m/s",
+                 "pore water never drains, and what is under pressure may never stop. Of the base of a slide 1e-8 to "
+                 "1e-5 m/s is said.");
+    }
+  }
+}
+
+void doubt_ground(const std::string& table, const GroundStrength& ground, Doubts& doubts) {
+  const double angle = ground.numbers(physics::basal::friction_angle);
+  if (ground.friction != "coefficient" && angle > 0.0 && angle < smallest_angle) {
+    doubts.add(table + ".friction_angle", angle, " degrees",
+               "was a coefficient meant? Angles are in degrees; for a coefficient set friction = \"coefficient\" and "
+               "friction_coefficient.");
+  }
+}
+
+void doubt_bodies(const Case& parameters, Doubts& doubts) {
+  for (const auto& [name, body] : parameters.bodies) {
+    const auto& temperatures = body.temperature.table.value;
+    const double warmest = temperatures.empty() ? warm : *std::max_element(temperatures.begin(), temperatures.end());
+    if (parameters.heat.enabled && parameters.terrain.kind != TerrainKind::none && !body.saturation.is_given() &&
+        warmest > parameters.freezing.reference_temperature) {
+      doubts.add("body." + name + ".temperature", warmest, " C",
+                 "its pores hold water from the start, no ice. Was a temperature below 0 meant?");
+    }
+  }
+}
+
+void doubt_output(const Case& parameters, Doubts& doubts) {
+  const Time& time = parameters.time;
+  if (time.output_interval > time.end) {
+    doubts.add(
+        "time.output_interval", time.output_interval, " s",
+        fmt::format("longer than the run of {} s, which leaves a snapshot of its start and one of its end.", time.end));
+  }
+  if (time.end / time.output_interval > most_snapshots) {
+    doubts.add("time.output_interval", time.output_interval, " s",
+               fmt::format("that is {:.0f} snapshots, which may fill the disk.", time.end / time.output_interval));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> implausible(const Case& parameters) {
+  Doubts doubts(parameters);
+  doubt_materials(parameters, doubts);
+  doubt_ground("basal", parameters.basal, doubts);
+  for (const auto& [name, substrate] : parameters.substrates) {
+    doubt_ground("substrate." + name, substrate, doubts);
+  }
+  doubt_bodies(parameters, doubts);
+  doubt_output(parameters, doubts);
+  return doubts.take();
+}
+
+}  // namespace thawslide::config
