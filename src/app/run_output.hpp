@@ -66,8 +66,7 @@ class RunOutput {
   void write_index() {
     stopwatch_.time("write_snapshot", [&] { snapshots_.write_index(); });
   }
-  // What `resume` goes on from; write_checkpoint writes the maps so far with it.
-  void write_state(const Simulation& simulation);
+  // What `resume` goes on from, and the maps so far.
   void write_checkpoint(const Simulation& simulation);
   // run.json; status as architecture's words: running, done, stopped, failed.
   void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
@@ -84,6 +83,7 @@ class RunOutput {
   RunOutput(const std::filesystem::path& folder, const Simulation& simulation, io::HistoryWriter history,
             io::SnapshotSeries snapshots);
   void add_figures(const Simulation& simulation);
+  void write_state(const Simulation& simulation);
 
   std::filesystem::path folder_;
   io::HistoryWriter history_;
