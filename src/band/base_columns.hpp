@@ -128,8 +128,8 @@ class BaseColumns {
                                 const Ground& ground);
   // How the slide about a piece moves.
   struct Nearby {
+    Matrix<Real, Dim> gradient = Matrix<Real, Dim>::Zero();  // of the velocity, along the ground [1/s]
     Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();  // along the ground [m/s]
-    Matrix<Real, Dim> gradient = Matrix<Real, Dim>::Zero();  // of it, along the ground [1/s]
     bool is_there = false;
   };
   [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
