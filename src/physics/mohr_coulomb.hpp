@@ -362,7 +362,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   }
 
   // What follows from a friction angle that stays.
-  struct OfAngle {
+  struct OfAngle {  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming): of the copy by clang
     Vector<Real, 3> normal[planes];
     Matrix<Real, 3> inverse_coupling[set_count];
   };
