@@ -37,8 +37,10 @@ REGISTERS_OF_PHYSICS = {
     "water_balance": 50,  # 44
     "basal_contact": 30,  # 24
     "entrainment": 36,  # 30
-    "band_column<PowerLawCurve<double>>": 130,  # 118; the cells' numbers lie in local memory
-    "band_column<LinearCurve<double>>": 130,  # 116
+    "band_column<PowerLawCurve<double>>": 130,  # 84; the cells' numbers lie in local memory
+    "band_column<LinearCurve<double>>": 130,  # 130
+    "join_columns<PowerLawCurve<double>>": 138,  # 126
+    "join_columns<LinearCurve<double>>": 138,  # 126
     "start_columns<PowerLawCurve<double>>": 136,  # 124
 }
 REGISTERS_OF_BASAL_LAW = 36  # 30
