@@ -12,7 +12,9 @@ using mpm::Contact;
 
 namespace {
 
-constexpr double longest = 1.5;  // side of a piece along some axis, in cells
+constexpr double longest = 1.5;         // side of a piece along some axis, in cells
+constexpr double largest_joined = 1.0;  // area of two that join, in those of a cell's face
+constexpr double joining_reach = 0.5;   // distance of two that join along each axis, in sizes of a lattice part
 
 }  // namespace
 
@@ -213,7 +215,7 @@ void BaseColumns<Dim, Real>::part_long_pieces(Real most, const Ground& ground) {
 // of both was. Pieces that were laid beside each other and move along keep more distance.
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground) {
-  const Real largest = static_cast<Real>(std::pow(grid.cell(), Dim - 1));
+  const Real largest = static_cast<Real>(largest_joined * std::pow(grid.cell(), Dim - 1));
   std::map<std::pair<Lattice, Lattice>, std::size_t> smallest_at;  // of those kept so far
   std::size_t kept = 0;
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
@@ -228,7 +230,7 @@ void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>&
         const auto axis = static_cast<int>(a);
         furthest = std::max(furthest, std::abs(other[axis] - pieces_[p].position[axis]) * static_cast<Real>(parts[a]));
       }
-      return furthest < Real(0.5) * grid.cell();
+      return furthest < Real(joining_reach) * grid.cell();
     };
     if (!is_first && small.area + pieces_[p].area <= largest && is_near(small.position)) {
       join(pieces_[p], ground, small);

@@ -3,61 +3,20 @@
 
 #include <cmath>
 
-#include "config/read_case.hpp"
+#include "debris_slide.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
-#include "site_case.hpp"
 
 namespace thawslide::gis {
 namespace {
 
-using namespace site_case;
+using namespace debris_slide;
 
 config::Case slide_over_bed(const std::string& depth) {
-  geotiff("dem.tif", raster_of([](double x, double) { return 600.0 - 0.2 * (x - west); }, west, south, 5.0, 61, 21));
-  geojson("release.geojson", {{"", box_at(35.0, 35.0, 75.0, 65.0)}});
-  const std::string text = fmt::format(
-      R"([case]
-dimension = 3
-[time]
-end = 1.0
-step = 0.002
-[grid]
-cell = 5.0
-min = [{}, {}, 500.0]
-max = [{}, {}, 640.0]
-[terrain]
-type = "dem"
-file = "dem.tif"
-[material.debris]
-law = "mohr_coulomb"
-youngs_modulus = 2e7
-poisson_ratio = 0.3
-friction_angle = 30.0
-cohesion = 0.0
-[body.slide]
-material = "debris"
-shape = "release"
-release = "release.geojson"
-thickness = 10.0
-velocity = [10.0, 0.0, -2.0]
-[heat]
-enabled = false
-[pressure]
-enabled = false
-[basal]
-friction = "constant"
-friction_angle = 25.0
-[bed]
-law = "strength"
-strength = 0.0
-depth_per_slip = 0.2
-material = "debris"
-porosity = 0.4
-depth = {}
-)",
-      west + 10.0, south + 10.0, west + 290.0, south + 90.0, depth);
-  return config::read_case(text_file("case.toml", text), {});
+  return debris_case([](double x, double) { return 600.0 - 0.2 * (x - west); }, 1.0, "[10.0, 0.0, -2.0]",
+                     "[bed]\nlaw = \"strength\"\nstrength = 0.0\ndepth_per_slip = 0.2\nmaterial = \"debris\"\n"
+                     "porosity = 0.4\ndepth = " +
+                         depth + "\n");
 }
 
 double taken_after(const config::Case& parameters) {

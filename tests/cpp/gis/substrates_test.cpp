@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/read_case.hpp"
+#include "debris_slide.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 #include "sim/substrates.hpp"
-#include "site_case.hpp"
 
 namespace thawslide::gis {
 namespace {
 
-using namespace site_case;
+using namespace debris_slide;
 
 // ---- a slide down a valley that is the same along y but for its walls
 
@@ -25,41 +24,11 @@ double valley(double x, double y) {
 }
 
 config::Case valley_case(const std::string& substrate) {
-  geotiff("dem.tif", raster_of(valley, west, south, 5.0, 61, 21));
-  geojson("release.geojson", {{"", box_at(35.0, 35.0, 75.0, 65.0)}});
   geojson("areas.geojson", {{R"("name":"glacier")", box_at(border, -50.0, 400.0, 150.0)},
                             {R"("name":"lake")", box_at(0.0, 0.0, 20.0, 20.0)}});
   geotiff("codes.tif", raster_of([](double x, double) { return x - west > border ? 7.0 : 2.0; }, west - 2.5,
                                  south + 2.5, 10.0, 30, 10));
-  const std::string text =
-      fmt::format(
-          "[case]\ndimension = 3\n[time]\nend = 3.0\nstep = 0.002\n[grid]\ncell = 5.0\nmin = [{}, {}, 500.0]\n"
-          "max = [{}, {}, 640.0]\n",
-          west + 10.0, south + 10.0, west + 290.0, south + 90.0) +
-      R"([terrain]
-type = "dem"
-file = "dem.tif"
-[material.debris]
-law = "mohr_coulomb"
-youngs_modulus = 2e7
-poisson_ratio = 0.3
-friction_angle = 30.0
-cohesion = 0.0
-[body.slide]
-material = "debris"
-shape = "release"
-release = "release.geojson"
-thickness = 10.0
-velocity = [10.0, 0.0, -5.0]
-[heat]
-enabled = false
-[pressure]
-enabled = false
-[basal]
-friction = "constant"
-friction_angle = 25.0
-)" + substrate;
-  return config::read_case(text_file("case.toml", text), {});
+  return debris_case(valley, 3.0, "[10.0, 0.0, -5.0]", substrate);
 }
 
 const std::string slippery = "friction = \"coefficient\"\nfriction_coefficient = 0.05\n";
