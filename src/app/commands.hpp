@@ -24,8 +24,15 @@ int run_case(const RunOptions& options);
 struct ResumeOptions {
   std::string folder;
   int threads = 0;
+  std::vector<std::string> sets;  // what changes of the case
 };
 int resume_run(const ResumeOptions& options);
+
+struct StatusOptions {
+  std::string folder;
+  bool json = false;
+};
+int tell_status(const StatusOptions& options);
 
 struct CheckOptions {
   CaseOptions of_case;

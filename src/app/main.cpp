@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "app/commands.hpp"
@@ -95,7 +96,26 @@ int run_program(int count, char** arguments) {
   CLI::App* resume = program.add_subcommand("resume", "Go on with a run from its checkpoint");
   resume->add_option("run", resume_options.folder, "Folder of the run")->required();
   add_threads_option(*resume, resume_options.threads);
-  resume->callback([&] { exit_code = resume_run(resume_options); });
+  resume
+      ->add_option(
+          "--set", resume_options.sets,
+          "Change a key from here on, which is recorded: --set time.output_interval=5 (may be given many times)")
+      ->take_all()
+      ->allow_extra_args(false);
+  std::string new_end;
+  resume->add_option("--end", new_end, "Short for --set time.end=END [s]")->check(above_zero());
+  resume->callback([&] {
+    if (!new_end.empty()) {
+      resume_options.sets.push_back("time.end=" + new_end);
+    }
+    exit_code = resume_run(resume_options);
+  });
+
+  StatusOptions status_options;
+  CLI::App* status = program.add_subcommand("status", "Say whether a run is alive, how far it is, and how to go on");
+  status->add_option("run", status_options.folder, "Folder of the run")->required();
+  status->add_flag("--json", status_options.json, "As JSON");
+  status->callback([&] { exit_code = tell_status(status_options); });
 
   CheckOptions check_options;
   CLI::App* check = program.add_subcommand("check", "Validate a case and say what its run will take");
@@ -187,6 +207,10 @@ int main(int count, char** arguments) {
   } catch (const thawslide::RunError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return static_cast<int>(ExitCode::run_went_bad);
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "error: {}{}: {}\n", error.path1().string(),
+               error.path2().empty() ? "" : " and " + error.path2().string(), error.code().message());
+    return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::bad_alloc&) {
     fmt::print(stderr,
                "error: the memory of this machine, or what a limit allows of it (ulimit -v), is not enough. Make "

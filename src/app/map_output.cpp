@@ -8,6 +8,7 @@
 #include "gis/geopackage.hpp"
 #include "gis/map_style.hpp"
 #include "gis/raster_file.hpp"
+#include "io/atomic_file.hpp"
 
 namespace thawslide::app {
 
@@ -18,7 +19,7 @@ namespace {
 constexpr gis::Color dark_red{178, 24, 43}, black{0, 0, 0}, blue{33, 102, 172};
 
 void write_map(const fs::path& folder, const std::string& name, const Raster& map, const gis::BandText& text) {
-  fs::create_directories(folder / "maps");
+  io::make_folder(folder / "maps");
   gis::write_geotiff((folder / "maps" / (name + ".tif")).string(), map, text);
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/say.hpp"
+
 namespace thawslide::app {
 
 namespace {
@@ -54,25 +56,23 @@ void Progress::show(const ProgressState& state) {
   }
   if (terminal_) {
     const auto filled = static_cast<std::size_t>(share * bar_width);
-    fmt::print("\r\033[K[{:<{}}] {:3.0f} % | {}", std::string(filled, '='), bar_width, 100.0 * share, text);
+    say("\r\033[K[{:<{}}] {:3.0f} % | {}", std::string(filled, '='), bar_width, 100.0 * share, text);
     drawn_ = true;
   } else {
-    fmt::print("{:3.0f} % | {}\n", 100.0 * share, text);
+    say("{:3.0f} % | {}\n", 100.0 * share, text);
   }
-  std::fflush(stdout);
   last_ = Clock::now();
   last_share_ = share;
 }
 
 void Progress::note(const std::string& text) {
-  fmt::print("{}{}\n", drawn_ ? "\r\033[K" : "", text);
+  say("{}{}\n", drawn_ ? "\r\033[K" : "", text);
   drawn_ = false;
-  std::fflush(stdout);
 }
 
 void Progress::finish() {
   if (drawn_) {
-    fmt::print("\n");
+    say("\n");
     drawn_ = false;
   }
 }

@@ -1,11 +1,11 @@
 #include "app/run_loop.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "app/boiling_note.hpp"
 #include "app/progress.hpp"
+#include "app/say.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -45,39 +45,68 @@ template <int Dim>
 void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
                    double wall, const std::filesystem::path& folder) {
   const std::size_t at_start = output.particles_at_start(), at_end = simulation.particles().size();
-  fmt::print("{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n", at_start,
-             at_end == at_start ? "" : fmt::format(", {} of them at the end", at_end), steps, duration_text(wall),
-             output.particle_steps() / wall / 1e6, thread_count() == 1 ? "" : "at most ", thread_count(),
-             thread_count() == 1 ? "" : "s");
+  say("{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n", at_start,
+      at_end == at_start ? "" : fmt::format(", {} of them at the end", at_end), steps, duration_text(wall),
+      output.particle_steps() / wall / 1e6, thread_count() == 1 ? "" : "at most ", thread_count(),
+      thread_count() == 1 ? "" : "s");
   std::vector<std::pair<double, std::string>> stages;
   for (const auto& [name, seconds] : output.seconds_per_stage(simulation)) {
     stages.emplace_back(seconds, name);
   }
   std::sort(stages.rbegin(), stages.rend());
   for (const auto& [seconds, name] : stages) {
-    fmt::print("  {:<28}{:8.2f} s {:5.1f} %\n", name, seconds, 100.0 * seconds / wall);
+    say("  {:<28}{:8.2f} s {:5.1f} %\n", name, seconds, 100.0 * seconds / wall);
   }
   const sim::HistoryRow row = output.history_row(simulation);
   const auto value = [&](const std::string& name) {
     return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
   };
-  fmt::print("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", simulation.time(),
-             value("mean_velocity_m_s"), value("mean_displacement_m"),
-             front_text(value("front_position_m"), value("runout_m")));
+  say("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", simulation.time(),
+      value("mean_velocity_m_s"), value("mean_displacement_m"),
+      front_text(value("front_position_m"), value("runout_m")));
   for (const auto& [name, number] : output.figures()) {
     if (std::isfinite(number)) {
-      fmt::print("  {:<28}{:12.6g}\n", name, number);
+      say("  {:<28}{:12.6g}\n", name, number);
     }
   }
-  fmt::print("results in {}\n", folder.string());
+  say("results in {}\n", folder.string());
 }
 
-}  // namespace
+// Settles a case that asks for it; a body that goes bad on the way leaves its files as any other run does.
+template <int Dim>
+void settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
+  if (!simulation.needs_settling()) {
+    return;
+  }
+  say("settling under gravity for {:g} s\n", simulation.parameters().mechanics.settle_time);
+  try {
+    simulation.settle();
+  } catch (const RunError& error) {
+    output.write_first_state(simulation);
+    output.write_index();
+    output.write_provenance(simulation, "failed", error.what(), 0.0);
+    throw;
+  }
+}
 
-void use_threads(int threads) { set_thread_count(threads > 0 ? threads : available_cores()); }
+// A file could not be written: what stands is whole, and the run can go on from its last checkpoint.
+template <int Dim>
+int end_unwritten(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const WriteError& error,
+                  const std::filesystem::path& folder) {
+  try {
+    output.write_provenance(simulation, "stopped", error.what(), output.wall_seconds());
+  } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): it is told below what could not be written first
+  }
+  say_error(
+      "error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` goes on from the last "
+      "checkpoint\n",
+      error.what(), simulation.time(), folder.string());
+  return static_cast<int>(ExitCode::not_written);
+}
 
 template <int Dim>
-int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
+int steps_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
+                 const std::filesystem::path& folder) {
   const config::Time& times = simulation.parameters().time;
   const double begin = simulation.time();
   const std::int64_t first_step = simulation.step_number();
@@ -90,8 +119,8 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   Progress progress(begin);
   FrontWatch front;
   BoilingWatch boiling;
-  const auto start = std::chrono::steady_clock::now();
-  const auto wall = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  output.start_clock();
+  const auto wall = [&] { return output.wall_seconds(); };
   const int most_threads = thread_count();
   ThreadChoice choice(most_threads, 0.0);
   double seconds_in_steps = 0.0, wall_of_checkpoint = 0.0;
@@ -137,6 +166,7 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
       if (checkpoints.reached(simulation.time(), dt) || is_old) {
         output.write_checkpoint(simulation);
         wall_of_checkpoint = wall();
+        output.write_provenance(simulation, "running", "", wall_of_checkpoint);
       }
       if (progress.due(simulation.time(), times.end)) {
         progress.show(
@@ -147,7 +177,7 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
     output.slide_left();
     write_state_at_end();
     close("done", end.what());
-    fmt::print("{}\n", end.what());
+    say("{}\n", end.what());
     return static_cast<int>(ExitCode::done);
   } catch (const RunError& error) {
     write_state_at_end();
@@ -158,8 +188,8 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
     // The checkpoint holds this moment. A row or a snapshot of it would not be there had the run gone on.
     output.write_checkpoint(simulation);
     close("stopped", fmt::format("signal {}", caught_signal()));
-    fmt::print(stderr, "stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),
-               simulation.time(), folder.string());
+    say_error("stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),
+              simulation.time(), folder.string());
     return static_cast<int>(ExitCode::stopped_by_signal);
   }
   output.write_checkpoint(simulation);
@@ -167,6 +197,34 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   return static_cast<int>(ExitCode::done);
 }
 
+}  // namespace
+
+void use_threads(int threads) { set_thread_count(threads > 0 ? threads : available_cores()); }
+
+template <int Dim>
+int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
+                  const std::filesystem::path& folder) {
+  output.start_clock();
+  try {
+    settle<Dim>(simulation, output);
+    output.begin(simulation);
+  } catch (const WriteError& error) {
+    return end_unwritten<Dim>(simulation, output, error, folder);
+  }
+  return run_to_end<Dim>(simulation, output, folder);
+}
+
+template <int Dim>
+int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
+  try {
+    return steps_to_end<Dim>(simulation, output, folder);
+  } catch (const WriteError& error) {
+    return end_unwritten<Dim>(simulation, output, error, folder);
+  }
+}
+
+template int start_and_run<2>(sim::Simulation<2, double>&, RunOutput<2>&, const std::filesystem::path&);
+template int start_and_run<3>(sim::Simulation<3, double>&, RunOutput<3>&, const std::filesystem::path&);
 template int run_to_end<2>(sim::Simulation<2, double>&, RunOutput<2>&, const std::filesystem::path&);
 template int run_to_end<3>(sim::Simulation<3, double>&, RunOutput<3>&, const std::filesystem::path&);
 

@@ -5,7 +5,13 @@
 
 namespace thawslide::app {
 
-// Returns the exit code: done, run went bad, or stopped by a signal; in each case what there is has been written.
+// Settles a new run that asks for it, writes its first state and runs it; as run_to_end otherwise.
+template <int Dim>
+int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
+                  const std::filesystem::path& folder);
+
+// Returns the exit code: done, stopped by a signal, or not written; in each case what there is has been written. Throws
+// RunError where the run went bad.
 template <int Dim>
 int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder);
 

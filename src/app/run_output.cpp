@@ -4,6 +4,7 @@
 
 #include "app/resolved_case.hpp"
 #include "base/parallel.hpp"
+#include "config/describe.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
@@ -60,17 +61,26 @@ void write_terrain(const fs::path& folder, const sim::Simulation<Dim, double>& s
   io::write_profile_csv(folder / "terrain.csv", {std::move(x), std::move(height), {}});
 }
 
+// Fills in what this process knows by itself; `provenance` has what earlier ones told, and the part that begins.
 template <int Dim>
-io::Provenance start_provenance(const sim::Simulation<Dim, double>& simulation) {
-  io::Provenance provenance = io::provenance_of_this_program();
+void complete(io::Provenance& provenance, const sim::Simulation<Dim, double>& simulation) {
   const auto& model = simulation.model();
-  provenance.threads = thread_count();
+  provenance.parts.back().threads = thread_count();
+  provenance.parts.back().from_time = simulation.time();
   provenance.particles = simulation.particles_at_start();
   provenance.crs = simulation.site().crs_name;
   for (int a = 0; a < Dim; ++a) {
     provenance.origin.push_back(model.origin[a]);
     provenance.gravity.push_back(static_cast<double>(model.motion.gravity[a]));
   }
+}
+
+// Inputs and resolved case of a new run, written to its folder, and its first part.
+io::Provenance first_part(const config::Case& parameters, const fs::path& folder) {
+  io::Provenance provenance;
+  provenance.inputs = write_resolved_case(parameters, folder);
+  provenance.parts.push_back(io::part_of_this_process());
+  provenance.parts.back().case_sha256 = io::sha256_of_file(folder / "case.toml");
   return provenance;
 }
 
@@ -105,35 +115,46 @@ RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation, 
 
 template <int Dim>
 RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation)
+    : RunOutput(folder, simulation, first_part(simulation.parameters(), folder),
+                config::resolved_toml(simulation.parameters(), "inputs")) {}
+
+template <int Dim>
+RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation, io::Provenance earlier,
+                          std::string case_text)
     : RunOutput(folder, simulation, io::HistoryWriter(folder / "history.csv"), io::SnapshotSeries(folder)) {
-  provenance_ = start_provenance(simulation);
-  provenance_.inputs = write_resolved_case(simulation.parameters(), folder);
+  provenance_ = std::move(earlier);
+  case_text_ = std::move(case_text);
+  complete(provenance_, simulation);
+  write_provenance(simulation, "running", "", 0.0);
   write_terrain(folder, simulation);
   write_ground_maps(folder, simulation.site());
+}
+
+template <int Dim>
+void RunOutput<Dim>::write_first_state(const Simulation& simulation) {
   records_.start(simulation);
   if (records_.has_probes()) {
-    probes_.emplace(folder / "probes.csv");
+    probes_.emplace(folder_ / "probes.csv");
   }
-  write_provenance(simulation, "running", "", 0.0);
   write_history(simulation);
   write_snapshot(simulation);
 }
 
 template <int Dim>
 void RunOutput<Dim>::begin(const Simulation& simulation) {
+  write_first_state(simulation);
   write_state(simulation);
   stopwatch_ = {};
 }
 
 template <int Dim>
-RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& simulation,
-                                      const NamedNumbers& blocks) {
-  io::remove_unfinished_files(folder);
-  io::remove_unfinished_files(folder / "snapshots");
+RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& simulation, const NamedNumbers& blocks,
+                                      io::Provenance earlier, std::string case_text) {
   RunOutput output(folder, simulation, io::HistoryWriter::continue_after(folder / "history.csv", simulation.time()),
                    io::SnapshotSeries::continue_after(folder, simulation.time()));
-  output.provenance_ = start_provenance(simulation);
-  output.provenance_.inputs = io::read_inputs(folder);
+  output.provenance_ = std::move(earlier);
+  output.case_text_ = std::move(case_text);
+  complete(output.provenance_, simulation);
   output.records_.restore(blocks);
   if (const auto fronts = blocks.find(fronts_block); fronts != blocks.end()) {
     output.fronts_ = fronts_of(fronts->second);
@@ -142,6 +163,7 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
     output.probes_.emplace(io::HistoryWriter::continue_after(folder / "probes.csv", simulation.time()));
   }
   output.history_step_ = output.snapshot_step_ = output.checkpoint_step_ = simulation.step_number();
+  output.write_provenance(simulation, "running", "", 0.0);
   return output;
 }
 
@@ -160,7 +182,7 @@ void RunOutput<Dim>::write_history(const Simulation& simulation) {
 
 template <int Dim>
 void RunOutput<Dim>::before_step(const Simulation& simulation) {
-  provenance_.particle_steps += static_cast<double>(simulation.particles().size());
+  provenance_.parts.back().particle_steps += static_cast<double>(simulation.particles().size());
 }
 
 template <int Dim>
@@ -234,7 +256,12 @@ void RunOutput<Dim>::write_state(const Simulation& simulation) {
   }
   checkpoint_step_ = simulation.step_number();
   stopwatch_.time("write_checkpoint", [&] {
-    snapshots_.finish_writing();  // a run that goes on from here must find all snapshots before
+    // A run that goes on from here must find all that was written before.
+    snapshots_.finish_writing();
+    history_.synchronise();
+    if (probes_) {
+      probes_->synchronise();
+    }
     NamedNumbers blocks = records_.state();
     if constexpr (Dim == 3) {
       blocks[fronts_block] = numbers_of(fronts_);
@@ -246,7 +273,7 @@ void RunOutput<Dim>::write_state(const Simulation& simulation) {
       blocks["bed"] = bed->state();
     }
     io::write_checkpoint<Dim, double>(folder_, simulation.particles(), simulation.particles_at_start(),
-                                      simulation.scalars(), blocks);
+                                      simulation.scalars(), blocks, case_text_);
   });
 }
 
@@ -271,7 +298,7 @@ void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::s
   add_figures(simulation);
   provenance_.simulated_time = simulation.time();
   provenance_.steps = simulation.step_number();
-  provenance_.wall_seconds = wall_seconds;
+  provenance_.parts.back().wall_seconds = wall_seconds;
   provenance_.seconds_per_stage = seconds_per_stage(simulation);
   provenance_.seconds_beside = snapshots_.seconds_beside();
   io::write_provenance(folder_ / "run.json", provenance_);

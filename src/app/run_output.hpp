@@ -1,6 +1,7 @@
 // The files of a run, written as it goes (ARCHITECTURE.md lists them).
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -38,14 +39,26 @@ class RunOutput {
  public:
   using Simulation = sim::Simulation<Dim, double>;
 
-  // A new run in a folder that is there and empty: writes the resolved case, the inputs and the first state.
+  // A new run in a folder that is there and empty: writes the inputs, the resolved case, run.json and the ground.
   RunOutput(const std::filesystem::path& folder, const Simulation& simulation);
+  // The same of a run that was cut off before its first checkpoint: inputs and case stand; earlier: what run.json
+  // tells, with the part that begins; case_text: resolved.
+  RunOutput(const std::filesystem::path& folder, const Simulation& simulation, io::Provenance earlier,
+            std::string case_text);
+  // Row and snapshot of the state that the first step begins with.
+  void write_first_state(const Simulation& simulation);
   // The checkpoint before the first step; from here on time counts.
   void begin(const Simulation& simulation);
-  // Goes on with a run at the simulation's time; blocks: what its checkpoint holds beside the particles.
-  static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation,
-                          const NamedNumbers& blocks);
+  // Goes on with a run at the simulation's time; blocks: what its checkpoint holds beside the particles; the others as
+  // above.
+  static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation, const NamedNumbers& blocks,
+                          io::Provenance earlier, std::string case_text);
 
+  // Wall-clock time [s] since start_clock.
+  void start_clock() { clock_start_ = std::chrono::steady_clock::now(); }
+  [[nodiscard]] double wall_seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start_).count();
+  }
   // Counts the work; before every step.
   void before_step(const Simulation& simulation);
   // Gathers what maps and probes tell; after every step.
@@ -68,14 +81,15 @@ class RunOutput {
   }
   // What `resume` goes on from, and the maps so far.
   void write_checkpoint(const Simulation& simulation);
-  // run.json; status as architecture's words: running, done, stopped, failed.
+  // run.json; status as architecture's words: running, done, stopped, failed; wall_seconds: of this process.
   void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
                         double wall_seconds);
   // What run.json tells the run came to, by name, in 3D.
   [[nodiscard]] const std::vector<std::pair<std::string, double>>& figures() const { return provenance_.figures; }
-  // What run.json tells of the work: particles at the start, and the sum over the steps of those that were there.
+  // What run.json tells of the work: particles at the start, and the sum over this process's steps of those that were
+  // there.
   [[nodiscard]] std::size_t particles_at_start() const { return provenance_.particles; }
-  [[nodiscard]] double particle_steps() const { return provenance_.particle_steps; }
+  [[nodiscard]] double particle_steps() const { return provenance_.parts.back().particle_steps; }
   // Wall-clock time [s] of the step's stages and of writing.
   [[nodiscard]] Stopwatch::Seconds seconds_per_stage(const Simulation& simulation) const;
 
@@ -92,7 +106,9 @@ class RunOutput {
   std::vector<FrontAt> fronts_;              // at the moments of snapshots
   std::optional<io::HistoryWriter> probes_;  // none without probes
   io::Provenance provenance_;
+  std::string case_text_;  // resolved, as case.toml has it
   Stopwatch stopwatch_;
+  std::chrono::steady_clock::time_point clock_start_;
   std::int64_t history_step_ = -1, snapshot_step_ = -1, checkpoint_step_ = -1;
 };
 

@@ -9,16 +9,26 @@ namespace {
 
 volatile std::sig_atomic_t signal_number = 0;
 
+constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+
 void remember(int number) {
   signal_number = number;
-  std::signal(number, SIG_DFL);
+  for (const int each : signals) {
+    std::signal(each, SIG_DFL);
+  }
 }
 
 }  // namespace
 
 void catch_signals() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int number : signals) {
     std::signal(number, remember);
+  }
+}
+
+void survive_failing_writes() {
+  for (const int number : {SIGPIPE, SIGXFSZ}) {
+    std::signal(number, SIG_IGN);
   }
 }
 

@@ -3,8 +3,13 @@
 
 namespace thawslide::app {
 
-// From now on SIGINT, SIGTERM and SIGHUP only set a mark; a second one ends the program at once.
+// From now on SIGINT, SIGTERM and SIGHUP only set a mark; a second one, of any of them, ends the
+// program at once.
 void catch_signals();
+
+// From now on a pipe that nobody reads and a file above its size limit are errors of the call that writes, which by
+// themselves would end the program.
+void survive_failing_writes();
 
 // The signal that came, 0 if none.
 int caught_signal();

@@ -14,12 +14,19 @@
 namespace thawslide {
 
 // Exit codes of the program (ARCHITECTURE.md).
-enum class ExitCode : int { done = 0, user_mistake = 2, run_went_bad = 3, stopped_by_signal = 4 };
+enum class ExitCode : int { done = 0, user_mistake = 2, run_went_bad = 3, stopped_by_signal = 4, not_written = 5 };
 
 // The user's mistake: the message says what was found, what is allowed and what to do. Exit code 2.
 class UserError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// A file that cannot be written: a full disk, no permission. A run that meets it ends with exit code 5 and can be
+// resumed.
+class WriteError : public UserError {
+ public:
+  using UserError::UserError;
 };
 
 // A run that went bad (not finite, out of the domain, inverted): names particle, place, time and likely cause. Exit

@@ -30,7 +30,7 @@ WholeFile::~WholeFile() {
 }
 
 void WholeFile::fail(const std::string& reason) const {
-  throw UserError(
+  throw WriteError(
       fmt::format("cannot write {}: {}. Check that the folder exists, may be written to, and that the disk has room.",
                   file_, reason));
 }

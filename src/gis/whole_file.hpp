@@ -17,9 +17,9 @@ class WholeFile {
 
   // Where to write; it has the file's own extension, which drivers look at.
   [[nodiscard]] const std::string& temporary() const { return temporary_; }
-  // Makes sure that it is on the disk, and renames it. Throws UserError with the system's reason.
+  // Makes sure that it is on the disk, and renames it. Throws WriteError with the system's reason.
   void put_in_place();
-  // Throws UserError: cannot write FILE, and why.
+  // Throws WriteError: cannot write FILE, and why.
   [[noreturn]] void fail(const std::string& reason) const;
   [[noreturn]] void fail_with(const GdalMessages& messages) const;
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const fs::path& file, const fs::path& temporary, int reason) {
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw UserError(
+  throw WriteError(
       fmt::format("cannot write {}: {}. Check that the folder exists, may be written to, and that the disk has "
                   "room.",
                   file.string(), std::strerror(reason)));
@@ -68,11 +68,24 @@ void write_file_atomically(const fs::path& file, std::string_view text, const fs
   write_file_atomically(file, text.data(), text.size(), previous);
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw WriteError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+  }
+}
+
 void remove_unfinished_files(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    return;
+  }
   std::vector<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == unfinished) {
-      found.push_back(entry.path());
+    const fs::path& file = entry.path();
+    // Files of maps keep their own ending, by which they are told: NAME.123.part.tif.
+    if (file.extension() == unfinished || file.stem().extension() == unfinished) {
+      found.push_back(file);
     }
   }
   for (const fs::path& file : found) {

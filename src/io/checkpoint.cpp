@@ -12,7 +12,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" in bytes
-constexpr std::uint64_t format_version = 4;
+constexpr std::uint64_t format_version = 5;
 
 class Writer {
  public:
@@ -83,7 +83,23 @@ std::string damage_of(const std::filesystem::path& file, const std::string& byte
   return fmt::format("{} is damaged: its checksum does not fit its {} bytes", file.string(), bytes.size());
 }
 
+// At the case's text.
+Reader reader_of(const WholeCheckpoint& checkpoint) {
+  Reader reader(std::string_view(checkpoint.bytes).substr(0, checkpoint.bytes.size() - sizeof(Digest)),
+                checkpoint.file);
+  reader.expect(magic, "the mark");
+  reader.expect(format_version, "format");
+  return reader;
+}
+
 }  // namespace
+
+bool has_checkpoint(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / checkpoint_name) ||
+         std::filesystem::exists(folder / previous_checkpoint_name);
+}
+
+std::string case_of(const WholeCheckpoint& checkpoint) { return reader_of(checkpoint).text(); }
 
 WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
   std::string passed_over;
@@ -110,10 +126,14 @@ WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
 
 template <int Dim, class Real>
 void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim, Real>& particles,
-                      std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks) {
+                      std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks,
+                      const std::string& case_text) {
   Writer writer;
-  for (const std::uint64_t number : {magic, format_version, std::uint64_t{Dim}, std::uint64_t{sizeof(Real)},
-                                     std::uint64_t{at_start}, std::uint64_t{particles.size()}}) {
+  writer.put(magic);
+  writer.put(format_version);
+  writer.put(case_text);
+  for (const std::uint64_t number :
+       {std::uint64_t{Dim}, std::uint64_t{sizeof(Real)}, std::uint64_t{at_start}, std::uint64_t{particles.size()}}) {
     writer.put(number);
   }
   writer.put(scalars);
@@ -143,9 +163,8 @@ template <int Dim, class Real>
 NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim, Real>& particles,
                              std::vector<double>& scalars) {
   const std::filesystem::path& file = checkpoint.file;
-  Reader reader(std::string_view(checkpoint.bytes).substr(0, checkpoint.bytes.size() - sizeof(Digest)), file);
-  reader.expect(magic, "the mark");
-  reader.expect(format_version, "format");
+  Reader reader = reader_of(checkpoint);
+  (void)reader.text();  // the case
   reader.expect(Dim, "dimension");
   reader.expect(sizeof(Real), "number size");
   reader.expect(particles.size(), "particles at t = 0:");
@@ -175,7 +194,8 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                    \
   template void write_checkpoint<Dim, Real>(const std::filesystem::path&, const mpm::Particles<Dim, Real>&, \
-                                            std::size_t, const std::vector<double>&, const NamedNumbers&);  \
+                                            std::size_t, const std::vector<double>&, const NamedNumbers&,   \
+                                            const std::string&);                                            \
   template NamedNumbers read_checkpoint<Dim, Real>(const WholeCheckpoint&, mpm::Particles<Dim, Real>&,      \
                                                    std::vector<double>&);
 THAWSLIDE_INSTANTIATE(2, double)

@@ -17,10 +17,11 @@ inline constexpr const char* previous_checkpoint_name = "checkpoint.previous.bin
 
 // Writes checkpoint.bin into `folder`; what stood there becomes checkpoint.previous.bin. Rows by id, so that the bytes
 // do not depend on storage order. at_start: how many particles there were at t = 0; blocks: what else the run needs to
-// go on.
+// go on; case_text: the resolved case it runs. Throws WriteError.
 template <int Dim, class Real>
 void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim, Real>& particles,
-                      std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks = {});
+                      std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks = {},
+                      const std::string& case_text = {});
 
 // A checkpoint as it stands in its file, its checksum verified.
 struct WholeCheckpoint {
@@ -29,8 +30,14 @@ struct WholeCheckpoint {
   std::string note;  // of one that was passed over because it is damaged or absent; empty: none
 };
 
+// Whether a run folder holds a checkpoint, whole or not.
+[[nodiscard]] bool has_checkpoint(const std::filesystem::path& folder);
+
 // The newest checkpoint of a run folder that is whole. Throws UserError where there is none.
 [[nodiscard]] WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder);
+
+// The resolved case that the run had when it wrote the checkpoint. Throws UserError for one of another program.
+[[nodiscard]] std::string case_of(const WholeCheckpoint& checkpoint);
 
 // particles: those at t = 0, which the ones of the checkpoint replace. Returns the blocks. Throws UserError for a
 // checkpoint of another kind of run (dimension, number type, fields, particles at t = 0).

@@ -12,7 +12,7 @@ class HistoryWriter {
  public:
   using Row = std::vector<std::pair<std::string, double>>;  // column, value
 
-  // Starts the file anew. Throws UserError if it cannot be written.
+  // Starts the file anew. Throws WriteError if it cannot be written.
   explicit HistoryWriter(const std::filesystem::path& file);
   // Goes on with a file: keeps its rows up to `time` (its first column) and appends.
   static HistoryWriter continue_after(const std::filesystem::path& file, double time);
@@ -23,6 +23,8 @@ class HistoryWriter {
 
   // The first row brings the header; all rows must have its columns.
   void add(const Row& row);
+  // Returns when all rows are on the disk. Throws WriteError.
+  void synchronise() const;
 
  private:
   HistoryWriter(const std::filesystem::path& file, int descriptor, std::string header);

@@ -56,36 +56,80 @@ std::string now_utc() {
   return text;
 }
 
+Json json_of(const RunPart& part) {
+  Json json;
+  json["version"] = part.version;
+  json["commit"] = part.commit;
+  json["command"] = part.command;
+  json["host"] = part.host;
+  json["processor"] = part.processor;
+  json["threads"] = part.threads;
+  json["started"] = part.started;
+  json["from_s"] = part.from_time;
+  json["changes"] = part.changes;
+  json["case_sha256"] = part.case_sha256;
+  json["wall_s"] = part.wall_seconds;
+  json["particle_steps"] = part.particle_steps;
+  return json;
+}
+
+RunPart part_of(const Json& json) {
+  RunPart part;
+  part.version = json.at("version");
+  part.commit = json.at("commit");
+  part.command = json.at("command");
+  part.host = json.at("host");
+  part.processor = json.at("processor");
+  part.threads = json.at("threads");
+  part.started = json.at("started");
+  part.from_time = json.at("from_s");
+  part.changes = json.at("changes").get<std::vector<std::string>>();
+  part.case_sha256 = json.at("case_sha256");
+  part.wall_seconds = json.at("wall_s");
+  part.particle_steps = json.at("particle_steps");
+  return part;
+}
+
 }  // namespace
 
-Provenance provenance_of_this_program() {
-  Provenance provenance;
-  provenance.version = version;
-  provenance.commit = commit;
-  provenance.command = command_line();
-  provenance.host = host_name();
-  provenance.processor = processor_name();
-  provenance.started = now_utc();
-  return provenance;
+RunPart part_of_this_process() {
+  RunPart part;
+  part.version = version;
+  part.commit = commit;
+  part.command = command_line();
+  part.host = host_name();
+  part.processor = processor_name();
+  part.started = now_utc();
+  return part;
 }
 
 void write_provenance(const fs::path& file, const Provenance& p) {
+  THAWSLIDE_ASSERT(!p.parts.empty(), "{} of a run without parts", file.string());
+  const RunPart& first = p.parts.front();
+  double wall = 0.0, particle_steps = 0.0;
+  Json parts = Json::array();
+  for (const RunPart& part : p.parts) {
+    wall += part.wall_seconds;
+    particle_steps += part.particle_steps;
+    parts.push_back(json_of(part));
+  }
   Json json;
   json["program"] = "thawslide";
-  json["version"] = p.version;
-  json["commit"] = p.commit;
-  json["command"] = p.command;
-  json["host"] = p.host;
-  json["processor"] = p.processor;
-  json["threads"] = p.threads;
-  json["started"] = p.started;
+  json["version"] = first.version;
+  json["commit"] = first.commit;
+  json["command"] = first.command;
+  json["host"] = first.host;
+  json["processor"] = first.processor;
+  json["threads"] = first.threads;
+  json["started"] = first.started;
   json["status"] = p.status;
   json["message"] = p.message;
   json["simulated_time_s"] = p.simulated_time;
   json["steps"] = p.steps;
   json["particles"] = p.particles;
-  json["wall_s"] = p.wall_seconds;
-  json["particle_steps_per_second"] = p.wall_seconds > 0.0 ? p.particle_steps / p.wall_seconds : 0.0;
+  json["wall_s"] = wall;
+  json["particle_steps_per_second"] = wall > 0.0 ? particle_steps / wall : 0.0;
+  json["parts"] = std::move(parts);
   json["seconds_per_stage"] = p.seconds_per_stage;
   json["seconds_beside"] = p.seconds_beside;
   json["origin_m"] = p.origin;
@@ -104,7 +148,7 @@ void write_provenance(const fs::path& file, const Provenance& p) {
 }
 
 std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs::path>& files) {
-  fs::create_directories(folder / "inputs");
+  make_folder(folder / "inputs");
   std::vector<InputFile> inputs;
   std::set<std::string> names;
   for (const fs::path& file : files) {
@@ -128,17 +172,33 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
   return inputs;
 }
 
-std::vector<InputFile> read_inputs(const fs::path& folder) {
-  std::vector<InputFile> inputs;
+Provenance read_provenance(const fs::path& folder) {
+  Provenance provenance;
+  const fs::path file = folder / "run.json";
   try {
-    const Json facts = Json::parse(read_file(folder / "run.json"));
-    for (const Json& input : facts.at("inputs")) {
-      inputs.push_back({input.at("path"), input.at("copy"), input.at("sha256"), input.at("bytes")});
+    const Json facts = Json::parse(read_file(file));
+    for (const Json& part : facts.at("parts")) {
+      provenance.parts.push_back(part_of(part));
     }
+    for (const Json& input : facts.at("inputs")) {
+      provenance.inputs.push_back({input.at("path"), input.at("copy"), input.at("sha256"), input.at("bytes")});
+    }
+    provenance.status = facts.at("status");
+    provenance.message = facts.at("message");
+    provenance.simulated_time = facts.at("simulated_time_s");
+    provenance.steps = facts.at("steps");
   } catch (const Json::exception& error) {
-    throw UserError(fmt::format("{} cannot be understood: {}", (folder / "run.json").string(), error.what()));
+    throw UserError(fmt::format("{} cannot be understood: {}", file.string(), error.what()));
   }
-  return inputs;
+  if (provenance.parts.empty()) {
+    throw UserError(fmt::format("{} cannot be understood: it lists no parts of the run", file.string()));
+  }
+  return provenance;
+}
+
+std::string sha256_of_file(const fs::path& file) {
+  const std::string content = read_file(file);
+  return sha256_hex(content.data(), content.size());
 }
 
 }  // namespace thawslide::io

@@ -1,4 +1,4 @@
-// run.json: what made a run, with what, how fast, and what to cite.
+// run.json: what made a run, with what, in which parts, how fast, and what to cite.
 #pragma once
 
 #include <cstdint>
@@ -19,24 +19,33 @@ struct InputFile {
   std::uintmax_t bytes = 0;
 };
 
-struct Provenance {
+// What one process did of a run: the first, or one that went on from a checkpoint.
+struct RunPart {
   std::string version, commit, command, host, processor, started;  // started: UTC, ISO 8601
   int threads = 1;
+  double from_time = 0.0;            // simulated time it began at [s]
+  std::vector<std::string> changes;  // of the case, as --set texts
+  std::string case_sha256;           // of the resolved case that it ran
+  double wall_seconds = 0.0;
+  double particle_steps = 0.0;  // particles that were there, summed over its steps
+};
+
+struct Provenance {
+  std::vector<RunPart> parts;  // one at least
   std::size_t particles = 0;
   std::vector<double> origin, gravity;  // [m], [m/s2] in grid axes
   std::vector<InputFile> inputs;
   std::string status, message;  // running, done, stopped, failed
-  double simulated_time = 0.0, wall_seconds = 0.0;
+  double simulated_time = 0.0;
   std::int64_t steps = 0;
-  double particle_steps = 0.0;  // particles that were there, over the steps this process made in wall_seconds
-  Stopwatch::Seconds seconds_per_stage;
+  Stopwatch::Seconds seconds_per_stage;                 // of the last part
   std::vector<std::pair<std::string, double>> figures;  // what the run comes to, in 3D; NaN: not known
   std::string crs;                                      // name of the reference system; empty: none is known
-  double seconds_beside = 0.0;  // processor time that writing snapshots took while steps went on
+  double seconds_beside = 0.0;  // processor time that writing snapshots took while steps went on, in the last part
 };
 
 // Version, commit, command line, host and time of start filled in.
-Provenance provenance_of_this_program();
+RunPart part_of_this_process();
 
 void write_provenance(const std::filesystem::path& file, const Provenance& provenance);
 
@@ -45,7 +54,11 @@ void write_provenance(const std::filesystem::path& file, const Provenance& prove
 std::vector<InputFile> copy_inputs(const std::filesystem::path& folder,
                                    const std::vector<std::filesystem::path>& files);
 
-// The inputs that folder/run.json lists.
-std::vector<InputFile> read_inputs(const std::filesystem::path& folder);
+// What folder/run.json tells of the run so far: parts, inputs, status, message, simulated time and steps; the rest is
+// left empty. Throws UserError where it cannot be read or understood.
+Provenance read_provenance(const std::filesystem::path& folder);
+
+// SHA-256 of a file, in hexadecimal digits. Throws UserError if it cannot be read.
+std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace thawslide::io

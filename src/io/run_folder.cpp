@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "io/checkpoint.hpp"
 
 namespace thawslide::io {
 
@@ -10,12 +11,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* files_of_a_run[] = {"run.json",         "history.csv",    "case.toml",   "terrain.csv",
-                                          "particles.vtkhdf", "checkpoint.bin", "report.html", "snapshots",
-                                          "inputs",           "figures"};
+constexpr const char* files_of_a_run[] = {"run.json",      "history.csv", "probes.csv",
+                                          "case.toml",     "terrain.csv", "particles.vtkhdf",
+                                          checkpoint_name, "report.html", previous_checkpoint_name,
+                                          "snapshots",     "inputs",      "figures",
+                                          "maps"};
 
 bool holds_a_run(const fs::path& folder) {
   return fs::exists(folder / "run.json") || fs::exists(folder / "history.csv") || fs::exists(folder / "snapshots");
+}
+
+// A process that ended before it had written its case and run.json has left its lock, and nothing that anyone would
+// miss.
+bool holds_no_more_than_a_start(const fs::path& folder) {
+  return fs::exists(folder / lock_name) && !fs::exists(folder / "run.json");
 }
 
 // The deepest part of the path that exists: where folders would be made.
@@ -39,7 +48,7 @@ void require_usable(const fs::path& folder, bool overwrite) {
     throw UserError(fmt::format("the output folder {} cannot be written: no permission for {}. Give another --output.",
                                 folder.string(), part.string()));
   }
-  if (fs::exists(folder) && !fs::is_empty(folder)) {
+  if (fs::exists(folder) && !fs::is_empty(folder) && !holds_no_more_than_a_start(folder)) {
     if (!holds_a_run(folder)) {
       throw UserError(
           fmt::format("the output folder {} holds other files and no run. Give another --output.", folder.string()));
@@ -53,7 +62,7 @@ void require_usable(const fs::path& folder, bool overwrite) {
   }
 }
 
-void make_run_folder(const fs::path& folder, bool overwrite) {
+RunLock make_run_folder(const fs::path& folder, bool overwrite) {
   require_usable(folder, overwrite);
   std::error_code error;
   fs::create_directories(folder, error);
@@ -61,12 +70,15 @@ void make_run_folder(const fs::path& folder, bool overwrite) {
     throw UserError(fmt::format("the output folder {} cannot be made: {}. Give another --output.", folder.string(),
                                 error.message()));
   }
+  RunLock lock(folder);
+  require_usable(folder, overwrite);
   for (const char* name : files_of_a_run) {
     fs::remove_all(folder / name, error);
     if (error) {
       throw UserError(fmt::format("cannot remove {}: {}", (folder / name).string(), error.message()));
     }
   }
+  return lock;
 }
 
 }  // namespace thawslide::io

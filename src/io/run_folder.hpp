@@ -3,13 +3,16 @@
 
 #include <filesystem>
 
+#include "io/run_lock.hpp"
+
 namespace thawslide::io {
 
 // Throws UserError where a run cannot go: a file of that name, a folder that holds another run (unless `overwrite`), a
 // folder with other things in it, a place that cannot be written.
 void require_usable(const std::filesystem::path& folder, bool overwrite);
 
-// Makes the folder and its parents; with `overwrite` removes the files of the run it holds, and nothing else.
-void make_run_folder(const std::filesystem::path& folder, bool overwrite);
+// Makes the folder and its parents, and takes its lock; with `overwrite` removes the files of the run it holds, and
+// nothing else.
+RunLock make_run_folder(const std::filesystem::path& folder, bool overwrite);
 
 }  // namespace thawslide::io

@@ -33,11 +33,7 @@ std::string read_unit(hid_t dataset) {
 }  // namespace
 
 SnapshotSeries::SnapshotSeries(const fs::path& folder) : folder_(folder), indexed_() {
-  std::error_code error;
-  fs::create_directories(folder / "snapshots", error);
-  if (error) {
-    throw UserError(fmt::format("cannot make the folder {}: {}", (folder / "snapshots").string(), error.message()));
-  }
+  make_folder(folder / "snapshots");
 }
 
 SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, double time) {

@@ -18,7 +18,7 @@ class SnapshotSeries {
   static SnapshotSeries continue_after(const std::filesystem::path& folder, double time);
 
   // Writes folder/snapshots/NNNNNN.vtkhdf while the caller goes on, and before that, when it was not written for some
-  // seconds, the index of the snapshots so far. Throws UserError if this snapshot or the one before it could not be
+  // seconds, the index of the snapshots so far. Throws WriteError if this snapshot or the one before it could not be
   // written.
   void add(Snapshot snapshot);
   // Waits until the last snapshot is on the disk; throws as add does.

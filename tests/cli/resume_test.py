@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from conftest import LAMPLUGH, LIMIT, Interrupted, Program, assert_same_bits, history, run_facts, sets, snapshot_files
+from faults import digest
 
 # Neither rows nor snapshots nor checkpoints fall together.
 WORDS = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.4)
@@ -41,9 +42,14 @@ def test_a_stopped_run_goes_on_to_the_same_bits(
     after, complete = run_facts(run), run_facts(whole)
     assert after["status"] == "done" and after["steps"] == complete["steps"] == 300
     assert after["inputs"] == complete["inputs"]
-    # The rate is that of the steps this process took, in the time it took.
-    rate = after["particles"] * (300 - facts["steps"]) / after["wall_s"]
-    assert after["particle_steps_per_second"] == pytest.approx(rate)
+    # Command and start are those of the first part, time on the clock and work the sums of both.
+    first, second = after["parts"]
+    assert after["command"] == facts["command"] == first["command"] and after["started"] == facts["started"]
+    assert second["command"].endswith(f"resume {run} --threads 1") and second["threads"] == 1
+    assert (first["from_s"], second["from_s"]) == (0, stop)
+    assert first["wall_s"] == facts["wall_s"] and after["wall_s"] == first["wall_s"] + second["wall_s"]
+    assert first["particle_steps"] + second["particle_steps"] == after["particles"] * 300
+    assert after["particle_steps_per_second"] == pytest.approx(after["particles"] * 300 / after["wall_s"])
 
 
 def test_a_stopped_run_on_band_columns_goes_on_to_the_same_bits(
@@ -93,12 +99,14 @@ def test_a_finished_run_goes_on_when_its_end_is_moved(thawslide: Program, small_
     whole, longer = tmp_path / "whole", tmp_path / "longer"
     assert thawslide("run", small_case, "--output", whole, *sets(time__end=0.05), *words).returncode == 0
     assert thawslide("run", small_case, "--output", longer, *sets(time__end=0.0099), *words).returncode == 0
-    file = longer / "case.toml"
-    text = file.read_text()
-    assert text.count("\nend = 0.0099 ") == 1
-    file.write_text(text.replace("\nend = 0.0099 ", "\nend = 0.05 "))
-    assert thawslide("resume", longer).returncode == 0
+    outcome = thawslide("resume", longer, "--end", 0.05)
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith("going on from t = 0.0099 s\nchanged: time.end=0.05\n")
     assert_same_bits(whole, longer)
+    assert (longer / "case.toml").read_text() == (whole / "case.toml").read_text()
+    first, second = run_facts(longer)["parts"]
+    assert first["changes"] == [] and second["changes"] == ["time.end=0.05"]
+    assert first["case_sha256"] != second["case_sha256"] == run_facts(whole)["parts"][0]["case_sha256"]
 
 
 def test_a_run_that_particles_have_left_goes_on(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
@@ -108,11 +116,7 @@ def test_a_run_that_particles_have_left_goes_on(thawslide: Program, small_case: 
     assert thawslide("run", small_case, "--output", longer, *sets(time__end=0.1), *words).returncode == 0
     left = history(longer)["left_mass_kg"][-1]
     assert 0 < left < history(whole)["left_mass_kg"][-1]
-    file = longer / "case.toml"
-    text = file.read_text()
-    assert text.count("\nend = 0.1 ") == 1
-    file.write_text(text.replace("\nend = 0.1 ", "\nend = 0.2 "))
-    outcome = thawslide("resume", longer)
+    outcome = thawslide("resume", longer, "--set", "time.end=0.2")
     assert outcome.returncode == 0, outcome.stderr
     assert_same_bits(whole, longer)
     assert (longer / "checkpoint.bin").read_bytes() == (whole / "checkpoint.bin").read_bytes()
@@ -129,10 +133,21 @@ def test_a_finished_run_is_left_as_it_is(thawslide: Program, small_case: Path, t
     assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
 
 
-def test_resume_without_a_checkpoint(thawslide: Program, tmp_path: Path) -> None:
+def test_resume_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> None:
     outcome = thawslide("resume", tmp_path)
     assert outcome.returncode == 2
-    assert f"{tmp_path} holds no checkpoint.bin to go on from." in outcome.stderr
+    assert outcome.stderr == (
+        f"error: {tmp_path} holds no run to go on from: there is no run.json, which a run writes when it begins. Run "
+        "the case again.\n"
+    )
+    assert list(tmp_path.iterdir()) == []
+
+
+def as_killed(run: Path) -> None:
+    """Make run.json that of a run whose process is gone."""
+    text = (run / "run.json").read_text()
+    assert text.count('"status": "done"') == 1
+    (run / "run.json").write_text(text.replace('"status": "done"', '"status": "running"'))
 
 
 def damaged(content: bytes, damage: str) -> bytes:
@@ -150,6 +165,7 @@ def test_a_damaged_checkpoint_gives_way_to_the_one_before(
     words = sets(checkpoint__interval=0.15)
     assert thawslide("run", small_case, "--output", run, *words).returncode == 0
     assert thawslide("run", small_case, "--output", whole, *words).returncode == 0
+    as_killed(run)
     file = run / "checkpoint.bin"
     file.write_bytes(damaged(file.read_bytes(), damage))
     size = file.stat().st_size
@@ -167,6 +183,7 @@ def test_a_damaged_checkpoint_gives_way_to_the_one_before(
 def test_two_damaged_checkpoints_are_refused(thawslide: Program, small_case: Path, tmp_path: Path, damage: str) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
+    as_killed(run)
     files = [run / "checkpoint.bin", run / "checkpoint.previous.bin"]
     for file in files:
         file.write_bytes(damaged(file.read_bytes(), damage))
@@ -208,3 +225,148 @@ def test_checkpoints_come_by_the_clock_too(binary: Path, plain_environment: dict
             assert process.poll() is None
         process.kill()
     assert run_facts(run)["status"] == "running"
+
+
+def test_a_run_killed_at_its_very_end_is_closed(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    """Its last checkpoint stands, its index does not."""
+    run, whole = tmp_path / "run", tmp_path / "whole"
+    for folder in (run, whole):
+        assert thawslide("run", small_case, "--output", folder).returncode == 0
+    as_killed(run)
+    (run / "particles.vtkhdf").unlink()
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith("going on from t = 0.2 s\n")
+    assert run_facts(run)["status"] == "done"
+    assert digest(run) == digest(whole)
+
+
+def test_a_run_killed_before_its_first_checkpoint_begins_again(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    run, whole = tmp_path / "run", tmp_path / "whole"
+    for folder in (run, whole):
+        assert thawslide("run", small_case, "--output", folder).returncode == 0
+    as_killed(run)
+    for name in ("checkpoint.bin", "checkpoint.previous.bin", "history.csv", "terrain.csv"):
+        (run / name).unlink()
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith(f"{run} was cut off before its first checkpoint; it starts again\n")
+    assert_same_bits(whole, run)
+    assert [part["from_s"] for part in run_facts(run)["parts"]] == [0, 0]
+    assert run_facts(run)["inputs"] == run_facts(whole)["inputs"]
+
+
+def test_a_run_killed_before_it_knew_its_case_is_run_again(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    (run / "inputs").mkdir(parents=True)
+    (run / "run.lock").write_text("process 1 on elsewhere\n")
+    (run / "inputs" / "case.toml.12.part").write_text("half")
+    outcome = thawslide("run", small_case, "--output", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert sorted(file.name for file in (run / "inputs").iterdir()) == ["case.toml"]
+    assert not (run / "run.lock").exists()
+
+
+def test_a_changed_case_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    as_killed(run)
+    file = run / "case.toml"
+    text = file.read_text()
+    changed = text.replace("\nend = 0.2 ", "\nend = 0.3 ").replace("\ncohesion = 100000.0 ", "\ncohesion = 200000.0 ")
+    file.write_text(changed)
+    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 2
+    assert outcome.stderr == (
+        f"error: {file} has changed since the run wrote its checkpoint: material.rock.cohesion is 200000.0, was "
+        "100000.0; time.end is 0.3, was 0.2. Put that back, or remove the file, which then is written anew; what should "
+        f"change is told on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
+    )
+    assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
+    file.unlink()
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert f"note: {file} was missing; it is written anew from the checkpoint\n" in outcome.stdout
+    assert file.read_text() == text
+
+
+def test_figures_may_have_other_times(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    """[report] and the title change no run."""
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    as_killed(run)
+    file = run / "case.toml"
+    text = file.read_text().replace("\ntimes = []", "\ntimes = [0.1]")
+    assert "times = [0.1]" in text
+    file.write_text(text)
+    assert thawslide("resume", run).returncode == 0
+    assert file.read_text() == text
+
+
+def test_a_changed_input_is_refused_and_a_changed_original_told(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    as_killed(run)
+    original, copy = small_case / "case.toml", run / "inputs" / "case.toml"
+    original.write_text(original.read_text() + "# a remark\n")
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    told = f"note: {original} has changed since the run began, which goes on with its copy, inputs/case.toml\n"
+    assert told in outcome.stdout
+    as_killed(run)
+    copy.write_text("other")
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 2
+    assert outcome.stderr == (
+        f"error: {copy} has changed. A run goes on with the inputs it began with (run.json has their SHA-256): put them "
+        "back, or run the case anew.\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            ["--set", "grid.cell=2", "--set", "body.block.porosity=0.1", "--end", "1"],
+            "a run that goes on cannot change grid.cell, body.block.porosity: what it has computed so far was for the "
+            "case it has. Allowed: [time], [checkpoint], grid.leaving, ",
+        ),
+        (["--end", "0.1"], "the end of 0.1 s has passed: the run's checkpoint is of 0.2 s. Give a later one."),
+        (["--end", "-1"], "-1 found; allowed: above 0"),
+        (["--set", "time.ende=3"], "--set time.ende=3: key 'time.ende' is not known in [time]; did you mean 'end'?"),
+    ],
+)
+def test_changes_that_cannot_be(
+    thawslide: Program, small_case: Path, tmp_path: Path, words: list[str], message: str
+) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    outcome = thawslide("resume", run, *words)
+    assert outcome.returncode == 2
+    assert message in outcome.stderr
+    assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
+
+
+def test_a_change_that_was_cut_off_is_asked_for_again(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    """run.json tells of it, case.toml does not yet have it."""
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    text = (run / "case.toml").read_text()
+    checkpoint = (run / "checkpoint.bin").read_bytes()
+    assert thawslide("resume", run, "--end", 0.3).returncode == 0
+    as_killed(run)
+    (run / "case.toml").write_text(text)
+    (run / "checkpoint.bin").write_bytes(checkpoint)
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 2
+    assert f"Give it again: thawslide resume {run} --set time.end=0.3\n" in outcome.stderr
+    assert thawslide("resume", run, "--set", "time.end=0.3").returncode == 0
+    assert run_facts(run)["simulated_time_s"] == pytest.approx(0.3)

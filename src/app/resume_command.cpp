@@ -1,0 +1,195 @@
+// thawslide resume.
+#include "app/commands.hpp"
+#include "app/map_files.hpp"
+#include "app/run_loop.hpp"
+#include "app/say.hpp"
+#include "app/signals.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "config/case_changes.hpp"
+#include "config/describe.hpp"
+#include "config/read_case.hpp"
+#include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/run_lock.hpp"
+#include "io/sha256.hpp"
+
+namespace thawslide::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  return fmt::format("{}", fmt::join(words, between));
+}
+
+// The copies that the run reads must be those it began with.
+void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile>& inputs) {
+  std::vector<std::string> changed;
+  for (const io::InputFile& input : inputs) {
+    const fs::path copy = folder / input.copy;
+    if (!fs::exists(copy)) {
+      changed.push_back(copy.string() + " is missing");
+    } else if (io::sha256_of_file(copy) != input.sha256) {
+      changed.push_back(copy.string() + " has changed");
+    }
+  }
+  if (!changed.empty()) {
+    throw UserError(fmt::format(
+        "{}. A run goes on with the inputs it began with (run.json has their SHA-256): put them back, or run "
+        "the case anew.",
+        joined(changed, "; ")));
+  }
+}
+
+// Of the files that the user gave: a run goes on with its copies, whatever has become of them.
+void tell_changed_originals(const std::vector<io::InputFile>& inputs) {
+  for (const io::InputFile& input : inputs) {
+    std::error_code unreadable;
+    const bool same_size = fs::file_size(input.path, unreadable) == input.bytes;
+    if (!unreadable && (!same_size || io::sha256_of_file(input.path) != input.sha256)) {
+      say("note: {} has changed since the run began, which goes on with its copy, {}\n", input.path, input.copy);
+    }
+  }
+}
+
+// case.toml must be what the run's checkpoint was written with, or what a resume that was cut off has put there.
+void require_same_case(const fs::path& folder, const io::Provenance& facts, const std::string& before,
+                       const std::vector<std::string>& sets) {
+  const fs::path file = folder / "case.toml";
+  if (!fs::exists(file)) {
+    io::write_file_atomically(file, before);
+    say("note: {} was missing; it is written anew from the checkpoint\n", file.string());
+  }
+  const std::string now = io::read_file(file);
+  const io::RunPart& last = facts.parts.back();
+  if (io::sha256_hex(now.data(), now.size()) == last.case_sha256) {
+    return;
+  }
+  const std::vector<std::string> changes = config::differences(now, before);
+  if (!changes.empty()) {
+    throw UserError(fmt::format(
+        "{} has changed since the run wrote its checkpoint: {}. Put that back, or remove the file, which then "
+        "is written anew; what should change is told on the command line: thawslide resume {} --set "
+        "KEY=VALUE, or --end T.",
+        file.string(), joined(changes, "; "), folder.string()));
+  }
+  if (!last.changes.empty() && sets.empty()) {
+    throw UserError(fmt::format(
+        "the last resume was cut off before its change took hold. Give it again: thawslide resume {} --set {}",
+        folder.string(), joined(last.changes, " --set ")));
+  }
+}
+
+// What the run goes on with.
+struct Continuation {
+  config::Case parameters;
+  std::string case_text;   // for case.toml
+  io::Provenance earlier;  // what run.json tells, with the part that begins
+};
+
+Continuation continuation_of(const fs::path& folder, const std::vector<std::string>& sets, io::Provenance facts) {
+  config::require_changeable(sets);
+  Continuation next{config::read_case(folder, sets), io::read_file(folder / "case.toml"), std::move(facts)};
+  if (!sets.empty()) {
+    next.case_text = config::resolved_toml(next.parameters, "inputs");
+  }
+  io::RunPart part = io::part_of_this_process();
+  part.changes = sets;
+  part.case_sha256 = io::sha256_hex(next.case_text.data(), next.case_text.size());
+  next.earlier.parts.push_back(std::move(part));
+  return next;
+}
+
+// run.json must tell of a change before: a kill between leaves no change untold.
+void take_changes(const fs::path& folder, const Continuation& next) {
+  if (const std::vector<std::string>& changes = next.earlier.parts.back().changes; !changes.empty()) {
+    io::write_file_atomically(folder / "case.toml", next.case_text);
+    say("changed: {}\n", joined(changes, ", "));
+  }
+}
+
+template <int Dim>
+void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>& scalars, const NamedNumbers& blocks) {
+  simulation.restore(scalars);
+  if (simulation.band_columns() != nullptr) {
+    simulation.restore_band_columns(blocks.at("band_columns"));
+  }
+  if (simulation.bed() != nullptr) {
+    simulation.restore_bed(blocks.at("bed"));
+  }
+}
+
+template <int Dim>
+int start_anew(const fs::path& folder, const Continuation& next) {
+  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters));
+  say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
+  RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
+  take_changes(folder, next);
+  return start_and_run<Dim>(simulation, output, folder);
+}
+
+template <int Dim>
+int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, const Continuation& next) {
+  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters));
+  std::vector<double> scalars;
+  const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
+  restore<Dim>(simulation, scalars, blocks);
+  const double end = next.parameters.time.end, half_a_step = 0.5 * simulation.last_step();
+  const bool is_at_end = simulation.time() >= end - half_a_step;
+  if (is_at_end && simulation.time() > end + half_a_step) {
+    throw UserError(fmt::format("the end of {:g} s has passed: the run's checkpoint is of {:g} s. Give a later one.",
+                                end, simulation.time()));
+  }
+  if (is_at_end && next.earlier.status == "done") {
+    say("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
+    return static_cast<int>(ExitCode::done);
+  }
+  if (!checkpoint.note.empty()) {
+    say("note: {}; going on from the checkpoint before\n", checkpoint.note);
+  }
+  say("going on from t = {:g} s\n", simulation.time());
+  RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
+  take_changes(folder, next);
+  return run_to_end<Dim>(simulation, output, folder);
+}
+
+}  // namespace
+
+int resume_run(const ResumeOptions& options) {
+  survive_failing_writes();
+  use_threads(options.threads);
+  const fs::path folder = options.folder;
+  if (!fs::exists(folder / "run.json")) {
+    throw UserError(
+        fmt::format("{} holds no run to go on from: there is no run.json, which a run writes when it begins. "
+                    "Run the case again.",
+                    folder.string()));
+  }
+  const io::RunLock lock(folder);
+  const io::Provenance facts = io::read_provenance(folder);
+  if (facts.status == "done" && options.sets.empty()) {
+    say("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
+        facts.message.empty() ? "" : ": " + facts.message);
+    return static_cast<int>(ExitCode::done);
+  }
+  io::WholeCheckpoint checkpoint;
+  const bool has_checkpoint = io::has_checkpoint(folder);
+  if (has_checkpoint) {
+    checkpoint = io::newest_checkpoint(folder);
+    require_same_case(folder, facts, io::case_of(checkpoint), options.sets);
+  }
+  for (const char* place : {".", "inputs", "snapshots", "maps"}) {
+    io::remove_unfinished_files(folder / place);
+  }
+  require_same_inputs(folder, facts.inputs);
+  tell_changed_originals(facts.inputs);
+  const Continuation next = continuation_of(folder, options.sets, facts);
+  return with_dimension(next.parameters.general.dimension,
+                        [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
+                          return has_checkpoint ? go_on<Dim>(folder, checkpoint, next) : start_anew<Dim>(folder, next);
+                        });
+}
+
+}  // namespace thawslide::app

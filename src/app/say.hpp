@@ -1,0 +1,28 @@
+// What a run tells the terminal. Where nobody reads it any more (a closed pipe, a full disk) the run goes on.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace thawslide::app {
+
+// A stream that does not take it is no failure.
+inline void put(std::FILE* stream, const std::string& text) {
+  (void)std::fwrite(text.data(), 1, text.size(), stream);
+  (void)std::fflush(stream);
+}
+
+template <class... Values>
+void say(fmt::format_string<Values...> format, Values&&... values) {
+  put(stdout, fmt::format(format, std::forward<Values>(values)...));
+}
+
+template <class... Values>
+void say_error(fmt::format_string<Values...> format, Values&&... values) {
+  put(stderr, fmt::format(format, std::forward<Values>(values)...));
+}
+
+}  // namespace thawslide::app

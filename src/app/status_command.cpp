@@ -1,0 +1,148 @@
+// thawslide status.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "base/error.hpp"
+#include "config/read_case.hpp"
+#include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/provenance.hpp"
+#include "io/run_lock.hpp"
+
+namespace thawslide::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct RunStatus {
+  std::string state;  // running, killed, done, stopped, failed
+  std::string message;
+  std::string process;                              // that is at work; empty: none
+  double time = 0.0;                                // simulated [s]
+  double end = 0.0;                                 // [s]
+  std::optional<double> checkpoint_age, time_left;  // wall-clock [s]
+};
+
+// The first number of the last whole row of a run's history; nothing before there is one.
+std::optional<double> last_time_in_history(const fs::path& folder) {
+  const fs::path file = folder / "history.csv";
+  if (!fs::exists(file)) {
+    return std::nullopt;
+  }
+  const std::string text = io::read_file(file);
+  const std::size_t end = text.rfind('\n');
+  if (end == std::string::npos || end == 0) {
+    return std::nullopt;
+  }
+  const std::size_t before = text.rfind('\n', end - 1);
+  if (before == std::string::npos) {
+    return std::nullopt;  // the header alone
+  }
+  double time = 0.0;
+  const auto parsed = std::from_chars(text.data() + before + 1, text.data() + end, time);
+  return parsed.ec == std::errc() ? std::optional(time) : std::nullopt;
+}
+
+// Of a time as run.json has it, in UTC [s].
+std::optional<double> seconds_since(const std::string& utc) {
+  std::tm parts{};
+  if (strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%SZ", &parts) == nullptr) {
+    return std::nullopt;
+  }
+  return std::difftime(std::time(nullptr), timegm(&parts));
+}
+
+std::optional<double> age_of(const fs::path& file) {
+  std::error_code error;
+  const auto written = fs::last_write_time(file, error);
+  return error ? std::nullopt
+               : std::optional(std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count());
+}
+
+RunStatus status_of(const fs::path& folder) {
+  if (!fs::exists(folder / "run.json")) {
+    throw UserError(
+        fmt::format("{} holds no run: there is no run.json, which a run writes when it begins.", folder.string()));
+  }
+  const std::optional<std::string> process = io::process_at_work(folder);
+  const io::Provenance facts = io::read_provenance(folder);
+  RunStatus status;
+  status.process = process.value_or("");
+  status.state = process ? "running" : facts.status == "running" ? "killed" : facts.status;
+  status.message = process ? "" : facts.message;
+  status.time = std::max(facts.simulated_time, last_time_in_history(folder).value_or(0.0));
+  status.end = config::read_case(folder).time.end;
+  status.checkpoint_age = age_of(folder / io::checkpoint_name);
+  const io::RunPart& part = facts.parts.back();
+  const std::optional<double> elapsed = seconds_since(part.started);
+  const bool is_known = elapsed && *elapsed >= 1.0 && status.time > part.from_time;  // run.json tells whole seconds
+  if (process && is_known) {
+    status.time_left = *elapsed * std::max(0.0, status.end - status.time) / (status.time - part.from_time);
+  }
+  return status;
+}
+
+std::string json_text(const RunStatus& status) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+  };
+  nlohmann::ordered_json json;
+  json["state"] = status.state;
+  json["message"] = status.message;
+  json["process"] = status.process;
+  json["simulated_time_s"] = status.time;
+  json["end_s"] = status.end;
+  json["checkpoint_age_s"] = number(status.checkpoint_age);
+  json["time_left_s"] = number(status.time_left);
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string words_for(const RunStatus& status) {
+  if (status.state == "running") {
+    return "running, by " + status.process;
+  }
+  if (status.state == "killed") {
+    return "its process is gone without a word: it was killed, or the machine went down";
+  }
+  const std::string words = status.state == "failed" ? "the run went bad" : status.state;
+  return status.message.empty() ? words : words + ": " + status.message;
+}
+
+void print_status(const fs::path& folder, const RunStatus& status) {
+  fmt::print("{}: {}\n", folder.string(), words_for(status));
+  fmt::print("  {:g} of {:g} s simulated ({:.0f} %){}\n", status.time, status.end,
+             std::floor(100.0 * std::min(1.0, status.time / status.end)),
+             status.time_left ? fmt::format(", about {} left", duration_text(*status.time_left)) : "");
+  if (status.state == "done") {
+    return;
+  }
+  fmt::print("  {}\n", status.checkpoint_age
+                           ? fmt::format("last checkpoint {} ago", duration_text(*status.checkpoint_age))
+                           : "no checkpoint yet");
+  if (status.state == "killed" || status.state == "stopped") {
+    fmt::print("  to go on: thawslide resume {}\n", folder.string());
+  } else if (status.state == "failed") {
+    fmt::print("  the message above says what to change; then run the case anew\n");
+  }
+}
+
+}  // namespace
+
+int tell_status(const StatusOptions& options) {
+  const RunStatus status = status_of(options.folder);
+  if (options.json) {
+    fmt::print("{}\n", json_text(status));
+  } else {
+    print_status(options.folder, status);
+  }
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace thawslide::app

@@ -1,0 +1,127 @@
+#include "config/case_changes.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <sstream>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "config/overrides.hpp"
+#include "config/rule.hpp"
+#include "config/toml.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+// What the step reads anew each time and keeps no state for. A table ends with a dot: all of its keys.
+constexpr std::array<std::string_view, 11> changeable = {
+    "time.",
+    "checkpoint.",
+    "grid.leaving",
+    "mechanics.mass_damping",
+    "mechanics.pic_share",
+    "basal.friction_angle",
+    "basal.friction_coefficient",
+    "basal.cohesion",
+    "basal.residual_cohesion",
+    "case.title",
+    "report.times",
+};
+
+bool may_change(std::string_view key) {
+  for (const std::string_view each : changeable) {
+    if (each.back() == '.' ? key.substr(0, each.size()) == each : key == each) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool changes_no_run(const std::string& key) { return key == "case.title" || key.rfind("report.", 0) == 0; }
+
+// A value as the resolved case writes it.
+std::string text_of(const toml::node& node) {
+  if (const toml::value<double>* number = node.as_floating_point()) {
+    return number_text(number->get());
+  }
+  if (const toml::array* array = node.as_array()) {
+    std::string text;
+    for (const toml::node& each : *array) {
+      text += (text.empty() ? "" : ", ") + text_of(each);
+    }
+    return "[" + text + "]";
+  }
+  std::ostringstream text;
+  node.visit([&](const auto& value) { text << toml::toml_formatter(value); });
+  return text.str();
+}
+
+// Every value by its dotted key.
+void gather(const toml::table& table, const std::string& prefix, std::map<std::string, std::string>& values) {
+  for (const auto& [key, node] : table) {
+    const std::string dotted = prefix + std::string(key.str());
+    if (const toml::table* inner = node.as_table(); inner != nullptr && !inner->is_inline()) {
+      gather(*inner, dotted + ".", values);
+    } else if (!changes_no_run(dotted)) {
+      values[dotted] = text_of(node);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> differences(const std::string& now, const std::string& before) {
+  std::map<std::string, std::string> present, past;
+  try {
+    gather(toml::parse(now), "", present);
+  } catch (const toml::parse_error& error) {
+    return {fmt::format("line {} is not TOML: {}", error.source().begin.line, error.description())};
+  }
+  gather(toml::parse(before), "", past);
+  std::vector<std::string> found;
+  for (const auto& [key, value] : past) {
+    const auto other = present.find(key);
+    if (other == present.end()) {
+      found.push_back(fmt::format("{} is missing, was {}", key, value));
+    } else if (other->second != value) {
+      found.push_back(fmt::format("{} is {}, was {}", key, other->second, value));
+    }
+  }
+  for (const auto& [key, value] : present) {
+    if (past.count(key) == 0) {
+      found.push_back(fmt::format("{} is {}, was not given", key, value));
+    }
+  }
+  return found;
+}
+
+std::string changeable_keys() {
+  std::string words;
+  for (const std::string_view each : changeable) {
+    const std::string word =
+        each.back() == '.' ? fmt::format("[{}]", each.substr(0, each.size() - 1)) : std::string(each);
+    words += (words.empty() ? "" : ", ") + word;
+  }
+  return words;
+}
+
+void require_changeable(const std::vector<std::string>& sets) {
+  std::string fixed;
+  for (const std::string& set : sets) {
+    const std::string key = parse_override(set).key;
+    if (!may_change(key)) {
+      fixed += (fixed.empty() ? "" : ", ") + key;
+    }
+  }
+  if (!fixed.empty()) {
+    throw UserError(fmt::format(
+        "a run that goes on cannot change {}: what it has computed so far was for the case it has. Allowed: "
+        "{}. For anything else run the case anew.",
+        fixed, changeable_keys()));
+  }
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,145 @@
+"""Runs that are killed, or whose writing fails, and what becomes of them: for the tests and for scripts/reliability."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import random
+import subprocess
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from conftest import datasets
+
+ROOT = Path(__file__).resolve().parents[2]
+FAILING_WRITES = ROOT / "build" / "release" / "tests" / "failing_writes.so"
+LEFT_OUT = ("run.json", "run.lock")  # what tells of processes, not of the slide
+NOT_BEGUN = "holds no run to go on from"
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A case that is tried: words of `run` after the case, without --output."""
+
+    name: str
+    case: Path
+    words: tuple[str, ...] = ()
+
+
+@dataclass
+class Trial:
+    """What became of one run that was disturbed."""
+
+    subject: str
+    disturbance: str
+    code: int  # of the disturbed process
+    told: str  # its last line of errors
+    same: bool  # whether it ended with the files of the undisturbed run
+    remarks: list[str] = field(default_factory=list)
+
+    @property
+    def sound(self) -> bool:
+        return self.same and not self.remarks
+
+
+def content(file: Path) -> bytes:
+    """Return the bytes of a file; of an HDF5 file, in which unused ones differ, those of its datasets."""
+    if file.suffix != ".vtkhdf":
+        return file.read_bytes()
+    return b"".join(name.encode() + values.tobytes() for name, values in sorted(datasets(file).items()))
+
+
+def digest(run: Path) -> dict[str, str]:
+    """Return SHA-256 of every file of a run but those that tell of processes."""
+    return {
+        str(file.relative_to(run)): hashlib.sha256(content(file)).hexdigest()
+        for file in sorted(run.rglob("*"))
+        if file.is_file() and file.name not in LEFT_OUT
+    }
+
+
+def command_of(program: Path, subject: Subject, run: Path) -> list[str]:
+    return [str(program), "run", str(subject.case), "--output", str(run), "--threads", "1", *subject.words]
+
+
+def undisturbed(program: Path, subject: Subject, run: Path) -> tuple[dict[str, str], float]:
+    """Run the subject; return the digest of its files and how long it took [s]."""
+    begin = time.monotonic()
+    done = subprocess.run(command_of(program, subject, run), capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return digest(run), time.monotonic() - begin
+
+
+def go_on(program: Path, subject: Subject, run: Path) -> list[str]:
+    """Resume a run, or run it again where it had not begun, as a user would; return what went wrong."""
+    outcome = subprocess.run(
+        [str(program), "resume", str(run), "--threads", "1"], capture_output=True, text=True, check=False
+    )
+    if outcome.returncode == 2 and NOT_BEGUN in outcome.stderr:
+        outcome = subprocess.run(command_of(program, subject, run), capture_output=True, text=True, check=False)
+    return [] if outcome.returncode == 0 else [f"going on ended with {outcome.returncode}: {outcome.stderr.strip()}"]
+
+
+def changed_files(expected: dict[str, str], found: dict[str, str]) -> list[str]:
+    """Return the names of files that differ, but for the checkpoint before the last, whose moment is the clock's."""
+    names = (expected.keys() | found.keys()) - {"checkpoint.previous.bin"}
+    return sorted(name for name in names if expected.get(name) != found.get(name))
+
+
+def killed(
+    program: Path, subject: Subject, run: Path, expected: dict[str, str], span: float, chance: random.Random
+) -> Trial:
+    """Kill a run at a random moment of `span` seconds, go on with it and compare."""
+    delay = chance.uniform(0.0, span)
+    quiet = subprocess.DEVNULL
+    with subprocess.Popen(command_of(program, subject, run), stdout=quiet, stderr=quiet) as process:
+        try:
+            process.wait(timeout=delay)
+        except subprocess.TimeoutExpired:
+            process.kill()
+        code = process.wait()
+    remarks = go_on(program, subject, run)
+    changed = changed_files(expected, digest(run))
+    return Trial(subject.name, f"killed after {delay:.3f} s", code, "", not changed, remarks + changed)
+
+
+def environment_of_fault(run: Path, at: int, kind: str, reason: str, count: Path | None = None) -> dict[str, str]:
+    return os.environ | {
+        "LD_PRELOAD": str(FAILING_WRITES),
+        "FAULT_FOLDER": str(run),
+        "FAULT_AT": str(at),
+        "FAULT_KIND": kind,
+        "FAULT_REASON": reason,
+        "FAULT_COUNT": str(count or ""),
+    }
+
+
+def calls_that_write(program: Path, subject: Subject, run: Path, count: Path) -> int:
+    """Return how many calls of an undisturbed run change its folder."""
+    environment = environment_of_fault(run, 0, "once", "full", count)
+    done = subprocess.run(
+        command_of(program, subject, run), env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return int(count.read_text())
+
+
+def failing(
+    program: Path, subject: Subject, run: Path, expected: dict[str, str], at: int, kind: str, reason: str
+) -> Trial:
+    """Let the writing call number `at` fail, go on with the run once there is room and compare."""
+    environment = environment_of_fault(run, at, kind, reason)
+    outcome = subprocess.run(
+        command_of(program, subject, run), env=environment, capture_output=True, text=True, check=False
+    )
+    lines = outcome.stderr.strip().splitlines()
+    told = lines[0] if lines else ""
+    remarks = []
+    if outcome.returncode not in (0, 2, 5) or (outcome.returncode != 0 and not told.startswith("error: ")):
+        remarks.append(f"ended with {outcome.returncode}: {outcome.stderr.strip()}")
+    if outcome.returncode != 0 and str(run) not in told:
+        remarks.append(f"the error names no file of the run: {told}")
+    remarks += go_on(program, subject, run)
+    changed = changed_files(expected, digest(run))
+    return Trial(subject.name, f"{kind}, {reason}, call {at}", outcome.returncode, told, not changed, remarks + changed)

@@ -1,0 +1,130 @@
+"""Whether a run is alive, how far it is and how to go on; one process a folder; signals that come twice."""
+
+from __future__ import annotations
+
+import json
+import re
+import signal
+import socket
+import subprocess
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from conftest import LAMPLUGH, LIMIT, Program, run_facts, sets
+
+LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
+
+
+@pytest.fixture
+def at_work(binary: Path, plain_environment: dict[str, str], tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
+    """Yield the process of a run into tmp_path / run that has taken some steps and has far to go."""
+    run = tmp_path / "run"
+    command = [str(binary), "run", str(LAMPLUGH), "--output", str(run), *LONG]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, env=plain_environment, stdout=pipe, stderr=pipe, text=True) as process:
+        history = run / "history.csv"
+        while not history.exists() or history.read_text().count("\n") < 4:
+            assert process.poll() is None
+            time.sleep(0.01)
+        yield process
+        process.kill()
+
+
+def test_a_living_and_a_killed_run(thawslide: Program, at_work: subprocess.Popen[str], tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    outcome = thawslide("status", run)
+    assert outcome.returncode == 0, outcome.stderr
+    process = f"process {at_work.pid} on {socket.gethostname()}"
+    assert re.fullmatch(
+        rf"{re.escape(str(run))}: running, by {re.escape(process)}\n"
+        r"  \S+ of 150 s simulated \(\d %\)(, about .* left)?\n"
+        r"  last checkpoint .* ago\n",
+        outcome.stdout,
+    ), outcome.stdout
+    facts = json.loads(thawslide("status", run, "--json").stdout)
+    assert facts["state"] == "running" and facts["process"] == process
+    assert 0.1 <= facts["simulated_time_s"] < facts["end_s"] == 150
+    assert facts["time_left_s"] is None or facts["time_left_s"] > 0
+
+    at_work.kill()
+    at_work.communicate(timeout=LIMIT)
+    assert run_facts(run)["status"] == "running"
+    outcome = thawslide("status", run)
+    assert outcome.returncode == 0
+    assert outcome.stdout.startswith(
+        f"{run}: its process is gone without a word: it was killed, or the machine went down\n"
+    )
+    assert outcome.stdout.endswith(f"  to go on: thawslide resume {run}\n")
+    assert json.loads(thawslide("status", run, "--json").stdout)["state"] == "killed"
+
+
+def test_one_process_at_a_time(thawslide: Program, at_work: subprocess.Popen[str], tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    message = (
+        f"error: {run} is being written by process {at_work.pid} on {socket.gethostname()}. Wait until that has ended, "
+        "or stop it.\n"
+    )
+    for words in (["resume", run], ["run", LAMPLUGH, "--output", run, "--overwrite"]):
+        outcome = thawslide(*words)
+        assert outcome.returncode == 2
+        assert outcome.stderr == message
+    assert at_work.poll() is None and (run / "history.csv").exists()
+
+
+@pytest.mark.parametrize(("first", "second"), [(signal.SIGINT, signal.SIGINT), (signal.SIGTERM, signal.SIGINT)])
+def test_a_second_signal_stops_at_once(
+    thawslide: Program,
+    at_work: subprocess.Popen[str],
+    tmp_path: Path,
+    first: signal.Signals,
+    second: signal.Signals,
+) -> None:
+    at_work.send_signal(signal.SIGSTOP)  # both wait, so that the second comes before the first has been answered
+    at_work.send_signal(first)
+    if first != second:
+        at_work.send_signal(second)
+    at_work.send_signal(signal.SIGCONT)
+    if first == second:
+        at_work.send_signal(second)
+    code = at_work.wait(timeout=LIMIT)
+    assert code in (-second, -first, 4)  # 4: the step and the files were done before the second came
+    if code != 4:
+        assert json.loads(thawslide("status", tmp_path / "run", "--json").stdout)["state"] == "killed"
+
+
+def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    outcome = thawslide("status", run)
+    assert outcome.stdout == f"{run}: done\n  0.2 of 0.2 s simulated (100 %)\n"
+    assert json.loads(thawslide("status", run, "--json").stdout) == {
+        "state": "done",
+        "message": "",
+        "process": "",
+        "simulated_time_s": pytest.approx(0.2),
+        "end_s": 0.2,
+        "checkpoint_age_s": pytest.approx(30, abs=30),
+        "time_left_s": None,
+    }
+
+
+def test_status_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> None:
+    outcome = thawslide("status", tmp_path)
+    assert outcome.returncode == 2
+    assert (
+        outcome.stderr == f"error: {tmp_path} holds no run: there is no run.json, which a run writes when it begins.\n"
+    )
+
+
+def test_a_run_does_not_take_its_own_case_away(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    outcome = thawslide("run", run, "--output", run, "--overwrite")
+    assert outcome.returncode == 2
+    assert outcome.stderr == (
+        f"error: {run / 'case.toml'} lies in the output folder {run}. Give another --output, or go on with that run: "
+        "thawslide resume.\n"
+    )
+    assert (run / "case.toml").exists() and (run / "history.csv").exists()
