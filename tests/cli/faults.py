@@ -40,6 +40,7 @@ class Trial:
 
     @property
     def sound(self) -> bool:
+        """Whether nothing was lost and nothing went wrong on the way."""
         return self.same and not self.remarks
 
 
@@ -60,6 +61,7 @@ def digest(run: Path) -> dict[str, str]:
 
 
 def command_of(program: Path, subject: Subject, run: Path) -> list[str]:
+    """Return the words that run the subject into a folder."""
     return [str(program), "run", str(subject.case), "--output", str(run), "--threads", "1", *subject.words]
 
 
@@ -105,6 +107,7 @@ def killed(
 
 
 def environment_of_fault(run: Path, at: int, kind: str, reason: str, count: Path | None = None) -> dict[str, str]:
+    """Return the environment in which writing fails (tests/faults/failing_writes.cpp)."""
     return os.environ | {
         "LD_PRELOAD": str(FAILING_WRITES),
         "FAULT_FOLDER": str(run),

@@ -1,5 +1,7 @@
-"""Kills and failing writes: a run that goes on ends with the files of one that nothing disturbed. A sample; all of them
-are in scripts/reliability."""
+"""Kills and failing writes: a run that goes on ends with the files of one that nothing disturbed.
+
+A sample; all of them are in scripts/reliability.
+"""
 
 from __future__ import annotations
 

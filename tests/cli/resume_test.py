@@ -284,8 +284,8 @@ def test_a_changed_case_is_refused(thawslide: Program, small_case: Path, tmp_pat
     assert outcome.returncode == 2
     assert outcome.stderr == (
         f"error: {file} has changed since the run wrote its checkpoint: material.rock.cohesion is 200000.0, was "
-        "100000.0; time.end is 0.3, was 0.2. Put that back, or remove the file, which then is written anew; what should "
-        f"change is told on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
+        "100000.0; time.end is 0.3, was 0.2. Put that back, or remove the file, which then is written anew; what "
+        f"should change is told on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
     )
     assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
     file.unlink()
@@ -325,8 +325,8 @@ def test_a_changed_input_is_refused_and_a_changed_original_told(
     outcome = thawslide("resume", run)
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: {copy} has changed. A run goes on with the inputs it began with (run.json has their SHA-256): put them "
-        "back, or run the case anew.\n"
+        f"error: {copy} has changed. A run goes on with the inputs it began with (run.json has their SHA-256): put "
+        "them back, or run the case anew.\n"
     )
 
 
