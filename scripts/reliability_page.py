@@ -11,6 +11,8 @@ KINDS = {
     ("once", "io"): "that call alone (input/output error)",
     ("onwards", "full"): "that call and all after it (disk full)",
     ("onwards", "denied"): "that call and all after it (permission denied)",
+    ("size", "size"): "nothing by itself, but files may be no larger than 1 to 20 kB (`ulimit -f`)",
+    ("disk", "disk"): "nothing by itself, but the disk has 8 to 200 kB (tmpfs), until there is room",
     ("short", "full"): "half of what it writes arrives, nothing after it (disk full)",
 }
 
@@ -78,7 +80,7 @@ def writes_text(found: dict[str, Any]) -> str:
             "end with an error that names the file, or go on where nothing is lost by it; then, with room again, "
             "it is resumed and must end with the bits of the undisturbed run."
         )
-        + "\n| case | what fails | calls tried | sound |\n|---|---|---|---|\n"
+        + "\n| case | what fails | tried | sound |\n|---|---|---|---|\n"
         + "".join(lines)
         + findings_text(rows)
     )
@@ -128,5 +130,6 @@ def write_page(results: Path, page: Path) -> None:
     for name, text in TEXTS.items():
         file = results / f"{name}.json"
         found = json.loads(file.read_text()) if file.exists() else None
-        parts.append(text(found) if found else f"## {name.capitalize()}\n\nThis part has not been run.\n")
+        made = f"\n*{found['version']}, {found['wall_s'] / 60:.0f} minutes.*\n" if found else ""
+        parts.append(text(found) + made if found else f"## {name.capitalize()}\n\nThis part has not been run.\n")
     page.write_text("\n".join(parts))

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 
 namespace thawslide::io {
@@ -78,6 +79,7 @@ RunLock make_run_folder(const fs::path& folder, bool overwrite) {
       throw UserError(fmt::format("cannot remove {}: {}", (folder / name).string(), error.message()));
     }
   }
+  remove_unfinished_files(folder);
   return lock;
 }
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import random
+import resource
 import subprocess
 import time
 from dataclasses import dataclass, field
@@ -73,6 +74,21 @@ def undisturbed(program: Path, subject: Subject, run: Path) -> tuple[dict[str, s
     return digest(run), time.monotonic() - begin
 
 
+def unreadable(run: Path) -> list[str]:
+    """Return what of a run's folder, as a kill has left it, cannot be read."""
+    found = []
+    for file in [*(run / "snapshots").glob("*.vtkhdf"), *run.glob("particles.vtkhdf")]:
+        try:
+            datasets(file)
+        except (OSError, KeyError) as error:
+            found.append(f"{file.name} cannot be read: {error}")
+    for file in (run / "history.csv", run / "probes.csv"):
+        rows = file.read_text().splitlines(keepends=True) if file.exists() else []
+        if any(not row.endswith("\n") or row.count(",") != rows[0].count(",") for row in rows):
+            found.append(f"{file.name} has a torn row")
+    return found
+
+
 def go_on(program: Path, subject: Subject, run: Path) -> list[str]:
     """Resume a run, or run it again where it had not begun, as a user would; return what went wrong."""
     outcome = subprocess.run(
@@ -101,7 +117,7 @@ def killed(
         except subprocess.TimeoutExpired:
             process.kill()
         code = process.wait()
-    remarks = go_on(program, subject, run)
+    remarks = unreadable(run) + go_on(program, subject, run)
     changed = changed_files(expected, digest(run))
     return Trial(subject.name, f"killed after {delay:.3f} s", code, "", not changed, remarks + changed)
 
@@ -146,3 +162,45 @@ def failing(
     remarks += go_on(program, subject, run)
     changed = changed_files(expected, digest(run))
     return Trial(subject.name, f"{kind}, {reason}, call {at}", outcome.returncode, told, not changed, remarks + changed)
+
+
+def limited(program: Path, subject: Subject, run: Path, expected: dict[str, str], size: int) -> Trial:
+    """Run under a limit of the size of a file [bytes], go on with the run without it and compare."""
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
+
+    outcome = subprocess.run(
+        command_of(program, subject, run), preexec_fn=limit, capture_output=True, text=True, check=False
+    )
+    remarks = [] if outcome.returncode in (2, 5) and "File too large" in outcome.stderr else [outcome.stderr]
+    remarks += go_on(program, subject, run)
+    changed = changed_files(expected, digest(run))
+    told = outcome.stderr.splitlines()[0] if outcome.stderr else ""
+    return Trial(
+        subject.name, f"files of {size} bytes at most", outcome.returncode, told, not changed, remarks + changed
+    )
+
+
+def on_small_disk(
+    program: Path, subject: Subject, disk: Path, expected: dict[str, str], sizes: tuple[int, int]
+) -> Trial | None:
+    """Run on a disk of sizes[0] kB, go on with the run once it has sizes[1], compare; None where none can be made."""
+    disk.mkdir()
+    made = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", f"size={sizes[0]}k", "tmpfs", str(disk)], capture_output=True, check=False
+    )
+    if made.returncode != 0:
+        return None
+    try:
+        run = disk / "run"
+        outcome = subprocess.run(command_of(program, subject, run), capture_output=True, text=True, check=False)
+        is_told = "No space left" in outcome.stderr or "The disk may be full" in outcome.stderr
+        remarks = [] if outcome.returncode in (2, 5) and is_told else [outcome.stderr]
+        subprocess.run(["mount", "-o", f"remount,size={sizes[1]}k", str(disk)], check=True)
+        remarks += go_on(program, subject, run)
+        changed = changed_files(expected, digest(run))
+        told = outcome.stderr.splitlines()[0] if outcome.stderr else ""
+        return Trial(subject.name, f"a disk of {sizes[0]} kB", outcome.returncode, told, not changed, remarks + changed)
+    finally:
+        subprocess.run(["umount", str(disk)], check=True)

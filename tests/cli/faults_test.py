@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from conftest import LAMPLUGH, sets
-from faults import FAILING_WRITES, Subject, calls_that_write, failing, killed, undisturbed
+from faults import FAILING_WRITES, Subject, calls_that_write, failing, killed, limited, on_small_disk, undisturbed
 
 SHORT = tuple(sets(time__end=0.3, time__history_interval=0.07, time__output_interval=0.05, checkpoint__interval=0.04))
 
@@ -39,3 +39,30 @@ def test_a_failing_write_loses_nothing(binary: Path, small_case: Path, tmp_path:
         assert trial.sound, trial
         codes.add(trial.code)
     assert 5 in codes
+
+
+@pytest.mark.parametrize("size", [1_000, 9_000, 20_000])
+def test_a_limit_of_the_size_of_files_loses_nothing(binary: Path, small_case: Path, tmp_path: Path, size: int) -> None:
+    subject = Subject("small", small_case)
+    expected, _ = undisturbed(binary, subject, tmp_path / "whole")
+    trial = limited(binary, subject, tmp_path / "run", expected, size)
+    assert trial.sound, trial
+
+
+@pytest.mark.parametrize("size", [40, 100, 150])
+def test_a_full_disk_loses_nothing(binary: Path, small_case: Path, tmp_path: Path, size: int) -> None:
+    subject = Subject("small", small_case)
+    expected, _ = undisturbed(binary, subject, tmp_path / "whole")
+    trial = on_small_disk(binary, subject, tmp_path / "disk", expected, (size, 10_000))
+    if trial is None:
+        pytest.skip("no disk of a chosen size can be made here: mount is not allowed")
+    assert trial.sound, trial
+
+
+def test_a_folder_that_is_read_only_is_told_before_anything_is_computed(
+    binary: Path, small_case: Path, tmp_path: Path
+) -> None:
+    subject = Subject("small", small_case)
+    expected, _ = undisturbed(binary, subject, tmp_path / "whole")
+    trial = failing(binary, subject, tmp_path / "run", expected, 1, "onwards", "denied")
+    assert trial.code == 2 and "Permission denied" in trial.told and trial.sound, trial
