@@ -20,6 +20,9 @@ Box = tuple[float, float, float, float]  # west, east, south, north [m]
 
 # How the values of a block become one: of a terrain the mean, of a map of largest values the largest.
 _REDUCTIONS: dict[str, Callable[..., Numbers]] = {"mean": np.nanmean, "largest": np.nanmax}
+MOST_CELLS = 100_000_000  # of a map: 0.8 GB of numbers
+_TYPES = ("float32", "float64", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64")
+_ALLOWED = f"allowed: at most {MOST_CELLS:,} cells, of plain numbers"
 
 
 @dataclass(frozen=True)
@@ -168,13 +171,17 @@ class Maps:
 
 def read_map(path: Path) -> Map:
     """Read the first band of a GeoTIFF; ReportError when it is missing, damaged or not aligned with north."""
-    with _open(path) as file:
-        transform, crs = file.transform, file.crs
-        try:
+    try:
+        with _open(path) as file:
+            if not 0 < file.width * file.height <= MOST_CELLS or file.dtypes[0] not in _TYPES:
+                raise ReportError(f"{path}: {file.width} x {file.height} cells of {file.dtypes[0]}; {_ALLOWED}")
+            transform, crs = file.transform, _crs_words(file.crs)
             band = file.read(1, masked=True)
-        except RasterioError as error:
-            raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
-        unit, description = file.units[0] or "", file.descriptions[0] or ""
+            unit, description = file.units[0] or "", file.descriptions[0] or ""
+    except (RasterioError, OSError, ValueError, MemoryError) as error:
+        raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
+    if not np.isfinite(transform[:6]).all():
+        raise ReportError(f"{path}: its coordinates are not finite; run the case again")
     if transform.b != 0.0 or transform.d != 0.0 or transform.a <= 0.0 or transform.e >= 0.0:
         raise ReportError(f"{path}: rows must go from west to east and columns from north to south")
     rows, columns = band.shape
@@ -187,7 +194,7 @@ def read_map(path: Path) -> Map:
         rows,
     )
     values = np.ma.filled(band.astype(np.float64), np.nan)[::-1]
-    return Map(grid, values, unit, description, _crs_words(crs))
+    return Map(grid, values, unit, description, crs)
 
 
 def on_map(run: Run) -> bool:
@@ -199,7 +206,7 @@ def _open(path: Path) -> rasterio.DatasetReader:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", NotGeoreferencedWarning)
-            file = rasterio.open(path)
+            file = rasterio.open(path, driver="GTiff")  # no other kind of file, which may name further ones
             placed = file.transform != rasterio.Affine.identity()
     except (RasterioError, OSError) as error:
         raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
