@@ -18,7 +18,7 @@ from thawslide.errors import NotInRunError, ReportError
 from thawslide.run import Numbers
 
 _ENVELOPE_BYTES = {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}
-_LONGEST_VALUE = 64 * 1024 * 1024  # bytes of one geometry or text
+_LONGEST_VALUE = 8 * 1024 * 1024  # bytes of one geometry or text
 _WORK_BETWEEN = 10_000  # instructions of the database's machine between two looks at the budget
 _MOST_WORK = 10_000  # such stretches: some seconds
 _DEEPEST = 8  # collections inside one another
@@ -41,7 +41,7 @@ def read_layer(path: Path, layer: str) -> list[Feature]:
         with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as database:
             column, rows = _rows(database, path, layer)
         return [Feature(geometry_parts(row.pop(column)), row) for row in rows]
-    except (sqlite3.Error, struct.error, ValueError, KeyError, MemoryError) as error:
+    except (sqlite3.Error, ValueError, KeyError, MemoryError) as error:
         raise ReportError(f"{path}: cannot be read as a GeoPackage ({error}); run the case again") from error
 
 
@@ -96,7 +96,10 @@ def geometry_parts(blob: Any) -> list[Numbers]:
     if kind not in _ENVELOPE_BYTES:
         raise ValueError(f"a geometry has an envelope of unknown kind {kind}")
     parts: list[Numbers] = []
-    _read_geometry(blob, 8 + _ENVELOPE_BYTES[kind], parts, _DEEPEST)
+    try:
+        _read_geometry(blob, 8 + _ENVELOPE_BYTES[kind], parts, _DEEPEST)
+    except struct.error as error:
+        raise ValueError(f"a geometry ends too early: {error}") from error
     return parts
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -22,7 +23,8 @@ Box = tuple[float, float, float, float]  # west, east, south, north [m]
 _REDUCTIONS: dict[str, Callable[..., Numbers]] = {"mean": np.nanmean, "largest": np.nanmax}
 MOST_CELLS = 100_000_000  # of a map: 0.8 GB of numbers
 _TYPES = ("float32", "float64", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64")
-_ALLOWED = f"allowed: at most {MOST_CELLS:,} cells, of plain numbers"
+_MOST_CELLS_OF_BLOCK = 25_000_000
+_LARGEST_RATIO = 1100.0  # that DEFLATE can compress by, with some to spare
 
 
 @dataclass(frozen=True)
@@ -173,10 +175,9 @@ def read_map(path: Path) -> Map:
     """Read the first band of a GeoTIFF; ReportError when it is missing, damaged or not aligned with north."""
     try:
         with _open(path) as file:
-            if not 0 < file.width * file.height <= MOST_CELLS or file.dtypes[0] not in _TYPES:
-                raise ReportError(f"{path}: {file.width} x {file.height} cells of {file.dtypes[0]}; {_ALLOWED}")
+            _check_size(file, path)
             transform, crs = file.transform, _crs_words(file.crs)
-            band = file.read(1, masked=True)
+            band = file.read(1, masked=True, out_dtype="float64")
             unit, description = file.units[0] or "", file.descriptions[0] or ""
     except (RasterioError, OSError, ValueError, MemoryError) as error:
         raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
@@ -193,7 +194,7 @@ def read_map(path: Path) -> Map:
         columns,
         rows,
     )
-    values = np.ma.filled(band.astype(np.float64), np.nan)[::-1]
+    values = np.ma.filled(band, np.nan)[::-1]
     return Map(grid, values, unit, description, crs)
 
 
@@ -213,6 +214,20 @@ def _open(path: Path) -> rasterio.DatasetReader:
     if not placed:
         raise ReportError(f"{path}: has no coordinates; it is not a map the simulator wrote")
     return file
+
+
+def _check_size(file: rasterio.DatasetReader, path: Path) -> None:
+    """Raise ReportError for a map that would take more memory than any, or whose file cannot hold what it claims."""
+    kind, cells, block = file.dtypes[0], file.width * file.height, math.prod(file.block_shapes[0])
+    if kind not in _TYPES or not 0 < cells <= MOST_CELLS or block > _MOST_CELLS_OF_BLOCK:
+        raise ReportError(
+            f"{path}: {file.width} x {file.height} cells of {kind} in blocks of {block}; allowed: {MOST_CELLS:,} cells "
+            f"of plain numbers in blocks of {_MOST_CELLS_OF_BLOCK:,}"
+        )
+    if max(cells, block) * np.dtype(kind).itemsize > _LARGEST_RATIO * path.stat().st_size:
+        raise ReportError(
+            f"{path}: {cells} cells are more than the file has room for; it is damaged, run the case again"
+        )
 
 
 def _overlap(low: float, high: float, start: float, cell: float, count: int) -> slice:

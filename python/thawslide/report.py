@@ -123,7 +123,7 @@ def _page(run: Run, report: Report) -> str:
     if report.left_out:
         reasons = ((FIGURES[name].heading, reason) for name, reason in report.left_out.items())
         parts += ["<h2>Left out</h2>", _table(reasons, "facts")]
-    parts += ["<h2>The run</h2>", *_facts(run.facts)]
+    parts += ["<h2>The run</h2>", *facts_of(run.facts)]
     links = " · ".join(f'<a href="#{name}">{html.escape(FIGURES[name].heading)}</a>' for name in report.figures)
     parts.insert(2, f"<nav>{links}</nav>")
     return page_frame(title, "\n".join(parts))
@@ -178,7 +178,7 @@ def _details(heading: str, inside: str) -> str:
     return f"<details><summary>{html.escape(heading)}</summary>\n{inside}\n</details>"
 
 
-def _facts(facts: dict[str, Any]) -> list[str]:
+def facts_of(facts: dict[str, Any]) -> list[str]:
     """Return run.json as a table of its single values and one folded table for each value that has parts."""
     if not facts:
         return ["<p>No run.json: the run was interrupted before it was written.</p>"]

@@ -152,7 +152,7 @@ def test_the_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
     assert [found_for(run, target) for target in run.targets] == ["0.04 km", "43.2 km/h", "not compared"]
     page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
     assert '<th scope="row">mean displacement</th><td>5 s</td><td>0.06 km</td><td>0.04 km</td><td>model</td>' in page
-    speed, distance = FIGURES["motion"].draw(run).axes  # type: ignore[union-attr]
+    speed, distance = FIGURES["motion"].draw(run).axes
     marks = {str(line.get_label()): line.get_ydata() for axes in (speed, distance) for line in axes.lines}
     assert list(marks["reported: seismic"]) == [10.0]
     assert list(marks["reported mean: model"]) == [60.0]
