@@ -134,9 +134,17 @@ def _map_files(run: Run, page_folder: Path) -> str:
     if not on_map(run) or not (run.folder / "maps").is_dir():
         return ""
     maps = Maps(run)
-    rows = [(f"{name}.tif", *maps.about(name)) for name in maps.names]
+    rows = [(f"{name}.tif", *_about(maps, name)) for name in maps.names]
     where = html.escape(Path(os.path.relpath(maps.folder, page_folder)).as_posix())
     return f'<p>In the folder <a href="{where}">{where}</a>.</p>\n' + _table(rows, "facts")
+
+
+def _about(maps: Maps, name: str) -> tuple[str, str]:
+    """Return what a map is and its unit, or that it cannot be read."""
+    try:
+        return maps.about(name)
+    except ReportError:
+        return "damaged: cannot be read", ""
 
 
 def page_frame(title: str, body: str) -> str:
