@@ -193,3 +193,18 @@ def test_the_targets_of_the_cases_are_understood() -> None:
     assert {"lamplugh", "lamplugh-columns"} <= set(found)
     displacement = [target.value for target in found["lamplugh"] if target.quantity == "mean_displacement"]
     assert displacement == [5612.0, 5929.0]
+
+
+def test_the_user_guide_has_every_quantity_with_its_units() -> None:
+    guide = (Path(__file__).resolve().parents[2] / "docs" / "user-guide.md").read_text(encoding="utf-8")
+    table = guide[guide.index("| quantity | unit |") :].split("\n\n")[0]
+    told: dict[str, set[str]] = {}
+    for row in table.splitlines()[2:]:
+        names, units, _ = row.strip("|").split("|")
+        for name in re.findall(r"`(\w+)`", names):
+            told[name] = {unit.strip() for unit in units.split(",")}
+    assert set(told) == {*QUANTITIES, "max_seismic_force_35_150_s"}
+    for name, quantity in QUANTITIES.items():
+        # Other spellings of the same, as m² and deg, are not listed.
+        assert told[name] <= set(quantity.units)
+        assert {quantity.units[unit] for unit in told[name]} == set(quantity.units.values()), name
