@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import os
+import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -155,7 +156,7 @@ def page_frame(title: str, body: str) -> str:
 def ending_note(run: Run) -> str:
     """Return a sentence where the run did not come to its end, or ended before its time, "" otherwise."""
     told = str(run.facts.get("message") or "")
-    go_on = f"`thawslide resume {run.folder}` goes on from its last checkpoint."
+    go_on = f"`thawslide resume {shlex.quote(str(run.folder))}` goes on from its last checkpoint."
     if run.ending is Ending.DONE:
         return told[:1].upper() + told[1:]
     if run.ending is Ending.UNKNOWN:

@@ -11,7 +11,7 @@ import warnings
 
 import atheris
 
-with atheris.instrument_imports(include=["thawslide"]):
+with atheris.instrument_imports(include=["thawslide", "tomllib"]):
     from readers import READERS, Folder
 
 
