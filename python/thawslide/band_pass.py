@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from thawslide.run import Numbers
+from thawslide.arrays import Numbers
+from thawslide.errors import ReportError
 
 ORDER = 4  # of the Butterworth filter
 SAMPLES = 40  # at least, of the shortest period
+MOST_SAMPLES = 2e7  # that a history may take
 
 
 def response(frequency: Numbers, shortest: float, longest: float) -> Numbers:
@@ -34,6 +36,12 @@ def band_passed(time: Numbers, values: Numbers, shortest: float, longest: float)
     if len(time) < 2:
         return np.zeros_like(values)
     step = min(float(np.median(np.diff(time))), shortest / SAMPLES)
+    samples = (time[-1] - time[0] + 4.0 * longest) / step
+    if not samples <= MOST_SAMPLES:
+        raise ReportError(
+            f"a force between periods of {shortest:g} and {longest:g} s over {time[-1] - time[0]:g} s takes "
+            f"{samples:.3g} samples, above {MOST_SAMPLES:g}; ask for longer periods"
+        )
     even = np.arange(time[0], time[-1] + 0.5 * step, step)
     record = np.interp(even, time, np.nan_to_num(values))
     held = int(np.ceil(longest / step))

@@ -16,10 +16,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from thawslide.errors import ReportError
 from thawslide.maps import Grid, Map
 from thawslide.run import Numbers, Snapshot
 
 Indices = NDArray[np.intp]
+
+_MOST_CELLS_WIDE = 100  # that a particle may be: the work grows with its square
 
 FIELDS = ("volume", "mass", "velocity", "temperature", "in_band")  # what `gather` reads of a snapshot
 
@@ -40,6 +43,8 @@ def shares(place: Numbers, start: float, cell: float, count: int, width: float) 
     Each pass gives every place one of the cells it may reach; the shares of a place sum to 1 over all passes as long as
     the interval stays inside. A cell outside is -1.
     """
+    if not width <= _MOST_CELLS_WIDE * cell:
+        raise ReportError(f"particles {width:g} m wide on map cells of {cell:g} m: above {_MOST_CELLS_WIDE} cells each")
     low = (place - 0.5 * width - start) / cell
     high = (place + 0.5 * width - start) / cell
     first = np.floor(low).astype(np.intp)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from thawslide.run import Run, Target
-
-SETS_CLOCK = "start_velocity"  # the quantity whose time and value [m/s] set it
+from thawslide.run import Run
+from thawslide.targets import SETS_CLOCK, Target
 
 
 def time_of_speed(run: Run, speed: float) -> float:

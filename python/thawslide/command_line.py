@@ -1,14 +1,13 @@
-"""The command thawslide-report: exit code 0 done, 2 the user's mistake with a line that says what to do."""
+"""The command thawslide-report: exit code 0 done, 2 a mistake or damaged files, with a line on what to do."""
 
 from __future__ import annotations
 
 import argparse
-import difflib
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from thawslide.errors import ReportError
+from thawslide.errors import ReportError, nearest, quoted
 from thawslide.figures import FIGURES
 from thawslide.report import make_report
 from thawslide.run import Run
@@ -27,20 +26,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         elif given.run is None:
             raise ReportError("give a run folder, e.g. thawslide-report runs/lamplugh")
         else:
-            _report(given.run, given.output, _names(given.only), given.dpi)
+            return _report(given.run, given.output, _names(given.only), given.dpi)
     except ReportError as error:
         print(f"thawslide-report: error: {error}", file=sys.stderr)
         return 2
     return 0
 
 
-def _report(folder: Path, output: Path | None, names: list[str] | None, dpi: int) -> None:
-    run = Run(folder)
+def _report(folder: Path, output: Path | None, names: list[str] | None, dpi: int) -> int:
+    run = Run(folder, leave_out_damaged=True)
     print(f"{run.title}: {run.history.rows} rows of history, {len(run.snapshot_files)} snapshots", flush=True)
     report = make_report(run, output, names, dpi, progress=lambda line: print(line, flush=True))
     for warning in run.warnings:
         print(f"thawslide-report: note: {warning}", file=sys.stderr)
+    for name in report.faults:
+        print(f"thawslide-report: error: {name} is left out: {report.left_out[name]}", file=sys.stderr)
     print(f"report: {report.page}")
+    return 2 if report.faults else 0
 
 
 def _names(texts: list[str] | None) -> list[str] | None:
@@ -50,9 +52,9 @@ def _names(texts: list[str] | None) -> list[str] | None:
     asked = [name.strip() for text in texts for name in text.split(",") if name.strip()]
     for name in asked:
         if name not in FIGURES:
-            near = difflib.get_close_matches(name, FIGURES, 1)
-            hint = f"; did you mean {near[0]}?" if near else "."
-            raise ReportError(f"--only: no figure '{name}'{hint} There are: {', '.join(FIGURES)}")
+            raise ReportError(
+                f"--only: no figure {quoted(name)}{nearest(name, FIGURES)} There are: {', '.join(FIGURES)}"
+            )
     if not asked:
         raise ReportError(f"--only: names no figure. There are: {', '.join(FIGURES)}")
     return [name for name in FIGURES if name in asked]

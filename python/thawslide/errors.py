@@ -1,5 +1,10 @@
 """The errors a user can cause: their text says what is wrong, where, and what to do."""
 
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
 
 class ReportError(Exception):
     """A run that cannot be read or drawn as asked; the command line prints it and exits with 2."""
@@ -7,3 +12,18 @@ class ReportError(Exception):
 
 class NotInRunError(ReportError):
     """A figure that this run has nothing for (no snapshots, a column that is not there): the report leaves it out."""
+
+
+_SHOWN = 60  # characters of what was found
+
+
+def quoted(text: str) -> str:
+    """Return what was found as messages show it: in quotes, on one line, cut where it is long."""
+    shown = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
+    return "'" + "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in shown) + "'"
+
+
+def nearest(found: str, known: Iterable[str]) -> str:
+    """Return "; did you mean NAME?" with the known name nearest to what was found, "." where none is near."""
+    near = difflib.get_close_matches(found[:_SHOWN], list(known), 1)
+    return f"; did you mean {near[0]}?" if near else "."

@@ -18,6 +18,10 @@ from thawslide.errors import NotInRunError, ReportError
 from thawslide.run import Numbers
 
 _ENVELOPE_BYTES = {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}
+_LONGEST_VALUE = 8 * 1024 * 1024  # bytes of one geometry or text
+_WORK_BETWEEN = 10_000  # instructions of the database's machine between two looks at the budget
+_MOST_WORK = 10_000  # such stretches: some seconds
+_DEEPEST = 8  # collections inside one another
 _POINT, _LINE, _POLYGON, _COLLECTIONS = 1, 2, 3, (4, 5, 6, 7)
 
 
@@ -35,35 +39,76 @@ def read_layer(path: Path, layer: str) -> list[Feature]:
         raise NotInRunError(f"{path}: no such file; only a 3D run on a DEM writes it")
     try:
         with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as database:
-            layers = dict(database.execute("SELECT table_name, column_name FROM gpkg_geometry_columns").fetchall())
-            if layer not in layers:
-                raise NotInRunError(f"{path}: no layer {layer}; there are: {', '.join(layers) or 'none'}")
-            quoted = '"' + layer.replace('"', '""') + '"'
-            cursor = database.execute(f"SELECT * FROM {quoted}")
-            names = [column[0] for column in cursor.description]
-            rows = [dict(zip(names, row, strict=True)) for row in cursor.fetchall()]
-        return [Feature(geometry_parts(row.pop(layers[layer])), row) for row in rows]
-    except (sqlite3.Error, struct.error, ValueError) as error:
+            column, rows = _rows(database, path, layer)
+        return [Feature(geometry_parts(row.pop(column)), row) for row in rows]
+    except (sqlite3.Error, ValueError, KeyError, MemoryError) as error:
         raise ReportError(f"{path}: cannot be read as a GeoPackage ({error}); run the case again") from error
 
 
-def geometry_parts(blob: bytes | None) -> list[Numbers]:
+def _rows(database: sqlite3.Connection, path: Path, layer: str) -> tuple[str, list[dict[str, Any]]]:
+    """Return the name of a layer's column of geometries, and its rows by column.
+
+    A damaged or foreign file may hold queries in the place of tables, or columns that are computed: these could go on
+    for ever.
+    """
+    database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LONGEST_VALUE)
+    database.execute("PRAGMA trusted_schema = OFF")
+    database.set_progress_handler(_Budget(_MOST_WORK).spend, _WORK_BETWEEN)
+    tables = {name for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'table'").fetchall()}
+    if "gpkg_geometry_columns" not in tables:
+        raise ValueError("no table gpkg_geometry_columns")
+    layers = dict(database.execute("SELECT table_name, column_name FROM gpkg_geometry_columns").fetchall())
+    if layer not in layers:
+        raise NotInRunError(f"{path}: no layer {layer}; there are: {', '.join(map(str, layers)) or 'none'}")
+    if layer not in tables:
+        raise ValueError(f"{layer} is no table")
+    quoted = '"' + layer.replace('"', '""') + '"'
+    cursor = database.execute(f"SELECT * FROM {quoted}")
+    names = [column[0] for column in cursor.description]
+    rows, size, room = [], 0, path.stat().st_size
+    for row in cursor:
+        rows.append(dict(zip(names, row, strict=True)))
+        size += 1 + sum(len(value) for value in row if isinstance(value, bytes | str))
+        if size > room:
+            raise ValueError(f"{layer} has more in it than the file has room for")
+    return str(layers[layer]), rows
+
+
+class _Budget:
+    """Steps that a query may take: `spend` counts them and says when they are used up."""
+
+    def __init__(self, calls: int) -> None:
+        self.left = calls
+
+    def spend(self) -> bool:
+        """Count one stretch; return whether there is none left."""
+        self.left -= 1
+        return self.left < 0
+
+
+def geometry_parts(blob: Any) -> list[Numbers]:
     """Return the points, lines and rings of a GeoPackage geometry, x and y only; ValueError when it is none."""
     if blob is None:
         return []
-    if blob[:2] != b"GP":
+    if not isinstance(blob, bytes) or blob[:2] != b"GP" or len(blob) < 8:
         raise ValueError("a geometry does not begin with GP")
     kind = (blob[3] >> 1) & 7
     if kind not in _ENVELOPE_BYTES:
         raise ValueError(f"a geometry has an envelope of unknown kind {kind}")
     parts: list[Numbers] = []
-    _read_geometry(blob, 8 + _ENVELOPE_BYTES[kind], parts)
+    try:
+        _read_geometry(blob, 8 + _ENVELOPE_BYTES[kind], parts, _DEEPEST)
+    except struct.error as error:
+        raise ValueError(f"a geometry ends too early: {error}") from error
     return parts
 
 
-def _read_geometry(blob: bytes, at: int, parts: list[Numbers]) -> int:
+def _read_geometry(blob: bytes, at: int, parts: list[Numbers], levels: int) -> int:
     """Append the parts of the well-known binary at a place of the blob; return where it ends."""
-    order = "<" if blob[at] == 1 else ">"
+    if levels == 0:
+        raise ValueError(f"a geometry has more than {_DEEPEST} collections inside one another")
+    (first,) = struct.unpack_from("B", blob, at)
+    order = "<" if first == 1 else ">"
     (code,) = struct.unpack_from(f"{order}I", blob, at + 1)
     kind, dimension = code % 1000, {0: 2, 1: 3, 2: 3, 3: 4}.get(code // 1000, 0)
     if not dimension:
@@ -80,7 +125,7 @@ def _read_geometry(blob: bytes, at: int, parts: list[Numbers]) -> int:
             (points,) = struct.unpack_from(f"{order}I", blob, at)
             at = _read_points(blob, at + 4, points, dimension, order, parts)
         elif kind in _COLLECTIONS:
-            at = _read_geometry(blob, at, parts)
+            at = _read_geometry(blob, at, parts, levels - 1)
         else:
             raise ValueError(f"a geometry has the unknown type {code}")
     return at

@@ -6,21 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thawslide.clock import SETS_CLOCK, own_time, time_of_speed
+from thawslide.clock import own_time, time_of_speed
 from thawslide.figures.energy import relative_residual
-from thawslide.figures.force import band_of, force_in_band, reported_bands, reported_forces, seismic_force
+from thawslide.figures.force import force_in_band, reported_bands, reported_forces, seismic_force
 from thawslide.figures.style import area_text, prefixed, volume_text
-from thawslide.run import Run, Target
+from thawslide.run import Run
+from thawslide.targets import SETS_CLOCK, SOURCE_VOLUME, Target, band_of, quantity_of
 
 STOPPED_SHARE = 0.01  # of the peak mean velocity
 BOILING = 100.0  # C, at one atmosphere
-# Reported quantities that are a column of the history at the time of the report.
-COLUMN_OF_TARGET = {
-    "mean_velocity": "mean_velocity_m_s",
-    "mean_displacement": "mean_displacement_m",
-    "front_distance": "runout_m",
-    "band_SL": "band_saturation",
-}
 
 
 @dataclass(frozen=True)
@@ -103,18 +97,43 @@ def key_numbers(run: Run) -> list[KeyNumber]:
 
 def found_for(run: Run, target: Target) -> str:
     """Return what a run has for a reported value, with its unit; "" where it has nothing to compare."""
-    history = run.history
     if target.quantity == SETS_CLOCK:
         start = time_of_speed(run, target.value)
         return f"at {shown(start, 's')}" if np.isfinite(start) else "never"
-    column = COLUMN_OF_TARGET.get(target.quantity, "")
-    if column in history and (time := own_time(run, target)) <= history["time_s"][-1]:
-        return shown(float(np.interp(time, history["time_s"], history[column])), target.unit.strip("-"))
+    if not quantity_of(target.quantity).is_compared:
+        return "not compared"
+    value = _found(run, target)
+    return "" if value is None else shown(target.in_its_unit(value), target.unit_words)
+
+
+def _found(run: Run, target: Target) -> float | None:
+    """Return what a run has for a reported value, in the first unit of its quantity; None for nothing to compare."""
+    history, quantity = run.history, quantity_of(target.quantity)
+    if quantity.column in history:
+        time = own_time(run, target)
+        return (
+            float(np.interp(time, history["time_s"], history[quantity.column]))
+            if time <= history["time_s"][-1]
+            else None
+        )
+    if quantity.fact:
+        fact = run.facts.get(quantity.fact)
+        return None if fact is None else float(fact)
+    if target.quantity == SOURCE_VOLUME:
+        return _source_volume(run)
     if target in reported_forces(run) and "seismic_force_x_N" in history and not run.per_metre:
         band = band_of(target)
         magnitude = seismic_force(run)[1] if band is None else force_in_band(run, band)
-        return shown(float(np.nanmax(magnitude)), "N") if np.isfinite(magnitude).any() else ""
-    return ""
+        return float(np.nanmax(magnitude)) if np.isfinite(magnitude).any() else None
+    return None
+
+
+def _source_volume(run: Run) -> float | None:
+    """Return the volume [m3] of the slide at t = 0, None without a snapshot of it or a width."""
+    if run.per_metre or not run.times.size or run.times[0] > 0.0:
+        return None
+    volume = float(np.sum(run.snapshot(0, fields=["volume"])["volume"]))
+    return volume * float(run.section("case")["width"]) if run.dimension == 2 else volume
 
 
 def boiling_note(run: Run) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -20,6 +21,10 @@ Box = tuple[float, float, float, float]  # west, east, south, north [m]
 
 # How the values of a block become one: of a terrain the mean, of a map of largest values the largest.
 _REDUCTIONS: dict[str, Callable[..., Numbers]] = {"mean": np.nanmean, "largest": np.nanmax}
+MOST_CELLS = 100_000_000  # of a map: 0.8 GB of numbers
+_TYPES = ("float32", "float64", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64")
+_MOST_CELLS_OF_BLOCK = 25_000_000
+_LARGEST_RATIO = 1100.0  # that DEFLATE can compress by, with some to spare
 
 
 @dataclass(frozen=True)
@@ -168,13 +173,16 @@ class Maps:
 
 def read_map(path: Path) -> Map:
     """Read the first band of a GeoTIFF; ReportError when it is missing, damaged or not aligned with north."""
-    with _open(path) as file:
-        transform, crs = file.transform, file.crs
-        try:
-            band = file.read(1, masked=True)
-        except RasterioError as error:
-            raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
-        unit, description = file.units[0] or "", file.descriptions[0] or ""
+    try:
+        with _open(path) as file:
+            _check_size(file, path)
+            transform, crs = file.transform, _crs_words(file.crs)
+            band = file.read(1, masked=True, out_dtype="float64")
+            unit, description = file.units[0] or "", file.descriptions[0] or ""
+    except (RasterioError, OSError, ValueError, MemoryError) as error:
+        raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
+    if not np.isfinite(transform[:6]).all():
+        raise ReportError(f"{path}: its coordinates are not finite; run the case again")
     if transform.b != 0.0 or transform.d != 0.0 or transform.a <= 0.0 or transform.e >= 0.0:
         raise ReportError(f"{path}: rows must go from west to east and columns from north to south")
     rows, columns = band.shape
@@ -186,8 +194,8 @@ def read_map(path: Path) -> Map:
         columns,
         rows,
     )
-    values = np.ma.filled(band.astype(np.float64), np.nan)[::-1]
-    return Map(grid, values, unit, description, _crs_words(crs))
+    values = np.ma.filled(band, np.nan)[::-1]
+    return Map(grid, values, unit, description, crs)
 
 
 def on_map(run: Run) -> bool:
@@ -199,13 +207,27 @@ def _open(path: Path) -> rasterio.DatasetReader:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", NotGeoreferencedWarning)
-            file = rasterio.open(path)
+            file = rasterio.open(path, driver="GTiff")  # no other kind of file, which may name further ones
             placed = file.transform != rasterio.Affine.identity()
     except (RasterioError, OSError) as error:
         raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
     if not placed:
         raise ReportError(f"{path}: has no coordinates; it is not a map the simulator wrote")
     return file
+
+
+def _check_size(file: rasterio.DatasetReader, path: Path) -> None:
+    """Raise ReportError for a map that would take more memory than any, or whose file cannot hold what it claims."""
+    kind, cells, block = file.dtypes[0], file.width * file.height, math.prod(file.block_shapes[0])
+    if kind not in _TYPES or not 0 < cells <= MOST_CELLS or block > _MOST_CELLS_OF_BLOCK:
+        raise ReportError(
+            f"{path}: {file.width} x {file.height} cells of {kind} in blocks of {block}; allowed: {MOST_CELLS:,} cells "
+            f"of plain numbers in blocks of {_MOST_CELLS_OF_BLOCK:,}"
+        )
+    if max(cells, block) * np.dtype(kind).itemsize > _LARGEST_RATIO * path.stat().st_size:
+        raise ReportError(
+            f"{path}: {cells} cells are more than the file has room for; it is damaged, run the case again"
+        )
 
 
 def _overlap(low: float, high: float, start: float, cell: float, count: int) -> slice:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import os
+import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,15 +17,17 @@ from thawslide.figures.animation import Film
 from thawslide.key_numbers import boiling_note, found_for, key_numbers, shown
 from thawslide.maps import Maps, on_map
 from thawslide.run import Run
+from thawslide.run_facts import Ending
 
 
 @dataclass
 class Report:
-    """What was written: the page, the figures by name, and why others were left out."""
+    """What was written: the page, the figures by name, why others were left out, and which of these for a fault."""
 
     page: Path
     figures: dict[str, Path] = field(default_factory=dict)
     left_out: dict[str, str] = field(default_factory=dict)
+    faults: list[str] = field(default_factory=list)
 
 
 def make_report(
@@ -36,35 +39,44 @@ def make_report(
 ) -> Report:
     """Write figures/NAME.png and report.html into `output` (default: the run folder).
 
-    Without `names` these are the figures that suit the run. One it has nothing for is left out and named on the page;
-    it is an error if `names` asks for it.
+    Without `names` these are the figures that suit the run. One that it has nothing for, or whose files are damaged, is
+    left out and named on the page; it is an error if `names` asks for it.
     """
     output = output or run.folder
-    run.history  # noqa: B018  read first: without a history there is nothing to report
+    _ = run.history, run.facts, run.targets  # what every page needs: mistakes are told before anything is drawn
     report = Report(output / "report.html")
     try:
         (output / "figures").mkdir(parents=True, exist_ok=True)
         chosen = list(names or figures_of(run))
         for number, name in enumerate(chosen, 1):
             try:
-                drawn = FIGURES[name].draw(run)
-            except NotInRunError as error:
+                report.figures[name] = _draw(run, name, output / "figures", dpi, progress)
+                progress(f"[{number}/{len(chosen)}] {name}: {report.figures[name]}")
+            except ReportError as error:
                 if names:
                     raise
                 report.left_out[name] = str(error)
+                if not isinstance(error, NotInRunError):
+                    report.faults.append(name)
                 progress(f"[{number}/{len(chosen)}] {name}: left out, {error}")
-                continue
-            path = output / "figures" / f"{name}{'.mp4' if isinstance(drawn, Film) else '.png'}"
-            if isinstance(drawn, Film):
-                drawn.write(path, dpi, progress)
-            else:
-                drawn.savefig(path, dpi=dpi)
-            report.figures[name] = path
-            progress(f"[{number}/{len(chosen)}] {name}: {path}")
         report.page.write_text(_page(run, report), encoding="utf-8")
     except OSError as error:
         raise ReportError(f"{error.filename or output}: cannot be written: {error.strerror or error}") from error
     return report
+
+
+def _draw(run: Run, name: str, folder: Path, dpi: int, progress: Callable[[str], None]) -> Path:
+    """Draw one figure into a folder; ReportError where its numbers are such that nothing can be drawn of them."""
+    try:
+        drawn = FIGURES[name].draw(run)
+        path = folder / f"{name}{'.mp4' if isinstance(drawn, Film) else '.png'}"
+        if isinstance(drawn, Film):
+            drawn.write(path, dpi, progress)
+        else:
+            drawn.savefig(path, dpi=dpi)
+    except (ValueError, ArithmeticError, MemoryError) as error:
+        raise ReportError(f"{run.folder}: {name} cannot be drawn of these numbers: {error}") from error
+    return path
 
 
 def figures_of(run: Run) -> list[str]:
@@ -74,7 +86,8 @@ def figures_of(run: Run) -> list[str]:
 
 def _page(run: Run, report: Report) -> str:
     title = html.escape(run.title)
-    notes = [note for note in (_status_note(run.facts), boiling_note(run), *run.warnings) if note]
+    damage = f"Left out, since their files are damaged: {', '.join(report.faults)}." if report.faults else ""
+    notes = [note for note in (ending_note(run), damage, boiling_note(run), *run.warnings) if note]
     parts = [
         f"<h1>{title}</h1>",
         f'<p class="where">Run folder: {html.escape(run.folder.resolve().name)}</p>',
@@ -84,7 +97,13 @@ def _page(run: Run, report: Report) -> str:
     ]
     if run.targets:
         rows = (
-            (t.quantity.replace("_", " "), f"{t.time:g} s", f"{t.value:g} {t.unit}", found_for(run, t), t.source)
+            (
+                t.quantity.replace("_", " "),
+                f"{t.time:g} s",
+                f"{t.in_its_unit(t.value):g} {t.unit_words}",
+                found_for(run, t),
+                t.source,
+            )
             for t in run.targets
         )
         head = ("quantity", "time", "reported", "this run", "source of the report")
@@ -105,7 +124,7 @@ def _page(run: Run, report: Report) -> str:
     if report.left_out:
         reasons = ((FIGURES[name].heading, reason) for name, reason in report.left_out.items())
         parts += ["<h2>Left out</h2>", _table(reasons, "facts")]
-    parts += ["<h2>The run</h2>", *_facts(run.facts)]
+    parts += ["<h2>The run</h2>", *facts_of(run.facts)]
     links = " · ".join(f'<a href="#{name}">{html.escape(FIGURES[name].heading)}</a>' for name in report.figures)
     parts.insert(2, f"<nav>{links}</nav>")
     return page_frame(title, "\n".join(parts))
@@ -116,9 +135,17 @@ def _map_files(run: Run, page_folder: Path) -> str:
     if not on_map(run) or not (run.folder / "maps").is_dir():
         return ""
     maps = Maps(run)
-    rows = [(f"{name}.tif", *maps.about(name)) for name in maps.names]
+    rows = [(f"{name}.tif", *_about(maps, name)) for name in maps.names]
     where = html.escape(Path(os.path.relpath(maps.folder, page_folder)).as_posix())
     return f'<p>In the folder <a href="{where}">{where}</a>.</p>\n' + _table(rows, "facts")
+
+
+def _about(maps: Maps, name: str) -> tuple[str, str]:
+    """Return what a map is and its unit, or that it cannot be read."""
+    try:
+        return maps.about(name)
+    except ReportError:
+        return "damaged: cannot be read", ""
 
 
 def page_frame(title: str, body: str) -> str:
@@ -126,14 +153,23 @@ def page_frame(title: str, body: str) -> str:
     return _FRAME.replace("TITLE", title).replace("BODY", body)
 
 
-def _status_note(facts: dict[str, Any]) -> str:
+def ending_note(run: Run) -> str:
     """Return a sentence where the run did not come to its end, or ended before its time, "" otherwise."""
-    status, told = facts.get("status", "done"), str(facts.get("message") or "")
-    if status == "done":
+    told = str(run.facts.get("message") or "")
+    go_on = f"`thawslide resume {shlex.quote(str(run.folder))}` goes on from its last checkpoint."
+    if run.ending is Ending.DONE:
         return told[:1].upper() + told[1:]
+    if run.ending is Ending.UNKNOWN:
+        return "There is no run.json, so whether this run came to its end is not known."
+    if run.ending is Ending.KILLED:
+        return (
+            "This run stopped without a word: run.json says that it runs, but no process holds run.lock. It was "
+            f"killed, or its machine went down. {go_on} The figures show what it has written."
+        )
     message = f": {told}" if told else ""
-    words = "was still running when this was written" if status == "running" else str(status)
-    return f"This run did not come to its end ({words}){message}. The figures show what it has written."
+    words = "was still running when this was written" if run.ending is Ending.RUNNING else run.ending.value
+    note = f"This run did not come to its end ({words}){message}. The figures show what it has written."
+    return f"{note} {go_on}" if run.ending is Ending.STOPPED else note
 
 
 def _table(rows: Any, style: str, head: Sequence[str] = ()) -> str:
@@ -151,7 +187,7 @@ def _details(heading: str, inside: str) -> str:
     return f"<details><summary>{html.escape(heading)}</summary>\n{inside}\n</details>"
 
 
-def _facts(facts: dict[str, Any]) -> list[str]:
+def facts_of(facts: dict[str, Any]) -> list[str]:
     """Return run.json as a table of its single values and one folded table for each value that has parts."""
     if not facts:
         return ["<p>No run.json: the run was interrupted before it was written.</p>"]

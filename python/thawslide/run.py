@@ -2,116 +2,40 @@
 
 from __future__ import annotations
 
-import csv
-import difflib
-import json
-import tomllib
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import h5py
 import numpy as np
-from numpy.typing import NDArray
 
+from thawslide.arrays import Numbers
 from thawslide.errors import NotInRunError, ReportError
+from thawslide.history import History, read_history
+from thawslide.resolved_case import Case, read_case
+from thawslide.run_facts import Ending, ending_of, read_facts
+from thawslide.snapshot import Snapshot, snapshot_time
+from thawslide.targets import Target, read_targets
+from thawslide.text_files import finite_number, read_table
 
-Numbers = NDArray[np.float64]
+__all__ = ["History", "Numbers", "Run", "Snapshot", "Target"]
 
-
-class History(Mapping[str, Numbers]):
-    """The columns of history.csv or probes.csv by name, each of shape (rows,), in the unit its name ends with."""
-
-    def __init__(self, file: str, columns: dict[str, Numbers]) -> None:
-        self.file = file
-        self._columns = columns
-        self.rows = len(columns["time_s"])
-
-    def __getitem__(self, name: str) -> Numbers:
-        if name not in self._columns:
-            near = difflib.get_close_matches(name, self._columns, 1)
-            hint = f" (nearest: {near[0]})" if near else ""
-            raise NotInRunError(f"{self.file} has no column {name}{hint}")
-        return self._columns[name]
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._columns
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
-
-
-class Snapshot(Mapping[str, NDArray[Any]]):
-    """Every particle at one time: points [m] of shape (n, 3) and the fields by name, rows sorted by id.
-
-    `base` has what each piece of base with a band column holds, by name with its unit, of shape (pieces,), and
-    "position_m" of shape (pieces, 3); it is empty where the band is not of columns.
-    """
-
-    def __init__(self, path: Path, fields: Collection[str] | None = None) -> None:
-        """Read one snapshot file, all its fields or those named; ReportError when it is damaged or incomplete."""
-        self.path = path
-        with _open_snapshot(path) as file:
-            group = _snapshot_group(file, path)
-            self.time = float(group.attrs["time"])
-            self.step = int(group.attrs.get("step", -1))
-            if "Points" not in group or "PointData" not in group:
-                raise ReportError(f"{path}: snapshot without Points or PointData; it is damaged, run the case again")
-            self.points: Numbers = np.asarray(group["Points"], dtype=np.float64)
-            self._fields: dict[str, NDArray[Any]] = {}
-            self._units: dict[str, str] = {}
-            for name, data in group["PointData"].items():
-                if fields is not None and name not in fields:
-                    continue
-                self._fields[name] = np.asarray(data)
-                self._units[name] = _text(data.attrs.get("unit", ""))
-            base: dict[str, h5py.Dataset] = dict(file.get("base", {}))
-            self.base: dict[str, Numbers] = {name: np.asarray(base[name], dtype=np.float64) for name in base}
-        for name, values in self._fields.items():
-            if len(values) != len(self.points):
-                raise ReportError(f"{path}: field {name} has {len(values)} rows for {len(self.points)} particles")
-
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        if name not in self._fields:
-            raise NotInRunError(f"{self.path}: no field {name}; it has {', '.join(self._fields) or 'none'}")
-        return self._fields[name]
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._fields
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._fields)
-
-    def __len__(self) -> int:
-        return len(self._fields)
-
-    def unit(self, name: str) -> str:
-        """Return the unit of a field as the file states it, "" where it states none."""
-        self[name]
-        return self._units[name]
-
-
-@dataclass(frozen=True)
-class Target:
-    """One reported value to compare with, from the CSV file named in [report] targets."""
-
-    quantity: str
-    time: float  # s
-    value: float  # in `unit`
-    unit: str
-    source: str
+_HOW = {
+    Ending.RUNNING: ("still running", "was still running"),
+    Ending.KILLED: ("killed?", "stopped without a word"),
+    Ending.STOPPED: ("stopped", "was stopped"),
+    Ending.FAILED: ("failed", "went bad"),
+}  # in brackets behind a time, and as a verb
 
 
 class Run:
     """A run folder; files are read when first asked for."""
 
-    def __init__(self, folder: Path | str) -> None:
-        """Open a run folder; ReportError when it is none."""
+    def __init__(self, folder: Path | str, leave_out_damaged: bool = False) -> None:
+        """Open a run folder; ReportError when it is none.
+
+        A damaged snapshot is an error, or left out with a warning.
+        """
         self.folder = Path(folder)
         if not self.folder.is_dir():
             raise ReportError(f"{self.folder}: no such folder; give the folder a run has written, e.g. runs/lamplugh")
@@ -119,15 +43,12 @@ class Run:
         if absent:
             raise ReportError(f"{self.folder}: not a run folder, {' and '.join(absent)} not found there")
         self.warnings: list[str] = []
+        self._leave_out_damaged = leave_out_damaged
 
     @cached_property
-    def case(self) -> dict[str, Any]:
+    def case(self) -> Case:
         """The resolved case file, as nested dictionaries."""
-        path = self.folder / "case.toml"
-        try:
-            return tomllib.loads(path.read_text(encoding="utf-8"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise ReportError(f"{path}: not valid TOML: {error}") from error
+        return read_case(self.folder / "case.toml")
 
     @property
     def title(self) -> str:
@@ -156,13 +77,12 @@ class Run:
 
     def section(self, name: str) -> dict[str, Any]:
         """Return one table of the case file, empty when it is not there."""
-        found = self.case.get(name, {})
-        return found if isinstance(found, dict) else {}
+        return dict(self.case.get(name, {}))
 
     @cached_property
     def history(self) -> History:
         """The history; a last row cut off while it was written is left out, with a warning."""
-        return _read_history(self.folder / "history.csv", self.warnings)
+        return read_history(self.folder / "history.csv", self.warnings)
 
     @property
     def has_band_columns(self) -> bool:
@@ -175,7 +95,7 @@ class Run:
         path = self.folder / "probes.csv"
         if not path.is_file():
             return None
-        return _read_history(path, self.warnings)
+        return read_history(path, self.warnings)
 
     @cached_property
     def terrain(self) -> tuple[Numbers, Numbers] | None:
@@ -183,90 +103,94 @@ class Run:
         path = self.folder / "terrain.csv"
         if not path.is_file():
             return None
-        rows = _read_table(path, ("distance_m", "terrain_elevation_m"))
-        return (
-            np.array([_number(row["distance_m"], path, line) for line, row in rows]),
-            np.array([_number(row["terrain_elevation_m"], path, line) for line, row in rows]),
+        rows = read_table(path, ("distance_m", "terrain_elevation_m")).rows
+        if not rows:
+            raise ReportError(f"{path}: no rows after the header")
+        distance, height = (
+            np.array([finite_number(row[name], f"{path}:{line}") for line, row in rows])
+            for name in ("distance_m", "terrain_elevation_m")
         )
+        back = np.flatnonzero(np.diff(distance) <= 0.0)
+        if back.size:
+            raise ReportError(f"{path}:{rows[int(back[0]) + 1][0]}: distance_m must rise from row to row")
+        return distance, height
 
     @cached_property
     def targets(self) -> list[Target]:
         """The reported values to compare with; empty when the case names none."""
-        name = self.section("report").get("targets", "")
+        name = str(self.section("report").get("targets", ""))
         if not name:
             return []
-        path = self.folder / str(name)
+        path, case = self.folder / name, self.folder / "case.toml"
+        if not path.resolve().is_relative_to(self.folder.resolve()):
+            raise ReportError(f"{case}: [report] targets names {path}, outside the run folder")
         if not path.is_file():
-            raise ReportError(f"{path}: no such file; [report] targets in {self.folder / 'case.toml'} names it")
-        rows = _read_table(path, ("quantity", "time_s", "value"))
-        return [
-            Target(
-                row["quantity"],
-                _number(row["time_s"], path, line),
-                _number(row["value"], path, line),
-                row.get("unit", ""),
-                row.get("source", ""),
-            )
-            for line, row in rows
-        ]
+            raise ReportError(f"{path}: no such file; [report] targets in {case} names it")
+        return read_targets(path)
 
     @cached_property
     def facts(self) -> dict[str, Any]:
         """What run.json says of version, machine and speed; empty when it is not there."""
-        path = self.folder / "run.json"
-        if not path.is_file():
-            return {}
-        try:
-            facts = json.loads(path.read_text(encoding="utf-8"))
-        except (json.JSONDecodeError, UnicodeDecodeError) as error:
-            raise ReportError(f"{path}: not valid JSON: {error}") from error
-        if not isinstance(facts, dict):
-            raise ReportError(f"{path}: expected a JSON object")
-        return facts
+        return read_facts(self.folder / "run.json")
+
+    @cached_property
+    def ending(self) -> Ending:
+        """How the run ended, if it has."""
+        return ending_of(self.folder, self.facts)
 
     @property
     def ended(self) -> bool:
-        """Whether the run came to its end; one that no run.json tells of is taken to have."""
-        return bool(self.facts.get("status", "done") == "done")
+        """Whether the run came to its end; one that no run.json tells of is taken to have, and its page says so."""
+        return self.ending in (Ending.DONE, Ending.UNKNOWN)
 
     @property
     def last_time(self) -> float:
         """The time [s] that the run has come to."""
         told = self.facts.get("simulated_time_s")
-        running = self.facts.get("status") == "running"  # run.json is of its start
-        return float(self.history["time_s"][-1] if told is None or running else told)
+        of_its_start = self.ending in (Ending.RUNNING, Ending.KILLED)  # run.json is
+        return float(self.history["time_s"][-1] if told is None or of_its_start else told)
 
     @property
     def last_state(self) -> str:
         """When the last state of the run is, and how the run ended if not by itself, as "19.5 s (stopped)"."""
-        status = str(self.facts.get("status", "done")).replace("running", "still running")
-        return f"{self.last_time:.4g} s" + ("" if self.ended else f" ({status})")
+        how = "" if self.ended else f" ({_HOW[self.ending][0]})"
+        return f"{self.last_time:.4g} s{how}"
 
     @property
     def end_note(self) -> str:
         """A sentence for figures of a run that did not come to its end, "" for one that did."""
         if self.ended:
             return ""
-        verb = {"running": "was still running", "failed": "went bad"}.get(self.facts["status"], "was stopped")
         wanted = self.section("time").get("end")
-        return f"The run {verb} at {self.last_time:.4g} s" + (f" of {wanted:g} s. " if wanted else ". ")
+        return f"The run {_HOW[self.ending][1]} at {self.last_time:.4g} s" + (f" of {wanted:g} s. " if wanted else ". ")
 
     @cached_property
     def snapshot_files(self) -> list[Path]:
-        """The snapshot files in order of their numbers."""
-        return sorted(
-            (path for path in (self.folder / "snapshots").glob("*.vtkhdf") if path.stem.isdigit()),
-            key=lambda path: int(path.stem),
-        )
+        """The snapshot files in order of their numbers; a gap between these is told in a warning."""
+        folder = self.folder / "snapshots"
+        numbered = {
+            int(path.stem): path
+            for path in folder.glob("*.vtkhdf")
+            if path.stem.isascii() and path.stem.isdigit() and len(path.stem) < 18
+        }
+        missing = next((number for number in range(len(numbered)) if number not in numbered), None)
+        if missing is not None:
+            self.warnings.append(f"{folder / f'{missing:06d}.vtkhdf'}: not there; the figures have the others")
+        return [path for _, path in sorted(numbered.items()) if not self._leave_out_damaged or self._is_whole(path)]
 
     @cached_property
     def times(self) -> Numbers:
         """The time [s] of every snapshot, shape (snapshots,)."""
-        times = []
-        for path in self.snapshot_files:
-            with _open_snapshot(path) as file:
-                times.append(float(_snapshot_group(file, path).attrs["time"]))
-        return np.array(times, dtype=np.float64)
+        return np.array([snapshot_time(path) for path in self.snapshot_files], dtype=np.float64)
+
+    def _is_whole(self, path: Path) -> bool:
+        """Return whether a snapshot can be opened; one that cannot is told in a warning."""
+        try:
+            snapshot_time(path)
+        except ReportError as error:
+            self.warnings.append(f"{error}; the figures have the others")
+            return False
+        return True
 
     def snapshot(
         self, index: int | None = None, *, time: float | None = None, fields: Collection[str] | None = None
@@ -285,70 +209,3 @@ class Run:
         if not -len(self.snapshot_files) <= index < len(self.snapshot_files):
             raise ReportError(f"{self.folder}: no snapshot {index}; there are {len(self.snapshot_files)}")
         return Snapshot(self.snapshot_files[index], fields)
-
-
-def _text(value: Any) -> str:
-    return value.decode() if isinstance(value, bytes) else str(value)
-
-
-def _open_snapshot(path: Path) -> h5py.File:
-    try:
-        return h5py.File(path, "r")
-    except OSError as error:
-        raise ReportError(f"{path}: cannot be read as HDF5 ({error}); remove it or run the case again") from error
-
-
-def _snapshot_group(file: h5py.File, path: Path) -> h5py.Group:
-    group = file.get("VTKHDF")
-    if group is None or "time" not in group.attrs:
-        raise ReportError(f"{path}: not a snapshot, it has no group VTKHDF with an attribute time")
-    return group
-
-
-def _number(text: str, path: Path, line: int) -> float:
-    try:
-        return float(text)
-    except ValueError as error:
-        raise ReportError(f"{path}:{line}: expected a number, found '{text}'") from error
-
-
-def _read_table(path: Path, needed: tuple[str, ...]) -> list[tuple[int, dict[str, str]]]:
-    """Read a CSV file with a header, lines starting with # left out, as (line number, row) pairs."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    kept = [(number, line) for number, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
-    if not kept:
-        raise ReportError(f"{path}: empty; expected the columns {', '.join(needed)}")
-    header = [name.strip() for name in next(csv.reader([kept[0][1]]))]
-    for name in needed:
-        if name not in header:
-            raise ReportError(f"{path}:{kept[0][0]}: no column {name}; found {', '.join(header)}")
-    rows = []
-    for number, line in kept[1:]:
-        cells = [cell.strip() for cell in next(csv.reader([line]))]
-        if len(cells) != len(header):
-            raise ReportError(f"{path}:{number}: {len(cells)} values for {len(header)} columns")
-        rows.append((number, dict(zip(header, cells, strict=True))))
-    return rows
-
-
-def _read_history(path: Path, warnings: list[str]) -> History:
-    text = path.read_text(encoding="utf-8")
-    lines = text.splitlines()
-    if lines and not text.endswith("\n"):  # a row is one write: without its end it was cut off
-        lines.pop()
-        warnings.append(f"{path}: the last row was cut off and is left out")
-    if not lines:
-        raise ReportError(f"{path}: empty; the run has not written its first row")
-    names = lines[0].split(",")
-    if "time_s" not in names:
-        raise ReportError(f"{path}:1: no column time_s; this is not the history of a run")
-    if len(lines) == 1:
-        raise ReportError(f"{path}: no rows after the header; the run has not written its first row")
-    rows = []
-    for number, line in enumerate(lines[1:], 2):
-        cells = line.split(",")
-        if len(cells) != len(names):
-            raise ReportError(f"{path}:{number}: {len(cells)} values for {len(names)} columns")
-        rows.append([_number(cell, path, number) for cell in cells])
-    table = np.array(rows, dtype=np.float64)
-    return History(path.name, {name: table[:, place] for place, name in enumerate(names)})

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
+from thawslide.arrays import Numbers
 from thawslide.figures.colours import THICKNESS, colour_range, number_text
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import (
@@ -29,8 +30,8 @@ from thawslide.figures.map_panel import (
 )
 from thawslide.figures.style import BLACK, BLUE, GREEN, PURPLE, RED, styled, volume_text
 from thawslide.maps import Box, Grid, Map
-from thawslide.run import Numbers
 
+MOST_CELLS = 1e7  # along an axis of the domain
 _BODY_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
 _PATH = "#0B3C8C"
 _HATCHES = ("//", "..", "xx", "--")  # of substrates
@@ -75,6 +76,8 @@ def setup_on_map(data: dict[str, Any]) -> SetupOnMap:
     crs = str(data.get("crs") or "")
     west, south = (float(value) for value in data["min"][:2])
     east, north = (float(value) for value in data["max"][:2])
+    cell = float(data["cell"])
+    check_domain((west, south), (east, north), cell)
     releases = [
         Release(
             str(body["name"]),
@@ -87,7 +90,7 @@ def setup_on_map(data: dict[str, Any]) -> SetupOnMap:
     ]
     return SetupOnMap(
         str(data["title"]),
-        float(data["cell"]),
+        cell,
         (west, east, south, north),
         _raster(data["terrain"], crs),
         releases,
@@ -97,12 +100,27 @@ def setup_on_map(data: dict[str, Any]) -> SetupOnMap:
     )
 
 
+def check_domain(low: tuple[float, float], high: tuple[float, float], cell: float) -> None:
+    """Raise ValueError for a domain [m] that is none, or has more cells than any."""
+    for start, end in zip(low, high, strict=True):
+        if not (np.isfinite([start, end]).all() and cell > 0.0 and 0.0 < (end - start) / cell <= MOST_CELLS):
+            raise ValueError(f"a domain from {start:g} to {end:g} m with cells of {cell:g} m")
+
+
+def numbers_of(values: Any) -> Numbers:
+    """Return a list as finite numbers; ValueError or TypeError where one is not."""
+    numbers = np.array(values, dtype=np.float64)
+    if not np.isfinite(numbers).all():
+        raise ValueError("a number is missing or not finite")
+    return numbers
+
+
 def _substrates(data: dict[str, Any], crs: str) -> Substrates:
     return Substrates([str(name) for name in data["names"]], _raster(data["numbers"], crs))
 
 
 def _line(points: Any) -> Numbers:
-    return np.array(points, dtype=np.float64).reshape(-1, 2)
+    return numbers_of(points).reshape(-1, 2)
 
 
 def _raster(data: dict[str, Any], crs: str) -> Map:
@@ -110,6 +128,9 @@ def _raster(data: dict[str, Any], crs: str) -> Map:
         float(data["x0"]), float(data["y0"]), float(data["cell_x"]), float(data["cell_y"]),
         int(data["columns"]), int(data["rows"]),
     )  # fmt: skip
+    numbers_of([grid.x0, grid.y0, grid.cell_x, grid.cell_y])
+    if min(grid.cell_x, grid.cell_y) <= 0.0 or min(grid.columns, grid.rows) < 1:
+        raise ValueError(f"a raster of {grid.columns} x {grid.rows} cells of {grid.cell_x:g} x {grid.cell_y:g} m")
     values = np.array(data["heights"], dtype=np.float64)  # null becomes nan
     if values.size != grid.rows * grid.columns:
         raise ValueError(f"{values.size} heights for {grid.columns} columns and {grid.rows} rows")

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
+from thawslide.arrays import Numbers
 from thawslide.errors import ReportError
 from thawslide.figures.style import (
     BLUE,
@@ -28,8 +29,8 @@ from thawslide.figures.style import (
     styled,
 )
 from thawslide.figures.window import Window, fill_terrain, fit, squares
-from thawslide.run import Numbers
-from thawslide.setup_map import SetupOnMap, draw_setup_on_map, setup_on_map
+from thawslide.setup_map import SetupOnMap, check_domain, draw_setup_on_map, numbers_of, setup_on_map
+from thawslide.text_files import MEGABYTE, read_json
 
 _BODY_COLOURS = (BLUE, ORANGE, GREEN, PURPLE, SKY)
 _SUBSTRATE_COLOURS = (SKY, RED, GREEN, PURPLE)
@@ -82,49 +83,58 @@ def read_setup(path: Path) -> Setup | SetupOnMap:
 
     One whose terrain has heights over the plane is on a DEM.
     """
-    try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ReportError(f"{path}: cannot be read: {error.strerror}") from error
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise ReportError(f"{path}: not valid JSON: {error}") from error
+    data = read_json(path, 1024 * MEGABYTE)
     try:
         terrain = data.get("terrain")
         if terrain is not None and "heights" in terrain:
             return setup_on_map(data)
-        return Setup(
-            str(data["title"]),
-            float(data["cell"]),
-            _pair(data["min"]),
-            _pair(data["max"]),
-            dict(data.get("boundary") or {}),
-            None if terrain is None else (np.array(terrain["x"], float), np.array(terrain["z"], float)),
-            [
-                Body(b["name"], b["material"], np.array(b["points"], float).reshape(-1, 2), float(b["spacing"]))
-                for b in data.get("bodies") or []
-            ],
-            [
-                Frame(f["name"], _pair(f["min"]), _pair(f["max"]), str(f["axis"]), float(f["velocity"]))
-                for f in data.get("frames") or []
-            ],
-            [str(name) for name in (data.get("substrates") or {}).get("names", [])],
-            np.array(data["substrates"]["numbers"], float) if data.get("substrates") else None,
-        )
+        return _setup_in_section(data)
     except KeyError as error:
         raise ReportError(f"{path}: no key {error}; this is not a set-up the simulator wrote") from error
-    except (AttributeError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, TypeError, ValueError, IndexError) as error:
         raise ReportError(f"{path}: not a set-up the simulator wrote: {error}") from error
+
+
+def _setup_in_section(data: dict[str, Any]) -> Setup:
+    """Return a set-up from what the simulator wrote; KeyError, TypeError or ValueError where a part is missing."""
+    terrain, substrates = data.get("terrain"), data.get("substrates")
+    low, high, cell = _pair(data["min"]), _pair(data["max"]), float(data["cell"])
+    check_domain(low, high, cell)
+    numbers = numbers_of(substrates["numbers"]) if substrates else None
+    ground = None
+    if terrain is not None:
+        ground = (numbers_of(terrain["x"]), numbers_of(terrain["z"]))
+        if ground[0].ndim != 1 or any(
+            column is not None and column.shape != ground[0].shape for column in (ground[1], numbers)
+        ):
+            raise ValueError("x, z and substrates of the terrain differ in length")
+    bodies = [
+        Body(str(b["name"]), str(b["material"]), numbers_of(b["points"]).reshape(-1, 2), float(b["spacing"]))
+        for b in data.get("bodies") or []
+    ]
+    frames = [
+        Frame(str(f["name"]), _pair(f["min"]), _pair(f["max"]), str(f["axis"]), float(f["velocity"]))
+        for f in data.get("frames") or []
+    ]
+    boundary = {str(side): str(kind) for side, kind in (data.get("boundary") or {}).items()}
+    names = [str(name) for name in (substrates or {}).get("names", [])]
+    return Setup(str(data["title"]), cell, low, high, boundary, ground, bodies, frames, names, numbers)
 
 
 def draw_setup_file(setup: Path, picture: Path, dpi: int = 150) -> None:
     """Draw the set-up in the file `setup` into the file `picture`."""
+    kinds = FigureCanvasBase.get_supported_filetypes()
+    if picture.suffix.lower().removeprefix(".") not in kinds:
+        raise ReportError(f"{picture}: cannot be written: its name must end with one of .{', .'.join(kinds)}")
     found = read_setup(setup)
-    figure = draw_setup_on_map(found) if isinstance(found, SetupOnMap) else draw_setup(found)
     try:
+        figure = draw_setup_on_map(found) if isinstance(found, SetupOnMap) else draw_setup(found)
         picture.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(picture, dpi=dpi)
-    except (OSError, ValueError) as error:
+    except OSError as error:
         raise ReportError(f"{picture}: cannot be written: {error}") from error
+    except (ValueError, ArithmeticError, MemoryError) as error:
+        raise ReportError(f"{setup}: cannot be drawn into {picture}: {error}") from error
 
 
 @styled

@@ -109,9 +109,14 @@ def test_parts_may_be_absent(write: Any, tmp_path: Path, changes: dict[str, Any]
     ("content", "text"),
     [
         ("{", "setup.json: not valid JSON"),
-        ({"title": "Block"}, "setup.json: no key 'cell'; this is not a set-up the simulator wrote"),
-        ([], "setup.json: not a set-up the simulator wrote"),
+        ({"title": "Block"}, "setup.json: no key 'min'; this is not a set-up the simulator wrote"),
+        ([], "setup.json: expected a JSON object"),
         (setup(cell="wide"), "setup.json: not a set-up the simulator wrote"),
+        (setup(cell=0.0), "a domain from -1 to 6 m with cells of 0 m"),
+        (setup(cell=1e-9), "m with cells of 1e-09 m"),
+        (setup(max=[1e400, 20.0]), "a domain from -1 to inf m"),
+        (setup(terrain={"x": [0.0, 1.0], "z": [0.0]}), "x, z and substrates of the terrain differ in length"),
+        (setup(terrain={"x": [0.0, None], "z": [0.0, 1.0]}), "a number is missing or not finite"),
     ],
 )
 def test_bad_set_ups(write: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str], content: Any, text: str) -> None:
@@ -121,7 +126,7 @@ def test_bad_set_ups(write: Any, tmp_path: Path, capsys: pytest.CaptureFixture[s
 
 def test_missing_set_up_and_unwritable_picture(write: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--setup", str(tmp_path / "none.json"), "--picture", str(tmp_path / "out.png")]) == 2
-    assert "none.json: cannot be read: No such file or directory" in capsys.readouterr().err
+    assert "none.json: no such file" in capsys.readouterr().err
     assert main(["--setup", str(write(setup())), "--picture", str(tmp_path / "out.nothing")]) == 2
     assert "out.nothing: cannot be written: " in capsys.readouterr().err
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
+import os
 from pathlib import Path
 
 import pytest
 from map_figure_parts import drawn, maps_of, notes
 
 from thawslide import Run
+from thawslide.report import ending_note, make_report
+from thawslide.run_facts import LOCK, Ending, is_held
 
 
 def test_figures_of_a_stopped_run_say_when_it_stopped(map_run: Path) -> None:
@@ -35,10 +39,58 @@ def test_figures_of_a_stopped_run_say_when_it_stopped(map_run: Path) -> None:
     [
         ({"status": "done", "simulated_time_s": 10.0}, "", "10 s"),
         ({"status": "failed", "simulated_time_s": 10.4087}, "The run went bad at 10.41 s. ", "10.41 s (failed)"),
-        ({"status": "running", "simulated_time_s": 0.0}, "The run was still running at 10 s. ", "10 s (still running)"),
+        (
+            {"status": "running", "simulated_time_s": 0.0},
+            "The run stopped without a word at 10 s. ",
+            "10 s (killed?)",
+        ),
     ],
 )
 def test_how_a_run_ended(map_run: Path, facts: dict[str, object], note: str, state: str) -> None:
     (map_run / "run.json").write_text(json.dumps(facts))
     run = Run(map_run)
     assert (run.end_note, run.last_state) == (note, state)
+
+
+def test_a_run_whose_lock_is_held_is_running(map_run: Path) -> None:
+    (map_run / "run.json").write_text(json.dumps({"status": "running", "simulated_time_s": 0.0}))
+    with (map_run / LOCK).open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        run = Run(map_run)
+        assert run.ending is Ending.RUNNING
+        assert (run.end_note, run.last_state) == ("The run was still running at 10 s. ", "10 s (still running)")
+        assert "(was still running when this was written)" in ending_note(run)
+    assert Run(map_run).ending is Ending.KILLED, "the file is there, but nobody holds it"
+
+
+def test_several_can_ask_for_the_lock_at_once_and_none_keeps_it(tmp_path: Path) -> None:
+    lock = tmp_path / LOCK
+    lock.touch()
+    with lock.open() as other:
+        fcntl.flock(other, fcntl.LOCK_SH)
+        assert not is_held(lock)
+    with lock.open() as starts:
+        assert not is_held(lock)
+        fcntl.flock(starts, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def test_what_is_no_lock_file_is_answered_at_once(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    assert not is_held(tmp_path / "pipe")
+    assert not is_held(tmp_path / "nothing")
+    (tmp_path / "circle").symlink_to("circle")
+    assert is_held(tmp_path / "circle"), "who cannot be asked may be alive"
+
+
+def test_the_page_of_a_killed_run_says_how_to_go_on(map_run: Path) -> None:
+    (map_run / "run.json").write_text(json.dumps({"status": "running"}))
+    page = make_report(Run(map_run), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    assert "This run stopped without a word: run.json says that it runs, but no process holds run.lock." in page
+    assert f"`thawslide resume {map_run}` goes on from its last checkpoint." in page
+
+
+def test_the_page_of_a_run_without_run_json_says_so(map_run: Path) -> None:
+    (map_run / "run.json").unlink()
+    run = Run(map_run)
+    assert ending_note(run) == "There is no run.json, so whether this run came to its end is not known."
+    assert run.end_note == ""

@@ -23,7 +23,7 @@ from thawslide.figures.map_page import WIDTH, MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
 from thawslide.figures.slide_on_map import SPEED, columns_on, where_thick
-from thawslide.figures.style import BLUE, RED, STYLE, time_axis, time_line
+from thawslide.figures.style import BLUE, RED, STYLE, time_axis, time_line, write_plainly
 from thawslide.maps import Map
 from thawslide.run import Run
 
@@ -55,6 +55,7 @@ class Film:
         """Yield the frames in order, each of shape (height, width, 3), both even as films need it."""
         with mpl.rc_context(cast(Any, STYLE)):
             picture = _Picture(self.site, min(dpi, _LARGEST_DPI))
+            write_plainly(picture.page.figure)
             for index in self.indices:
                 pixels = picture.show(index)
                 yield np.ascontiguousarray(pixels[: pixels.shape[0] // 2 * 2, : pixels.shape[1] // 2 * 2])

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.band_pass import band_passed
-from thawslide.errors import NotInRunError, ReportError
+from thawslide.errors import NotInRunError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
@@ -25,39 +22,13 @@ from thawslide.figures.style import (
     time_axis,
     time_line,
 )
-from thawslide.run import Numbers, Run, Target
-
-_REPORTED = "max_seismic_force"
-_BAND = re.compile(_REPORTED + r"_(\d+(?:\.\d+)?)_(\d+(?:\.\d+)?)_s")
-
-
-@dataclass(frozen=True)
-class Band:
-    """Periods [s] between which a force was inverted from seismic waves."""
-
-    shortest: float
-    longest: float
-
-    @property
-    def words(self) -> str:
-        """The band as texts have it."""
-        return f"{self.shortest:g} to {self.longest:g} s"
-
-
-def band_of(target: Target) -> Band | None:
-    """Return the band of a reported largest force, max_seismic_force_35_150_s, say; None for a target without one."""
-    found = _BAND.fullmatch(target.quantity)
-    if found is None:
-        return None
-    band = Band(float(found[1]), float(found[2]))
-    if not 0.0 < band.shortest < band.longest:
-        raise ReportError(f"the target {target.quantity}: give the shorter period first, both above 0")
-    return band
+from thawslide.run import Numbers, Run
+from thawslide.targets import FORCE, Band, Target, band_of
 
 
 def reported_forces(run: Run) -> list[Target]:
     """Return the reported largest forces, with a band or without."""
-    return [target for target in run.targets if target.quantity == _REPORTED or band_of(target) is not None]
+    return [target for target in run.targets if target.quantity == FORCE or band_of(target) is not None]
 
 
 def reported_bands(run: Run) -> list[Band]:

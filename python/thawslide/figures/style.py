@@ -8,8 +8,11 @@ from typing import Any, ParamSpec, cast
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from numpy.typing import ArrayLike
 
 from thawslide.run import Numbers
@@ -54,14 +57,25 @@ STYLE: dict[str, Any] = {
 
 
 def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
-    """Draw a figure in the common style, without touching matplotlib's settings outside."""
+    """Draw a figure in the common style, texts as they are, without touching matplotlib's settings outside."""
 
     @wraps(draw)
     def inside(*arguments: Arguments.args, **named: Arguments.kwargs) -> Figure:
         with mpl.rc_context(cast(Any, STYLE)):
-            return draw(*arguments, **named)
+            figure = draw(*arguments, **named)
+            write_plainly(figure)
+            return figure
 
     return inside
+
+
+def write_plainly(artist: Artist) -> None:
+    """Write names and titles as they are: a pair of dollar signs in them is no formula. Labels of ticks may be one."""
+    for part in [artist.label] if isinstance(artist, Axis) else artist.get_children():
+        if isinstance(part, Text):
+            part.set_parse_math(False)
+        else:
+            write_plainly(part)
 
 
 _PREFIXES = ((1e15, "P"), (1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"))

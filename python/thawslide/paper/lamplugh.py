@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,14 +10,16 @@ from matplotlib.figure import Figure
 
 from thawslide.clock import time_of_speed
 from thawslide.errors import NotInRunError
-from thawslide.figures.force import Band, force_in_band, seismic_force
+from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.motion import draw_targets
 from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_axis, time_line
+from thawslide.history import History, read_history
 from thawslide.key_numbers import STOPPED_SHARE, stop_time
 from thawslide.paper.block import at
 from thawslide.paper.runs import LAMPLUGH_BLOCKS
 from thawslide.paper.stages import balance
 from thawslide.run import Numbers, Run
+from thawslide.targets import Band
 
 # Gradients the text gives for the way down: source slope, ramp, valley floor.
 SLOPE, RAMP = 48.0, 8.0
@@ -30,7 +31,6 @@ MARGIN = 1000.0  # m: what counts as the distal margin before it
 INVERSION = Band(35.0, 150.0)  # s: periods that inversions of long waves take; that of the report is not checked
 WIDER = Band(20.0, 150.0)
 
-History = dict[str, Numbers]
 _COLOURS = (RED, ORANGE, GREEN)
 
 
@@ -92,10 +92,7 @@ def read_block(path: Path) -> History:
     """Return the columns of what `thawslide block` wrote; NotInRunError where there is nothing."""
     if not path.is_file():
         raise NotInRunError(f"{path}: not there")
-    with path.open(newline="", encoding="utf-8") as file:
-        header, *rows = csv.reader(file)
-    table = np.array(rows, dtype=np.float64)
-    return {name: table[:, place] for place, name in enumerate(header)}
+    return read_history(path, [])
 
 
 def blocks(run: Run) -> dict[str, History]:

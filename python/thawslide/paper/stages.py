@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from thawslide.paper.block import at
@@ -37,7 +39,7 @@ def balance_cohesion(thickness: float) -> float:
     return float(weight * np.sin(SLOPE) - coefficient * (weight * np.cos(SLOPE) - ice)) / 1e6
 
 
-def balance(block: dict[str, Numbers], cohesion: float) -> dict[str, float]:
+def balance(block: Mapping[str, Numbers], cohesion: float) -> dict[str, float]:
     """Return what the rigid block needs to stand at t = 0, from its history with a cohesion [Pa]."""
     driving = float(block["driving_traction_Pa"][0])
     frictional = float(block["sliding_strength_Pa"][0]) - cohesion

@@ -1,0 +1,8 @@
+"""The arrays that readers and figures share."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Numbers = NDArray[np.float64]

@@ -1,0 +1,117 @@
+"""Rows through time: history.csv, probes.csv and what a rigid block writes, as columns by name."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from array import array
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from thawslide.arrays import Numbers
+from thawslide.errors import NotInRunError, ReportError, quoted
+from thawslide.text_files import number
+
+_MOST_BYTES = 4 * 1024**3
+_LONGEST_LINE = 1024 * 1024  # bytes
+_RESUME = "`thawslide resume` writes what follows a checkpoint again"
+
+
+class History(Mapping[str, Numbers]):
+    """The columns of history.csv or probes.csv by name, each of shape (rows,), in the unit its name ends with."""
+
+    def __init__(self, file: str, columns: dict[str, Numbers]) -> None:
+        self.file = file
+        self._columns = columns
+        self.rows = len(columns["time_s"])
+
+    def __getitem__(self, name: str) -> Numbers:
+        if name not in self._columns:
+            near = difflib.get_close_matches(name, self._columns, 1)
+            hint = f" (nearest: {near[0]})" if near else ""
+            raise NotInRunError(f"{self.file} has no column {name}{hint}")
+        return self._columns[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._columns
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+
+def read_history(path: Path, warnings: list[str]) -> History:
+    """Read rows through time; those that a kill or a power cut left unfinished at the end are left out, with a warning.
+
+    ReportError for anything else that is not a row of numbers at a later time than the row before.
+    """
+    try:
+        if not path.is_file():
+            raise ReportError(f"{path}: {'not a file' if path.exists() else 'no such file'}")
+        if path.stat().st_size > _MOST_BYTES:
+            raise ReportError(f"{path}: larger than 4 GB; set a longer [time] history_interval and run again")
+        with path.open("rb") as file:
+            names = _header(file, path)
+            values = _values(file, names, path, warnings)
+    except OSError as error:
+        raise ReportError(f"{path}: cannot be read: {error.strerror or error}") from error
+    if not values:
+        raise ReportError(f"{path}: no rows after the header; the run has not written its first row")
+    table = np.array(values, dtype=np.float64).reshape(-1, len(names))
+    return History(path.name, {name: table[:, place].copy() for place, name in enumerate(names)})
+
+
+def _header(file: BinaryIO, path: Path) -> list[str]:
+    line = file.readline(_LONGEST_LINE)
+    if not line.endswith(b"\n"):  # a row is one write: without its end it was cut off
+        raise ReportError(f"{path}: empty; the run has not written its first row")
+    try:
+        names = line.decode("ascii").rstrip("\r\n").split(",")
+    except UnicodeDecodeError as error:
+        raise ReportError(f"{path}:1: the names of columns must be ASCII; this is not the history of a run") from error
+    if "time_s" not in names:
+        raise ReportError(f"{path}:1: no column time_s; this is not the history of a run")
+    if len(set(names)) < len(names):
+        twice = next(name for place, name in enumerate(names) if name in names[:place])
+        raise ReportError(f"{path}:1: two columns {quoted(twice)}; this is not the history of a run")
+    return names
+
+
+def _values(file: BinaryIO, names: list[str], path: Path, warnings: list[str]) -> array[float]:
+    """Return all numbers, row after row."""
+    values = array("d")
+    time_at, before, place = names.index("time_s"), -math.inf, 1
+    while line := file.readline(_LONGEST_LINE):
+        place += 1
+        where = f"{path}:{place}"
+        if not line.endswith(b"\n") and len(line) < _LONGEST_LINE:
+            warnings.append(f"{path}: the last row was cut off and is left out")
+            break
+        if b"\0" in line:
+            warnings.append(f"{where}: zero bytes, as a power cut leaves them; the rows from here on are left out")
+            break
+        row = _row(line, len(names), where)
+        if not math.isfinite(row[time_at]) or row[time_at] <= before:
+            raise ReportError(
+                f"{where}: time_s is {row[time_at]:g} after {before:g}; rows must go forward in time. {_RESUME}"
+            )
+        before = row[time_at]
+        values.extend(row)
+    return values
+
+
+def _row(line: bytes, columns: int, where: str) -> list[float]:
+    cells = line.rstrip(b"\r\n").split(b",")
+    if len(cells) != columns:
+        raise ReportError(f"{where}: {len(cells)} values for {columns} columns; the row is damaged. {_RESUME}")
+    if b"_" not in line:
+        try:
+            return [float(cell) for cell in cells]
+        except ValueError:
+            pass  # the slower way names the cell
+    return [number(cell.decode("ascii", "backslashreplace"), where) for cell in cells]

@@ -1,0 +1,92 @@
+"""The resolved case of a run, case.toml, with the values that figures use checked: their kinds and sizes."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from thawslide.errors import ReportError
+from thawslide.text_files import MEGABYTE, check_depth, is_number, read_text
+
+Case = dict[str, Any]
+
+_MOST_CELLS = 1e7  # along an axis of the domain
+
+
+def _is_numbers(value: object) -> bool:
+    return isinstance(value, list) and all(map(is_number, value))
+
+
+def _is_corner(value: object) -> bool:
+    return isinstance(value, list) and _is_numbers(value) and len(value) in (2, 3)
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str)
+
+
+def _is_flag(value: object) -> bool:
+    return isinstance(value, bool)
+
+
+def _is_positive(value: object) -> bool:
+    return is_number(value) and isinstance(value, int | float) and value > 0
+
+
+Kind = tuple[Callable[[object], bool], str]
+_NUMBER: Kind = (is_number, "a finite number")
+_TEXT: Kind = (_is_text, "a text")
+_FLAG: Kind = (_is_flag, "true or false")
+_CORNER: Kind = (_is_corner, "a list of 2 or 3 finite numbers")
+
+_KINDS: dict[str, dict[str, Kind]] = {
+    "case": {"title": _TEXT, "dimension": (lambda value: value in (2, 3), "2 or 3"), "width": _NUMBER},
+    "grid": {"cell": (_is_positive, "a number above 0"), "min": _CORNER, "max": _CORNER},
+    "time": {"end": _NUMBER},
+    "heat": {"enabled": _FLAG, "latent": _FLAG, "steam": _FLAG},
+    "maps": {"arrival_thickness": _NUMBER, "path": _TEXT},
+    "terrain": {"type": _TEXT},
+    "report": {"times": (_is_numbers, "a list of finite numbers"), "targets": _TEXT},
+}
+_PROBE: dict[str, Kind] = {"point": (lambda value: value == [] or _is_corner(value), _CORNER[1])}
+
+
+def read_case(path: Path) -> Case:
+    """Read the case; ReportError names a key whose value is of another kind than the simulator writes."""
+    try:
+        case = tomllib.loads(read_text(path, 16 * MEGABYTE))
+    except (ValueError, RecursionError) as error:  # an integer of too many digits is a plain ValueError
+        raise ReportError(f"{path}: not valid TOML: {error}") from error
+    check_depth(case, path)
+    for name in (*_KINDS, "body", "material", "probe"):
+        if not isinstance(case.get(name, {}), dict):
+            raise ReportError(f"{path}: {name} must be a table")
+    for name, kinds in _KINDS.items():
+        _check(case.get(name, {}), kinds, name, path)
+    for name, probe in case.get("probe", {}).items():
+        if not isinstance(probe, dict):
+            raise ReportError(f"{path}: probe.{name} must be a table")
+        _check(probe, _PROBE, f"probe.{name}", path)
+    _check_domain(case.get("grid", {}), path)
+    return case
+
+
+def _check(table: dict[str, Any], kinds: dict[str, Kind], name: str, path: Path) -> None:
+    for key, (holds, words) in kinds.items():
+        if key in table and not holds(table[key]):
+            raise ReportError(f"{path}: {name}.{key} must be {words}, found {str(table[key])[:60]}")
+
+
+def _check_domain(grid: dict[str, Any], path: Path) -> None:
+    if not {"cell", "min", "max"} <= set(grid):
+        return
+    if len(grid["min"]) != len(grid["max"]):
+        raise ReportError(f"{path}: grid.min and grid.max have {len(grid['min'])} and {len(grid['max'])} numbers")
+    for low, high in zip(grid["min"], grid["max"], strict=True):
+        if not 0.0 < (high - low) / grid["cell"] <= _MOST_CELLS:
+            raise ReportError(
+                f"{path}: a domain from {low:g} to {high:g} with cells of {grid['cell']:g}: expected above 0 and at "
+                f"most {_MOST_CELLS:g} cells"
+            )

@@ -1,0 +1,79 @@
+"""What run.json says of a run, and whether one that it calls running still is."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from thawslide.errors import ReportError
+from thawslide.text_files import MEGABYTE, is_number, read_json
+
+LOCK = "run.lock"  # held with flock by the process that runs, for as long as it lives
+STATUSES = ("running", "done", "stopped", "failed")
+NUMBERS = (
+    "simulated_time_s",
+    "deposit_volume_m3",
+    "deposit_area_m2",
+    "travel_distance_m",
+    "drop_height_m",
+    "angle_of_reach_degrees",
+)  # that figures and key numbers use; null: not known
+
+
+class Ending(Enum):
+    """How a run ended, or that it has not."""
+
+    DONE = "done"
+    STOPPED = "stopped"
+    FAILED = "failed"
+    RUNNING = "running"
+    KILLED = "killed"  # run.json says running, and no process holds the lock
+    UNKNOWN = "unknown"  # there is no run.json
+
+
+def read_facts(path: Path) -> dict[str, Any]:
+    """Read run.json, nothing where there is none; ReportError when it is damaged."""
+    if not os.path.lexists(path):
+        return {}
+    facts = read_json(path, 16 * MEGABYTE)
+    if facts.get("status") not in STATUSES:
+        raise ReportError(f"{path}: status must be {', '.join(STATUSES)}, found {str(facts.get('status'))[:60]}")
+    for name in NUMBERS:
+        value = facts.get(name)
+        if value is not None and not is_number(value):
+            raise ReportError(f"{path}: {name} must be a number, found {str(value)[:60]}")
+    return facts
+
+
+def ending_of(folder: Path, facts: dict[str, Any]) -> Ending:
+    """Return how a run ended; one that run.json calls running is asked for its lock."""
+    if not facts:
+        return Ending.UNKNOWN
+    ending = Ending(facts["status"])
+    if ending is Ending.RUNNING and not is_held(folder / LOCK):
+        return Ending.KILLED
+    return ending
+
+
+def is_held(lock: Path) -> bool:
+    """Return whether a process holds a lock file. One that cannot be asked, as on some network disks, counts as held.
+
+    A shared lock is asked for, so that several can ask at once.
+    """
+    try:
+        # Without O_NONBLOCK a pipe of that name would wait for ever.
+        handle = os.open(lock, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    except FileNotFoundError:
+        return False
+    except OSError:
+        return True
+    try:
+        fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except OSError:
+        return True
+    finally:
+        os.close(handle)  # which lets go of the lock
+    return False

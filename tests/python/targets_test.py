@@ -1,0 +1,210 @@
+"""Reported values: every unit is converted, and what is not understood is refused with its line."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from conftest import MakeRun
+
+from thawslide import ReportError, Run
+from thawslide.figures import FIGURES
+from thawslide.key_numbers import found_for
+from thawslide.report import make_report
+from thawslide.targets import QUANTITIES, Target, read_targets
+
+HEADER = "quantity,time_s,value,unit,source\n"
+
+
+def read(tmp_path: Path, text: str | bytes) -> list[Target]:
+    path = tmp_path / "targets.csv"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return read_targets(path)
+
+
+@pytest.mark.parametrize(
+    ("row", "value"),
+    [
+        ("mean_displacement,5,0.6,km,x", 600.0),
+        ("front_distance,5,80,cm,x", 0.8),
+        ("mean_velocity,5,36,km/h,x", 10.0),
+        ("band_temperature,5,0,K,x", -273.15),
+        ("band_temperature,5,-1,degC,x", -1.0),
+        ("band_saturation,5,30,%,x", 0.3),
+        ("band_pore_pressure,5,1.5,MPa,x", 1.5e6),
+        ("max_seismic_force,5,0.28,TN,x", 2.8e11),
+        ("max_seismic_force_35_150_s,5,280,GN,x", 2.8e11),
+        ("source_volume,0,52,million m3,x", 52e6),
+        ("deposit_volume,0,0.052,km³,x", 52e6),
+        ("deposit_area,0,12,ha,x", 12e4),
+        ("angle_of_reach,0,0.25,rad,x", 14.323944878270581),
+    ],
+)
+def test_units_are_converted_and_back(tmp_path: Path, row: str, value: float) -> None:
+    (target,) = read(tmp_path, HEADER + row + "\n")
+    assert target.value == pytest.approx(value, rel=1e-14, abs=1e-14)
+    assert target.in_its_unit(target.value) == pytest.approx(float(row.split(",")[2]), rel=1e-12, abs=1e-12)
+
+
+def test_every_unit_of_every_quantity_goes_there_and_back() -> None:
+    for name, quantity in QUANTITIES.items():
+        assert next(iter(quantity.units.values())) == (1.0, 0.0), name
+        for unit, (factor, offset) in quantity.units.items():
+            target = Target(name, 0.0, 7.0, unit, "")
+            assert factor * target.in_its_unit(7.0) + offset == pytest.approx(7.0, rel=1e-12), unit
+
+
+@pytest.mark.parametrize(("column", "seconds"), [("time_s", 1.5), ("time_min", 90.0), ("time_h", 5400.0)])
+def test_times_may_be_in_minutes_and_hours(tmp_path: Path, column: str, seconds: float) -> None:
+    (target,) = read(tmp_path, f"quantity,{column},value,unit\nmean_velocity,1.5,1,m/s\n")
+    assert (target.time, target.source) == (seconds, "")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        HEADER.encode() + "mean_displacement,5,0.6,km,Müller\n".encode(),
+        b"\xef\xbb\xbf" + HEADER.encode() + "mean_displacement,5,0.6,km,Müller\n".encode(),
+        (HEADER + "mean_displacement,5,0.6,km,Müller\n").replace("\n", "\r\n").encode(),
+        (HEADER + "mean_displacement,5,0.6,km,Müller").replace("\n", "\r").encode(),
+        ("# one\n\n" + HEADER + '\n"mean_displacement" , 5, 0.6 ,km, "Müller"\n\n').replace(" , 5", ",5").encode(),
+    ],
+    ids=["plain", "mark", "windows", "old mac", "spaces"],
+)
+def test_line_ends_marks_and_spaces_do_not_matter(tmp_path: Path, text: bytes) -> None:
+    (target,) = read(tmp_path, text.replace(b', "M', b',"M'))
+    assert (target.quantity, target.time, target.value, target.source) == ("mean_displacement", 5.0, 600.0, "Müller")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (b"", "targets.csv: empty; expected the columns quantity, value, unit"),
+        (b"# only this\n", "targets.csv: empty; expected the columns quantity, value, unit"),
+        ("quantity,time_s,value\na,1,2\n", "targets.csv:1: no column unit; found 'quantity', 'time_s', 'value'"),
+        (
+            "quantity,value,unit\nmean_velocity,1,m/s\n",
+            "targets.csv:1: give one column of times, time_s, time_min, time_h; found none",
+        ),
+        ("quantity,time_s,time_h,value,unit\n", "targets.csv:1: give one column of times, time_s, time_min, time_h; "),
+        (
+            "quantity,time_s,value,unit,sorce\n",
+            "targets.csv:1: no column is called 'sorce'; did you mean source? allowed are quantity, value, unit, ",
+        ),
+        ("quantity,time_s,value,unit,unit\n", "targets.csv:1: two columns 'unit'"),
+        (
+            HEADER + "mean_velocty,4,8,m/s,x\n",
+            "targets.csv:2: no quantity is called 'mean_velocty'; did you mean mean_velocity? There are: ",
+        ),
+        (HEADER + "qqq,4,8,m/s,x\n", "targets.csv:2: no quantity is called 'qqq'. There are: "),
+        (HEADER + "max_seismic_force_35_s,4,8,N,x\n", "targets.csv:2: no quantity is called 'max_seismic_force_35_s'"),
+        (
+            "# x\n" + HEADER + "mean_displacement,4,8,ft,x\n",
+            "targets.csv:3: the unit 'ft' for mean_displacement; allowed: m, km, cm",
+        ),
+        (HEADER + "mean_displacement,4,8,,x\n", "targets.csv:2: no unit for mean_displacement; allowed: m, km, cm"),
+        (HEADER + "mean_velocity,4,8,m,x\n", "targets.csv:2: the unit 'm' for mean_velocity; allowed: m/s, km/h"),
+        (HEADER + "mean_velocity,4,nan,m/s,x\n", "targets.csv:2: expected a finite number, found 'nan'"),
+        (HEADER + "mean_velocity,inf,1,m/s,x\n", "targets.csv:2: expected a finite number, found 'inf'"),
+        (HEADER + "mean_velocity,4,fast,m/s,x\n", "targets.csv:2: expected a number, found 'fast'"),
+        (
+            HEADER + 'mean_velocity,4,"0,6",m/s,x\n',
+            "targets.csv:2: expected a number, found '0,6'; write the decimals behind a point",
+        ),
+        (HEADER + "mean_velocity,4,1_0,m/s,x\n", "targets.csv:2: expected a number, found '1_0'"),
+        (HEADER + "mean_displacement,4,1e308,km,x\n", "targets.csv:2: mean_displacement: a number that large cannot"),
+        (HEADER + "mean_velocity,4,-8,m/s,x\n", "targets.csv:2: mean_velocity is -8 m/s; allowed: at least 0 m/s"),
+        (HEADER + "band_SL,4,30,-,x\n", "targets.csv:2: band_SL is 30; allowed: at least 0, at most 1"),
+        (HEADER + "band_temperature,4,-5,K,x\n", "band_temperature is -5 K; allowed: at least -273.15 C"),
+        (
+            HEADER + "mean_velocity,4,8,m/s,x\nmean_velocity,4,9,m/s,x\n",
+            "targets.csv:3: mean_velocity at this time from this source is in line 2 already; keep one of the two",
+        ),
+        (
+            HEADER + "start_velocity,4,8,m/s,x\nstart_velocity,5,8,m/s,y\n",
+            "targets.csv:3: start_velocity is in line 2 already; one row sets the clock",
+        ),
+        (HEADER + "mean_velocity,4,8\n", "targets.csv:2: 3 values for 5 columns"),
+        (HEADER + 'mean_velocity,4,8,m/s,"x\n', "targets.csv:2: not a row of comma-separated cells: "),
+        (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", "targets.csv:2: byte 0xfc is not UTF-8"),
+        (HEADER.encode("utf-16"), "targets.csv: encoded as UTF-16; save it as UTF-8"),
+        (HEADER + "mean_velocity,4,8,m/s,\0\n", "targets.csv:2: a zero byte; this is not a text file"),
+        (b"x" * (1024 * 1024 + 1), "targets.csv: larger than 1 MB"),
+    ],
+)
+def test_what_is_not_understood_is_refused_with_its_line(tmp_path: Path, text: str | bytes, message: str) -> None:
+    with pytest.raises(ReportError, match=re.escape(message)):
+        read(tmp_path, text)
+
+
+def test_a_range_is_told_whatever_the_unit(tmp_path: Path) -> None:
+    with pytest.raises(ReportError, match=re.escape("band_SL is 130 %; allowed: at least 0, at most 1")):
+        read(tmp_path, HEADER + "band_SL,4,130,%,x\n")
+
+
+def test_the_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "inputs" / "targets.csv").write_text(
+        HEADER + "mean_displacement,5,0.06,km,model\nmean_velocity,5,36,km/h,seismic\nsource_mean_thickness,0,4,m,x\n"
+    )
+    run = Run(folder)
+    assert [found_for(run, target) for target in run.targets] == ["0.04 km", "43.2 km/h", "not compared"]
+    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    assert '<th scope="row">mean displacement</th><td>5 s</td><td>0.06 km</td><td>0.04 km</td><td>model</td>' in page
+    speed, distance = FIGURES["motion"].draw(run).axes
+    marks = {str(line.get_label()): line.get_ydata() for axes in (speed, distance) for line in axes.lines}
+    assert list(marks["reported: seismic"]) == [10.0]
+    assert list(marks["reported mean: model"]) == [60.0]
+
+
+def test_numbers_of_the_end_are_compared(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "run.json").write_text('{"status": "done", "deposit_volume_m3": 5e7, "angle_of_reach_degrees": 14.5}')
+    (folder / "inputs" / "targets.csv").write_text(
+        HEADER + "deposit_volume,0,52,million m3,x\nangle_of_reach,0,14,degrees,x\ndrop_height,0,1,km,x\n"
+    )
+    run = Run(folder)
+    assert [found_for(run, target) for target in run.targets] == ["50 million m3", "14.5 degrees", ""]
+
+
+def test_mistakes_are_told_before_anything_is_drawn(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "inputs" / "targets.csv").write_text(HEADER + "mean_displacement,5,0.6,miles,x\n")
+    with pytest.raises(ReportError, match="the unit 'miles' for mean_displacement"):
+        make_report(Run(folder), dpi=50)
+    assert not (folder / "figures").exists()
+
+
+@pytest.mark.parametrize("name", ["../outside.csv", "/etc/hostname", "inputs/link.csv"])
+def test_a_file_outside_the_run_folder_is_not_read(make_run: MakeRun, name: str) -> None:
+    folder = make_run()
+    (folder.parent / "outside.csv").write_text(HEADER)
+    (folder / "inputs" / "link.csv").symlink_to(folder.parent / "outside.csv")
+    case = (folder / "case.toml").read_text().replace('targets = "inputs/targets.csv"', f'targets = "{name}"')
+    (folder / "case.toml").write_text(case)
+    with pytest.raises(ReportError, match="outside the run folder"):
+        _ = Run(folder).targets
+
+
+def test_the_targets_of_the_cases_are_understood() -> None:
+    root = Path(__file__).resolve().parents[2]
+    found = {path.parent.name: read_targets(path) for path in root.glob("cases/*/*targets.csv")}
+    assert {"lamplugh", "lamplugh-columns"} <= set(found)
+    displacement = [target.value for target in found["lamplugh"] if target.quantity == "mean_displacement"]
+    assert displacement == [5612.0, 5929.0]
+
+
+def test_the_user_guide_has_every_quantity_with_its_units() -> None:
+    guide = (Path(__file__).resolve().parents[2] / "docs" / "user-guide.md").read_text(encoding="utf-8")
+    table = guide[guide.index("| quantity | unit |") :].split("\n\n")[0]
+    told: dict[str, set[str]] = {}
+    for row in table.splitlines()[2:]:
+        names, units, _ = row.strip("|").split("|")
+        for name in re.findall(r"`(\w+)`", names):
+            told[name] = {unit.strip() for unit in units.split(",")}
+    assert set(told) == {*QUANTITIES, "max_seismic_force_35_150_s"}
+    for name, quantity in QUANTITIES.items():
+        # Other spellings of the same, as m² and deg, are not listed.
+        assert told[name] <= set(quantity.units)
+        assert {quantity.units[unit] for unit in told[name]} == set(quantity.units.values()), name
