@@ -1,6 +1,7 @@
 // thawslide run, thawslide resume.
 #include "app/commands.hpp"
 #include "app/map_files.hpp"
+#include "app/notes_of_setup.hpp"
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
 #include "base/error.hpp"
@@ -37,13 +38,14 @@ void settle(sim::Simulation<Dim, double>& simulation, const fs::path& folder) {
 int run_case(const RunOptions& options) {
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
-  const fs::path folder = options.output.empty() ? fs::path("runs") / parameters.name : fs::path(options.output);
+  const fs::path folder = options.output.empty() ? usual_run_folder(parameters) : fs::path(options.output);
   io::require_usable(folder, options.overwrite);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
+    Notes notes;
+    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, notes));
     const sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written
-    print_map_note(parameters, simulation.site());
-    print_notices(parameters);
+    add_notes_of_setup(simulation, sim::body_figures(simulation),
+                       disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, notes);
     io::make_run_folder(folder, options.overwrite);
     fmt::print("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
                parameters.general.title.empty() ? parameters.name : parameters.general.title,
@@ -61,7 +63,8 @@ int resume_run(const ResumeOptions& options) {
   const io::WholeCheckpoint checkpoint = io::newest_checkpoint(folder);
   const config::Case parameters = config::read_case(folder);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
+    Notes notes;
+    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, notes));
     std::vector<double> scalars;
     const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
     simulation.restore(scalars);

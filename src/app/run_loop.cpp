@@ -74,6 +74,10 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutp
 
 }  // namespace
 
+std::filesystem::path usual_run_folder(const config::Case& parameters) {
+  return std::filesystem::path("runs") / parameters.name;
+}
+
 void use_threads(int threads) { set_thread_count(threads > 0 ? threads : available_cores()); }
 
 template <int Dim>

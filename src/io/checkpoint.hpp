@@ -22,6 +22,10 @@ template <int Dim, class Real>
 void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim, Real>& particles,
                       std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks = {});
 
+// What a particle takes of a checkpoint [bytes].
+template <int Dim>
+[[nodiscard]] std::size_t checkpoint_bytes_of_particle();
+
 // A checkpoint as it stands in its file, its checksum verified.
 struct WholeCheckpoint {
   std::filesystem::path file;

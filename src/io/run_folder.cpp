@@ -18,7 +18,8 @@ bool holds_a_run(const fs::path& folder) {
   return fs::exists(folder / "run.json") || fs::exists(folder / "history.csv") || fs::exists(folder / "snapshots");
 }
 
-// The deepest part of the path that exists: where folders would be made.
+}  // namespace
+
 fs::path existing_part(const fs::path& folder) {
   fs::path part = fs::absolute(folder);
   while (!fs::exists(part) && part.has_relative_path()) {
@@ -26,8 +27,6 @@ fs::path existing_part(const fs::path& folder) {
   }
   return part;
 }
-
-}  // namespace
 
 void require_usable(const fs::path& folder, bool overwrite) {
   const fs::path part = existing_part(folder);
