@@ -39,6 +39,7 @@ struct CheckOptions {
   int threads = 0;
   bool draws = false;   // a picture
   std::string picture;  // its file; empty: setup.png beside the case
+  bool json = false;    // for programs
 };
 int check_case(const CheckOptions& options);
 

@@ -125,6 +125,7 @@ int run_program(int count, char** arguments) {
       "--picture", check_options.picture,
       "Draw terrain, grid, bodies and boundaries to a PNG file (default: setup.png beside the case file)");
   picture->expected(0, 1);
+  check->add_flag("--json", check_options.json, "As JSON, for programs");
   check->callback([&] {
     check_options.draws = picture->count() > 0;
     exit_code = check_case(check_options);

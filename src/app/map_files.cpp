@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "config/notices.hpp"
-#include "sim/map_grid.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/holes.hpp"
@@ -13,18 +11,14 @@
 
 namespace thawslide::app {
 
-config::Site read_map_files(const config::Case& parameters) {
+config::Site read_map_files(const config::Case& parameters, [[maybe_unused]] Notes& notes) {
   if (parameters.terrain.kind != config::TerrainKind::dem) {
     return {};
   }
 #ifdef THAWSLIDE_WITH_GIS
   gis::SiteAndNotes read = gis::load_site(parameters);
-  if (const std::string holes = gis::holes_note(parameters, read.site); !holes.empty()) {
-    read.notes.push_back(holes);
-  }
-  for (const std::string& note : read.notes) {
-    fmt::print("note: {}\n", note);
-  }
+  notes.add(read.notes);
+  notes.add(gis::holes_note(parameters, read.site));
   return std::move(read.site);
 #else
   throw UserError(
@@ -32,18 +26,6 @@ config::Site read_map_files(const config::Case& parameters) {
                   "GDAL. Install libgdal-dev and build again (`./run --setup`), or use a profile.",
                   config::place_of(parameters, "terrain.type")));
 #endif
-}
-
-void print_map_note(const config::Case& parameters, const config::Site& site) {
-  if (const std::string note = sim::note_on_map_cell(parameters, site); !note.empty()) {
-    fmt::print("note: {}\n", note);
-  }
-}
-
-void print_notices(const config::Case& parameters) {
-  for (const std::string& notice : config::notices(parameters)) {
-    fmt::print("note: {}\n", notice);
-  }
 }
 
 }  // namespace thawslide::app

@@ -81,13 +81,14 @@ void require_resolvable(const config::Proposal& proposal) {
 
 // Before any file is written, in words for a user who has no case yet.
 void require_memory(const config::Proposal& proposal) {
-  const double needed = proposal.particles * sim::bytes_of_particle<3>, allowed = sim::memory_allowed();
-  if (needed > allowed) {
+  const sim::MemoryNeed need = sim::memory_of_particles<3>(proposal.particles);
+  const AvailableMemory available = available_memory();
+  if (need.total() > available.bytes) {
     throw UserError(fmt::format(
         "--thickness: a release {:.4g} m thick asks for cells of {:g} m and {:.3g} particles; they need about {:.3g} "
-        "GB of memory, and there are {:.3g} GB. Set --cell {:g} or more, which is coarser. Is the thickness in metres?",
-        proposal.thickness, proposal.cell, proposal.particles, needed / 1e9, allowed / 1e9,
-        sim::smallest_cell<3>(proposal.volume * std::pow(proposal.particles_per_axis, 3), allowed)));
+        "GB of memory, and {:.3g} GB {}. Set --cell {:g} or more, which is coarser. Is the thickness in metres?",
+        proposal.thickness, proposal.cell, proposal.particles, need.total() / 1e9, available.bytes / 1e9,
+        available.bound, sim::smallest_cell<3>(need, proposal.cell, available.bytes)));
   }
 }
 

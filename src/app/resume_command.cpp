@@ -128,7 +128,8 @@ void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>
 
 template <int Dim>
 int start_anew(const fs::path& folder, const Continuation& next) {
-  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters));
+  Notes notes;
+  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
   say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   take_changes(folder, next);
@@ -137,7 +138,8 @@ int start_anew(const fs::path& folder, const Continuation& next) {
 
 template <int Dim>
 int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, const Continuation& next) {
-  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters));
+  Notes notes;
+  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
   std::vector<double> scalars;
   const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
   restore<Dim>(simulation, scalars, blocks);

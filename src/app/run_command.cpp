@@ -1,6 +1,7 @@
 // thawslide run.
 #include "app/commands.hpp"
 #include "app/map_files.hpp"
+#include "app/notes_of_setup.hpp"
 #include "app/run_loop.hpp"
 #include "app/say.hpp"
 #include "app/signals.hpp"
@@ -35,14 +36,15 @@ int run_case(const RunOptions& options) {
   survive_failing_writes();
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
-  const fs::path folder = options.output.empty() ? fs::path("runs") / parameters.name : fs::path(options.output);
+  const fs::path folder = options.output.empty() ? usual_run_folder(parameters) : fs::path(options.output);
   require_no_input_in(folder, parameters);
   io::require_usable(folder, options.overwrite);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters));
+    Notes notes;
+    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, notes));
     const sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written
-    print_map_note(parameters, simulation.site());
-    print_notices(parameters);
+    add_notes_of_setup(simulation, sim::body_figures(simulation),
+                       disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, notes);
     const io::RunLock lock = io::make_run_folder(folder, options.overwrite);
     RunOutput<Dim> output(folder, simulation);
     say("{}: {} particles, {:g} s to simulate, on {} thread{}\n",

@@ -105,8 +105,7 @@ int end_unwritten(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>
 }
 
 template <int Dim>
-int steps_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
-                 const std::filesystem::path& folder) {
+int take_steps(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
   const config::Time& times = simulation.parameters().time;
   const double begin = simulation.time();
   const std::int64_t first_step = simulation.step_number();
@@ -199,6 +198,10 @@ int steps_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outpu
 
 }  // namespace
 
+std::filesystem::path usual_run_folder(const config::Case& parameters) {
+  return std::filesystem::path("runs") / parameters.name;
+}
+
 void use_threads(int threads) { set_thread_count(threads > 0 ? threads : available_cores()); }
 
 template <int Dim>
@@ -217,7 +220,7 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
 template <int Dim>
 int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
   try {
-    return steps_to_end<Dim>(simulation, output, folder);
+    return take_steps<Dim>(simulation, output, folder);
   } catch (const WriteError& error) {
     return end_unwritten<Dim>(simulation, output, error, folder);
   }

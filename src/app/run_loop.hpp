@@ -21,6 +21,9 @@ int with_dimension(int dimension, const Work& work) {
   return dimension == 2 ? work(std::integral_constant<int, 2>{}) : work(std::integral_constant<int, 3>{});
 }
 
+// Where results go unless the user says otherwise.
+[[nodiscard]] std::filesystem::path usual_run_folder(const config::Case& parameters);
+
 // Sets the number of threads; 0: all available cores.
 void use_threads(int threads);
 

@@ -10,6 +10,7 @@
 #include "app/map_files.hpp"
 #include "base/error.hpp"
 #include "config/describe.hpp"
+#include "config/notices.hpp"
 #include "config/read_case.hpp"
 #include "io/history_writer.hpp"
 #include "sim/block.hpp"
@@ -48,8 +49,8 @@ void print_table(const std::vector<sim::HistoryRow>& rows) {
 }
 
 // A 3D case slides as a section of it.
-std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters) {
-  const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters));
+std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Notes& notes) {
+  const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, notes));
   std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site);
   fmt::print("a section along {}, with the release's mean thickness across the path; fronts are distances along it\n",
              section.path_given ? "maps.path"
@@ -86,10 +87,12 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters) {
 
 int run_block_model(const BlockOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
-  print_notices(parameters);
+  Notes notes;
+  notes.add(config::notices(parameters));
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<sim::HistoryRow> rows =
-      parameters.terrain.kind == config::TerrainKind::dem ? block_along_path(parameters) : sim::run_block(parameters);
+  const std::vector<sim::HistoryRow> rows = parameters.terrain.kind == config::TerrainKind::dem
+                                                ? block_along_path(parameters, notes)
+                                                : sim::run_block(parameters);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.output.empty()) {
     print_table(rows);

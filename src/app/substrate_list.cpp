@@ -47,23 +47,23 @@ std::string strength_of(const config::GroundStrength& ground) {
 
 }  // namespace
 
-void print_substrates(const config::Case& parameters, const config::Site& site) {
+std::vector<SubstrateFacts> substrate_facts(const config::Case& parameters, const config::Site& site) {
+  std::vector<SubstrateFacts> facts;
   if (parameters.substrates.empty()) {
-    return;
+    return facts;
   }
   double whole = 1.0, left = 1.0;
   for (std::size_t a = 0; a + 1 < static_cast<std::size_t>(parameters.general.dimension); ++a) {
     whole *= parameters.grid.max[a] - parameters.grid.min[a];
   }
-  const char* const unit = parameters.general.dimension == 3 ? "m2" : "m";
   for (const auto& [name, substrate] : parameters.substrates) {
     const double covered = covered_by(name, parameters, site);
-    fmt::print("  substrate   {}: {}, {:.4g} {} or {:.3g} % of the domain; {}\n", name, place_of(substrate), covered,
-               unit, 100.0 * covered / whole, strength_of(substrate));
+    facts.push_back({name, place_of(substrate), covered, covered / whole, strength_of(substrate)});
     left -= covered / whole;
   }
-  fmt::print("              elsewhere [basal], {:.3g} % of the domain; {}\n", 100.0 * std::max(0.0, left),
-             strength_of(parameters.basal));
+  const double share = std::max(0.0, left);
+  facts.push_back({"", "elsewhere [basal]", share * whole, share, strength_of(parameters.basal)});
+  return facts;
 }
 
 }  // namespace thawslide::app

@@ -56,6 +56,7 @@ std::string in_table_cell(std::string text) {
 
 Json described(const Entry& entry) {
   Json json{{"key", entry.rule->key}, {"type", entry.type}, {"unit", entry.rule->unit}, {"allowed", range_text(entry)}};
+  json["dimension"] = entry.rule->dimension == 0 ? Json(nullptr) : Json(entry.rule->dimension);  // null: of any
   json["usual"] = entry.rule->usual.text();
   json["default"] = entry.default_text.empty() ? Json(nullptr) : Json(entry.default_text);
   json["required"] = entry.required;

@@ -23,12 +23,18 @@ class Doubts {
   void add(const std::string& key, const Value& value, const std::string& unit, const std::string& words) {
     found_.push_back(fmt::format("{}: {} is {}{}: {}", place_of(case_, key), key, value, unit, words));
   }
+  // About a key that is not given.
+  void add_absent(const std::string& key, const std::string& words) {
+    found_.push_back(fmt::format("{}: {} is not given: {}", case_.file, key, words));
+  }
   [[nodiscard]] std::vector<std::string> take() { return std::move(found_); }
 
  private:
   const Case& case_;
   std::vector<std::string> found_;
 };
+
+bool is_given(const Case& parameters, const std::string& key) { return parameters.places.count(key) > 0; }
 
 void doubt_materials(const Case& parameters, Doubts& doubts) {
   const bool deforms = parameters.mechanics.enabled && parameters.mechanisms.deformation;
@@ -50,11 +56,25 @@ void doubt_materials(const Case& parameters, Doubts& doubts) {
       doubts.add(table + "friction_angle", material.friction_angle, " degrees",
                  "was a coefficient meant? Angles are in degrees; 35 is a coefficient of 0.7.");
     }
-    if (is_pressed && material.hydraulic_conductivity == 0.0) {
-      doubts.add(table + "hydraulic_conductivity", material.hydraulic_conductivity, " m/s",
+    const std::string conductivity = table + "hydraulic_conductivity";
+    if (is_pressed && material.hydraulic_conductivity == 0.0 && !is_given(parameters, conductivity)) {
+      doubts.add(conductivity, material.hydraulic_conductivity, " m/s, its default",
                  "pore water never drains, and what is under pressure may never stop. Of the base of a slide 1e-8 to "
-                 "1e-5 m/s is said.");
+                 "1e-5 m/s is said. Give it, and if 0 is meant 0, and this note goes.");
     }
+  }
+}
+
+void doubt_band(const Case& parameters, Doubts& doubts) {
+  const bool rubs = parameters.mechanics.enabled && parameters.terrain.kind != TerrainKind::none;
+  const bool is_felt = parameters.heat.enabled && parameters.basal.heat_fraction > 0.0 &&
+                       (parameters.mechanisms.lubrication || parameters.mechanisms.pressurization);
+  if (rubs && is_felt && parameters.band.thickness.value.empty()) {
+    doubts.add_absent("band.thickness",
+                      fmt::format("friction then heats the lowest cells as a whole, {:g} m thick, which hardly warm "
+                                  "or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 m. If "
+                                  "nothing is to melt, set heat.enabled = false.",
+                                  parameters.grid.cell));
   }
 }
 
@@ -77,6 +97,11 @@ void doubt_bodies(const Case& parameters, Doubts& doubts) {
                  "its pores hold water from the start, no ice. Was a temperature below 0 meant?");
     }
   }
+  if (parameters.heat.enabled && parameters.bed.law != BedLaw::none &&
+      parameters.bed.temperature > parameters.freezing.reference_temperature) {
+    doubts.add("bed.temperature", parameters.bed.temperature, " C",
+               "the bed's pores hold water, no ice. Was a temperature below 0 meant?");
+  }
 }
 
 void doubt_output(const Case& parameters, Doubts& doubts) {
@@ -88,7 +113,13 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
   }
   if (time.end / time.output_interval > most_snapshots) {
     doubts.add("time.output_interval", time.output_interval, " s",
-               fmt::format("that is {:.0f} snapshots, which may fill the disk.", time.end / time.output_interval));
+               fmt::format("that is {:.0f} snapshots, each a file, more than a folder or a film is good for.",
+                           time.end / time.output_interval));
+  }
+  if (time.history_interval > time.end) {
+    doubts.add(
+        "time.history_interval", time.history_interval, " s",
+        fmt::format("longer than the run of {} s: history.csv gets a row of its start and one of its end.", time.end));
   }
 }
 
@@ -97,6 +128,7 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
 std::vector<std::string> implausible(const Case& parameters) {
   Doubts doubts(parameters);
   doubt_materials(parameters, doubts);
+  doubt_band(parameters, doubts);
   doubt_ground("basal", parameters.basal, doubts);
   for (const auto& [name, substrate] : parameters.substrates) {
     doubt_ground("substrate." + name, substrate, doubts);

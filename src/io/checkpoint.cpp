@@ -192,6 +192,20 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
   return blocks;
 }
 
+template <int Dim>
+std::size_t checkpoint_bytes_of_particle() {
+  mpm::Particles<Dim, double> one;
+  one.resize(1);
+  std::size_t bytes = 0;
+  for (const mpm::FieldBase* field : one.fields.all()) {
+    bytes += field->info().in_checkpoint ? field->bytes().size() : 0;
+  }
+  return bytes;
+}
+
+template std::size_t checkpoint_bytes_of_particle<2>();
+template std::size_t checkpoint_bytes_of_particle<3>();
+
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                    \
   template void write_checkpoint<Dim, Real>(const std::filesystem::path&, const mpm::Particles<Dim, Real>&, \
                                             std::size_t, const std::vector<double>&, const NamedNumbers&,   \

@@ -23,6 +23,10 @@ void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<
                       std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks = {},
                       const std::string& case_text = {});
 
+// What a particle takes of a checkpoint [bytes].
+template <int Dim>
+[[nodiscard]] std::size_t checkpoint_bytes_of_particle();
+
 // A checkpoint as it stands in its file, its checksum verified.
 struct WholeCheckpoint {
   std::filesystem::path file;

@@ -28,7 +28,8 @@ bool holds_no_more_than_a_start(const fs::path& folder) {
   return fs::exists(folder / lock_name) && !fs::exists(folder / "run.json");
 }
 
-// The deepest part of the path that exists: where folders would be made.
+}  // namespace
+
 fs::path existing_part(const fs::path& folder) {
   fs::path part = fs::absolute(folder);
   while (!fs::exists(part) && part.has_relative_path()) {
@@ -36,8 +37,6 @@ fs::path existing_part(const fs::path& folder) {
   }
   return part;
 }
-
-}  // namespace
 
 void require_usable(const fs::path& folder, bool overwrite) {
   const fs::path part = existing_part(folder);

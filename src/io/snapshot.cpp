@@ -107,6 +107,19 @@ std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
   return file.bytes();
 }
 
+template <int Dim>
+std::size_t snapshot_bytes_of_particle() {
+  const mpm::Particles<Dim, double> particles;
+  std::size_t numbers = 3 + 2;  // its place, and two numbers of its vertex
+  for (const mpm::FieldBase* field : particles.fields.all()) {
+    numbers += field->info().in_snapshot ? written_components(field->info().shape) : 0;
+  }
+  return numbers * sizeof(double);
+}
+
+template std::size_t snapshot_bytes_of_particle<2>();
+template std::size_t snapshot_bytes_of_particle<3>();
+
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
   template std::vector<std::size_t> order_by_id<Dim, Real>(const mpm::Particles<Dim, Real>&);                      \
   template Snapshot take_snapshot<Dim, Real>(const mpm::Particles<Dim, Real>&, const Vector<double, Dim>&, double, \

@@ -39,6 +39,10 @@ Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<
 // The file's bytes; the same snapshot gives the same bytes.
 std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot);
 
+// What a particle takes of the file, which has some kilobytes beside them [bytes].
+template <int Dim>
+std::size_t snapshot_bytes_of_particle();
+
 // Storage places of the particles in order of id.
 template <int Dim, class Real>
 std::vector<std::size_t> order_by_id(const mpm::Particles<Dim, Real>& particles);

@@ -8,7 +8,6 @@
 #include "base/instances.hpp"
 #include "sim/body_shape.hpp"
 #include "sim/initial_state.hpp"
-#include "sim/memory_need.hpp"
 #include "sim/seed.hpp"
 #include "sim/starting_noise.hpp"
 
@@ -233,12 +232,9 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
   std::vector<std::string> names;
   std::vector<BodyShape<Dim>> shapes;
   std::vector<const config::Release*> releases;
-  double filled = 0.0;  // volume times particles in a cell
   for (const auto& [name, body] : parameters.bodies) {
     shapes.emplace_back(parameters, site, body, release_of(site, model, name, body));
-    filled += shapes.back().volume() * std::pow(body.particles_per_axis, Dim);
   }
-  require_memory<Dim>(parameters, filled);
   for (const auto& [name, body] : parameters.bodies) {
     const std::size_t before = seeds.size();
     const BodyShape<Dim>& shape = shapes[bodies.size()];

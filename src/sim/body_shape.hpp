@@ -88,7 +88,7 @@ class BodyShape {
         return width * std::abs(area);
       }
       case config::BodyShape::release:
-        return release_->volume();
+        return release_.value().volume();
       case config::BodyShape::surface:
         break;
     }

@@ -1,47 +1,183 @@
 #include "sim/memory_need.hpp"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "band/base_piece.hpp"
 #include "base/error.hpp"
+#include "sim/body_shape.hpp"
+#include "sim/flow_maps.hpp"
+#include "sim/map_grid.hpp"
 
 namespace thawslide::sim {
 
-double memory_allowed() {
-  double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
-    bytes = std::min(bytes, static_cast<double>(limit.rlim_cur));
+namespace {
+
+constexpr double gigabyte = 1e9;
+
+// Horizontal area of what is thicker than nothing [m2].
+double covered_area(const Raster& thickness) {
+  const auto covered =
+      std::count_if(thickness.values.begin(), thickness.values.end(), [](double value) { return value > 0.0; });
+  return static_cast<double>(covered) * thickness.cell_x * thickness.cell_y;
+}
+
+// Columns of nodes across the domain, each with two masses and the marks of its parts.
+template <int Dim>
+double bytes_of_bed(const config::Grid& grid) {
+  double columns = 1.0;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    columns *= (grid.max[a] - grid.min[a]) / grid.cell + 1.0;
   }
-  return bytes;
+  return columns * (2.0 * sizeof(double) + sizeof(std::uint16_t));
+}
+
+double bytes_of_maps(const config::Case& parameters, const config::Site& site, double area_at_start) {
+  const MapGrid grid = map_grid_of(parameters, site);
+  const double cells = static_cast<double>(grid.columns) * grid.rows;
+  const double passed = std::min(cells, usual_spread * area_at_start / grid.cell_area());
+  return passed * static_cast<double>(FlowMaps::bytes_of_cell()) + cells * sizeof(double);
+}
+
+std::string parts_of(const MemoryNeed& need) {
+  std::string text;
+  const auto add = [&](const char* name, double bytes) {
+    if (bytes >= 0.01 * need.total()) {
+      text += fmt::format("{}{} {:.3g} GB", text.empty() ? "" : ", ", name, bytes / gigabyte);
+    }
+  };
+  add("particles", need.particles);
+  add("writing them", need.output);
+  add("columns of the base", need.columns);
+  add("bed", need.bed);
+  add("maps", need.maps);
+  add("ground", need.ground);
+  return text;
+}
+
+[[noreturn]] void refuse_fixed_part(const config::Case& parameters, const MemoryNeed& need,
+                                    const std::string& amounts) {
+  if (need.maps >= need.ground) {
+    throw UserError(fmt::format("{}: maps.cell: {}. Make maps.cell larger, or the domain smaller.",
+                                config::place_of(parameters, "maps.cell"), amounts));
+  }
+  throw UserError(
+      fmt::format("{}: terrain.file: {}. Make the domain smaller (grid.min, grid.max), or take the terrain model to "
+                  "points farther apart with terrain.resample.",
+                  config::place_of(parameters, "terrain.file"), amounts));
+}
+
+}  // namespace
+
+template <int Dim>
+BodiesAtStart bodies_at_start(const config::Case& parameters, const config::Site& site) {
+  BodiesAtStart all;
+  for (const auto& [name, body] : parameters.bodies) {
+    const double particles_in_volume = std::pow(body.particles_per_axis / parameters.grid.cell, Dim);
+    if (body.shape == config::BodyShape::release) {
+      const Raster& thickness = site.releases.at(name).thickness;
+      all.particles += volume_of(thickness) * particles_in_volume;
+      all.area += covered_area(thickness);
+      continue;
+    }
+    const BodyShape<Dim> shape(parameters, site, body, std::nullopt);
+    all.particles += shape.volume() * particles_in_volume;
+    all.area += (shape.upper(0) - shape.lower(0)) * (Dim == 3 ? shape.upper(1) - shape.lower(1) : 1.0);
+  }
+  return all;
 }
 
 template <int Dim>
-double smallest_cell(double filled, double bytes) {
-  const double cell = std::pow(filled * bytes_of_particle<Dim> / bytes, 1.0 / Dim);
-  const double digit = std::pow(10.0, std::floor(std::log10(cell)) - 1.0);
-  return std::ceil(cell / digit * (1.0 - 1e-12)) * digit;
+MemoryNeed memory_of_particles(double particles) {
+  MemoryNeed need;
+  need.particles = particles * bytes_of_particle<Dim>;
+  need.output = particles * bytes_of_output<Dim>;
+  return need;
 }
 
 template <int Dim>
-void require_memory(const config::Case& parameters, double filled) {
-  const double particles = filled / std::pow(parameters.grid.cell, Dim);
-  const double needed = particles * bytes_of_particle<Dim>, allowed = memory_allowed();
-  if (needed > allowed) {
+MemoryNeed memory_need(const config::Case& parameters, const config::Site& site, const BodiesAtStart& bodies) {
+  MemoryNeed need = memory_of_particles<Dim>(bodies.particles);
+  if (config::has_band_columns(parameters)) {
+    const double pieces = usual_spread * bodies.area / std::pow(parameters.grid.cell, Dim - 1);
+    need.columns = pieces * sizeof(band::BasePiece<Dim, double>);
+  }
+  if (parameters.bed.law != config::BedLaw::none) {
+    need.bed = bytes_of_bed<Dim>(parameters.grid);
+  }
+  if constexpr (Dim == 3) {
+    need.maps = bytes_of_maps(parameters, site, bodies.area);
+  }
+  if (site.ground != nullptr) {
+    need.ground = bytes_of_map_files + static_cast<double>(site.ground->values.size()) * bytes_of_ground_point;
+  }
+  return need;
+}
+
+template <int Dim>
+double smallest_cell(const MemoryNeed& need, double cell, double bytes) {
+  const double fixed = bytes_of_program + need.maps + need.ground;
+  const double by_volume = need.particles + need.output, by_area = need.columns + need.bed;
+  if (!(fixed < bytes)) {
+    return 0.0;
+  }
+  // The need falls as cells grow: bisection of the factor that they grow by.
+  const auto fits = [&](double factor) {
+    return fixed + by_volume / std::pow(factor, Dim) + by_area / std::pow(factor, Dim - 1) <= bytes;
+  };
+  double low = 0.0, high = 1.0;
+  while (!fits(high)) {
+    low = high;
+    high *= 2.0;
+  }
+  constexpr int halvings = 60;  // down to round-off
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (fits(middle) ? high : low) = middle;
+  }
+  const double least = high * cell;
+  const double digit = std::pow(10.0, std::floor(std::log10(least)) - 1.0);
+  return std::ceil(least / digit * (1.0 - 1e-12)) * digit;
+}
+
+template <int Dim>
+const config::Case& require_memory(const config::Case& parameters, const config::Site& site,
+                                   const AvailableMemory& available) {
+  const BodiesAtStart bodies = bodies_at_start<Dim>(parameters, site);
+  const double cell = parameters.grid.cell;
+  if (bodies.particles > most_particles) {
+    const double factor = std::pow(bodies.particles / most_particles, 1.0 / Dim);
     throw UserError(fmt::format(
-        "{}: grid.cell is {} m, which makes {:.3g} particles; they need about {:.3g} GB of memory, and there are "
-        "{:.3g} GB. Make grid.cell {:g} m or more, or particles_per_axis smaller.",
-        config::place_of(parameters, "grid.cell"), parameters.grid.cell, particles, needed / 1e9, allowed / 1e9,
-        smallest_cell<Dim>(filled, allowed)));
+        "{}: grid.cell is {} m, which makes {:.3g} particles; allowed: {:.3g}. Make grid.cell {:.2g} m or more, or "
+        "particles_per_axis smaller.",
+        config::place_of(parameters, "grid.cell"), cell, bodies.particles, most_particles, 1.05 * factor * cell));
   }
+  const MemoryNeed need = memory_need<Dim>(parameters, site, bodies);
+  if (need.total() <= available.bytes) {
+    return parameters;
+  }
+  const std::string amounts =
+      fmt::format("the run needs about {:.3g} GB of memory ({}), and {:.3g} GB {}", need.total() / gigabyte,
+                  parts_of(need), available.bytes / gigabyte, available.bound);
+  const double fitting = smallest_cell<Dim>(need, cell, available.bytes);
+  if (fitting == 0.0) {
+    refuse_fixed_part(parameters, need, amounts);
+  }
+  throw UserError(fmt::format(
+      "{}: grid.cell is {} m, which makes {:.3g} particles: {}. Make grid.cell {:g} m or more, or particles_per_axis "
+      "smaller.",
+      config::place_of(parameters, "grid.cell"), cell, bodies.particles, amounts, fitting));
 }
 
-template double smallest_cell<2>(double, double);
-template double smallest_cell<3>(double, double);
-template void require_memory<2>(const config::Case&, double);
-template void require_memory<3>(const config::Case&, double);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                      \
+  template BodiesAtStart bodies_at_start<Dim>(const config::Case&, const config::Site&);                \
+  template MemoryNeed memory_of_particles<Dim>(double);                                                 \
+  template MemoryNeed memory_need<Dim>(const config::Case&, const config::Site&, const BodiesAtStart&); \
+  template double smallest_cell<Dim>(const MemoryNeed&, double, double);                                \
+  template const config::Case& require_memory<Dim>(const config::Case&, const config::Site&, const AvailableMemory&);
+THAWSLIDE_INSTANTIATE(2)
+THAWSLIDE_INSTANTIATE(3)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

@@ -10,6 +10,7 @@
 #include "mpm/velocity_filter.hpp"
 #include "sim/bodies.hpp"
 #include "sim/entrainment.hpp"
+#include "sim/memory_need.hpp"
 #include "terrain/band_marks.hpp"
 #include "terrain/map_back.hpp"
 #include "terrain/near_ground.hpp"
@@ -202,7 +203,7 @@ void Simulation<Dim, Real>::take_new_positions() {
 
 template <int Dim, class Real>
 Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::Site& site)
-    : parameters_(parameters),
+    : parameters_(require_memory<Dim>(parameters, site)),  // before anything is made
       site_(site),
       model_(make_model<Dim, Real>(parameters, site)),
       grid_(static_cast<Real>(parameters.grid.cell)),
@@ -329,12 +330,11 @@ void Simulation<Dim, Real>::start_ledger() {
   ledger_.initial_thermal = sums.sensible + sums.latent;
   ledger_.initial_mass = sums.mass;
   ledger_.initial_momentum = sums.momentum;
-  double rear = HUGE_VAL;
+  rear_at_start_ = HUGE_VAL;
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     const Real half = model_.motion.sizes.half(static_cast<std::size_t>(particles_.body(p))) * grid_.cell();
-    rear = std::min(rear, static_cast<double>(particles_.position(p, 0) - half) + model_.origin[0]);
+    rear_at_start_ = std::min(rear_at_start_, static_cast<double>(particles_.position(p, 0) - half) + model_.origin[0]);
   }
-  rear_at_start_ = rear;
 }
 
 template <int Dim, class Real>

@@ -36,7 +36,7 @@ template <int Dim, class Real>
 class Simulation {
  public:
   // Particles at t = 0, not yet settled. site: what the map files of the case hold, needed where the terrain is a DEM.
-  // Throws UserError for a fixed step above a limit.
+  // Throws UserError for a fixed step above a limit, and for what does not fit into memory, before any of it is made.
   explicit Simulation(const config::Case& parameters, const config::Site& site = {});
 
   // Whether the case asks for gravity to be switched on before t = 0, with damping and on a base that holds.

@@ -26,7 +26,7 @@ std::vector<std::string> without_folder(std::vector<std::string> notices) {
 std::vector<std::string> notices_of(const std::string& of_material) {
   const Case found = testing_support::case_from_text(
       changed({{"law = \"elastic\"", "friction_angle = 40.0\ncohesion = 1e6\n" + of_material},
-               {"[basal]", "[block]\nbends = true\n[basal]"}}));
+               {"[basal]", "[block]\nbends = true\n[heat]\nenabled = false\n[basal]"}}));
   return without_folder(notices(found));
 }
 
@@ -100,9 +100,6 @@ TEST(Notices, LeaveOutWhatTheBaseDoesNotHave) {
 TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
   // Key, what is given, and what the notice says after "KEY is ".
   const std::vector<std::array<std::string, 3>> doubtful{
-      {"material.rock.hydraulic_conductivity", "0",
-       "0 m/s: pore water never drains, and what is under pressure may never stop. Of the base of a slide 1e-8 to 1e-5 "
-       "m/s is said."},
       {"material.rock.youngs_modulus", "0.5",
        "0.5 Pa: so soft that a slide is squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa "
        "and more."},
@@ -116,17 +113,56 @@ TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
        "5 C: its pores hold water from the start, no ice. Was a temperature below 0 meant?"},
       {"time.output_interval", "1000",
        "1000 s: longer than the run of 1 s, which leaves a snapshot of its start and one of its end."},
-      {"time.output_interval", "1e-5", "1e-05 s: that is 100000 snapshots, which may fill the disk."}};
+      {"time.output_interval", "1e-5",
+       "1e-05 s: that is 100000 snapshots, each a file, more than a folder or a film is good for."},
+      {"time.history_interval", "2",
+       "2 s: longer than the run of 1 s: history.csv gets a row of its start and one of its end."}};
   const std::string known = "pressure.frozen=none", text = changed(with_columns);
   for (const auto& [key, value, said] : doubtful) {
     const std::string set = key + "=" + value;
     EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "time.end=1", set})),
               std::vector<std::string>{"--set " + set + ": " + key + " is " + said});
   }
-  EXPECT_EQ(notices(testing_support::case_from_text(
-                text, {known, "mechanisms.pressurization=false", "material.rock.hydraulic_conductivity=0"})),
-            std::vector<std::string>())
+}
+
+// A default that is hardly ever meant; whoever writes 0 has thought of it.
+TEST(Notices, DoubtADefaultWithoutDrainage) {
+  const std::string known = "pressure.frozen=none";
+  const std::string text =
+      changed({with_columns[1], {"law = \"elastic\"", "law = \"elastic\"\ngaps_close_first = true"}});
+  const std::string file = "FOLDER/case.toml";
+  EXPECT_EQ(
+      without_folder(notices(testing_support::case_from_text(text, {known}))),
+      std::vector<std::string>{
+          file + ": material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains, and what is "
+                 "under pressure may never stop. Of the base of a slide 1e-8 to 1e-5 m/s is said. Give it, and if 0 is "
+                 "meant 0, and this note goes."});
+  const std::vector<std::string> none;
+  EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "material.rock.hydraulic_conductivity=0"})), none);
+  EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "mechanisms.pressurization=false"})), none)
       << "nothing is under pressure";
+}
+
+TEST(Notices, DoubtABaseWithoutABand) {
+  const std::string text = changed({{"law = \"elastic\"", "law = \"elastic\"\nhydraulic_conductivity = 1e-7"}});
+  const std::string known = "pressure.frozen=none";
+  EXPECT_EQ(without_folder(notices(testing_support::case_from_text(text, {known}))),
+            std::vector<std::string>{
+                "FOLDER/case.toml: band.thickness is not given: friction then heats the lowest cells as a whole, 5 m "
+                "thick, which hardly warm or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 "
+                "m. If nothing is to melt, set heat.enabled = false."});
+  const std::vector<std::string> none;
+  EXPECT_EQ(notices(testing_support::case_from_text(text, {"heat.enabled=false"})), none);
+  EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "basal.heat_fraction=0"})), none);
+}
+
+TEST(Notices, DoubtABedOfWater) {
+  const std::string text = changed(with_columns) +
+                           "[bed]\nlaw = \"momentum\"\ndepth = 1.0\nstrength = 1e3\n"
+                           "depth_per_slip = 0.1\nmaterial = \"rock\"\n";
+  EXPECT_EQ(notices(testing_support::case_from_text(text, {"pressure.frozen=none", "bed.temperature=4"})),
+            std::vector<std::string>{"--set bed.temperature=4: bed.temperature is 4 C: the bed's pores hold water, no "
+                                     "ice. Was a temperature below 0 meant?"});
 }
 
 TEST(Notices, TellOfGapsBetweenSubstrates) {
@@ -134,7 +170,7 @@ TEST(Notices, TellOfGapsBetweenSubstrates) {
       changed({{"[basal]",
                 "[substrate.ice]\nx_max = 50.0\nfriction_angle = 5.0\n[substrate.snow]\nx_min = 60.0\nfriction_angle = "
                 "5.0\n[basal]"}}),
-      {"block.bends=true"});
+      {"block.bends=true", "heat.enabled=false"});
   EXPECT_EQ(notices(found), notes_on_gaps(found));
   EXPECT_EQ(notices(found).size(), 1U);
 }

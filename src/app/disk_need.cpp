@@ -1,0 +1,101 @@
+#include "app/disk_need.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/map_output.hpp"
+#include "config/input_files.hpp"
+#include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
+#include "io/snapshot.hpp"
+#include "sim/history.hpp"
+
+namespace thawslide::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double bytes_of_number = 19.0;     // in history.csv, with its comma: 16 digits, a point, an exponent
+constexpr double columns_of_probe = 4.0;     // in probes.csv, of a section; a point has fewer
+constexpr double generations = 3.0;          // of checkpoints: two, and the one that is being written
+constexpr double ground_map_count = 2.0;     // terrain and release, on the DEM's points
+constexpr double bytes_beside_points = 1e4;  // of a snapshot
+constexpr double most_of_free = 0.9;         // what a run may take of the free disk without a word
+constexpr double gigabyte = 1e9;
+
+// Whole intervals until the end, and the start.
+double count_of(double end, double interval) { return std::ceil(end / interval * (1.0 - 1e-12)) + 1.0; }
+
+double bytes_of_files(const config::Case& parameters) {
+  double bytes = 0.0;
+  for (const fs::path& file : config::input_files(parameters)) {
+    std::error_code unknown;
+    const auto size = fs::file_size(file, unknown);
+    bytes += unknown ? 0.0 : static_cast<double>(size);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+template <int Dim>
+DiskNeed disk_need(const sim::Simulation<Dim, double>& simulation, const sim::FlowMaps* maps, double steps) {
+  const config::Case& parameters = simulation.parameters();
+  const config::Time& time = parameters.time;
+  const auto particles = static_cast<double>(simulation.particles().size());
+  DiskNeed need;
+  need.snapshots = count_of(time.end, time.output_interval);
+  need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_beside_points;
+  need.checkpoints = generations;
+  need.checkpoint = particles * static_cast<double>(io::checkpoint_bytes_of_particle<Dim>());
+  if (simulation.bed() != nullptr) {
+    need.checkpoint += static_cast<double>(simulation.bed()->state().size() * sizeof(double));
+  }
+  need.history_rows = time.history_interval > 0.0 ? count_of(time.end, time.history_interval) : steps + 1.0;
+  const double columns = static_cast<double>(sim::history_row(simulation).size()) +
+                         columns_of_probe * static_cast<double>(parameters.probes.size());
+  need.history = need.history_rows * columns * bytes_of_number;
+  need.inputs = bytes_of_files(parameters);
+  if (maps != nullptr && can_write_maps()) {
+    const sim::MapGrid& grid = maps->map_grid();
+    need.maps = static_cast<double>(sim::map_kinds().size());
+    need.map = static_cast<double>(grid.columns) * grid.rows * sizeof(double);
+    if (const Raster* ground = simulation.site().ground.get()) {
+      need.ground_maps = ground_map_count;
+      need.ground_map = static_cast<double>(ground->values.size() * sizeof(double));
+    }
+  }
+  return need;
+}
+
+double free_on_disk(const fs::path& folder) {
+  std::error_code unknown;
+  const fs::space_info space = fs::space(io::existing_part(folder), unknown);
+  return unknown ? HUGE_VAL : static_cast<double>(space.available);
+}
+
+std::string doubt_of_disk(const config::Case& parameters, const DiskNeed& need, double free, const fs::path& folder) {
+  if (!(need.total() > most_of_free * free)) {
+    return "";
+  }
+  const double of_snapshots = need.snapshots * need.snapshot;
+  const bool is_history = need.history > of_snapshots;
+  const std::string key = is_history ? "time.history_interval" : "time.output_interval";
+  const double interval = is_history ? parameters.time.history_interval : parameters.time.output_interval;
+  const std::string what =
+      is_history ? fmt::format("{:.3g} rows of history.csv, {:.3g} GB", need.history_rows, need.history / gigabyte)
+                 : fmt::format("{:.0f} snapshots of {:.3g} MB, {:.3g} GB", need.snapshots, need.snapshot / 1e6,
+                               of_snapshots / gigabyte);
+  return fmt::format(
+      "{}: {} is {:g} s: that is {}; with all else {:.3g} GB, and {:.3g} GB are free where {} is. Make it larger, or "
+      "write to another disk (--output).",
+      config::place_of(parameters, key), key, interval, what, need.total() / gigabyte, free / gigabyte,
+      folder.string());
+}
+
+template DiskNeed disk_need<2>(const sim::Simulation<2, double>&, const sim::FlowMaps*, double);
+template DiskNeed disk_need<3>(const sim::Simulation<3, double>&, const sim::FlowMaps*, double);
+
+}  // namespace thawslide::app

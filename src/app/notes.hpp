@@ -1,0 +1,25 @@
+// What a user is told of a case beside results and errors: printed as it comes, or kept for a reader of JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace thawslide::app {
+
+class Notes {
+ public:
+  enum class Form { printed, kept };
+  explicit Notes(Form form = Form::printed) : form_(form) {}
+
+  // Nothing happens for an empty text.
+  void add(const std::string& text);
+  void add(const std::vector<std::string>& texts);
+
+  [[nodiscard]] const std::vector<std::string>& all() const { return all_; }
+
+ private:
+  Form form_;
+  std::vector<std::string> all_;
+};
+
+}  // namespace thawslide::app

@@ -1,0 +1,34 @@
+#include "app/notes_of_setup.hpp"
+
+#include <cmath>
+
+#include "config/notices.hpp"
+#include "sim/doubts_of_bodies.hpp"
+#include "sim/map_grid.hpp"
+
+namespace thawslide::app {
+
+template <int Dim>
+void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
+                        const DiskNeed& disk, const std::filesystem::path& folder, Notes& notes) {
+  const config::Case& parameters = simulation.parameters();
+  notes.add(sim::note_on_map_cell(parameters, simulation.site()));
+  notes.add(config::notices(parameters));
+  notes.add(sim::doubts_of_bodies(parameters, bodies));
+  notes.add(doubt_of_disk(parameters, disk, free_on_disk(folder), folder));
+}
+
+template <int Dim>
+double steps_to_end(const sim::Simulation<Dim, double>& simulation) {
+  const double end = simulation.parameters().time.end;
+  return std::ceil(end / simulation.next_step(end) * (1.0 - 1e-12));
+}
+
+template void add_notes_of_setup<2>(const sim::Simulation<2, double>&, const std::vector<sim::BodyFigures>&,
+                                    const DiskNeed&, const std::filesystem::path&, Notes&);
+template void add_notes_of_setup<3>(const sim::Simulation<3, double>&, const std::vector<sim::BodyFigures>&,
+                                    const DiskNeed&, const std::filesystem::path&, Notes&);
+template double steps_to_end<2>(const sim::Simulation<2, double>&);
+template double steps_to_end<3>(const sim::Simulation<3, double>&);
+
+}  // namespace thawslide::app

@@ -1,0 +1,21 @@
+// What to know of a case before it runs: what is unusual, and what is most likely not meant.
+#pragma once
+
+#include <filesystem>
+
+#include "app/disk_need.hpp"
+#include "app/notes.hpp"
+#include "sim/body_figures.hpp"
+
+namespace thawslide::app {
+
+// folder: of the run to come. For a simulation that has not taken a step.
+template <int Dim>
+void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
+                        const DiskNeed& disk, const std::filesystem::path& folder, Notes& notes);
+
+// As many steps as a run takes, if all are as long as the first one.
+template <int Dim>
+[[nodiscard]] double steps_to_end(const sim::Simulation<Dim, double>& simulation);
+
+}  // namespace thawslide::app

@@ -1,0 +1,189 @@
+#include "app/setup_facts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/progress.hpp"
+
+namespace thawslide::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double megabyte = 1e6, gigabyte = 1e9;
+
+std::string size_text(double bytes) {
+  return bytes < gigabyte ? fmt::format("{:.0f} MB", bytes / megabyte) : fmt::format("{:.3g} GB", bytes / gigabyte);
+}
+
+std::string text_of(const sim::BodyFigures& body, int dimension) {
+  const bool is_plane = dimension == 2;
+  return fmt::format(
+      "  body        {}: {:.4g} m3 and {:.4g} kg{}, {} {:.4g} {}; {:.3g} m thick in the mean, {:.3g} m in the median "
+      "and {:.3g} m at most (vertical)\n"
+      "              {} particles {:.3g} m apart; {:.2g} across in the median and {:.2g} at most; {}\n",
+      body.name, body.volume, body.mass, is_plane ? " per metre of width" : "", is_plane ? "along" : "over", body.area,
+      is_plane ? "m" : "m2", body.mean_thickness, body.median_thickness, body.largest_thickness, body.particles,
+      body.spacing, body.particles_across, body.most_particles_across,
+      body.coldest == body.warmest ? fmt::format("{:.4g} C", body.coldest)
+                                   : fmt::format("{:.4g} to {:.4g} C", body.coldest, body.warmest));
+}
+
+std::string text_of(const SubstrateFacts& substrate, int dimension) {
+  if (substrate.name.empty()) {
+    return fmt::format("              {}, {:.3g} % of the domain; {}\n", substrate.place, 100.0 * substrate.share,
+                       substrate.strength);
+  }
+  return fmt::format("  substrate   {}: {}, {:.4g} {} or {:.3g} % of the domain; {}\n", substrate.name, substrate.place,
+                     substrate.covered, dimension == 3 ? "m2" : "m", 100.0 * substrate.share, substrate.strength);
+}
+
+std::string text_of(const DiskNeed& need, double free) {
+  std::string of_maps;
+  if (need.maps > 0.0) {
+    const std::string sizes = need.ground_maps == 0.0
+                                  ? fmt::format("of {:.1f} MB", need.map / megabyte)
+                                  : fmt::format("({:.0f} of {:.1f} MB, {:.0f} of {:.1f} MB)", need.maps,
+                                                need.map / megabyte, need.ground_maps, need.ground_map / megabyte);
+    of_maps = fmt::format(", {:.0f} maps {} before they are compressed", need.maps + need.ground_maps, sizes);
+  }
+  return fmt::format(
+      "  disk        {} {}: {:.0f} snapshots of {:.1f} MB, {:.0f} checkpoints of {:.1f} MB, history {:.1f} MB, inputs "
+      "{:.1f} MB{}; {} are free\n",
+      of_maps.empty() ? "about" : "at most", size_text(need.total()), need.snapshots, need.snapshot / megabyte,
+      need.checkpoints, need.checkpoint / megabyte, need.history / megabyte, need.inputs / megabyte, of_maps,
+      std::isfinite(free) ? size_text(free) : "unknown amounts");
+}
+
+Json json_of(const sim::BodyFigures& body) {
+  return {{"name", body.name},
+          {"particles", body.particles},
+          {"volume_m3", body.volume},
+          {"mass_kg", body.mass},
+          {"area_m2", body.area},
+          {"mean_thickness_m", body.mean_thickness},
+          {"median_thickness_m", body.median_thickness},
+          {"largest_thickness_m", body.largest_thickness},
+          {"spacing_m", body.spacing},
+          {"particles_across", body.particles_across},
+          {"most_particles_across", body.most_particles_across},
+          {"coldest_C", body.coldest},
+          {"warmest_C", body.warmest},
+          {"clearance_m", std::isfinite(body.clearance) ? Json(body.clearance) : Json()},
+          {"standing_share", body.standing_share}};
+}
+
+Json json_of(const SubstrateFacts& substrate) {
+  return {{"name", substrate.name},
+          {"place", substrate.place},
+          {"covered", substrate.covered},
+          {"share", substrate.share},
+          {"strength", substrate.strength}};
+}
+
+Json json_of(const sim::MemoryNeed& need, const AvailableMemory& available) {
+  return {{"need_bytes", need.total()},
+          {"particles_bytes", need.particles},
+          {"output_bytes", need.output},
+          {"columns_bytes", need.columns},
+          {"bed_bytes", need.bed},
+          {"maps_bytes", need.maps},
+          {"ground_bytes", need.ground},
+          {"available_bytes", available.bytes},
+          {"available_because", available.bound}};
+}
+
+Json json_of(const DiskNeed& need, double free, const std::string& folder) {
+  return {{"need_bytes", need.total()},
+          {"snapshots", need.snapshots},
+          {"snapshot_bytes", need.snapshot},
+          {"checkpoints", need.checkpoints},
+          {"checkpoint_bytes", need.checkpoint},
+          {"history_rows", need.history_rows},
+          {"history_bytes", need.history},
+          {"maps", need.maps},
+          {"map_bytes", need.map},
+          {"ground_maps", need.ground_maps},
+          {"ground_map_bytes", need.ground_map},
+          {"inputs_bytes", need.inputs},
+          {"free_bytes", std::isfinite(free) ? Json(free) : Json()},
+          {"folder", folder}};
+}
+
+Json json_of(const MapFacts& maps) {
+  return {{"columns", maps.columns},         {"rows", maps.rows},      {"cell_x_m", maps.cell_x},
+          {"cell_y_m", maps.cell_y},         {"because", maps.reason}, {"start_bytes", maps.bytes_at_start},
+          {"most_bytes", maps.bytes_at_most}};
+}
+
+template <class Facts>
+Json list_of(const std::vector<Facts>& all) {
+  Json list = Json::array();
+  for (const Facts& one : all) {
+    list.push_back(json_of(one));
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string text_of(const SetupFacts& facts) {
+  std::string text = fmt::format("{}: the case is sound\n", facts.file);
+  for (const sim::BodyFigures& body : facts.bodies) {
+    text += text_of(body, facts.dimension);
+  }
+  for (const SubstrateFacts& substrate : facts.substrates) {
+    text += text_of(substrate, facts.dimension);
+  }
+  text += fmt::format("  particles   {}\n", facts.particles);
+  text += fmt::format("  cells       {:.0f} in the domain; blocks of {} nodes held: {}\n", facts.cells,
+                      facts.nodes_of_block, facts.blocks);
+  text += fmt::format("  step        {:g} s{}; the limit is {:.4g} s, set by {}\n", facts.step,
+                      facts.is_adaptive ? " at the start (adaptive)" : "", facts.limit.step, facts.limit.what);
+  text += fmt::format("  steps       {:.0f}\n", facts.steps);
+  text += fmt::format("  memory      about {}; {} {}\n", size_text(facts.memory.total()),
+                      size_text(facts.available.bytes), facts.available.bound);
+  for (const MapFacts& maps : facts.maps) {
+    text += fmt::format(
+        "  maps        {} x {} cells of {:g} x {:g} m ({}); memory {:.1f} MB for the release, at most {:.1f} MB\n",
+        maps.columns, maps.rows, maps.cell_x, maps.cell_y, maps.reason, maps.bytes_at_start / megabyte,
+        maps.bytes_at_most / megabyte);
+  }
+  text += text_of(facts.disk, facts.free_disk);
+  text += fmt::format("  time        about {} on {} thread{} (measured on the first steps)\n",
+                      duration_text(facts.seconds), facts.threads, facts.threads == 1 ? "" : "s");
+  if (!facts.picture.empty()) {
+    text += fmt::format("  picture     {}\n", facts.picture);
+  }
+  return text;
+}
+
+std::string json_of(const SetupFacts& facts) {
+  Json json;
+  json["file"] = facts.file;
+  json["dimension"] = facts.dimension;
+  json["notes"] = facts.notes;
+  json["bodies"] = list_of(facts.bodies);
+  json["substrates"] = list_of(facts.substrates);
+  json["particles"] = facts.particles;
+  json["cells"] = facts.cells;
+  json["blocks"] = facts.blocks;
+  json["nodes_of_block"] = facts.nodes_of_block;
+  json["step_s"] = facts.step;
+  json["is_adaptive"] = facts.is_adaptive;
+  json["step_limit_s"] = facts.limit.step;
+  json["step_limit_set_by"] = facts.limit.what;
+  json["steps"] = facts.steps;
+  json["memory"] = json_of(facts.memory, facts.available);
+  json["maps"] = facts.maps.empty() ? Json() : json_of(facts.maps.front());
+  json["disk"] = json_of(facts.disk, facts.free_disk, facts.disk_folder);
+  json["wall_s"] = facts.seconds;
+  json["threads"] = facts.threads;
+  json["picture"] = facts.picture.empty() ? Json() : Json(facts.picture);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace thawslide::app

@@ -1,0 +1,65 @@
+#include "app/setup_picture.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "base/error.hpp"
+
+namespace thawslide::app {
+
+namespace {
+
+// A file without a name, which nothing else can open and which is gone with its last reader.
+class NamelessFile {
+ public:
+  explicit NamelessFile(const std::string& text) : file_(std::tmpfile(), &std::fclose) {
+    const bool is_written = file_ != nullptr && std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() &&
+                            std::fflush(file_.get()) == 0;
+    if (!is_written) {
+      throw UserError(
+          fmt::format("the picture was not drawn: a temporary file cannot be written: {}.", std::strerror(errno)));
+    }
+  }
+  // Makes the file this process's standard input, from its beginning.
+  [[nodiscard]] bool becomes_input() const {
+    const int descriptor = fileno(file_.get());
+    return lseek(descriptor, 0, SEEK_SET) == 0 && dup2(descriptor, STDIN_FILENO) == STDIN_FILENO;
+  }
+
+ private:
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+};
+
+}  // namespace
+
+std::string picture_beside(const std::filesystem::path& case_file) {
+  const std::string variant = case_file.stem() == "case" ? "" : case_file.stem().string() + "-";
+  return (case_file.parent_path() / (variant + "setup.png")).string();
+}
+
+void draw_setup(const nlohmann::ordered_json& setup, const std::string& picture) {
+  const NamelessFile file(setup.dump());
+  std::fflush(stdout);  // what was said so far stands before what the child says
+  const pid_t child = fork();
+  if (child == 0) {
+    if (file.becomes_input()) {
+      execlp("thawslide-report", "thawslide-report", "--setup", "/dev/stdin", "--picture", picture.c_str(), nullptr);
+    }
+    _exit(127);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw UserError(
+        fmt::format("the picture was not drawn: thawslide-report {}. It is part of the Python package: "
+                    "`./run --setup` installs it into .venv; put .venv/bin on PATH.",
+                    WIFEXITED(status) && WEXITSTATUS(status) == 127 ? "is not on PATH" : "failed"));
+  }
+}
+
+}  // namespace thawslide::app

@@ -1,0 +1,125 @@
+#include "base/available_memory.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <sstream>
+
+namespace thawslide {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// The number that a file begins with; not a number where there is no file or no number ("max").
+double number_in(const fs::path& file) {
+  std::ifstream stream(file);
+  double number = 0.0;
+  return stream >> number ? number : std::nan("");
+}
+
+// The number after a word that begins a line; not a number where there is none.
+double number_after(const std::string& text, const std::string& word) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream parts(line);
+    std::string first;
+    double number = 0.0;
+    if (parts >> first >> number && first == word) {
+      return number;
+    }
+  }
+  return std::nan("");
+}
+
+// The names of the files by which a version of control groups tells its bounds.
+struct BoundFiles {
+  const char *limit, *used, *droppable;  // the last: a word of memory.stat
+};
+constexpr BoundFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
+constexpr BoundFiles version_2{"memory.max", "memory.current", "inactive_file"};
+
+double left_in_group(const fs::path& folder, const BoundFiles& files) {
+  const double limit = number_in(folder / files.limit), used = number_in(folder / files.used);
+  if (std::isnan(limit) || std::isnan(used)) {
+    return infinity;
+  }
+  const double droppable = number_after(text_of(folder / "memory.stat"), files.droppable);
+  return std::max(0.0, limit - used + (std::isnan(droppable) ? 0.0 : droppable));
+}
+
+// A group is bounded by those around it too.
+double left_up_to(const fs::path& mount, const std::string& group, const BoundFiles& files) {
+  double left = left_in_group(mount, files);
+  fs::path folder = mount;
+  for (const fs::path& part : fs::path(group).relative_path()) {
+    folder /= part;
+    left = std::min(left, left_in_group(folder, files));
+  }
+  return left;
+}
+
+double left_of_address_space() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
+    return infinity;
+  }
+  const double pages_taken = number_in("/proc/self/statm");
+  const double taken = std::isnan(pages_taken) ? 0.0 : pages_taken * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - taken);
+}
+
+}  // namespace
+
+double available_in(const std::string& meminfo) {
+  constexpr double kibibyte = 1024.0;
+  return kibibyte * number_after(meminfo, "MemAvailable:");
+}
+
+double left_by_control_groups(const std::string& membership, const fs::path& mount) {
+  double left = infinity;
+  std::istringstream lines(membership);
+  for (std::string line; std::getline(lines, line);) {  // NUMBER:CONTROLLERS:GROUP
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) {
+      continue;
+    }
+    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    const std::string group = line.substr(second + 1);
+    if (controllers == ",,") {
+      left = std::min(left, left_up_to(mount, group, version_2));
+    } else if (controllers.find(",memory,") != std::string::npos) {
+      left = std::min(left, left_up_to(mount / "memory", group, version_1));
+    }
+  }
+  return left;
+}
+
+AvailableMemory available_memory() {
+  const double free_now = available_in(text_of("/proc/meminfo"));
+  const double whole = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  AvailableMemory least{std::isnan(free_now) ? whole : free_now, "are free"};
+  const auto take_smaller = [&least](double bytes, const char* bound) {
+    if (bytes < least.bytes) {
+      least = {bytes, bound};
+    }
+  };
+  take_smaller(left_by_control_groups(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"),
+               "are left by the bound of a control group (of a container or a batch system)");
+  take_smaller(left_of_address_space(), "are left by the bound of ulimit -v");
+  return least;
+}
+
+}  // namespace thawslide

@@ -1,0 +1,113 @@
+#include "sim/doubts_of_bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/case_proposal.hpp"
+#include "config/plausibility.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+constexpr double most_strain = 0.05;    // by its own weight, at the base
+constexpr double least_standing = 0.5;  // share of a body's area
+constexpr double touching = 0.5;        // spacings: particles stand on a lattice, and the ground need not
+constexpr int digits_of_places = 6;
+
+// A body over nothing, or far above what is below it.
+std::string doubt_of_standing(const config::Case& parameters, const BodyFigures& body) {
+  const std::string key = "body." + body.name;
+  if (!parameters.mechanics.enabled || parameters.general.gravity == 0.0 || !parameters.frames.empty()) {
+    return "";
+  }
+  if (std::isinf(body.clearance)) {
+    return fmt::format(
+        "{}: {} has nothing below it: terrain.type is \"none\" and the lower side of the domain is open, so it falls "
+        "out of the domain. Give terrain.type, or a boundary that holds.",
+        config::place_of(parameters, key), key);
+  }
+  if (body.clearance > touching * body.spacing) {
+    const double time = std::sqrt(2.0 * body.clearance / parameters.general.gravity);
+    return fmt::format(
+        "{}: {} floats: its underside is {:.3g} m above what is below it, and it falls for {:.2g} s before it touches. "
+        "Begin it lower by {:.3g} m, or set shape = \"surface\" or \"release\", which follow the ground.",
+        config::place_of(parameters, key), key, body.clearance, time, body.clearance);
+  }
+  if (body.standing_share < least_standing) {
+    return fmt::format(
+        "{}: {} stands on {:.2g} % of its area; below the rest is a gap of {:.3g} m and more, one distance of its "
+        "particles. Give it the shape of the ground: shape = \"surface\", \"release\", or a polygon.",
+        config::place_of(parameters, key), key, 100.0 * body.standing_share, body.spacing);
+  }
+  return "";
+}
+
+std::string doubt_of_stiffness(const config::Case& parameters, const BodyFigures& body) {
+  const std::string& material = parameters.bodies.at(body.name).material;
+  const double modulus = parameters.materials.at(material).youngs_modulus;
+  const double load = body.mass / body.volume * parameters.general.gravity * body.median_thickness;
+  const bool deforms = parameters.mechanics.enabled && parameters.mechanisms.deformation;
+  if (!deforms || modulus < config::softest_modulus || !(load > most_strain * modulus)) {
+    return "";
+  }
+  const std::string key = "material." + material + ".youngs_modulus";
+  return fmt::format(
+      "{}: {} is {} Pa: the weight of body {}, {:.2g} Pa at its base, squeezes it by {:.0f} %. Give it {:.1g} Pa or "
+      "more.",
+      config::place_of(parameters, key), key, modulus, body.name, load, 100.0 * load / modulus, 20.0 * load);
+}
+
+std::string doubt_of_band(const config::Case& parameters, const BodyFigures& body) {
+  const Table& thickness = parameters.band.thickness;
+  const double thickest =
+      thickness.value.empty() ? 0.0 : *std::max_element(thickness.value.begin(), thickness.value.end());
+  if (!parameters.mechanics.enabled || !(thickest > body.median_thickness)) {
+    return "";
+  }
+  return fmt::format(
+      "{}: band.thickness is {} m: more than the body {}, {:.3g} m thick in the median. The band is the part of a "
+      "slide "
+      "that shears at its base: usual is 0.01 to 2 m.",
+      config::place_of(parameters, "band.thickness"), thickest, body.name, body.median_thickness);
+}
+
+// The temperatures that the case gives as numbers are looked at when it is read.
+std::string doubt_of_warmth(const config::Case& parameters, const BodyFigures& body) {
+  const InitialField& temperature = parameters.bodies.at(body.name).temperature;
+  const bool is_map = temperature.is_map() && !parameters.bodies.at(body.name).saturation.is_given();
+  if (!is_map || !parameters.heat.enabled || !(body.warmest > parameters.freezing.reference_temperature)) {
+    return "";
+  }
+  const std::string key = "body." + body.name + ".temperature";
+  return fmt::format(
+      "{}: {} is up to {:.{}g} C in '{}': there pores hold water from the start, no ice. Were "
+      "temperatures below 0 meant?",
+      config::place_of(parameters, key), key, body.warmest, digits_of_places, temperature.source);
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_of_bodies(const config::Case& parameters, const std::vector<BodyFigures>& bodies) {
+  std::vector<std::string> found;
+  const auto add = [&found](std::string doubt) {
+    if (!doubt.empty()) {
+      found.push_back(std::move(doubt));
+    }
+  };
+  for (const BodyFigures& body : bodies) {
+    add(doubt_of_standing(parameters, body));
+    add(doubt_of_stiffness(parameters, body));
+    add(doubt_of_band(parameters, body));
+    add(doubt_of_warmth(parameters, body));
+    if (parameters.mechanics.enabled) {
+      add(config::resolution_note(body.name, body.median_thickness, parameters.grid.cell,
+                                  parameters.bodies.at(body.name).particles_per_axis));
+    }
+  }
+  return found;
+}
+
+}  // namespace thawslide::sim

@@ -1,0 +1,15 @@
+// What is most likely not meant of bodies as they stand at t = 0.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/body_figures.hpp"
+
+namespace thawslide::sim {
+
+// Each with the place of what it is about, what was found and what to do.
+[[nodiscard]] std::vector<std::string> doubts_of_bodies(const config::Case& parameters,
+                                                        const std::vector<BodyFigures>& bodies);
+
+}  // namespace thawslide::sim

@@ -1,0 +1,71 @@
+// What the system tells of memory.
+#include "base/available_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace thawslide {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+fs::path folder_of_this_test() {
+  const fs::path folder = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+void write(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << text;
+}
+
+TEST(AvailableMemory, IsWhatTheMachineHasFreeWithoutSwapping) {
+  EXPECT_EQ(available_in("MemTotal:       24000000 kB\nMemFree:         1000000 kB\nMemAvailable:   21000000 kB\n"),
+            21000000.0 * 1024.0);
+  EXPECT_TRUE(std::isnan(available_in("MemTotal: 24000000 kB\n"))) << "kernels before 3.14 do not tell it";
+}
+
+TEST(AvailableMemory, OfControlGroupsIsWhatTheTightestLeaves) {
+  const fs::path mount = folder_of_this_test();
+  write(mount / "batch/job/memory.max", "8000\n");
+  write(mount / "batch/job/memory.current", "3000\n");
+  write(mount / "batch/job/memory.stat", "anon 2000\ninactive_file 500\n");
+  EXPECT_EQ(left_by_control_groups("0::/batch/job\n", mount), 8000.0 - 3000.0 + 500.0);
+  write(mount / "batch/memory.max", "10000\n");
+  write(mount / "batch/memory.current", "9000\n");
+  EXPECT_EQ(left_by_control_groups("0::/batch/job\n", mount), 1000.0) << "the group about it has less left";
+  write(mount / "batch/memory.max", "max\n");
+  EXPECT_EQ(left_by_control_groups("0::/batch/job\n", mount), 5500.0) << "max is no bound";
+  EXPECT_EQ(left_by_control_groups("0::/elsewhere\n", mount), infinity);
+  EXPECT_EQ(left_by_control_groups("", mount), infinity);
+}
+
+// In a container the group's own folder is not to be seen, and the mount is its root.
+TEST(AvailableMemory, OfAControlGroupCountsAtTheMountToo) {
+  const fs::path mount = folder_of_this_test();
+  write(mount / "memory.max", "4000\n");
+  write(mount / "memory.current", "5000\n");
+  EXPECT_EQ(left_by_control_groups("0::/not/to/be/seen\n", mount), 0.0) << "never less than nothing";
+}
+
+TEST(AvailableMemory, OfControlGroupsOfTheFirstVersion) {
+  const fs::path mount = folder_of_this_test();
+  write(mount / "memory/job/memory.limit_in_bytes", "9000\n");
+  write(mount / "memory/job/memory.usage_in_bytes", "4000\n");
+  EXPECT_EQ(left_by_control_groups("7:cpu,cpuacct:/other\n4:memory:/job\n0::/\n", mount), 5000.0);
+}
+
+TEST(AvailableMemory, IsSomethingHere) {
+  const AvailableMemory available = available_memory();
+  EXPECT_GT(available.bytes, 1e6);
+  EXPECT_FALSE(available.bound.empty());
+}
+
+}  // namespace
+}  // namespace thawslide

@@ -1,0 +1,142 @@
+// Estimates of memory against sums by hand.
+#include "sim/memory_need.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "../support/case_from_text.hpp"
+#include "../support/slide_on_dem.hpp"
+#include "band/base_piece.hpp"
+#include "base/error.hpp"
+#include "sim/flow_maps.hpp"
+#include "sim/map_grid.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using testing_support::case_from_text;
+
+// 40 m x 10 m, and a triangle of 20 m x 5 m beside it.
+const std::string two_bodies = R"(
+[time]
+end = 1.0
+step = 0.001
+[grid]
+cell = 2.0
+min = [0.0, -10.0]
+max = [200.0, 50.0]
+[terrain]
+type = "flat"
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+[body.block]
+material = "rock"
+min = [0.0, 0.0]
+max = [40.0, 10.0]
+[body.wedge]
+material = "rock"
+shape = "polygon"
+vertices = [[60.0, 0.0], [80.0, 0.0], [60.0, 5.0]]
+particles_per_axis = 4
+[basal]
+friction_angle = 20.0
+)";
+
+TEST(MemoryNeed, CountsParticlesAndAreaOfBodies) {
+  const BodiesAtStart bodies = bodies_at_start<2>(case_from_text(two_bodies), {});
+  EXPECT_NEAR(bodies.particles, 400.0 + 200.0, 1e-9) << "400 m2 at 4 in 4 m2, and 50 m2 at 16 in 4 m2";
+  EXPECT_NEAR(bodies.area, 40.0 + 20.0, 1e-12);
+}
+
+TEST(MemoryNeed, SumsItsParts) {
+  const config::Case plain = case_from_text(two_bodies);
+  const MemoryNeed need = memory_need<2>(plain, {}, bodies_at_start<2>(plain, {}));
+  EXPECT_EQ(need.particles, 600.0 * 616.0);
+  EXPECT_EQ(need.output, 600.0 * 800.0);
+  EXPECT_EQ(need.columns + need.bed + need.maps + need.ground, 0.0);
+  EXPECT_EQ(need.total(), 40e6 + 600.0 * 1416.0);
+
+  const config::Case rich =
+      case_from_text(two_bodies +
+                     "[band]\nmodel = \"columns\"\nthickness = 0.2\n[bed]\nlaw = \"momentum\"\ndepth = 1.0\nstrength = "
+                     "1e3\ndepth_per_slip = 0.1\nmaterial = \"rock\"\n");
+  const MemoryNeed more = memory_need<2>(rich, {}, bodies_at_start<2>(rich, {}));
+  EXPECT_EQ(more.bed, 101.0 * 18.0) << "100 cells across, two masses and 16 bits a column of nodes";
+  EXPECT_EQ(more.columns, 5.0 * 60.0 / 2.0 * sizeof(band::BasePiece<2, double>));
+}
+
+// The release is 100 m x 100 m and 20 m thick on cells of 10 m with 2 particles an axis.
+TEST(MemoryNeed, CountsGroundMapsAndReleaseInSpace) {
+  const std::string text = testing_support::release_on_dem({1.0, 0.001, 10.0, {0.0, 0.0, 0.0}, {400.0, 400.0, 400.0}},
+                                                           testing_support::elastic_rock(0.0), 20.0);
+  const config::Case parameters = case_from_text(text);
+  config::Site site;
+  Raster ground{0.0, 0.0, 20.0, 20.0, 21, 21, std::vector<double>(441, 100.0), ""};
+  site.ground = std::make_shared<const Raster>(ground);
+  config::Release release;
+  release.thickness = {100.0, 100.0, 20.0, 20.0, 5, 5, std::vector<double>(25, 20.0), ""};
+  site.releases["slide"] = release;
+  const BodiesAtStart bodies = bodies_at_start<3>(parameters, site);
+  EXPECT_NEAR(bodies.area, 10000.0, 1e-9);
+  EXPECT_NEAR(bodies.particles, 200000.0 / 1000.0 * 8.0, 1e-6);
+  const MemoryNeed need = memory_need<3>(parameters, site, bodies);
+  EXPECT_EQ(need.ground, 80e6 + 441.0 * 16.0);
+  const MapGrid maps = map_grid_of(parameters, site);
+  ASSERT_EQ(maps.cell_area(), 400.0);
+  EXPECT_EQ(need.maps,
+            5.0 * 10000.0 / 400.0 * static_cast<double>(FlowMaps::bytes_of_cell()) + 8.0 * maps.columns * maps.rows);
+}
+
+TEST(MemoryNeed, OfParticlesAloneGivesTheCellThatFits) {
+  MemoryNeed need;
+  need.particles = 8e9;  // eight times too much, in space: twice the cell
+  EXPECT_NEAR(smallest_cell<3>(need, 0.5, 1e9 + bytes_of_program), 1.0, 1e-9);
+  EXPECT_NEAR(smallest_cell<2>(need, 0.5, 2e9 + bytes_of_program), 1.0, 1e-9) << "a quarter is left in the plane";
+  EXPECT_NEAR(smallest_cell<3>(need, 0.3, 1e9 + bytes_of_program), 0.6, 1e-9);
+  EXPECT_NEAR(smallest_cell<3>(need, 0.123, 1e9 + bytes_of_program), 0.25, 1e-9) << "two digits, rounded up";
+}
+
+TEST(MemoryNeed, KnowsWhereNoCellHelps) {
+  MemoryNeed need;
+  need.particles = 1e9;
+  need.ground = 3e9;
+  EXPECT_EQ(smallest_cell<3>(need, 1.0, 3e9), 0.0);
+  need.columns = 1e9;  // fall with the square, particles with the cube
+  const double cell = smallest_cell<3>(need, 1.0, 4e9 + bytes_of_program);
+  EXPECT_LE(1e9 / (cell * cell * cell) + 1e9 / (cell * cell), 1e9);
+  EXPECT_GT(1e9 / std::pow(cell - 0.1, 3) + 1e9 / std::pow(cell - 0.1, 2), 1e9);
+}
+
+std::string refusal_of(const config::Case& parameters, const AvailableMemory& available) {
+  try {
+    require_memory<2>(parameters, {}, available);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
+  const config::Case parameters = case_from_text(two_bodies, {"grid.cell=0.02"});
+  // 2500 cells in a square metre: 400 m2 at 4 particles in each, 50 m2 at 16.
+  EXPECT_EQ(refusal_of(parameters, {4e9, "are free"}),
+            "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6e+06 particles: the run needs about 8.54 GB of "
+            "memory (particles 3.7 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.03 m or more, or "
+            "particles_per_axis smaller.");
+  EXPECT_EQ(refusal_of(parameters, {8.6e9, "are free"}), "");
+  EXPECT_EQ(refusal_of(case_from_text(two_bodies), {40.9e6, "are free"}), "");
+}
+
+TEST(MemoryNeed, MoreParticlesThanCanBeCountedAreRefused) {
+  const config::Case parameters = case_from_text(two_bodies, {"grid.cell=0.002"});
+  EXPECT_EQ(
+      refusal_of(parameters, {1e15, "are free"}),
+      "--set grid.cell=0.002: grid.cell is 0.002 m, which makes 6e+08 particles; allowed: 2.3e+08. Make grid.cell "
+      "0.0034 m or more, or particles_per_axis smaller.");
+}
+
+}  // namespace
+}  // namespace thawslide::sim
