@@ -32,28 +32,43 @@ class Writer {
   std::string text_;
 };
 
+// Takes numbers off the bytes of a checkpoint. A count is held against the bytes that are left before room is made for
+// it: the checksum says that nothing changed since, not who wrote them.
 class Reader {
  public:
-  Reader(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
+  Reader(std::string_view text, const std::filesystem::path& file) : left_(text), file_(file) {}
   std::uint64_t number() {
     std::uint64_t value = 0;
     get_raw(&value, sizeof value);
     return value;
   }
+  // Of items that take so many bytes each.
+  std::size_t count(std::size_t item_bytes, const char* what) {
+    const std::uint64_t found = number();
+    if (found > left_.size() / item_bytes) {
+      fail(fmt::format("it tells of {} {}, of {} bytes each, where {} bytes are left", found, what, item_bytes,
+                       left_.size()));
+    }
+    return found;
+  }
   std::string text() {
-    std::string value(number(), '\0');
+    std::string value(count(1, "letters"), '\0');
     get_raw(value.data(), value.size());
     return value;
   }
   std::vector<double> numbers() {
-    std::vector<double> values(number());
+    std::vector<double> values(count(sizeof(double), "numbers"));
     get_raw(values.data(), values.size() * sizeof(double));
     return values;
   }
   void get_raw(void* data, std::size_t size) {
-    THAWSLIDE_ASSERT(next_ + size <= text_.size(), "{} is whole and yet too short", file_.string());
-    std::memcpy(data, text_.data() + next_, size);
-    next_ += size;
+    if (size > left_.size()) {
+      fail(fmt::format("{} bytes are left where {} are needed", left_.size(), size));
+    }
+    if (size > 0) {
+      std::memcpy(data, left_.data(), size);
+      left_.remove_prefix(size);
+    }
   }
   void expect(std::uint64_t expected, const char* what) {
     const std::uint64_t found = number();
@@ -63,12 +78,36 @@ class Reader {
                       file_.string(), what, found, expected));
     }
   }
+  void expect_end() const {
+    if (!left_.empty()) {
+      fail(fmt::format("{} bytes are left at its end", left_.size()));
+    }
+  }
+  [[noreturn]] void fail(const std::string& found) const {
+    throw UserError(
+        fmt::format("{} has a checksum that fits, but {}: no version of this program writes that. Use another copy, or "
+                    "run the case from its start.",
+                    file_.string(), found));
+  }
 
  private:
-  std::string_view text_;
+  std::string_view left_;
   std::filesystem::path file_;
-  std::size_t next_ = 0;
 };
+
+// Bytes that each field of a checkpoint takes for a particle.
+template <int Dim, class Real>
+std::vector<std::size_t> row_sizes() {
+  mpm::Particles<Dim, Real> one;
+  one.resize(1);
+  std::vector<std::size_t> sizes;
+  for (const mpm::FieldBase* field : one.fields.all()) {
+    if (field->info().in_checkpoint) {
+      sizes.push_back(field->bytes().size());
+    }
+  }
+  return sizes;
+}
 
 // What is wrong with a checkpoint's bytes; empty: they are what was written.
 std::string damage_of(const std::filesystem::path& file, const std::string& bytes) {
@@ -90,6 +129,21 @@ Reader reader_of(const WholeCheckpoint& checkpoint) {
   reader.expect(magic, "the mark");
   reader.expect(format_version, "format");
   return reader;
+}
+
+void read_field(Reader& reader, const std::filesystem::path& file, std::size_t particles, std::size_t row_bytes,
+                mpm::FieldBase& field) {
+  const std::string name = reader.text();
+  if (name != field.info().name) {
+    throw UserError(
+        fmt::format("{} has the field '{}' where this program has '{}'. Continue the run with the version that wrote "
+                    "it (run.json names it).",
+                    file.string(), name, field.info().name));
+  }
+  reader.expect(row_bytes, fmt::format("bytes a particle of the field '{}':", name).c_str());
+  std::vector<std::byte> rows(row_bytes * particles);
+  reader.get_raw(rows.data(), rows.size());
+  field.set_bytes(rows);
 }
 
 }  // namespace
@@ -168,39 +222,32 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
   reader.expect(Dim, "dimension");
   reader.expect(sizeof(Real), "number size");
   reader.expect(particles.size(), "particles at t = 0:");
-  particles.resize(reader.number());  // some have left since, or joined
+  const std::vector<std::size_t> record_bytes = row_sizes<Dim, Real>();
+  // Some have left since, or joined.
+  particles.resize(
+      reader.count(std::accumulate(record_bytes.begin(), record_bytes.end(), std::size_t{0}), "particles"));
   scalars = reader.numbers();
+  auto row_bytes = record_bytes.begin();
   for (mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_checkpoint) {
-      const std::string name = reader.text();
-      if (name != field->info().name) {
-        throw UserError(
-            fmt::format("{} has the field '{}' where this program has '{}'. Continue the run with the version "
-                        "that wrote it (run.json names it).",
-                        file.string(), name, field->info().name));
-      }
-      std::vector<std::byte> rows(reader.number() * particles.size());
-      reader.get_raw(rows.data(), rows.size());
-      field->set_bytes(rows);
+      read_field(reader, file, particles.size(), *row_bytes++, *field);
     }
   }
   NamedNumbers blocks;
   for (std::uint64_t left = reader.number(); left > 0; --left) {
     const std::string name = reader.text();
-    blocks[name] = reader.numbers();
+    if (!blocks.emplace(name, reader.numbers()).second) {
+      reader.fail(fmt::format("it has the block '{}' twice", name));
+    }
   }
+  reader.expect_end();
   return blocks;
 }
 
 template <int Dim>
 std::size_t checkpoint_bytes_of_particle() {
-  mpm::Particles<Dim, double> one;
-  one.resize(1);
-  std::size_t bytes = 0;
-  for (const mpm::FieldBase* field : one.fields.all()) {
-    bytes += field->info().in_checkpoint ? field->bytes().size() : 0;
-  }
-  return bytes;
+  const std::vector<std::size_t> sizes = row_sizes<Dim, double>();
+  return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
 }
 
 template std::size_t checkpoint_bytes_of_particle<2>();

@@ -44,7 +44,8 @@ struct WholeCheckpoint {
 [[nodiscard]] std::string case_of(const WholeCheckpoint& checkpoint);
 
 // particles: those at t = 0, which the ones of the checkpoint replace. Returns the blocks. Throws UserError for a
-// checkpoint of another kind of run (dimension, number type, fields, particles at t = 0).
+// checkpoint of another kind of run (dimension, number type, fields, particles at t = 0), and for bytes that no run
+// wrote although their checksum fits; it never asks for more memory than particles and numbers of the file's size take.
 template <int Dim, class Real>
 NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim, Real>& particles,
                              std::vector<double>& scalars);

@@ -1,0 +1,181 @@
+// A checkpoint whose bytes are not those that a run wrote: damage is found, and what is signed anew never breaks the
+// program.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "../support/slide_in_space.hpp"
+#include "base/error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/sha256.hpp"
+#include "sim/run_records.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing_support::folder_of_this_test;
+
+// Twelve cells of a slide in space, with its maps.
+config::Case small_slide() {
+  return testing_support::slide_in_space("velocity = [8.0, 1.0, 0.0]", {"body.box.max=[2.0, 5.0, 1.0]"});
+}
+
+// Two generations of the run's checkpoint, some steps apart. Returns how many particles there were at t = 0.
+std::size_t write_two_generations(const fs::path& folder) {
+  Simulation<3, double> simulation(small_slide());
+  RunRecords<3> records(simulation, {});
+  records.start(simulation);
+  for (int generation = 0; generation < 2; ++generation) {
+    for (int k = 0; k < 10; ++k) {
+      simulation.step(0.002);
+      records.after_step(simulation);
+    }
+    io::write_checkpoint<3, double>(folder, simulation.particles(), simulation.particles_at_start(),
+                                    simulation.scalars(), records.state());
+  }
+  return simulation.particles_at_start();
+}
+
+class CheckpointDamage : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = folder_of_this_test();
+    last_ = folder_ / io::checkpoint_name;
+    previous_ = folder_ / io::previous_checkpoint_name;
+    fs::remove(last_);
+    fs::remove(previous_);
+    at_start_ = write_two_generations(folder_);
+    bytes_of_last_ = io::read_file(last_);
+    bytes_of_previous_ = io::read_file(previous_);
+  }
+
+  // As damage happens: in its place. Returns the byte that stood there.
+  static char put(const fs::path& file, std::size_t place, char byte) {
+    std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+    stream.seekg(static_cast<std::streamoff>(place));
+    const char before = static_cast<char>(stream.get());
+    stream.seekp(static_cast<std::streamoff>(place));
+    stream.put(byte);
+    return before;
+  }
+  static char another(char byte, std::mt19937& random) {
+    return static_cast<char>(byte ^ static_cast<char>(1 + random() % 255));
+  }
+
+  static std::string damage_words(const fs::path& file, std::size_t bytes) {
+    return fmt::format("{} is damaged: its checksum does not fit its {} bytes", file.string(), bytes);
+  }
+
+  std::size_t at_start_ = 0;
+  fs::path folder_, last_, previous_;
+  std::string bytes_of_last_, bytes_of_previous_;
+};
+
+TEST_F(CheckpointDamage, OfAnyOneByteIsFoundAndTheOneBeforeIsTaken) {
+  ASSERT_NE(bytes_of_last_, bytes_of_previous_);
+  std::mt19937 random(1);
+  for (std::size_t place = 0; place < bytes_of_last_.size(); ++place) {
+    put(last_, place, another(bytes_of_last_[place], random));
+    const io::WholeCheckpoint found = io::newest_checkpoint(folder_);
+    ASSERT_EQ(found.file, previous_) << "byte " << place;
+    ASSERT_EQ(found.bytes, bytes_of_previous_) << "byte " << place;
+    ASSERT_EQ(found.note, damage_words(last_, bytes_of_last_.size())) << "byte " << place;
+    put(last_, place, bytes_of_last_[place]);
+  }
+  EXPECT_EQ(io::newest_checkpoint(folder_).bytes, bytes_of_last_);
+}
+
+TEST_F(CheckpointDamage, OfBothGenerationsIsRefused) {
+  std::mt19937 random(2);
+  for (int k = 0; k < 2000; ++k) {
+    const std::size_t in_last = random() % bytes_of_last_.size(), in_previous = random() % bytes_of_previous_.size();
+    const char before = put(last_, in_last, another(bytes_of_last_[in_last], random));
+    const char before_that = put(previous_, in_previous, another(bytes_of_previous_[in_previous], random));
+    try {
+      const io::WholeCheckpoint found = io::newest_checkpoint(folder_);
+      FAIL() << "damage " << k << " is not found in " << found.file;
+    } catch (const UserError& error) {
+      ASSERT_EQ(error.what(), damage_words(last_, bytes_of_last_.size()) + "; " +
+                                  damage_words(previous_, bytes_of_previous_.size()) +
+                                  ". Use another copy, or run the case from its start.");
+    }
+    put(last_, in_last, before);
+    put(previous_, in_previous, before_that);
+  }
+}
+
+// Past the checksum, by the hand of someone who signs what he changed.
+class SignedCheckpoint : public CheckpointDamage {
+ protected:
+  static std::string body_of(const std::string& bytes) { return bytes.substr(0, bytes.size() - sizeof(io::Digest)); }
+
+  // What reading says; empty: it gives a value.
+  std::string error_of_signed(const std::string& body) const {
+    const io::Digest digest = io::sha256(body.data(), body.size());
+    fs::remove(last_);  // a new file: some systems wait for the disk where one is cut to nothing and written again
+    std::ofstream(last_, std::ios::binary)
+        << body << std::string_view(reinterpret_cast<const char*>(digest.data()), digest.size());
+    mpm::Particles<3, double> particles;
+    particles.resize(at_start_);
+    std::vector<double> scalars;
+    try {
+      static_cast<void>(io::read_checkpoint<3, double>(io::newest_checkpoint(folder_), particles, scalars));
+    } catch (const UserError& error) {
+      EXPECT_EQ(std::string(error.what()).find(last_.string()), 0U) << error.what();
+      return error.what();
+    }
+    return "";
+  }
+
+  // The body with another number of 8 bytes at a place.
+  static std::string with_number(std::string body, std::size_t place, std::uint64_t number) {
+    std::memcpy(body.data() + place, &number, sizeof number);
+    return body;
+  }
+};
+
+TEST_F(SignedCheckpoint, CutOffAnywhereIsRefused) {
+  const std::string body = body_of(bytes_of_last_);
+  EXPECT_EQ(error_of_signed(body), "");
+  std::mt19937 random(3);
+  for (int k = 0; k < 300; ++k) {
+    const std::size_t left = k < 100 ? static_cast<std::size_t>(k) + 1 : 1 + random() % (body.size() - 1);
+    EXPECT_NE(error_of_signed(body.substr(0, left)), "") << left << " bytes";
+  }
+  EXPECT_EQ(error_of_signed(body + "more"),
+            last_.string() +
+                " has a checksum that fits, but 4 bytes are left at its end: no version of this program writes that. "
+                "Use another copy, or run the case from its start.");
+}
+
+// Each of these asked for as much memory as it says, or read beyond the end.
+TEST_F(SignedCheckpoint, CountsBeyondTheFileAreRefused) {
+  const std::string body = body_of(bytes_of_last_);
+  constexpr std::size_t particles = 40, scalars = 48;  // places of these counts: after the mark and four numbers more
+  for (const std::uint64_t number : {std::uint64_t{1} << 62U, ~std::uint64_t{0}, std::uint64_t{body.size()}}) {
+    EXPECT_NE(error_of_signed(with_number(body, particles, number)).find(fmt::format("it tells of {} part", number)),
+              std::string::npos);
+    EXPECT_NE(error_of_signed(with_number(body, scalars, number)).find(fmt::format("it tells of {} numb", number)),
+              std::string::npos);
+  }
+}
+
+TEST_F(SignedCheckpoint, AnyOtherByteGivesAValueOrAMessage) {
+  const std::string body = body_of(bytes_of_last_);
+  std::mt19937 random(4);
+  for (int k = 0; k < 2000; ++k) {
+    std::string changed = body;
+    char& byte = changed[random() % changed.size()];
+    byte = another(byte, random);
+    static_cast<void>(error_of_signed(changed));
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,144 @@
+// The bytes of a map file: the first says what it is, the others are the file, or changes to a sound one. GDAL reads
+// them first, so what is found here may be a matter of GDAL.
+#include <memory>
+
+#include "gis/raster_file.hpp"
+#include "gis/reference_system.hpp"
+#include "gis/vector_file.hpp"
+#include "map_files.hpp"
+
+namespace {
+
+using namespace thawslide;
+using fuzz::Provider;
+
+constexpr std::size_t most_points = 1U << 22U;  // of a raster that is read whole
+
+void read_raster(const std::string& file) {
+  fuzz::gives_value(file, [&] {
+    const gis::RasterFile raster(file);
+    const Raster& layout = raster.layout();
+    const gis::Rectangle corner{layout.x, layout.y, layout.x + 3.0 * layout.cell_x, layout.y + 3.0 * layout.cell_y};
+    const bool small = static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows) <= most_points;
+    static_cast<void>(small ? raster.read() : raster.read(corner));
+  });
+}
+
+void read_features(const std::string& file) {
+  static const std::string ground = gis::reference_system_named("EPSG:31287");
+  for (const auto& read : {gis::read_polygons, gis::read_lines, gis::read_points}) {
+    fuzz::gives_value(file, [&] { static_cast<void>(read(file, ground)); });
+  }
+}
+
+std::string bytes_of(const std::string& file) {
+  vsi_l_offset size = 0;
+  const GByte* const bytes = VSIGetMemFileBuffer(file.c_str(), &size, FALSE);
+  return bytes == nullptr ? "" : std::string(reinterpret_cast<const char*>(bytes), size);
+}
+
+// A layer of a square with attributes, as the driver writes it.
+void write_layer(const char* driver, const std::string& file) {
+  const GDALDatasetUniquePtr dataset(
+      GetGDALDriverManager()->GetDriverByName(driver)->Create(file.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  OGRSpatialReference system;
+  system.importFromEPSG(31287);
+  OGRLayer& layer = *dataset->CreateLayer("area", &system, wkbPolygon, nullptr);
+  OGRFieldDefn name("name", OFTString), thickness("thickness", OFTReal);
+  layer.CreateField(&name);
+  layer.CreateField(&thickness);
+  const std::unique_ptr<OGRFeature> feature(OGRFeature::CreateFeature(layer.GetLayerDefn()));
+  feature->SetField("name", "a");
+  feature->SetField("thickness", 12.5);
+  OGRGeometry* square = nullptr;
+  OGRGeometryFactory::createFromWkt("POLYGON ((400000 300000,400100 300000,400100 300100,400000 300100,400000 300000))",
+                                    &system, &square);
+  feature->SetGeometryDirectly(square);
+  static_cast<void>(layer.CreateFeature(feature.get()));
+}
+
+struct SoundFiles {
+  std::string geopackage, shape, shape_index, shape_table, tiff, tiled;
+};
+
+const SoundFiles& sound_files() {
+  static const SoundFiles made = [] {
+    SoundFiles files;
+    const std::string folder = fuzz::memory + "sound/";
+    write_layer("GPKG", folder + "area.gpkg");
+    write_layer("ESRI Shapefile", folder + "area.shp");
+    files.geopackage = bytes_of(folder + "area.gpkg");
+    files.shape = bytes_of(folder + "area.shp");
+    files.shape_index = bytes_of(folder + "area.shx");
+    files.shape_table = bytes_of(folder + "area.dbf");
+    Raster raster;
+    raster.x = fuzz::west;
+    raster.y = fuzz::south;
+    raster.columns = raster.rows = 8;
+    raster.values.assign(64, 1000.0);
+    raster.crs = gis::reference_system_named("EPSG:31287");
+    gis::write_geotiff((fuzz::folder() / "tiled.tif").string(), raster, {"m", "elevation"});
+    std::ifstream tiled(fuzz::folder() / "tiled.tif", std::ios::binary);
+    files.tiled.assign(std::istreambuf_iterator<char>(tiled), {});
+    Provider nothing(nullptr, 0);
+    files.tiff = bytes_of(fuzz::raster_from(nothing, "sound/plain.tif", 1000.0, 1100.0));
+    return files;
+  }();
+  return made;
+}
+
+// The file with some of its bytes overwritten, or cut off.
+std::string changed(std::string file, Provider& bytes) {
+  while (bytes.remaining_bytes() > 0 && !file.empty()) {
+    const auto place = bytes.ConsumeIntegralInRange<std::size_t>(0, file.size() - 1);
+    const std::string put = bytes.ConsumeRandomLengthString(8);
+    if (put.empty() && fuzz::chance(bytes, 8)) {
+      file.resize(place);
+      continue;
+    }
+    for (std::size_t k = 0; k < put.size() && place + k < file.size(); ++k) {
+      file[place + k] = put[k];
+    }
+  }
+  return file;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  fuzz::prepare_gdal();
+  if (size == 0) {
+    return 0;
+  }
+  const SoundFiles& sound = sound_files();
+  Provider bytes(data + 1, size - 1);
+  switch (data[0]) {
+    case 't':
+      read_raster(fuzz::in_memory("map.tif", bytes.ConsumeRemainingBytesAsString()));
+      break;
+    case 'a':
+      read_raster(fuzz::in_memory("map.asc", bytes.ConsumeRemainingBytesAsString()));
+      break;
+    case 'j':
+      read_features(fuzz::in_memory("area.geojson", bytes.ConsumeRemainingBytesAsString()));
+      break;
+    case 'p':
+      read_raster(fuzz::in_memory("map.tif", changed(sound.tiff, bytes)));
+      break;
+    case 'd':
+      read_raster(fuzz::in_memory("map.tif", changed(sound.tiled, bytes)));
+      break;
+    case 'g':
+      read_features(fuzz::in_memory("area.gpkg", changed(sound.geopackage, bytes)));
+      break;
+    case 's':
+      fuzz::in_memory("area.shx", sound.shape_index);
+      fuzz::in_memory("area.dbf", sound.shape_table);
+      read_features(fuzz::in_memory("area.shp", changed(sound.shape, bytes)));
+      break;
+    default:
+      return -1;
+  }
+  VSIRmdirRecursive(fuzz::memory.c_str());
+  return 0;
+}

@@ -1,0 +1,64 @@
+// What the targets have in common: a folder for the bytes, and what a reader may do with them.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "base/error.hpp"
+
+namespace thawslide::fuzz {
+
+// A folder of this process, in memory where the system has such a place.
+inline const std::filesystem::path& folder() {
+  static const std::filesystem::path made = [] {
+    const std::filesystem::path memory = "/dev/shm";
+    std::filesystem::path path = std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path();
+    path /= "thawslide-fuzz-" + std::to_string(getpid());
+    std::filesystem::create_directories(path);
+    std::atexit([] {
+      std::error_code ignored;
+      std::filesystem::remove_all(folder(), ignored);
+    });
+    return path;
+  }();
+  return made;
+}
+
+inline std::filesystem::path write(const std::string& name, std::string_view bytes) {
+  std::filesystem::path file = folder() / name;
+  std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return file;
+}
+
+[[noreturn]] inline void fail(const std::string& what) {
+  std::fprintf(stderr, "FINDING: %s\n", what.c_str());
+  std::abort();
+}
+
+// Whether `read` gave a value. A reader may throw what tells the user of a mistake, with a file's name in it; whatever
+// else it throws ends the process as a finding.
+template <class Read>
+bool gives_value(const std::string& file, const Read& read) {
+  const auto told = [&](const std::exception& error) {
+    if (std::string_view(error.what()).find(file) == std::string_view::npos) {
+      fail(fmt::format("the message does not name {}: {}", file, error.what()));
+    }
+    return false;
+  };
+  try {
+    read();
+    return true;
+  } catch (const UserError& error) {
+    return told(error);
+  } catch (const RunError& error) {
+    return told(error);
+  }
+}
+
+}  // namespace thawslide::fuzz
