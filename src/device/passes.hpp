@@ -1,0 +1,89 @@
+// Passes over particles and sums at nodes, run by a backend.
+#pragma once
+
+#include "device/array.hpp"
+#include "device/node_sums.hpp"
+#include "device/particle_pass.hpp"
+
+namespace thawslide::device {
+
+// Room of a pass that is kept from step to step: patches, and what kernels sum.
+template <class Backend, class Real>
+class PassMemory {
+ public:
+  explicit PassMemory(Backend& backend) : patches_(backend), sums_(backend) {}
+
+  [[nodiscard]] Real* patches(std::size_t numbers) {
+    patches_.resize(numbers > patches_.size() ? numbers : patches_.size());
+    return patches_.data();
+  }
+  // So many, the last of which becomes their sum.
+  template <class Sums>
+  [[nodiscard]] Sums* sums(std::size_t count) {
+    sums_.resize(count * sizeof(Sums) > sums_.size() ? count * sizeof(Sums) : sums_.size());
+    return reinterpret_cast<Sums*>(sums_.data());
+  }
+
+ private:
+  Array<Real, Backend> patches_;
+  Array<std::byte, Backend> sums_;
+};
+
+// As mpm::particle_pass, with kernels that hold what they need by value. What they add stands in the patches of
+// `memory` then; returns where in the device's memory their sums over particles stand until the next pass. records: of
+// what is read, by name.
+template <class Backend, class Weights, class Takes, int Dim, class Real, class Records, class... Kernels>
+SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& memory,
+                                  const PassOver<Weights, Takes, Dim, Real>& over, const Records& records,
+                                  const Kernels&... kernels) {
+  using Reads = mpm::AllOf<typename Kernels::Reads...>;
+  using Adds = mpm::AllOf<typename Kernels::Adds...>;
+  using Pass = ParticlePass<PassOver<Weights, Takes, Dim, Real>, Reads, Adds, Dim, Real, Kernels...>;
+  const std::size_t tiles = over.tables.tiles;
+  auto* sums = memory.template sums<SumsOf<Kernels...>>(tiles + 1);
+  const Pass pass{over,
+                  RecordsRead<Reads, Real>::from(records),
+                  memory.patches(tiles * Pass::patch_nodes * Pass::size),
+                  sums,
+                  {{kernels}...}};
+  backend.for_groups(tiles, Pass::Room::threads, Pass::Room::bytes, pass);
+  if constexpr (Pass::adds_up) {
+    backend.for_each(1, AddUp<SumsOf<Kernels...>>{sums, tiles, sums + tiles});
+  }
+  return sums + tiles;
+}
+
+// A kernel that neither reads nor adds to nodes, for a particle as it stands in memory.
+template <int Dim, class Real, class Kernel>
+struct VisitInMemory {
+  mpm::ParticleView<Dim, Real> particles;
+  Kernel kernel;
+  typename Kernel::Account* accounts;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    const mpm::One<Real> at{{static_cast<std::uint32_t>(k)}};
+    mpm::ParticleView<Dim, Real> view = particles;
+    const mpm::ByName<> seen{};
+    mpm::ByName<> added{};
+    typename Kernel::Account account{};
+    kernel(view, at, seen, added, account);
+    accounts[k] = account;
+  }
+};
+
+// As mpm::for_particles_in_memory; returns where in the device's memory the sum of the accounts stands until the next
+// pass. Sums of reals are those of another order.
+template <class Backend, int Dim, class Real, class Kernel>
+typename Kernel::Account* for_particles_in_memory(Backend& backend, PassMemory<Backend, Real>& memory,
+                                                  const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
+                                                  const Kernel& kernel) {
+  static_assert(std::is_same_v<typename Kernel::Reads, mpm::RecordList<>> &&
+                std::is_same_v<typename Kernel::Adds, mpm::RecordList<>>);
+  using Account = typename Kernel::Account;
+  Account* accounts = memory.template sums<Account>(count + 1);
+  backend.for_each(count, VisitInMemory<Dim, Real, Kernel>{particles, kernel, accounts});
+  backend.for_each(1, AddUp<Account>{accounts, count, accounts + count});
+  return accounts + count;
+}
+
+}  // namespace thawslide::device
