@@ -68,13 +68,17 @@ __global__ void run_groups(const __grid_constant__ Work work) {
   work(group, static_cast<std::size_t>(blockIdx.x));
 }
 
+struct NoWork {
+  THAWSLIDE_HD void operator()(std::size_t /*k*/) const {}
+};
+
 class Cuda {
  public:
   // The card that the process uses; throws where there is none that this program is for.
   Cuda() {
     expect_done(cudaGetDevice(&card_), "looking for a card");
     cudaFuncAttributes attributes;
-    expect_done(cudaFuncGetAttributes(&attributes, run_each<Probe>), "asking the card to run this program");
+    expect_done(cudaFuncGetAttributes(&attributes, run_each<NoWork>), "asking the card to run this program");
   }
   Cuda(const Cuda&) = delete;
   Cuda& operator=(const Cuda&) = delete;
@@ -149,9 +153,6 @@ class Cuda {
   void wait() { expect_done(cudaDeviceSynchronize(), "waiting for the card"); }
 
  private:
-  struct Probe {
-    THAWSLIDE_HD void operator()(std::size_t /*k*/) const {}
-  };
   // Memory that is kept between calls.
   struct Room {
     void* memory = nullptr;

@@ -46,41 +46,41 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   Sums* sums;     // by tile
   mpm::ByName<mpm::Named<Kernels, Kernels>...> kernels;
 
-  // Particles in canonical order from `begin` to before `end`, of cells from `cell` on.
+  // Particles in canonical order from `first` to before `last`, of cells from `cell` on.
   struct Chunk {
-    std::size_t tile, begin, end, cell, cells, number;
+    std::size_t tile, first, last, cell, cells, number;
   };
 
   template <class Group>
   THAWSLIDE_HD void operator()(Group& group, std::size_t tile) const {
     const Room room(group.shared());
-    const std::size_t last = first_of_cell(tile, nodes);
+    const std::size_t end = first_of_cell(tile, nodes);
     if (!over.takes(tile)) {
       group.each(1, [this, tile](std::size_t /*k*/) { sums[tile] = {}; });
       return;
     }
-    (fetch<Reads>(group, room, tile), ...);
-    begin(group, room, tile);
+    (this->template fetch<Reads>(group, room, tile), ...);
+    prepare(group, room, tile);
     group.barrier();
     Chunk chunk{tile, first_of_cell(tile, 0), 0, 0, 0, 0};
-    for (; chunk.begin < last; chunk.begin = chunk.end, ++chunk.number) {
-      while (first_of_cell(tile, chunk.cell + 1) <= chunk.begin) {
+    for (; chunk.first < end; chunk.first = chunk.last, ++chunk.number) {
+      while (first_of_cell(tile, chunk.cell + 1) <= chunk.first) {
         ++chunk.cell;
       }
       chunk.cells = chunk.cell + Room::most_cells < nodes ? Room::most_cells : nodes - chunk.cell;
       const std::size_t of_cells = first_of_cell(tile, chunk.cell + chunk.cells);
-      chunk.end = chunk.begin + Room::capacity < of_cells ? chunk.begin + Room::capacity : of_cells;
-      group.each(chunk.end - chunk.begin, [this, chunk, room](std::size_t k) { visit(chunk, room, k); });
+      chunk.last = chunk.first + Room::capacity < of_cells ? chunk.first + Room::capacity : of_cells;
+      group.each(chunk.last - chunk.first, [this, chunk, room](std::size_t k) { visit(chunk, room, k); });
       group.barrier();
       if constexpr (adds_up) {
         group.each(1, [chunk, room](std::size_t /*k*/) { add_up(chunk, room); });
       }
-      (add<Adds>(group, room, chunk), ...);
+      (this->template add<Adds>(group, room, chunk), ...);
       if constexpr (!adds && adds_up) {
         group.barrier();
       }
     }
-    end(group, room, tile);
+    leave(group, room, tile);
   }
 
  private:
@@ -104,7 +104,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   // The patch before anything is added. An owner's record has been added to already.
   template <class Group>
-  THAWSLIDE_HD void begin(Group& group, const Room& room, std::size_t tile) const {
+  THAWSLIDE_HD void prepare(Group& group, const Room& room, std::size_t tile) const {
     if constexpr (adds) {
       group.each(patch_nodes * size, [this, room, tile](std::size_t k) {
         room.patch()[k] = Room::goes_on ? patches[tile * patch_nodes * size + k] : Real(0);
@@ -116,7 +116,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     }
   }
   template <class Group>
-  THAWSLIDE_HD void end(Group& group, const Room& room, std::size_t tile) const {
+  THAWSLIDE_HD void leave(Group& group, const Room& room, std::size_t tile) const {
     if constexpr (adds) {
       group.barrier();
       group.each(patch_nodes * size,
@@ -128,7 +128,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   }
 
   template <class Name>
-  static constexpr std::size_t first =
+  static constexpr std::size_t first_component =
       mpm::IsLowered<Name> ? mpm::part_of<Name, Dim>.from : mpm::first_in_register<Name, Dim>;
   // Of a sum, or of what is lowered.
   template <class Name>
@@ -137,7 +137,8 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   // What is to be lowered begins beyond all bounds.
   template <class Name>
   THAWSLIDE_HD static void raise(std::size_t component, Real& number) {
-    if (mpm::IsLowered<Name> && component >= first<Name> && component < first<Name> + mpm::carried_numbers<Name, Dim>) {
+    if (mpm::IsLowered<Name> && component >= first_component<Name> &&
+        component < first_component<Name> + mpm::carried_numbers<Name, Dim>) {
       number = start<Name>;
     }
   }
@@ -147,7 +148,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     auto& slot = room.slots()[k];
     slot.sums = {};
     const TileTables<Dim>& tables = over.tables;
-    const std::size_t place = chunk.begin + k;
+    const std::size_t place = chunk.first + k;
     const std::size_t node = tables.keys[place] & (nodes - 1), lowest = lowest_about<Dim>(node);
     if (!over.takes(chunk.tile, lowest)) {
       return;
@@ -184,7 +185,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   THAWSLIDE_HD static void add_up(const Chunk& chunk, const Room& room) {
     Sums sum = *room.sums();
-    for (std::size_t k = 0; k < chunk.end - chunk.begin; ++k) {
+    for (std::size_t k = 0; k < chunk.last - chunk.first; ++k) {
       sum += room.slots()[k].sums;
     }
     *room.sums() = sum;
@@ -199,8 +200,8 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   [[nodiscard]] THAWSLIDE_HD CellPart part_of_cell(const Chunk& chunk, std::size_t k) const {
     const std::size_t cell = chunk.cell + k;
     const std::size_t from = first_of_cell(chunk.tile, cell), to = first_of_cell(chunk.tile, cell + 1);
-    CellPart part{from < chunk.begin ? chunk.begin : from, to < chunk.end ? to : chunk.end, from >= chunk.begin,
-                  to <= chunk.end};
+    CellPart part{from < chunk.first ? chunk.first : from, to < chunk.last ? to : chunk.last, from >= chunk.first,
+                  to <= chunk.last};
     if (!part.is_there() || !over.takes(chunk.tile, lowest_about<Dim>(cell))) {
       part.last = part.first;
     }
@@ -235,7 +236,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       sum[c] = part.begins ? start<Name> : open[c];
     }
     for (std::size_t p = part.first; p < part.last; ++p) {
-      const auto& slot = room.slots()[p - chunk.begin];
+      const auto& slot = room.slots()[p - chunk.first];
       const auto& stencil = slot.template stencil<Name>();
       const auto& brought = slot.carried.template of<Name>();
       for (std::size_t c = 0; c < carried; ++c) {
@@ -251,7 +252,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   template <class Name>
   THAWSLIDE_HD void add_cells(const Room& room, const Chunk& chunk, std::size_t node, std::size_t component) const {
     constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
-    Real& number = room.patch()[node * size + first<Name> + component];
+    Real& number = room.patch()[node * size + first_component<Name> + component];
     for_cells_that_see(node, [&](std::size_t cell, std::size_t node_of_cell) {
       const std::size_t k = cell - chunk.cell;
       if (cell < chunk.cell || k >= chunk.cells) {
