@@ -164,6 +164,22 @@ struct Fill {
   THAWSLIDE_HD void operator()(std::size_t k) const { numbers[k] = number; }
 };
 
+// One of some sums, kept or added to another.
+template <class Sum>
+struct Keep {
+  const Sum* from;
+  Sum* to;
+
+  THAWSLIDE_HD void operator()(std::size_t /*k*/) const { *to = *from; }
+};
+template <class Sum>
+struct Add {
+  const Sum* from;
+  Sum* to;
+
+  THAWSLIDE_HD void operator()(std::size_t /*k*/) const { *to += *from; }
+};
+
 struct Count {
   std::uint32_t* numbers;
 

@@ -15,10 +15,10 @@ namespace thawslide::device {
 // Of a pass that takes all tiles and all their particles.
 struct EveryTile {
   THAWSLIDE_HD bool operator()(std::size_t /*tile*/) const { return true; }
-  THAWSLIDE_HD bool operator()(std::size_t /*tile*/, std::size_t /*lowest*/) const { return true; }
+  THAWSLIDE_HD bool operator()(std::size_t /*tile*/, std::size_t /*cell*/) const { return true; }
 };
 
-// What a pass is given, but for its kernels. Takes: of a tile, and of one with the lowest node that particles see.
+// What a pass is given, but for its kernels. Takes: of a tile, and of a tile and a cell of it.
 template <class Weights, class Takes, int Dim, class Real>
 struct PassOver {
   TileTables<Dim> tables;
@@ -150,7 +150,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     const TileTables<Dim>& tables = over.tables;
     const std::size_t place = chunk.first + k;
     const std::size_t node = tables.keys[place] & (nodes - 1), lowest = lowest_about<Dim>(node);
-    if (!over.takes(chunk.tile, lowest)) {
+    if (!over.takes(chunk.tile, node)) {
       return;
     }
     const mpm::One<Real> at{{tables.order[place]}};
@@ -202,7 +202,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     const std::size_t from = first_of_cell(chunk.tile, cell), to = first_of_cell(chunk.tile, cell + 1);
     CellPart part{from < chunk.first ? chunk.first : from, to < chunk.last ? to : chunk.last, from >= chunk.first,
                   to <= chunk.last};
-    if (!part.is_there() || !over.takes(chunk.tile, lowest_about<Dim>(cell))) {
+    if (!part.is_there() || !over.takes(chunk.tile, cell)) {
       part.last = part.first;
     }
     return part;
@@ -286,22 +286,6 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
         }
       }
     }
-  }
-};
-
-// Adds up what tiles, blocks or particles sum, one after the other.
-template <class Sum>
-struct AddUp {
-  const Sum* parts;
-  std::size_t count;
-  Sum* sum;
-
-  THAWSLIDE_HD void operator()(std::size_t /*k*/) const {
-    Sum all{};
-    for (std::size_t k = 0; k < count; ++k) {
-      all += parts[k];
-    }
-    *sum = all;
   }
 };
 

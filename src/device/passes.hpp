@@ -1,6 +1,7 @@
 // Passes over particles and sums at nodes, run by a backend.
 #pragma once
 
+#include "device/add_up.hpp"
 #include "device/array.hpp"
 #include "device/node_sums.hpp"
 #include "device/particle_pass.hpp"
@@ -48,42 +49,28 @@ SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& m
                   {{kernels}...}};
   backend.for_groups(tiles, Pass::Room::threads, Pass::Room::bytes, pass);
   if constexpr (Pass::adds_up) {
-    backend.for_each(1, AddUp<SumsOf<Kernels...>>{sums, tiles, sums + tiles});
+    add_up(backend, sums, tiles, sums + tiles);
   }
   return sums + tiles;
 }
 
-// A kernel that neither reads nor adds to nodes, for a particle as it stands in memory.
+// A kernel that neither reads nor adds to nodes, nor sums, for a particle as it stands in memory.
 template <int Dim, class Real, class Kernel>
 struct VisitInMemory {
+  static_assert(std::is_same_v<typename Kernel::Reads, mpm::RecordList<>> &&
+                std::is_same_v<typename Kernel::Adds, mpm::RecordList<>> &&
+                std::is_same_v<typename Kernel::Account, mpm::NoAccount>);
+
   mpm::ParticleView<Dim, Real> particles;
   Kernel kernel;
-  typename Kernel::Account* accounts;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    const mpm::One<Real> at{{static_cast<std::uint32_t>(k)}};
     mpm::ParticleView<Dim, Real> view = particles;
     const mpm::ByName<> seen{};
     mpm::ByName<> added{};
-    typename Kernel::Account account{};
-    kernel(view, at, seen, added, account);
-    accounts[k] = account;
+    mpm::NoAccount account;
+    kernel(view, mpm::One<Real>{{static_cast<std::uint32_t>(k)}}, seen, added, account);
   }
 };
-
-// As mpm::for_particles_in_memory; returns where in the device's memory the sum of the accounts stands until the next
-// pass. Sums of reals are those of another order.
-template <class Backend, int Dim, class Real, class Kernel>
-typename Kernel::Account* for_particles_in_memory(Backend& backend, PassMemory<Backend, Real>& memory,
-                                                  const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
-                                                  const Kernel& kernel) {
-  static_assert(std::is_same_v<typename Kernel::Reads, mpm::RecordList<>> &&
-                std::is_same_v<typename Kernel::Adds, mpm::RecordList<>>);
-  using Account = typename Kernel::Account;
-  Account* accounts = memory.template sums<Account>(count + 1);
-  backend.for_each(count, VisitInMemory<Dim, Real, Kernel>{particles, kernel, accounts});
-  backend.for_each(1, AddUp<Account>{accounts, count, accounts + count});
-  return accounts + count;
-}
 
 }  // namespace thawslide::device

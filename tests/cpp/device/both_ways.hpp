@@ -35,12 +35,14 @@ struct Pass {
 inline constexpr auto everywhere = [](const auto& /*ground*/) { return true; };
 
 // The same on a device, which asks of every particle.
-template <class Takes>
+template <class Takes, int Dim>
 struct TakesOnDevice {
   Takes takes;
 
   bool operator()(std::size_t tile) const { return takes(tile); }
-  bool operator()(std::size_t tile, std::size_t lowest) const { return mpm::takes_nodes(takes, tile, lowest); }
+  bool operator()(std::size_t tile, std::size_t cell) const {
+    return mpm::takes_nodes(takes, tile, device::lowest_about<Dim>(cell));
+  }
 };
 
 inline device::LinearWeights on_device(const mpm::LinearWeights& /*weights*/) { return {}; }
@@ -89,6 +91,9 @@ inline void take_sum(const mpm::NoAccount& /*sum*/, std::vector<double>& /*numbe
 inline void take_sum(const mpm::Deformed<double>& sum, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {sum.work.total, sum.work.plastic, sum.work.viscous, sum.work.pore,
                                  static_cast<double>(sum.bad.id), static_cast<double>(sum.bad.fault)});
+}
+inline void take_sum(const mpm::BadParticle& sum, std::vector<double>& numbers) {
+  numbers.insert(numbers.end(), {static_cast<double>(sum.id), static_cast<double>(sum.fault)});
 }
 inline void take_sum(const band::DrainedWater<double>& sum, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {sum.mass, sum.heat});
@@ -191,7 +196,7 @@ std::vector<double> run_on_device(Host host, const Pass<Records, Takes, Asked>& 
   device::PassMemory<Host, double> memory(in_order);
   std::fill_n(memory.patches(numbers), numbers, 0.0);
   const RecordsOnDevice<Reads> records(scene.grid, pass.records);
-  const device::PassOver<decltype(on_device(weights)), TakesOnDevice<Takes>, Dim, double> over{
+  const device::PassOver<decltype(on_device(weights)), TakesOnDevice<Takes, Dim>, Dim, double> over{
       cells.tables(), on_host.view(), on_device(weights), {pass.takes}, scene.grid.cell()};
   const auto* all = device::particle_pass(host, memory, over, records, kernels...);
   if constexpr ((!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...)) {

@@ -58,7 +58,7 @@ void expect_the_bits_near_the_ground(Scene<Dim>& scene, const Weights& weights, 
                            terrain::MarkBand<Dim, double>{dt});
 }
 
-// New positions by tiles, in memory and by groups; some particles would leave the domain.
+// New positions by tiles and in memory; some particles would leave the domain.
 template <int Dim>
 void expect_the_same_positions(Scene<Dim>& scene) {
   Vector<double, Dim> lower = Vector<double, Dim>::Constant(-1e3), upper = -lower;
@@ -76,14 +76,11 @@ void expect_the_same_positions(Scene<Dim>& scene) {
         mpm::particle_pass(scene.grid, mpm::LinearWeights{}, particles, scene.nodes, mpm::every_tile, kernel));
   });
   const Bits in_memory = bits([&](auto& particles) { return mpm::for_particles_in_memory(particles, kernel); });
-  const Bits by_threads = bits([&](auto& particles) {
-    Host host(ThreadOrder::shuffled, 7);
-    device::PassMemory<Host, double> memory(host);
-    return *device::for_particles_in_memory(host, memory, mpm::view_of(particles), particles.size(), kernel);
-  });
   EXPECT_TRUE(are_same(by_tiles, in_memory));
-  EXPECT_TRUE(are_same(by_tiles, by_threads));
   EXPECT_NE(by_tiles.at("position"), fields_by_id(scene.particles).at("position"));
+  const Pass<mpm::Nodes<Dim, double>, decltype(mpm::every_tile), decltype(everywhere)> pass{
+      "positions", scene.nodes, mpm::every_tile, everywhere};
+  expect_the_bits_of_lanes(pass, scene, mpm::LinearWeights{}, kernel);
   for (const mpm::BadParticle& found : bad) {
     EXPECT_EQ(found.fault, mpm::Fault::left_domain);
     EXPECT_EQ(found.id, bad.front().id);
