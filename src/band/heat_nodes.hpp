@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "band/heat.hpp"
+#include "band/nodal_state.hpp"
 #include "mpm/node_pass.hpp"
 
 namespace thawslide::band {
@@ -42,17 +43,11 @@ struct SetNodalState {
   bool has_faces = any_face_condition(model);
 
   void operator()(mpm::Nodes<Dim, Real>& nodes, const mpm::NodeAt& at) const {
-    using mpm::Averages, mpm::NodalState;
-    const auto& averages = nodes.averages(at);
     auto& state = nodes.state(at);
-    state.fill(Real(0));
-    if (averages[Averages::volume] > Real(0)) {
-      const Real inverse_volume = Real(1) / averages[Averages::volume];
-      state[NodalState::temperature] = averages[Averages::temperature] * inverse_volume;
-      state[NodalState::pore_pressure] = averages[Averages::pore_pressure] * inverse_volume;
+    if (set_nodal_state<Dim, Real>(nodes.averages(at), state)) {
       const HeatFace<Real>* face = has_faces ? face_of(grid, model, at) : nullptr;
       if (face != nullptr && face->kind == FaceHeat::temperature) {
-        state[NodalState::temperature] = face->value;
+        state[mpm::NodalState::temperature] = face->value;
       }
     }
   }

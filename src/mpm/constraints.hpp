@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "mpm/domain_faces.hpp"
 #include "mpm/nodes.hpp"
 
 namespace thawslide::mpm {
-
-enum class FaceKind { open, roller, fixed };
 
 // A box that moves with a velocity along one axis and prescribes that component of velocity at the nodes within.
 template <int Dim, class Real>
@@ -25,14 +24,12 @@ struct RigidFrame {
 };
 
 template <int Dim, class Real>
-struct Constraints {
-  Vector<Real, Dim> extent;      // upper corner of the domain [m]; the lower corner is the origin
-  FaceKind faces[2 * Dim] = {};  // lower and upper face of each axis
+struct Constraints : DomainFaces<Dim, Real> {
   std::vector<RigidFrame<Dim, Real>> frames;
 
   // Sets the prescribed components of a node's momentum; true if any was set by a frame.
   bool apply(const Vector<Real, Dim>& position, Real mass, Real time, Vector<Real, Dim>& momentum) const {
-    apply_faces(position, momentum);
+    this->apply_faces(position, momentum);
     bool in_frame = false;
     for (const RigidFrame<Dim, Real>& frame : frames) {
       const Vector<Real, Dim> place = position - frame.shift(time);
@@ -47,8 +44,8 @@ struct Constraints {
   // Whether apply might set anything at positions between two corners.
   [[nodiscard]] bool may_apply(const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper, Real time) const {
     for (int a = 0; a < Dim; ++a) {
-      if ((at_lower(lower[a], a) && faces[2 * a] != FaceKind::open) ||
-          (at_upper(upper[a], a) && faces[2 * a + 1] != FaceKind::open)) {
+      if ((this->at_lower(lower[a], a) && this->faces[2 * a] != FaceKind::open) ||
+          (this->at_upper(upper[a], a) && this->faces[2 * a + 1] != FaceKind::open)) {
         return true;
       }
     }
@@ -57,23 +54,6 @@ struct Constraints {
       return ((upper - shift).array() >= frame.lower.array()).all() &&
              ((lower - shift).array() <= frame.upper.array()).all();
     });
-  }
-
- private:
-  [[nodiscard]] bool at_lower(Real along, int a) const { return along <= round_off<Real> * extent[a]; }
-  [[nodiscard]] bool at_upper(Real along, int a) const { return along >= extent[a] * (Real(1) - round_off<Real>); }
-
-  void apply_faces(const Vector<Real, Dim>& position, Vector<Real, Dim>& momentum) const {
-    for (int a = 0; a < Dim; ++a) {
-      const FaceKind kind = at_lower(position[a], a)   ? faces[2 * a]
-                            : at_upper(position[a], a) ? faces[2 * a + 1]
-                                                       : FaceKind::open;
-      if (kind == FaceKind::fixed) {
-        momentum.setZero();
-      } else if (kind == FaceKind::roller) {
-        momentum[a] = Real(0);
-      }
-    }
   }
 };
 
@@ -102,6 +82,16 @@ class BlockConstraints {
   std::size_t block_;
   Real time_;
   bool any_;
+};
+
+// At one of its nodes.
+template <int Dim, class Real>
+struct NodeConstraints {
+  const BlockConstraints<Dim, Real>& of_block;
+  std::size_t node;
+
+  [[nodiscard]] bool any() const { return of_block.any(); }
+  bool apply(Real mass, Vector<Real, Dim>& momentum) const { return of_block.apply(node, mass, momentum); }
 };
 
 }  // namespace thawslide::mpm

@@ -3,6 +3,7 @@
 
 #include "mpm/records.hpp"
 #include "mpm/transfer.hpp"
+#include "mpm/vectors_in_records.hpp"
 
 namespace thawslide::mpm {
 
@@ -61,20 +62,6 @@ Vector<Real, Dim> node_position(const SparseGrid<Dim, Real>& grid, std::size_t b
     position[a] = static_cast<Real>(index[static_cast<std::size_t>(a)]) * grid.cell();
   }
   return position;
-}
-
-// Whole vectors go in and out of records, never component by component: a vector put together in memory stalls its
-// next use.
-template <int Dim, class Real, class Record>
-THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> vector_at(const Record& record, std::size_t first) {
-  return Eigen::Map<const Vector<Real, Dim>>(record.data() + first);
-}
-
-template <int Dim, class Record, class Value>
-void set_vector(Record& record, std::size_t first, const Value& v) {
-  for (std::size_t a = 0; a < Dim; ++a) {
-    record[first + a] = v[static_cast<int>(a)];
-  }
 }
 
 }  // namespace thawslide::mpm

@@ -1,5 +1,5 @@
 // What a thread with one particle does in a pass: the particle's weights, what it reads by them, what it adds. On the
-// processor (mpm/group_pass.hpp) and on devices alike.
+// processor and on devices alike (device/particle_pass.hpp).
 #pragma once
 
 #include <array>
@@ -21,31 +21,16 @@ struct OneContribution {
 
   Real value[size] = {};
   Real flux[Dim][record_step] = {};
-
-  // As shared memory is before anything is in it.
-  void fill(Real number) {
-    for (Real& one : value) {
-      one = number;
-    }
-    for (auto& along : flux) {
-      for (Real& one : along) {
-        one = number;
-      }
-    }
-  }
 };
 
 // The same of what it lowers.
 template <class Real, std::size_t Count>
-struct OneBounds : Bounds<Real, Count> {
-  static constexpr std::size_t size = Count;
+struct OneBounds : Bounds<Real, Count> {};
 
-  void fill(Real number) {
-    for (Real& one : this->value) {
-      one = number;
-    }
-  }
-};
+// What one particle carries to a record of some name.
+template <class Name, int Dim, class Real>
+using CarriedByOne = std::conditional_t<IsLowered<Name>, OneBounds<Real, carried_numbers<Name, Dim>>,
+                                        OneContribution<Real, Dim, carried_numbers<Name, Dim>>>;
 
 // Where a particle stands: from its nearest node, in cells; the lowest node that it sees, by its place in the tile's
 // patch; whether the nearest node lies, along each axis, on a side of the domain that prescribes velocity.

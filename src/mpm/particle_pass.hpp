@@ -107,18 +107,12 @@ struct SeenByBatch {
   }
 };
 
-// What particles add to a record, and a tile's sums of it. A record that has an owner is another way to add to the
-// owner's: with other weights, to one of its registers. Where the owner's particles add to the same components, it
-// takes a pass of its own after the owner's; else it may stand after it in one list.
-template <class Name>
-concept OfAnOwner = requires {
-  typename Name::Owner;
-};
+// What batches add to a record, and a tile's sums of it.
 template <class Name, int Dim, class Real>
 struct Adding {
   static constexpr int size = components_of<Name, Dim>;
   static constexpr std::size_t first = first_in_register<Name, Dim>;
-  static constexpr std::size_t carried = place_in_register<Name, Dim> + part_of<Name, Dim>.count;
+  static constexpr std::size_t carried = carried_numbers<Name, Dim>;
   static constexpr bool has_flux = Name::flux != no_flux;
   static_assert(first == 0 || carried <= record_step);
   using Carried = Contribution<Dim, Real, carried>;
@@ -128,8 +122,7 @@ struct Adding {
 };
 template <IsLowered Name, int Dim, class Real>
 struct Adding<Name, Dim, Real> {
-  static constexpr std::size_t first = part_of<Name, Dim>.from, carried = part_of<Name, Dim>.count;
-  static constexpr bool has_flux = false;
+  static constexpr std::size_t first = part_of<Name, Dim>.from, carried = carried_numbers<Name, Dim>;
   using Carried = Bounds<Lanes<Real>, carried>;
   using Sums = PatchMinima<first, carried, Dim, Real, components_of<Name, Dim>>;
 };

@@ -32,50 +32,57 @@ struct ParticleView {
   Scalar volume_strain, previous_temperature, secant_capacity, conduction_in_cell, seepage_in_cell, load_change;
 };
 
+// Calls visit(field of a, field of b) for each field, in order. a, b: views, or particles.
+template <class A, class B, class Visit>
+void for_fields_of(A& a, B& b, const Visit& visit) {
+  visit(a.id, b.id);
+  visit(a.body, b.body);
+  visit(a.material, b.material);
+  visit(a.mass, b.mass);
+  visit(a.volume, b.volume);
+  visit(a.initial_volume, b.initial_volume);
+  visit(a.position, b.position);
+  visit(a.velocity, b.velocity);
+  visit(a.affine_velocity, b.affine_velocity);
+  visit(a.displacement, b.displacement);
+  visit(a.path_length, b.path_length);
+  visit(a.stress, b.stress);
+  visit(a.viscous_stress, b.viscous_stress);
+  visit(a.plastic_strain, b.plastic_strain);
+  visit(a.gap, b.gap);
+  visit(a.temperature, b.temperature);
+  visit(a.heat_content, b.heat_content);
+  visit(a.initial_heat_content, b.initial_heat_content);
+  visit(a.liquid_saturation, b.liquid_saturation);
+  visit(a.porosity, b.porosity);
+  visit(a.initial_porosity, b.initial_porosity);
+  visit(a.initial_saturation, b.initial_saturation);
+  visit(a.ice_pressure, b.ice_pressure);
+  visit(a.liquid_pressure, b.liquid_pressure);
+  visit(a.pore_pressure, b.pore_pressure);
+  visit(a.pore_void, b.pore_void);
+  visit(a.normal_load, b.normal_load);
+  visit(a.seeped_water, b.seeped_water);
+  visit(a.flow_depth, b.flow_depth);
+  visit(a.thermal_scaling, b.thermal_scaling);
+  visit(a.contact_offset, b.contact_offset);
+  visit(a.slip, b.slip);
+  visit(a.in_band, b.in_band);
+  visit(a.step_displacement, b.step_displacement);
+  visit(a.volume_strain, b.volume_strain);
+  visit(a.previous_temperature, b.previous_temperature);
+  visit(a.secant_capacity, b.secant_capacity);
+  visit(a.conduction_in_cell, b.conduction_in_cell);
+  visit(a.seepage_in_cell, b.seepage_in_cell);
+  visit(a.load_change, b.load_change);
+}
+
 // Holds until there are more or fewer particles.
 template <int Dim, class Real, template <int, class> class Particles>
 ParticleView<Dim, Real> view_of(Particles<Dim, Real>& particles) {
-  Particles<Dim, Real>& p = particles;
-  return {p.id.view(),
-          p.body.view(),
-          p.material.view(),
-          p.mass.view(),
-          p.volume.view(),
-          p.initial_volume.view(),
-          p.position.view(),
-          p.velocity.view(),
-          p.affine_velocity.view(),
-          p.displacement.view(),
-          p.path_length.view(),
-          p.stress.view(),
-          p.viscous_stress.view(),
-          p.plastic_strain.view(),
-          p.gap.view(),
-          p.temperature.view(),
-          p.heat_content.view(),
-          p.initial_heat_content.view(),
-          p.liquid_saturation.view(),
-          p.porosity.view(),
-          p.initial_porosity.view(),
-          p.initial_saturation.view(),
-          p.ice_pressure.view(),
-          p.liquid_pressure.view(),
-          p.pore_pressure.view(),
-          p.pore_void.view(),
-          p.normal_load.view(),
-          p.seeped_water.view(),
-          p.flow_depth.view(),
-          p.thermal_scaling.view(),
-          p.contact_offset.view(),
-          p.slip.view(),
-          p.in_band.view(),
-          p.step_displacement.view(),
-          p.volume_strain.view(),
-          p.previous_temperature.view(),
-          p.secant_capacity.view(),
-          p.conduction_in_cell.view(),
-          p.seepage_in_cell.view(),
-          p.load_change.view()};
+  ParticleView<Dim, Real> view{};
+  for_fields_of(view, particles, [](auto& of_view, auto& field) { of_view = field.view(); });
+  return view;
 }
 
 }  // namespace thawslide::mpm

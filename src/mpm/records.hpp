@@ -261,6 +261,20 @@ inline constexpr std::size_t first_in_register = part_of<Name, Dim>.from / recor
 template <class Name, int Dim>
 inline constexpr std::size_t place_in_register = part_of<Name, Dim>.from - first_in_register<Name, Dim>;
 
+// A record that has an owner is another way to add to the owner's: with other weights, to one of its registers. Where
+// the owner's particles add to the same components, it takes a pass of its own after the owner's; else it may stand
+// after it in one list.
+template <class Name>
+concept OfAnOwner = requires {
+  typename Name::Owner;
+};
+
+// Numbers that a particle carries to a record, from the register on that holds the first one; or brings to one that it
+// lowers.
+template <class Name, int Dim>
+inline constexpr std::size_t carried_numbers =
+    IsLowered<Name> ? part_of<Name, Dim>.count : place_in_register<Name, Dim> + part_of<Name, Dim>.count;
+
 // What a batch, or one particle, brings to components that it lowers.
 template <class Value, std::size_t Count>
 struct Bounds {

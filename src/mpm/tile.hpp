@@ -6,10 +6,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+
+#include "base/portability.hpp"
 
 namespace thawslide::mpm {
 
-constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+THAWSLIDE_HD constexpr int power(int base, int exponent) {
+  return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
 
 template <int Dim>
 struct Tile {
@@ -27,14 +32,14 @@ struct Tile {
   static constexpr int axis_bits = 18;
   static constexpr int axis_offset = 1 << (axis_bits - 1);
 
-  static std::uint64_t key(const Index& tile) {
+  THAWSLIDE_HD static std::uint64_t key(const Index& tile) {
     std::uint64_t packed = 0;
     for (int a = Dim - 1; a >= 0; --a) {
       packed = (packed << axis_bits) | static_cast<std::uint64_t>(tile[static_cast<std::size_t>(a)] + axis_offset);
     }
     return packed;
   }
-  static Index index(std::uint64_t key) {
+  THAWSLIDE_HD static Index index(std::uint64_t key) {
     Index tile{};
     for (int a = 0; a < Dim; ++a) {
       tile[static_cast<std::size_t>(a)] =
@@ -44,7 +49,7 @@ struct Tile {
   }
 
   // Splits a node index into its tile and its place in the tile.
-  static void split(const Index& node, Index& tile, int& local) {
+  THAWSLIDE_HD static void split(const Index& node, Index& tile, int& local) {
     local = 0;
     for (int a = Dim - 1; a >= 0; --a) {
       const int i = node[static_cast<std::size_t>(a)];
@@ -57,13 +62,13 @@ struct Tile {
   struct Beside {
     int direction, local;
   };
-  static Beside beside(int local, int axis, int shift) {
+  THAWSLIDE_HD static Beside beside(int local, int axis, int shift) {
     const int along = ((local >> (axis * edge_bits)) & (edge - 1)) + shift;
     const int tile = along >> edge_bits;  // rounds down
     return {stencil / 2 + tile * power(3, axis), local + (shift - tile * edge) * power(edge, axis)};
   }
   // Index of the local node of a tile.
-  static Index node(const Index& tile, int local) {
+  THAWSLIDE_HD static Index node(const Index& tile, int local) {
     Index n{};
     for (int a = 0; a < Dim; ++a) {
       n[static_cast<std::size_t>(a)] = tile[static_cast<std::size_t>(a)] * edge + local % edge;
@@ -72,12 +77,24 @@ struct Tile {
     return n;
   }
   // Place in the patch of a node given relative to the tile's first node, each component in [-1, edge].
-  static int in_patch(const Index& relative) {
+  THAWSLIDE_HD static int in_patch(const Index& relative) {
     int place = 0;
     for (int a = Dim - 1; a >= 0; --a) {
       place = place * patch_edge + relative[static_cast<std::size_t>(a)] + 1;
     }
     return place;
+  }
+};
+
+// Node numbers along each axis of the sides of the domain that prescribe velocity.
+template <int Dim>
+struct HeldSides {
+  static constexpr int none = std::numeric_limits<int>::min();
+  std::array<int, Dim> lower, upper;
+
+  HeldSides() {
+    lower.fill(none);
+    upper.fill(none);
   }
 };
 

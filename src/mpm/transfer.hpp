@@ -304,16 +304,4 @@ THAWSLIDE_ALWAYS_INLINE void for_each_node(
   }
 }
 
-// Node numbers along each axis of the sides of the domain that prescribe velocity.
-template <int Dim>
-struct HeldSides {
-  static constexpr int none = std::numeric_limits<int>::min();
-  std::array<int, Dim> lower, upper;
-
-  HeldSides() {
-    lower.fill(none);
-    upper.fill(none);
-  }
-};
-
 }  // namespace thawslide::mpm

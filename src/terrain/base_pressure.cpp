@@ -1,10 +1,8 @@
 #include "terrain/base_pressure.hpp"
 
-#include <algorithm>
-
 #include "base/instances.hpp"
-#include "mpm/batch_transfer.hpp"
-#include "terrain/main_axis.hpp"
+#include "mpm/cell_sums.hpp"
+#include "terrain/contact_node.hpp"
 
 namespace thawslide::terrain {
 
@@ -31,20 +29,15 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
     if (!(nodes.base(b, static_cast<std::size_t>(k))[BaseLayout::load] > Real(0))) {
       continue;
     }
-    const int across = main_axis<Dim, Real>(ground.block(b)[static_cast<std::size_t>(k)].normal);
-    constexpr mpm::AxisWeights<Real> all{{1, 1, 1}, {}}, bell{{Real(0.25), Real(0.5), Real(0.25)}, {}};
-    const auto axis = mpm::for_axes<Dim>([&](int a) { return a == across ? all : bell; });
     typename T::Index lowest = T::node({}, k);
     for (int& along : lowest) {
       --along;
     }
-    Real load = 0, covered = 0;
-    mpm::for_each_node<Dim>(axis, static_cast<std::size_t>(T::in_patch(lowest)),
-                            [&](std::size_t place, Real weight, const Vector<Real, Dim>& /*slope*/) {
-                              load += weight * patch.records[place][BaseLayout::load];
-                              covered += weight * patch.records[place][BaseLayout::covered];
-                            });
-    pressure[static_cast<std::size_t>(k)] = load / (dt * std::max(covered, smallest_area));
+    const auto first = static_cast<std::size_t>(T::in_patch(lowest));
+    pressure[static_cast<std::size_t>(k)] = base_pressure_of_node<Dim>(
+        ground.block(b)[static_cast<std::size_t>(k)].normal, dt, smallest_area, [&](std::size_t node) -> const auto& {
+          return patch.records[first + mpm::CellNodes<Dim>::place(node)];
+        });
   }
   return pressure;
 }

@@ -11,6 +11,7 @@
 #include "mpm/body_sizes.hpp"
 #include "mpm/nodes.hpp"
 #include "physics/entrainment.hpp"
+#include "terrain/contact_node.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
@@ -23,14 +24,6 @@ struct BedMatter {
   Real cohesion = 0, tangent = 0;  // of what it withstands: c_b [Pa], tan(phi_b)
   Real depth_per_slip = 0;         // [1]
   Real density = 0;                // [kg/m3]
-};
-
-// What a contact node gives to the bed's matter in a step.
-template <class Real>
-struct Bite {
-  Real taken = 0;        // [kg]
-  Real impulse = 0;      // along the slip [N s]
-  Real of_friction = 0;  // what of it friction had taken already [N s]
 };
 
 // Bed matter that has been taken up and waits to join the slide as a particle.

@@ -3,51 +3,14 @@
 // Eq. 15 reads, would count contact twice.
 #pragma once
 
-#include <algorithm>
-
 #include "mpm/constraints.hpp"
 #include "mpm/nodes.hpp"
 #include "terrain/basal_law.hpp"
 #include "terrain/bed.hpp"
+#include "terrain/contact_work.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
-
-// What contact and constraints did in one step. Energies [J], forces [N], areas [m2].
-template <int Dim, class Real>
-struct ContactWork {
-  Real friction_work = 0;                               // dissipated by sliding
-  Real loss = 0;                                        // taken by impact on ground and walls, and by sticking
-  Real frame_work = 0;                                  // done by rigid frames on the slide
-  Real converted = 0;                                   // friction work that does not become heat
-  Real damping = 0;                                     // taken by mass damping
-  Real node_kinetic = 0;                                // sum m |a dt|^2 / 2 over nodes
-  Real area = 0;                                        // in contact
-  Real friction_area = 0;                               // sum mu_e A
-  Real shear_force = 0;                                 // of the ground on the slide, whichever way
-  Real bed_work = 0;                                    // that the slide loses to bed matter that it takes up
-  Vector<Real, Dim> force = Vector<Real, Dim>::Zero();  // on the ground
-  // On the slide, of walls, frames and mass damping [N s].
-  Vector<Real, Dim> constraint_impulse = Vector<Real, Dim>::Zero();
-  Vector<Real, Dim> bed_impulse = Vector<Real, Dim>::Zero();  // of the slide on bed matter that it takes up [N s]
-
-  ContactWork& operator+=(const ContactWork& part) {
-    friction_work += part.friction_work;
-    loss += part.loss;
-    frame_work += part.frame_work;
-    converted += part.converted;
-    damping += part.damping;
-    node_kinetic += part.node_kinetic;
-    area += part.area;
-    friction_area += part.friction_area;
-    shear_force += part.shear_force;
-    force += part.force;
-    constraint_impulse += part.constraint_impulse;
-    bed_work += part.bed_work;
-    bed_impulse += part.bed_impulse;
-    return *this;
-  }
-};
 
 template <int Dim, class Real>
 struct ContactModel {
@@ -72,14 +35,5 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
 template <int Dim, class Real>
 void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                    mpm::Nodes<Dim, Real>& nodes);
-
-// Momentum with which a node runs into the ground in this step, less what closes the clearance before it.
-template <int Dim, class Real>
-Real approach_of(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, bool distance_check, Real dt,
-                 Real mass, Real inward_momentum) {
-  return std::max(Real(0), distance_check
-                               ? inward_momentum - mass * (nodes.near_ground(b, k)[mpm::NearGround::clearance] / dt)
-                               : inward_momentum);
-}
 
 }  // namespace thawslide::terrain

@@ -10,7 +10,7 @@ namespace thawslide::terrain {
 
 // Where the ground is as steep as level, the vertical: round-off does not decide.
 template <int Dim, class Real>
-int main_axis(const Vector<Real, Dim>& normal) {
+THAWSLIDE_HD int main_axis(const Vector<Real, Dim>& normal) {
   int axis = Dim - 1;
   for (int a = Dim - 2; a >= 0; --a) {
     if (std::abs(normal[a]) > (Real(1) + round_off<Real>)*std::abs(normal[axis])) {

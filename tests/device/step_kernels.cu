@@ -1,5 +1,5 @@
-// The kernels of the step (mpm/kernel.hpp) in device code, a thread a particle as in mpm/group_pass.hpp, in double
-// precision. They are compiled and never run: that they can be, and in how many registers, is the test.
+// The kernels of the step (mpm/kernel.hpp) in device code, a thread a particle as in device/particle_pass.hpp, in
+// double precision. They are compiled and never run: that they can be, and in how many registers, is the test.
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -60,14 +60,8 @@ __device__ auto fetch(mpm::RecordList<Names...> /*names*/, const Real* records, 
       {PatchOnDevice<Names, Dim>{copy(PatchOnDevice<Names, Dim>::total)}}...};
 }
 
-// What a particle carries to a record, or brings to one that it lowers.
 template <class Name, int Dim>
-inline constexpr std::size_t carried_numbers =
-    mpm::IsLowered<Name> ? mpm::part_of<Name, Dim>.count
-                         : mpm::place_in_register<Name, Dim> + mpm::part_of<Name, Dim>.count;
-template <class Name, int Dim>
-using CarriedTo = std::conditional_t<mpm::IsLowered<Name>, mpm::OneBounds<Real, carried_numbers<Name, Dim>>,
-                                     mpm::OneContribution<Real, Dim, carried_numbers<Name, Dim>>>;
+using CarriedTo = mpm::CarriedByOne<Name, Dim, Real>;
 template <int Dim, class List>
 struct CarriedOf;
 template <int Dim, class... Names>

@@ -19,6 +19,7 @@ ALLOWED = {
     "mpm": {"base", "physics", "mpm"},
     "terrain": {"base", "physics", "mpm", "terrain"},
     "band": {"base", "physics", "mpm", "band"},
+    "device": {"base", "physics", "mpm", "terrain", "band", "device"},
     "sim": {"base", "physics", "config", "mpm", "terrain", "band", "sim"},
     "io": {"base", "config", "mpm", "io", "generated"},
     "gis": {"base", "config", "gis"},

@@ -1,0 +1,47 @@
+// One visit to the nodes of all blocks, a group of threads a block, with sums over them in the order of blocks.
+#pragma once
+
+#include "device/add_up.hpp"
+#include "device/tile_tables.hpp"
+
+namespace thawslide::device {
+
+// Work: visit(node, part) for a node by its number among those of all blocks, with a part of its own to fill; then
+// add(parts, count, sum) for those of a block.
+template <class Work, int Dim>
+struct BlockPass {
+  using Part = typename Work::Part;
+  using Sum = typename Work::Sum;
+  static constexpr auto nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+  static constexpr std::size_t bytes = nodes * sizeof(Part);
+
+  Work work;
+  Sum* sums;  // by block
+
+  template <class Group>
+  THAWSLIDE_HD void operator()(Group& group, std::size_t block) const {
+    auto* parts = reinterpret_cast<Part*>(group.shared());
+    group.each(nodes, [this, block, parts](std::size_t k) {
+      Part part{};
+      work.visit(block * nodes + k, part);
+      parts[k] = part;
+    });
+    group.barrier();
+    group.each(1, [this, block, parts](std::size_t /*k*/) {
+      Sum sum{};
+      work.add(parts, nodes, sum);
+      sums[block] = sum;
+    });
+  }
+};
+
+// sums: room for one more than there are blocks. Returns where in it their sum stands.
+template <int Dim, class Backend, class Work>
+typename Work::Sum* block_pass(Backend& backend, std::size_t blocks, const Work& work, typename Work::Sum* sums) {
+  using Pass = BlockPass<Work, Dim>;
+  backend.for_groups(blocks, Pass::nodes, Pass::bytes, Pass{work, sums});
+  add_up(backend, sums, blocks, sums + blocks);
+  return sums + blocks;
+}
+
+}  // namespace thawslide::device

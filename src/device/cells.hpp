@@ -1,0 +1,135 @@
+// Which cells, tiles and blocks particles are in, and their canonical order, as mpm/sparse_grid.hpp finds them, in a
+// device's memory. The tables are made anew when some particle has another nearest node.
+#pragma once
+
+#include "device/array.hpp"
+#include "device/cell_works.hpp"
+#include "device/tile_tables.hpp"
+
+namespace thawslide::device {
+
+template <class Backend, int Dim, class Real>
+class Cells {
+  using T = mpm::Tile<Dim>;
+  static constexpr std::size_t nodes = static_cast<std::size_t>(T::nodes);
+  static constexpr std::size_t stencil = static_cast<std::size_t>(T::stencil);
+  static constexpr std::uint64_t no_key = ~std::uint64_t{0};
+
+ public:
+  // cell: mesh size [m].
+  Cells(Backend& backend, Real cell) : backend_(backend), inverse_cell_(Real(1) / cell) {}
+
+  // Brings the tables up to date with the positions of so many particles. by_id: the particles by ascending id.
+  void update(const mpm::ParticleView<Dim, Real>& particles, const std::uint32_t* by_id, std::size_t count) {
+    blocks_changed_ = false;
+    if (count != keys_by_id_.size()) {
+      keys_by_id_.resize(count);
+      fill(keys_by_id_, no_key);
+    }
+    order_in_id_.resize(count);
+    fill(mark_, std::uint32_t{0});
+    backend_.for_each(count, FindKey<Dim, Real>{particles, by_id, inverse_cell_, keys_by_id_.data(),
+                                                order_in_id_.data(), mark_.data()});
+    if (mark_.get(0) == 0) {
+      return;
+    }
+    keys_.resize(count);
+    backend_.copy(keys_.data(), keys_by_id_.data(), count);
+    order_.swap(order_in_id_);
+    backend_.sort(keys_.data(), order_.data(), count);
+    former_tile_keys_.swap(tile_keys_);
+    take_first(keys_, T::node_bits, tile_keys_, &first_of_tile_);
+    if (tiles_changed()) {
+      list_blocks();
+      blocks_changed_ = true;
+    }
+    first_of_cell_.resize(tile_keys_.size() * nodes + 1);
+    backend_.for_each(first_of_cell_.size(),
+                      FirstOfCell<Dim>{keys_.data(), count, tile_keys_.data(), first_of_tile_.data(), tile_keys_.size(),
+                                       first_of_cell_.data()});
+  }
+
+  // Particles stand in memory in canonical order now.
+  void note_order_in_memory() { backend_.for_each(order_.size(), Count{order_.data()}); }
+
+  [[nodiscard]] TileTables<Dim> tables() const {
+    return {keys_.size(),
+            tile_keys_.size(),
+            block_keys_.size(),
+            order_.data(),
+            keys_.data(),
+            tile_keys_.data(),
+            block_keys_.data(),
+            first_of_cell_.data(),
+            blocks_about_tile_.data(),
+            tiles_about_block_.data(),
+            blocks_about_block_.data()};
+  }
+  [[nodiscard]] std::vector<std::uint64_t> block_keys() const { return block_keys_.get(); }
+  // Whether the last update changed the blocks, and with them their numbers.
+  [[nodiscard]] bool blocks_changed() const { return blocks_changed_; }
+
+ private:
+  template <class Number>
+  void fill(Array<Number, Backend>& numbers, Number number) {
+    backend_.for_each(numbers.size(), Fill<Number>{numbers.data(), number});
+  }
+
+  // The different numbers of an ascending list, bits below `shift` left out, and the places at which they begin.
+  void take_first(const Array<std::uint64_t, Backend>& keys, int shift, Array<std::uint64_t, Backend>& found,
+                  Array<std::uint32_t, Backend>* places) {
+    const std::size_t count = keys.size();
+    is_first_.resize(count);
+    number_.resize(count);
+    backend_.for_each(count, MarkFirst{keys.data(), shift, is_first_.data()});
+    backend_.sum_before(is_first_.data(), number_.data(), count);
+    const std::size_t different = count > 0 ? number_.get(count - 1) + is_first_.get(count - 1) : 0;
+    found.resize(different);
+    if (places != nullptr) {
+      places->resize(different);
+    }
+    backend_.for_each(count, TakeFirst{keys.data(), shift, is_first_.data(), number_.data(), found.data(),
+                                       places != nullptr ? places->data() : nullptr});
+  }
+
+  bool tiles_changed() {
+    if (former_tile_keys_.size() != tile_keys_.size()) {
+      return true;
+    }
+    fill(mark_, std::uint32_t{0});
+    backend_.for_each(tile_keys_.size(), TellDifference{tile_keys_.data(), former_tile_keys_.data(), mark_.data()});
+    return mark_.get(0) != 0;
+  }
+
+  void list_blocks() {
+    const std::size_t tiles = tile_keys_.size();
+    neighbour_keys_.resize(tiles * stencil);
+    unused_.resize(tiles * stencil);
+    backend_.for_each(tiles * stencil, ListNeighbours<Dim>{tile_keys_.data(), neighbour_keys_.data()});
+    backend_.sort(neighbour_keys_.data(), unused_.data(), tiles * stencil);
+    take_first(neighbour_keys_, 0, block_keys_, nullptr);
+    find_neighbours(tile_keys_, block_keys_, blocks_about_tile_);
+    find_neighbours(block_keys_, tile_keys_, tiles_about_block_);
+    find_neighbours(block_keys_, block_keys_, blocks_about_block_);
+  }
+
+  void find_neighbours(const Array<std::uint64_t, Backend>& from, const Array<std::uint64_t, Backend>& to,
+                       Array<std::int32_t, Backend>& places) {
+    places.resize(from.size() * stencil);
+    backend_.for_each(places.size(), FindNeighbours<Dim>{from.data(), to.data(), to.size(), places.data()});
+  }
+
+  Backend& backend_;
+  Real inverse_cell_;
+  Array<std::uint64_t, Backend> keys_by_id_{backend_}, keys_{backend_};
+  Array<std::uint32_t, Backend> order_in_id_{backend_}, order_{backend_}, mark_{backend_, 1};
+  Array<std::uint64_t, Backend> tile_keys_{backend_}, former_tile_keys_{backend_}, block_keys_{backend_};
+  Array<std::uint64_t, Backend> neighbour_keys_{backend_};
+  Array<std::uint32_t, Backend> first_of_tile_{backend_}, first_of_cell_{backend_};
+  Array<std::int32_t, Backend> blocks_about_tile_{backend_}, tiles_about_block_{backend_};
+  Array<std::int32_t, Backend> blocks_about_block_{backend_};
+  Array<std::uint32_t, Backend> is_first_{backend_}, number_{backend_}, unused_{backend_};
+  bool blocks_changed_ = true;
+};
+
+}  // namespace thawslide::device

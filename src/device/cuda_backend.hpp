@@ -1,0 +1,185 @@
+// A card, by CUDA: to be compiled by nvcc. What goes wrong is thrown as a CardError.
+#pragma once
+
+#include <cuda_runtime.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
+#include <stdexcept>
+#include <string>
+
+#include "base/portability.hpp"
+
+namespace thawslide::device {
+
+class CardError : public std::runtime_error {
+ public:
+  explicit CardError(cudaError_t code, const char* doing)
+      : std::runtime_error(std::string(doing) + ": " + cudaGetErrorString(code)), code_(code) {}
+  [[nodiscard]] cudaError_t code() const { return code_; }
+
+ private:
+  cudaError_t code_;
+};
+
+inline void expect_done(cudaError_t code, const char* doing) {
+  if (code != cudaSuccess) {
+    throw CardError(code, doing);
+  }
+}
+
+// The threads of a block.
+class CudaGroup {
+ public:
+  THAWSLIDE_HD explicit CudaGroup(std::byte* shared) : shared_(shared) {}
+
+  [[nodiscard]] THAWSLIDE_HD std::byte* shared() const { return shared_; }
+  template <class Work>
+  THAWSLIDE_HD void each(std::size_t count, const Work& work) const {
+#ifdef __CUDA_ARCH__
+    for (std::size_t k = threadIdx.x; k < count; k += blockDim.x) {
+      work(k);
+    }
+#endif
+  }
+  THAWSLIDE_HD void barrier() const {
+#ifdef __CUDA_ARCH__
+    __syncthreads();
+#endif
+  }
+
+ private:
+  std::byte* shared_;
+};
+
+template <class Work>
+__global__ void run_each(std::size_t count, const __grid_constant__ Work work) {
+  const std::size_t k = static_cast<std::size_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+  if (k < count) {
+    work(k);
+  }
+}
+template <class Work>
+__global__ void run_groups(const __grid_constant__ Work work) {
+  extern __shared__ __align__(16) std::byte shared[];
+  CudaGroup group(shared);
+  work(group, static_cast<std::size_t>(blockIdx.x));
+}
+
+struct NoWork {
+  THAWSLIDE_HD void operator()(std::size_t /*k*/) const {}
+};
+
+class Cuda {
+ public:
+  // The card that the process uses; throws where there is none that this program is for.
+  Cuda() {
+    expect_done(cudaGetDevice(&card_), "looking for a card");
+    cudaFuncAttributes attributes;
+    expect_done(cudaFuncGetAttributes(&attributes, run_each<NoWork>), "asking the card to run this program");
+  }
+  Cuda(const Cuda&) = delete;
+  Cuda& operator=(const Cuda&) = delete;
+  ~Cuda() {
+    for (Room* room : {&sorted_keys_, &sorted_values_, &working_}) {
+      release(room->memory);
+    }
+  }
+
+  template <class T>
+  [[nodiscard]] T* allocate(std::size_t count) {
+    void* memory = nullptr;
+    expect_done(cudaMalloc(&memory, count * sizeof(T)), "asking the card for memory");
+    return static_cast<T*>(memory);
+  }
+  // What has failed before is told by whoever waits for it.
+  static void release(void* memory) { static_cast<void>(cudaFree(memory)); }
+
+  template <class T>
+  void copy_in(T* to, const T* from, std::size_t count) {
+    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyHostToDevice), "copying to the card");
+  }
+  template <class T>
+  void copy(T* to, const T* from, std::size_t count) {
+    expect_done(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDeviceToDevice), "copying on the card");
+  }
+  template <class T>
+  void copy_out(T* to, const T* from, std::size_t count) {
+    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyDeviceToHost), "copying from the card");
+  }
+
+  template <class Work>
+  void for_each(std::size_t count, const Work& work) {
+    constexpr std::size_t threads = 128;
+    if (count > 0) {
+      run_each<<<static_cast<unsigned>((count + threads - 1) / threads), threads>>>(count, work);
+      expect_done(cudaGetLastError(), "starting threads on the card");
+    }
+  }
+
+  template <class Work>
+  void for_groups(std::size_t groups, std::size_t threads, std::size_t shared_bytes, const Work& work) {
+    constexpr std::size_t unasked = 48 * 1024;  // what a group has without being asked
+    if (shared_bytes > unasked) {
+      expect_done(cudaFuncSetAttribute(run_groups<Work>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                       static_cast<int>(shared_bytes)),
+                  "asking the card for shared memory");
+    }
+    if (groups > 0) {
+      run_groups<<<static_cast<unsigned>(groups), static_cast<unsigned>(threads), shared_bytes>>>(work);
+      expect_done(cudaGetLastError(), "starting groups of threads on the card");
+    }
+  }
+
+  void sort(std::uint64_t* keys, std::uint32_t* values, std::size_t count) {
+    auto* sorted_keys = room_for<std::uint64_t>(sorted_keys_, count);
+    auto* sorted_values = room_for<std::uint32_t>(sorted_values_, count);
+    with_working_room("sorting", [&](void* memory, std::size_t& bytes) {
+      return cub::DeviceRadixSort::SortPairs(memory, bytes, keys, sorted_keys, values, sorted_values, count);
+    });
+    copy(keys, sorted_keys, count);
+    copy(values, sorted_values, count);
+  }
+
+  void sum_before(const std::uint32_t* numbers, std::uint32_t* sums, std::size_t count) {
+    with_working_room("summing", [&](void* memory, std::size_t& bytes) {
+      return cub::DeviceScan::ExclusiveSum(memory, bytes, numbers, sums, count);
+    });
+  }
+
+  // Waits until the card has done all that it was given.
+  void wait() { expect_done(cudaDeviceSynchronize(), "waiting for the card"); }
+
+ private:
+  // Memory that is kept between calls.
+  struct Room {
+    void* memory = nullptr;
+    std::size_t bytes = 0;
+  };
+
+  template <class T>
+  T* room_for(Room& room, std::size_t count) {
+    if (count * sizeof(T) > room.bytes) {
+      release(room.memory);
+      room = {};
+      room.memory = allocate<std::byte>(count * sizeof(T));
+      room.bytes = count * sizeof(T);
+    }
+    return static_cast<T*>(room.memory);
+  }
+  // Calls work(memory, bytes): without memory it tells how much it needs.
+  template <class Work>
+  void with_working_room(const char* doing, const Work& work) {
+    std::size_t bytes = 0;
+    expect_done(work(nullptr, bytes), doing);
+    void* memory = room_for<std::byte>(working_, bytes > 0 ? bytes : 1);
+    expect_done(work(memory, bytes), doing);
+  }
+
+  int card_ = 0;
+  Room sorted_keys_, sorted_values_, working_;
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,152 @@
+// The processor in the place of a device. Threads of a group run one after the other, in any order asked for: what does
+// not depend on the order of threads gives the same bits in all of them, and what a phase reads of a phase that no
+// barrier ended is not there yet. Memory holds no numbers at first.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace thawslide::device {
+
+enum class ThreadOrder { forward, backward, shuffled };
+
+// The numbers 0 .. count-1 in an order.
+inline std::vector<std::size_t> in_thread_order(std::size_t count, ThreadOrder order) {
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  if (order == ThreadOrder::backward) {
+    std::reverse(numbers.begin(), numbers.end());
+  } else if (order == ThreadOrder::shuffled) {
+    std::shuffle(numbers.begin(), numbers.end(), std::mt19937(1));
+  }
+  return numbers;
+}
+
+// Threads that work together: in phases, between which barriers let all wait for each other, on memory that they share.
+class HostGroup {
+ public:
+  static constexpr int none = -1;
+
+  // threads: in the order in which they run. omitted_barrier: number of the barrier that is left out, to show that it
+  // is needed.
+  HostGroup(const std::vector<std::size_t>& threads, std::size_t shared_bytes, int omitted_barrier)
+      : threads_(threads), omitted_barrier_(omitted_barrier), shared_(shared_bytes / sizeof(std::max_align_t) + 1) {
+    std::memset(shared_.data(), 0xff, shared_.size() * sizeof(std::max_align_t));
+  }
+
+  // Aligned for any number.
+  [[nodiscard]] std::byte* shared() { return reinterpret_cast<std::byte*>(shared_.data()); }
+
+  // A phase: work(k) for k = 0 .. count-1, each by one thread. It has run once a barrier has been passed.
+  void each(std::size_t count, std::function<void(std::size_t)> work) { phases_.push_back({count, std::move(work)}); }
+
+  void barrier() {
+    if (barrier_++ != omitted_barrier_) {
+      end();
+    }
+  }
+
+  // Runs what no barrier has ended.
+  void end() {
+    for (const std::size_t thread : threads_) {
+      for (const Phase& phase : phases_) {
+        for (std::size_t k = thread; k < phase.count; k += threads_.size()) {
+          phase.work(k);
+        }
+      }
+    }
+    phases_.clear();
+  }
+
+ private:
+  struct Phase {
+    std::size_t count;
+    std::function<void(std::size_t)> work;
+  };
+
+  const std::vector<std::size_t>& threads_;
+  int omitted_barrier_, barrier_ = 0;
+  std::vector<std::max_align_t> shared_;
+  std::vector<Phase> phases_;  // since the last barrier
+};
+
+class Host {
+ public:
+  // threads: of a group, whatever is asked for; 0: as many as are asked for.
+  explicit Host(ThreadOrder order = ThreadOrder::forward, std::size_t threads = 0,
+                int omitted_barrier = HostGroup::none)
+      : order_(order), threads_(threads), omitted_barrier_(omitted_barrier) {}
+
+  template <class T>
+  [[nodiscard]] T* allocate(std::size_t count) {
+    void* memory = ::operator new(count * sizeof(T));
+    std::memset(memory, 0xff, count * sizeof(T));
+    return static_cast<T*>(memory);
+  }
+  static void release(void* memory) { ::operator delete(memory); }
+
+  // From the processor's memory to the device's, within that, and back.
+  template <class T>
+  void copy_in(T* to, const T* from, std::size_t count) {
+    std::copy_n(from, count, to);
+  }
+  template <class T>
+  void copy(T* to, const T* from, std::size_t count) {
+    std::copy_n(from, count, to);
+  }
+  template <class T>
+  void copy_out(T* to, const T* from, std::size_t count) {
+    std::copy_n(from, count, to);
+  }
+
+  // work(k) for k = 0 .. count-1, a thread each.
+  template <class Work>
+  void for_each(std::size_t count, const Work& work) {
+    for (const std::size_t k : in_thread_order(count, order_)) {
+      work(k);
+    }
+  }
+
+  // work(group, k) for k = 0 .. groups-1, a group of so many threads each.
+  template <class Work>
+  void for_groups(std::size_t groups, std::size_t threads, std::size_t shared_bytes, const Work& work) {
+    const auto in_group = in_thread_order(threads_ != 0 ? threads_ : threads, order_);
+    for (const std::size_t k : in_thread_order(groups, order_)) {
+      HostGroup group(in_group, shared_bytes, omitted_barrier_);
+      work(group, k);
+      group.end();
+    }
+  }
+
+  // Sorts keys and what belongs to them; equal keys keep their order.
+  void sort(std::uint64_t* keys, std::uint32_t* values, std::size_t count) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
+    const std::vector<std::uint64_t> old_keys(keys, keys + count);
+    const std::vector<std::uint32_t> old_values(values, values + count);
+    for (std::size_t k = 0; k < count; ++k) {
+      keys[k] = old_keys[order[k]];
+      values[k] = old_values[order[k]];
+    }
+  }
+
+  // sums[k] = numbers[0] + ... + numbers[k-1], for k = 0 .. count-1.
+  void sum_before(const std::uint32_t* numbers, std::uint32_t* sums, std::size_t count) {
+    std::exclusive_scan(numbers, numbers + count, sums, std::uint32_t{0});
+  }
+
+ private:
+  ThreadOrder order_;
+  std::size_t threads_;
+  int omitted_barrier_;
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,38 @@
+// Strain and stress of the particles of one material, with all that the kernel refers to by value.
+#pragma once
+
+#include <cstdint>
+
+#include "mpm/stress_kernel.hpp"
+
+namespace thawslide::device {
+
+template <int Dim, class Real, class Law>
+struct DeformMaterial {
+  using Kernel = mpm::Deform<Dim, Real, Law>;
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Account = typename Kernel::Account;
+
+  // As in the kernel.
+  Law law;
+  physics::Elastic<Real> elastic;
+  physics::Phases<Real> phases;
+  bool gaps_close_first;
+  Real viscosity_time;
+  bool effective_stress;
+  Real dt;
+  std::int32_t material;
+  bool is_only_one;  // all particles are of it
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+                               Account& account) const {
+    if (is_only_one || particles.material(at.particle[0]) == material) {
+      const Kernel deform{law, elastic, phases, gaps_close_first, viscosity_time, effective_stress, dt};
+      deform(particles, at, seen, added, account);
+    }
+  }
+};
+
+}  // namespace thawslide::device

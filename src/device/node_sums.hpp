@@ -1,0 +1,92 @@
+// Sums at nodes of what the patches about them hold, in the order of mpm/transfer.hpp; and the records of nodes.
+#pragma once
+
+#include <limits>
+
+#include "base/select.hpp"
+#include "device/tile_tables.hpp"
+#include "mpm/kernel.hpp"
+#include "mpm/records.hpp"
+
+namespace thawslide::device {
+
+// The records of a name: those of the nodes of all blocks, one after another.
+template <class Name, int Dim, class Real>
+struct RecordsOf {
+  static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
+  Real* numbers;
+
+  // Of a node of all blocks.
+  [[nodiscard]] THAWSLIDE_HD Real* operator()(std::size_t node) const { return numbers + node * size; }
+};
+
+// Where a pass finds the records of names that it reads.
+template <class Names, class Real>
+struct RecordsRead;
+template <class... Names, class Real>
+struct RecordsRead<mpm::RecordList<Names...>, Real> {
+  using Type = mpm::ByName<mpm::Named<Names, const Real*>...>;
+  template <class Records>
+  static Type from([[maybe_unused]] const Records& records) {
+    return {{records.template numbers<Names>()}...};
+  }
+};
+
+// A thread a number of a node: the sum of what the tiles about it hold, its own tile first; for components that are
+// lowered the smallest. Lowered: a name with such components, or void.
+template <class Name, class Lowered, class Takes, int Dim, class Real>
+struct SumPatches {
+  static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
+
+  TileTables<Dim> tables;
+  Takes takes;
+  const Real* patches;
+  Real* records;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    using T = mpm::Tile<Dim>;
+    constexpr auto nodes = static_cast<std::size_t>(T::nodes), stencil = static_cast<std::size_t>(T::stencil);
+    constexpr std::size_t own = stencil / 2;
+    const std::size_t component = k % size, node = k / size % nodes, block = k / size / nodes;
+    const bool lowered = is_lowered(component);
+    Real sum = lowered ? std::numeric_limits<Real>::max() : Real(0);
+    if (!lowered) {
+      take(block, node, own, component, [&](Real part) { sum = part; });
+    }
+    for (std::size_t d = 0; d < stencil; ++d) {
+      if (lowered) {
+        take(block, node, d, component, [&](Real part) { sum = min(sum, part); });
+      } else if (d != own) {
+        take(block, node, d, component, [&](Real part) { sum += part; });
+      }
+    }
+    records[k] = sum;
+  }
+
+ private:
+  THAWSLIDE_HD static constexpr bool is_lowered([[maybe_unused]] std::size_t component) {
+    if constexpr (std::is_void_v<Lowered>) {
+      return false;
+    } else {
+      return component >= mpm::part_of<Lowered, Dim>.from &&
+             component < mpm::part_of<Lowered, Dim>.from + mpm::part_of<Lowered, Dim>.count;
+    }
+  }
+  // Calls with(number) with what the tile in some direction holds.
+  template <class With>
+  THAWSLIDE_HD void take(std::size_t block, std::size_t node, std::size_t direction, std::size_t component,
+                         const With& with) const {
+    using T = mpm::Tile<Dim>;
+    const std::int32_t tile = tables.tiles_about_block[block * static_cast<std::size_t>(T::stencil) + direction];
+    if (tile == absent || !takes(static_cast<std::size_t>(tile))) {
+      return;
+    }
+    const PlaceInPatch place = place_in_patch<Dim>(node, direction);
+    if (place.is_seen) {
+      with(patches[(static_cast<std::size_t>(tile) * static_cast<std::size_t>(T::patch_nodes) + place.node) * size +
+                   component]);
+    }
+  }
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,292 @@
+// A particle pass (mpm/particle_pass.hpp) on a device: a group of threads a tile. They fetch the records about it;
+// then, some particles at a time, a thread a particle runs the kernels, a thread a node of a cell adds what the cell's
+// particles carry, one after the other, and a thread a number adds what the cells bring, cell after cell, to the tile's
+// patch; what is lowered takes the smallest number instead. Barriers stand between. So no two threads write one number,
+// and the sums have the order, and the bits, of the processor's.
+#pragma once
+
+#include <limits>
+
+#include "device/pass_room.hpp"
+#include "device/tile_tables.hpp"
+
+namespace thawslide::device {
+
+// Of a pass that takes all tiles and all their particles.
+struct EveryTile {
+  THAWSLIDE_HD bool operator()(std::size_t /*tile*/) const { return true; }
+  THAWSLIDE_HD bool operator()(std::size_t /*tile*/, std::size_t /*cell*/) const { return true; }
+};
+
+// What a pass is given, but for its kernels. Takes: of a tile, and of a tile and a cell of it.
+template <class Weights, class Takes, int Dim, class Real>
+struct PassOver {
+  TileTables<Dim> tables;
+  mpm::ParticleView<Dim, Real> particles;
+  Weights weights;
+  Takes takes;
+  Real cell;
+};
+
+template <class Over, class Reads, class Adds, int Dim, class Real, class... Kernels>
+struct ParticlePass;
+template <class Over, class... Reads, class... Adds, int Dim, class Real, class... Kernels>
+struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
+  using Room = PassRoom<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...>;
+  using T = mpm::Tile<Dim>;
+  using Sums = SumsOf<Kernels...>;
+  static constexpr auto nodes = static_cast<std::size_t>(T::nodes);
+  static constexpr auto patch_nodes = static_cast<std::size_t>(T::patch_nodes);
+  static constexpr std::size_t cell_nodes = Room::cell_nodes, size = Room::size;
+  static constexpr bool adds = sizeof...(Adds) > 0, adds_up = Room::adds_up;
+
+  Over over;
+  mpm::ByName<mpm::Named<Reads, const Real*>...> records;
+  Real* patches;  // of the record that is added to
+  Sums* sums;     // by tile
+  mpm::ByName<mpm::Named<Kernels, Kernels>...> kernels;
+
+  // Particles in canonical order from `first` to before `last`, of cells from `cell` on.
+  struct Chunk {
+    std::size_t tile, first, last, cell, cells, number;
+  };
+
+  template <class Group>
+  THAWSLIDE_HD void operator()(Group& group, std::size_t tile) const {
+    const Room room(group.shared());
+    const std::size_t end = first_of_cell(tile, nodes);
+    if (!over.takes(tile)) {
+      group.each(1, [this, tile](std::size_t /*k*/) { sums[tile] = {}; });
+      return;
+    }
+    (this->template fetch<Reads>(group, room, tile), ...);
+    prepare(group, room, tile);
+    group.barrier();
+    Chunk chunk{tile, first_of_cell(tile, 0), 0, 0, 0, 0};
+    for (; chunk.first < end; chunk.first = chunk.last, ++chunk.number) {
+      while (first_of_cell(tile, chunk.cell + 1) <= chunk.first) {
+        ++chunk.cell;
+      }
+      chunk.cells = chunk.cell + Room::most_cells < nodes ? Room::most_cells : nodes - chunk.cell;
+      const std::size_t of_cells = first_of_cell(tile, chunk.cell + chunk.cells);
+      chunk.last = chunk.first + Room::capacity < of_cells ? chunk.first + Room::capacity : of_cells;
+      group.each(chunk.last - chunk.first, [this, chunk, room](std::size_t k) { visit(chunk, room, k); });
+      group.barrier();
+      if constexpr (adds_up) {
+        group.each(1, [chunk, room](std::size_t /*k*/) { add_up(chunk, room); });
+      }
+      (this->template add<Adds>(group, room, chunk), ...);
+      if constexpr (!adds && adds_up) {
+        group.barrier();
+      }
+    }
+    leave(group, room, tile);
+  }
+
+ private:
+  [[nodiscard]] THAWSLIDE_HD std::size_t first_of_cell(std::size_t tile, std::size_t cell) const {
+    return over.tables.first_of_cell[tile * nodes + cell];
+  }
+
+  // A thread a number.
+  template <class Name, class Group>
+  THAWSLIDE_HD void fetch(Group& group, const Room& room, std::size_t tile) const {
+    constexpr std::size_t of_record = mpm::record_size(mpm::components_of<Name, Dim>);
+    group.each(patch_nodes * of_record, [this, room, tile](std::size_t k) {
+      const PlaceInBlock<Dim> place = place_in_block<Dim>(k / of_record);
+      const std::int32_t block =
+          over.tables.blocks_about_tile[tile * static_cast<std::size_t>(T::stencil) + place.direction];
+      room.template read<Name>()[k] =
+          records
+              .template of<Name>()[(static_cast<std::size_t>(block) * nodes + place.node) * of_record + k % of_record];
+    });
+  }
+
+  // The patch before anything is added. An owner's record has been added to already.
+  template <class Group>
+  THAWSLIDE_HD void prepare(Group& group, const Room& room, std::size_t tile) const {
+    if constexpr (adds) {
+      group.each(patch_nodes * size, [this, room, tile](std::size_t k) {
+        room.patch()[k] = Room::goes_on ? patches[tile * patch_nodes * size + k] : Real(0);
+        (raise<Adds>(k % size, room.patch()[k]), ...);
+      });
+    }
+    if constexpr (adds_up) {
+      group.each(1, [room](std::size_t /*k*/) { *room.sums() = {}; });
+    }
+  }
+  template <class Group>
+  THAWSLIDE_HD void leave(Group& group, const Room& room, std::size_t tile) const {
+    if constexpr (adds) {
+      group.barrier();
+      group.each(patch_nodes * size,
+                 [this, room, tile](std::size_t k) { patches[tile * patch_nodes * size + k] = room.patch()[k]; });
+    }
+    if constexpr (adds_up) {
+      group.each(1, [this, room, tile](std::size_t /*k*/) { sums[tile] = *room.sums(); });
+    }
+  }
+
+  template <class Name>
+  static constexpr std::size_t first_component =
+      mpm::IsLowered<Name> ? mpm::part_of<Name, Dim>.from : mpm::first_in_register<Name, Dim>;
+  // Of a sum, or of what is lowered.
+  template <class Name>
+  static constexpr Real start = mpm::IsLowered<Name> ? std::numeric_limits<Real>::max() : Real(0);
+
+  // What is to be lowered begins beyond all bounds.
+  template <class Name>
+  THAWSLIDE_HD static void raise(std::size_t component, Real& number) {
+    if (mpm::IsLowered<Name> && component >= first_component<Name> &&
+        component < first_component<Name> + mpm::carried_numbers<Name, Dim>) {
+      number = start<Name>;
+    }
+  }
+
+  // A thread a particle.
+  THAWSLIDE_HD void visit(const Chunk& chunk, const Room& room, std::size_t k) const {
+    auto& slot = room.slots()[k];
+    slot.sums = {};
+    const TileTables<Dim>& tables = over.tables;
+    const std::size_t place = chunk.first + k;
+    const std::size_t node = tables.keys[place] & (nodes - 1), lowest = lowest_about<Dim>(node);
+    if (!over.takes(chunk.tile, node)) {
+      return;
+    }
+    const mpm::One<Real> at{{tables.order[place]}};
+    const Real inverse_cell = Real(1) / over.cell;
+    const typename T::Index nearest = T::node(T::index(tables.tile_keys[chunk.tile]), static_cast<int>(node));
+    mpm::OnePlace<Dim, Real> from_node{{}, lowest, {}};
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const int axis = static_cast<int>(a);
+      from_node.offset[axis] =
+          over.particles.position(at.particle[0], axis) * inverse_cell - static_cast<Real>(nearest[a]);
+      from_node.at_side[a] = over.weights.template at_side<Dim>(a, nearest[a]);
+    }
+    mpm::OneWeights<Dim, Real> weights;
+    over.weights.set(weights, from_node, over.particles, at, over.cell, inverse_cell);
+    const auto patches_read = room.patches_read();
+    const mpm::SeenByOne<mpm::OneWeights<Dim, Real>, typename Room::PatchesRead> seen{weights, patches_read};
+    typename Room::Carried carried{};
+    Sums of_particle{};
+    mpm::ParticleView<Dim, Real> particles = over.particles;
+    (run(kernel_of(kernels.template of<Kernels>(), chunk.tile), particles, at, seen, carried,
+         of_particle.template of<Kernels>()),
+     ...);
+    slot.sums = of_particle;
+    slot.carried = carried;
+    slot.keep(weights);
+  }
+  template <class Kernel, class Seen, class Sum>
+  THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim, Real>& particles, const mpm::One<Real>& at,
+                               const Seen& seen, typename Room::Carried& carried, Sum& sum) {
+    kernel(particles, at, seen, carried, sum);
+  }
+
+  THAWSLIDE_HD static void add_up(const Chunk& chunk, const Room& room) {
+    Sums sum = *room.sums();
+    for (std::size_t k = 0; k < chunk.last - chunk.first; ++k) {
+      sum += room.slots()[k].sums;
+    }
+    *room.sums() = sum;
+  }
+
+  // Of the particles of a cell those of a chunk.
+  struct CellPart {
+    std::size_t first, last;
+    bool begins, ends;
+    [[nodiscard]] THAWSLIDE_HD bool is_there() const { return first < last; }
+  };
+  [[nodiscard]] THAWSLIDE_HD CellPart part_of_cell(const Chunk& chunk, std::size_t k) const {
+    const std::size_t cell = chunk.cell + k;
+    const std::size_t from = first_of_cell(chunk.tile, cell), to = first_of_cell(chunk.tile, cell + 1);
+    CellPart part{from < chunk.first ? chunk.first : from, to < chunk.last ? to : chunk.last, from >= chunk.first,
+                  to <= chunk.last};
+    if (!part.is_there() || !over.takes(chunk.tile, cell)) {
+      part.last = part.first;
+    }
+    return part;
+  }
+
+  // A thread a node of a cell, then a thread a number of the patch.
+  template <class Name, class Group>
+  THAWSLIDE_HD void add(Group& group, const Room& room, const Chunk& chunk) const {
+    constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
+    if (!Room::template is_first<Name>()) {
+      group.barrier();
+    }
+    group.each(chunk.cells * cell_nodes, [this, room, chunk](std::size_t k) { sum_in_cell<Name>(room, chunk, k); });
+    group.barrier();
+    group.each(patch_nodes * carried,
+               [this, room, chunk](std::size_t k) { add_cells<Name>(room, chunk, k / carried, k % carried); });
+  }
+
+  template <class Name>
+  THAWSLIDE_HD void sum_in_cell(const Room& room, const Chunk& chunk, std::size_t k) const {
+    constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
+    const CellPart part = part_of_cell(chunk, k / cell_nodes);
+    if (!part.is_there()) {
+      return;
+    }
+    const std::size_t node = k % cell_nodes;
+    const std::array<std::size_t, 3> along{node % 3, node / 3 % 3, node / 9};
+    const Real* open = room.template open<Name>(chunk.number) + node * carried;
+    Real sum[carried];
+    for (std::size_t c = 0; c < carried; ++c) {
+      sum[c] = part.begins ? start<Name> : open[c];
+    }
+    for (std::size_t p = part.first; p < part.last; ++p) {
+      const auto& slot = room.slots()[p - chunk.first];
+      const auto& stencil = slot.template stencil<Name>();
+      const auto& brought = slot.carried.template of<Name>();
+      for (std::size_t c = 0; c < carried; ++c) {
+        sum[c] = mpm::add_particle(stencil, along, brought, has_flux<Name>, c, sum[c]);
+      }
+    }
+    Real* to = part.ends ? room.cell_sums() + k * carried : room.template open<Name>(chunk.number + 1) + node * carried;
+    for (std::size_t c = 0; c < carried; ++c) {
+      to[c] = sum[c];
+    }
+  }
+
+  template <class Name>
+  THAWSLIDE_HD void add_cells(const Room& room, const Chunk& chunk, std::size_t node, std::size_t component) const {
+    constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
+    Real& number = room.patch()[node * size + first_component<Name> + component];
+    for_cells_that_see(node, [&](std::size_t cell, std::size_t node_of_cell) {
+      const std::size_t k = cell - chunk.cell;
+      if (cell < chunk.cell || k >= chunk.cells) {
+        return;
+      }
+      const CellPart part = part_of_cell(chunk, k);
+      if (part.is_there() && part.ends) {
+        const Real brought = room.cell_sums()[(k * cell_nodes + node_of_cell) * carried + component];
+        number = mpm::IsLowered<Name> ? min(number, brought) : number + brought;
+      }
+    });
+  }
+
+  template <class Name>
+  static constexpr bool has_flux = Name::flux != mpm::no_flux;
+
+  // Calls visit(cell, node of the cell) for the cells, in order, that see a node of the patch.
+  template <class Visit>
+  THAWSLIDE_HD static void for_cells_that_see(std::size_t node, const Visit& visit) {
+    constexpr auto edge = static_cast<std::size_t>(T::edge), patch_edge = static_cast<std::size_t>(T::patch_edge);
+    const std::size_t at[3] = {node % patch_edge, node / patch_edge % patch_edge, node / patch_edge / patch_edge};
+    std::size_t from[3] = {0, 0, 0}, to[3] = {1, 1, 1};
+    for (int a = 0; a < Dim; ++a) {
+      from[a] = at[a] < 2 ? 0 : at[a] - 2;
+      to[a] = at[a] + 1 < edge ? at[a] + 1 : edge;
+    }
+    for (std::size_t z = from[2]; z < to[2]; ++z) {
+      for (std::size_t y = from[1]; y < to[1]; ++y) {
+        for (std::size_t x = from[0]; x < to[0]; ++x) {
+          visit((z * edge + y) * edge + x, ((at[2] - z) * 3 + at[1] - y) * 3 + at[0] - x);
+        }
+      }
+    }
+  }
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,123 @@
+// Particles in a device's memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <type_traits>
+#include <vector>
+
+#include "device/array.hpp"
+#include "device/cell_works.hpp"
+#include "mpm/particle_view.hpp"
+
+namespace thawslide::device {
+
+// One field's numbers as they shall stand in memory.
+template <class T, int Components>
+struct GatherField {
+  mpm::FieldView<T, Components> from, to;
+  const std::uint32_t* order;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    for (int c = 0; c < Components; ++c) {
+      to(k, c) = from(order[k], c);
+    }
+  }
+};
+
+// Where each particle of a list stands, once they stand in memory in some order.
+struct NotePlace {
+  const std::uint32_t* order;
+  std::uint32_t* place;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const { place[order[k]] = static_cast<std::uint32_t>(k); }
+};
+struct TakePlace {
+  const std::uint32_t* place;
+  std::uint32_t* particles;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const { particles[k] = place[particles[k]]; }
+};
+
+template <class Backend, int Dim, class Real>
+class Particles {
+ public:
+  using View = mpm::ParticleView<Dim, Real>;
+
+  // Copies so many particles; fields that are not kept are not kept here either.
+  Particles(Backend& backend, const View& from, std::size_t count) : backend_(backend), count_(count) {
+    mpm::for_fields_of(view_, from, [&](auto& here, const auto& there) {
+      here = {};
+      if (there.is_kept()) {
+        const std::size_t numbers = numbers_of(here);
+        here.numbers = room_for(here, numbers);
+        backend_.copy_in(here.numbers, there.numbers, numbers);
+      }
+    });
+    list_by_id(from);
+  }
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] const View& view() const { return view_; }
+  // By ascending id.
+  [[nodiscard]] const std::uint32_t* by_id() const { return by_id_.data(); }
+
+  // Copies all fields back, to as many particles.
+  void copy_to(const View& to) const {
+    mpm::for_fields_of(view_, to, [&](const auto& here, const auto& there) {
+      if (here.is_kept()) {
+        backend_.copy_out(there.numbers, here.numbers, numbers_of(here));
+      }
+    });
+  }
+
+  // Particle k becomes the one that stood at order[k].
+  void reorder(const std::uint32_t* order) {
+    std::size_t field = 0;
+    mpm::for_fields_of(view_, view_, [&](auto& here, const auto& /*same*/) {
+      if (here.is_kept()) {
+        gather(here, fields_[field++], order);
+      }
+    });
+    place_.resize(count_);
+    backend_.for_each(count_, NotePlace{order, place_.data()});
+    backend_.for_each(count_, TakePlace{place_.data(), by_id_.data()});
+  }
+
+ private:
+  template <class T, int Components>
+  [[nodiscard]] std::size_t numbers_of(const mpm::FieldView<T, Components>& /*field*/) const {
+    constexpr std::size_t block = mpm::particles_of_block;
+    return (count_ + block - 1) / block * block * Components;
+  }
+  template <class T, int Components>
+  T* room_for(const mpm::FieldView<T, Components>& /*field*/, std::size_t numbers) {
+    fields_.emplace_back(backend_, numbers * sizeof(T));
+    return reinterpret_cast<T*>(fields_.back().data());
+  }
+  template <class T, int Components>
+  void gather(mpm::FieldView<T, Components>& field, Array<std::byte, Backend>& numbers, const std::uint32_t* order) {
+    gathered_.resize(numbers.size());
+    const mpm::FieldView<T, Components> to{reinterpret_cast<T*>(gathered_.data())};
+    backend_.for_each(count_, GatherField<T, Components>{field, to, order});
+    backend_.copy(field.numbers, to.numbers, numbers_of(field));
+  }
+
+  void list_by_id(const View& from) {
+    std::vector<std::uint32_t> by_id(count_);
+    std::iota(by_id.begin(), by_id.end(), 0u);
+    std::sort(by_id.begin(), by_id.end(), [&](std::uint32_t p, std::uint32_t q) { return from.id(p) < from.id(q); });
+    by_id_.set(by_id);
+  }
+
+  Backend& backend_;
+  std::size_t count_;
+  View view_{};
+  std::vector<Array<std::byte, Backend>> fields_;  // those that are kept, in order
+  Array<std::byte, Backend> gathered_{backend_};
+  Array<std::uint32_t, Backend> by_id_{backend_}, place_{backend_};
+};
+
+}  // namespace thawslide::device

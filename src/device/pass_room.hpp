@@ -1,0 +1,172 @@
+// What the threads of a group share in a particle pass (device/particle_pass.hpp), and where it lies in their memory.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+#include "device/pass_weights.hpp"
+#include "mpm/kernel.hpp"
+#include "mpm/particle_view.hpp"
+
+namespace thawslide::device {
+
+// What kernels sum over particles, kernel by kernel.
+template <class... Kernels>
+struct SumsOf : mpm::ByName<mpm::Named<Kernels, typename Kernels::Account>...> {
+  THAWSLIDE_HD SumsOf& operator+=([[maybe_unused]] const SumsOf& part) {
+    ((this->template of<Kernels>() += part.template of<Kernels>()), ...);
+    return *this;
+  }
+};
+
+// The kernel itself, where what a pass is given of it is its parts, by value, of which it refers to some; and the one
+// for a tile, where that differs from tile to tile.
+template <class Kernel>
+THAWSLIDE_HD decltype(auto) kernel_of(const Kernel& kernel, [[maybe_unused]] std::size_t tile) {
+  if constexpr (requires { kernel.in_tile(tile); }) {
+    return kernel.in_tile(tile);
+  } else if constexpr (requires { kernel.kernel(); }) {
+    return kernel.kernel();
+  } else {
+    return (kernel);
+  }
+}
+
+template <class Functions, int Dim, class Real>
+using StencilBy = mpm::OneStencil<Real, Dim, std::is_same_v<Functions, mpm::LinearFunctions> ? 2 : 3>;
+
+// The weights by which a particle adds.
+template <class List, int Dim, class Real>
+struct Stencils;
+template <class... Functions, int Dim, class Real>
+struct Stencils<mpm::RecordList<Functions...>, Dim, Real>
+    : mpm::ByName<mpm::Named<Functions, StencilBy<Functions, Dim, Real>>...> {
+  THAWSLIDE_HD void keep([[maybe_unused]] const mpm::OneWeights<Dim, Real>& weights) {
+    ((this->template of<Functions>() = weights.template of<Functions>()), ...);
+  }
+};
+
+// The record that a list adds to; none.
+template <class List>
+struct OwnerOfList {
+  template <int>
+  static constexpr int size = 0;
+};
+template <class Name, class... Names>
+struct OwnerOfList<mpm::RecordList<Name, Names...>> {
+  template <int Dim>
+  static constexpr int size = mpm::components_of<Name, Dim>;
+};
+
+// A patch that is read.
+template <class Name, int Dim, class Real>
+struct PatchRead {
+  static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
+  static constexpr std::size_t count = static_cast<std::size_t>(mpm::Tile<Dim>::patch_nodes) * size;
+  const Real* numbers;
+};
+
+template <class Reads, class Adds, int Dim, class Real, class... Kernels>
+class PassRoom;
+template <class... Reads, class... Adds, int Dim, class Real, class... Kernels>
+class PassRoom<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
+  using Names = mpm::RecordList<Adds...>;
+  static_assert(mpm::all_apart<Names, Dim>, "particles add to these components of a record in different ways");
+  static_assert(mpm::one_record<Names>, "a pass has room for one patch that is added to");
+  static_assert(mpm::are_disjoint<mpm::RecordList<Reads...>, Names>,
+                "no record is read in the pass that adds to it: it has no sums yet");
+
+ public:
+  // Particles and cells at a time; threads of a group.
+  static constexpr std::size_t capacity = Dim == 2 ? 64 : 128, most_cells = 16, threads = capacity;
+  static constexpr std::size_t cell_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
+  static constexpr std::size_t size = mpm::record_size(OwnerOfList<Names>::template size<Dim>);
+  // Whether kernels sum anything over particles, and whether the record has been added to in another pass.
+  static constexpr bool adds_up = (!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...);
+  static constexpr bool goes_on = (mpm::OfAnOwner<Adds> && ...);
+
+  using Carried = mpm::ByName<mpm::Named<Adds, mpm::CarriedByOne<Adds, Dim, Real>>...>;
+  using PatchesRead = mpm::ByName<mpm::Named<Reads, PatchRead<Reads, Dim, Real>>...>;
+
+  // Of a particle.
+  struct Slot {
+    Carried carried;
+    Stencils<mpm::AllOf<mpm::RecordList<typename Adds::Functions>...>, Dim, Real> stencils;
+    SumsOf<Kernels...> sums;
+
+    THAWSLIDE_HD void keep(const mpm::OneWeights<Dim, Real>& weights) { stencils.keep(weights); }
+    template <class Name>
+    [[nodiscard]] THAWSLIDE_HD const auto& stencil() const {
+      return stencils.template of<typename Name::Functions>();
+    }
+  };
+
+  THAWSLIDE_HD explicit PassRoom(std::byte* memory) : memory_(memory) {}
+
+  [[nodiscard]] THAWSLIDE_HD Slot* slots() const { return at<Slot>(0); }
+  [[nodiscard]] THAWSLIDE_HD SumsOf<Kernels...>* sums() const { return at<SumsOf<Kernels...>>(sums_at); }
+  [[nodiscard]] THAWSLIDE_HD Real* patch() const { return at<Real>(patch_at); }
+  [[nodiscard]] THAWSLIDE_HD Real* cell_sums() const { return at<Real>(cell_sums_at); }
+  // Sums of the cell that goes on from one chunk to the next: what chunk `number` begins with.
+  template <class Name>
+  [[nodiscard]] THAWSLIDE_HD Real* open(std::size_t number) const {
+    return at<Real>(open_at) + (2 * before<Name, Adds...>() + number % 2 * mpm::carried_numbers<Name, Dim>)*cell_nodes;
+  }
+  template <class Name>
+  [[nodiscard]] THAWSLIDE_HD Real* read() const {
+    return at<Real>(reads_at) + before_read<Name, Reads...>();
+  }
+  [[nodiscard]] THAWSLIDE_HD PatchesRead patches_read() const { return {{{read<Reads>()}}...}; }
+
+  template <class Name>
+  [[nodiscard]] THAWSLIDE_HD static constexpr bool is_first() {
+    return before<Name, Adds...>() == 0;
+  }
+
+ private:
+  static constexpr std::size_t up(std::size_t bytes) { return (bytes + 15) / 16 * 16; }
+  static constexpr std::size_t largest() {
+    std::size_t most = 0;
+    ((most = most < mpm::carried_numbers<Adds, Dim> ? mpm::carried_numbers<Adds, Dim> : most), ...);
+    return most;
+  }
+  // Numbers that the records before a name in a list carry, or have in their patches.
+  template <class Name, class First, class... Rest>
+  THAWSLIDE_HD static constexpr std::size_t before() {
+    if constexpr (std::is_same_v<Name, First>) {
+      return 0;
+    } else {
+      return mpm::carried_numbers<First, Dim> + before<Name, Rest...>();
+    }
+  }
+  template <class Name, class First, class... Rest>
+  THAWSLIDE_HD static constexpr std::size_t before_read() {
+    if constexpr (std::is_same_v<Name, First>) {
+      return 0;
+    } else {
+      return PatchRead<First, Dim, Real>::count + before_read<Name, Rest...>();
+    }
+  }
+
+  static constexpr std::size_t slots_bytes = up(capacity * sizeof(Slot));
+  static constexpr std::size_t sums_at = slots_bytes;
+  static constexpr std::size_t patch_at = sums_at + up(sizeof(SumsOf<Kernels...>));
+  static constexpr std::size_t cell_sums_at =
+      patch_at + up(static_cast<std::size_t>(mpm::Tile<Dim>::patch_nodes) * size * sizeof(Real));
+  static constexpr std::size_t open_at = cell_sums_at + up(most_cells * cell_nodes * largest() * sizeof(Real));
+  static constexpr std::size_t reads_at =
+      open_at + up(2 * cell_nodes * (std::size_t{0} + ... + mpm::carried_numbers<Adds, Dim>)*sizeof(Real));
+
+  template <class What>
+  [[nodiscard]] THAWSLIDE_HD What* at(std::size_t place) const {
+    return reinterpret_cast<What*>(memory_ + place);
+  }
+
+  std::byte* memory_;
+
+ public:
+  static constexpr std::size_t bytes =
+      reads_at + up((std::size_t{0} + ... + PatchRead<Reads, Dim, Real>::count) * sizeof(Real));
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,55 @@
+// What ties the particles of a pass to nodes, as a thread with one particle makes it: the weights of
+// mpm/particle_pass.hpp in plain numbers.
+#pragma once
+
+#include <array>
+
+#include "mpm/body_sizes.hpp"
+#include "mpm/one_particle.hpp"
+
+namespace thawslide::device {
+
+// All records of the pass go by the linear shape functions.
+struct LinearWeights {
+  template <int Dim>
+  [[nodiscard]] THAWSLIDE_HD static bool at_side(std::size_t /*axis*/, int /*node*/) {
+    return false;
+  }
+  template <int Dim, class Real, class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
+                        const Particles& /*particles*/, const mpm::One<Real>& /*at*/, Real /*cell*/,
+                        Real inverse_cell) const {
+    weights.set_linear(place, inverse_cell);
+  }
+};
+
+// Shape: of momentum. sizes: of particles, in cells; on the device.
+template <class Shape, int Dim, class Real>
+struct MomentumWeights {
+  mpm::SizesOfBodies<Real> sizes;
+  mpm::HeldSides<Dim> sides;
+
+  template <int>
+  [[nodiscard]] THAWSLIDE_HD bool at_side(std::size_t axis, int node) const {
+    return node == sides.lower[axis] || node == sides.upper[axis];
+  }
+  template <class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
+                        const Particles& particles, const mpm::One<Real>& at, Real /*cell*/, Real inverse_cell) const {
+    weights.set_linear(place, inverse_cell);
+    weights.template set_momentum<Shape>(place, sizes.of(particles, at), inverse_cell);
+  }
+};
+
+// With the weights of APIC.
+template <class Shape, int Dim, class Real>
+struct AffineWeights : MomentumWeights<Shape, Dim, Real> {
+  template <class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
+                        const Particles& particles, const mpm::One<Real>& at, Real cell, Real inverse_cell) const {
+    MomentumWeights<Shape, Dim, Real>::set(weights, place, particles, at, cell, inverse_cell);
+    weights.template set_affine<Shape>(place, cell, inverse_cell);
+  }
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,76 @@
+// Passes over particles and sums at nodes, run by a backend.
+#pragma once
+
+#include "device/add_up.hpp"
+#include "device/array.hpp"
+#include "device/node_sums.hpp"
+#include "device/particle_pass.hpp"
+
+namespace thawslide::device {
+
+// Room of a pass that is kept from step to step: patches, and what kernels sum.
+template <class Backend, class Real>
+class PassMemory {
+ public:
+  explicit PassMemory(Backend& backend) : patches_(backend), sums_(backend) {}
+
+  [[nodiscard]] Real* patches(std::size_t numbers) {
+    patches_.resize(numbers > patches_.size() ? numbers : patches_.size());
+    return patches_.data();
+  }
+  // So many, the last of which becomes their sum.
+  template <class Sums>
+  [[nodiscard]] Sums* sums(std::size_t count) {
+    sums_.resize(count * sizeof(Sums) > sums_.size() ? count * sizeof(Sums) : sums_.size());
+    return reinterpret_cast<Sums*>(sums_.data());
+  }
+
+ private:
+  Array<Real, Backend> patches_;
+  Array<std::byte, Backend> sums_;
+};
+
+// As mpm::particle_pass, with kernels that hold what they need by value. What they add stands in the patches of
+// `memory` then; returns where in the device's memory their sums over particles stand until the next pass. records: of
+// what is read, by name.
+template <class Backend, class Weights, class Takes, int Dim, class Real, class Records, class... Kernels>
+SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& memory,
+                                  const PassOver<Weights, Takes, Dim, Real>& over, const Records& records,
+                                  const Kernels&... kernels) {
+  using Reads = mpm::AllOf<typename Kernels::Reads...>;
+  using Adds = mpm::AllOf<typename Kernels::Adds...>;
+  using Pass = ParticlePass<PassOver<Weights, Takes, Dim, Real>, Reads, Adds, Dim, Real, Kernels...>;
+  const std::size_t tiles = over.tables.tiles;
+  auto* sums = memory.template sums<SumsOf<Kernels...>>(tiles + 1);
+  const Pass pass{over,
+                  RecordsRead<Reads, Real>::from(records),
+                  memory.patches(tiles * Pass::patch_nodes * Pass::size),
+                  sums,
+                  {{kernels}...}};
+  backend.for_groups(tiles, Pass::Room::threads, Pass::Room::bytes, pass);
+  if constexpr (Pass::adds_up) {
+    add_up(backend, sums, tiles, sums + tiles);
+  }
+  return sums + tiles;
+}
+
+// A kernel that neither reads nor adds to nodes, nor sums, for a particle as it stands in memory.
+template <int Dim, class Real, class Kernel>
+struct VisitInMemory {
+  static_assert(std::is_same_v<typename Kernel::Reads, mpm::RecordList<>> &&
+                std::is_same_v<typename Kernel::Adds, mpm::RecordList<>> &&
+                std::is_same_v<typename Kernel::Account, mpm::NoAccount>);
+
+  mpm::ParticleView<Dim, Real> particles;
+  Kernel kernel;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    mpm::ParticleView<Dim, Real> view = particles;
+    const mpm::ByName<> seen{};
+    mpm::ByName<> added{};
+    mpm::NoAccount account;
+    kernel(view, mpm::One<Real>{{static_cast<std::uint32_t>(k)}}, seen, added, account);
+  }
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,85 @@
+// What a thread knows of tiles and blocks (mpm/sparse_grid.hpp), as tables in the device's memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/portability.hpp"
+#include "mpm/tile.hpp"
+
+namespace thawslide::device {
+
+inline constexpr std::int32_t absent = -1;
+
+template <int Dim>
+struct TileTables {
+  std::size_t particles, tiles, blocks;
+  // By place in canonical order: the particle, and its key, which is that of its tile and after it the place there of
+  // its nearest node.
+  const std::uint32_t* order;
+  const std::uint64_t* keys;
+  const std::uint64_t* tile_keys;   // ascending
+  const std::uint64_t* block_keys;  // ascending
+  // By tile and node of the tile: the place in canonical order of the first particle of that cell or after; one more
+  // than there are.
+  const std::uint32_t* first_of_cell;
+  // By 3^Dim neighbours, in order; absent where there is none.
+  const std::int32_t *blocks_about_tile, *tiles_about_block, *blocks_about_block;
+};
+
+// A node of a patch: the direction from its tile of the block that it lies in, and its place there.
+template <int Dim>
+struct PlaceInBlock {
+  std::size_t direction, node;
+};
+template <int Dim>
+THAWSLIDE_HD PlaceInBlock<Dim> place_in_block(std::size_t in_patch) {
+  using T = mpm::Tile<Dim>;
+  PlaceInBlock<Dim> place{0, 0};
+  std::size_t neighbours = 1, nodes = 1;
+  for (int a = 0; a < Dim; ++a) {
+    const int along = static_cast<int>(in_patch % T::patch_edge) - 1;  // -1 .. edge
+    in_patch /= T::patch_edge;
+    const int tile = along >> T::edge_bits;  // rounds down
+    place.direction += static_cast<std::size_t>(tile + 1) * neighbours;
+    place.node += static_cast<std::size_t>(along - tile * T::edge) * nodes;
+    neighbours *= 3;
+    nodes *= T::edge;
+  }
+  return place;
+}
+
+// Whether the tile in some direction from a block sees a node of the block; then its place in that tile's patch.
+struct PlaceInPatch {
+  bool is_seen;
+  std::size_t node;
+};
+template <int Dim>
+THAWSLIDE_HD PlaceInPatch place_in_patch(std::size_t in_block, std::size_t direction) {
+  using T = mpm::Tile<Dim>;
+  PlaceInPatch place{true, 0};
+  std::size_t nodes = 1;
+  for (int a = 0; a < Dim; ++a) {
+    const int tile = static_cast<int>(direction % 3) - 1;
+    const int along = static_cast<int>(in_block % T::edge) - tile * T::edge + 1;
+    direction /= 3;
+    in_block /= T::edge;
+    place.is_seen = place.is_seen && along >= 0 && along < T::patch_edge;
+    place.node += static_cast<std::size_t>(along) * nodes;
+    nodes *= T::patch_edge;
+  }
+  return place;
+}
+
+// Of a node of a tile, its own place and that of the lowest of the nodes about it, in the tile's patch.
+template <int Dim>
+THAWSLIDE_HD std::size_t lowest_about(std::size_t node) {
+  using T = mpm::Tile<Dim>;
+  typename T::Index lowest = T::node({}, static_cast<int>(node));
+  for (int a = 0; a < Dim; ++a) {
+    --lowest[static_cast<std::size_t>(a)];
+  }
+  return static_cast<std::size_t>(T::in_patch(lowest));
+}
+
+}  // namespace thawslide::device

@@ -1,0 +1,36 @@
+// The faces of the domain and what they prescribe at nodes (Sec. 3.2). For host and device.
+#pragma once
+
+#include "base/linear.hpp"
+#include "base/portability.hpp"
+
+namespace thawslide::mpm {
+
+enum class FaceKind { open, roller, fixed };
+
+template <int Dim, class Real>
+struct DomainFaces {
+  Vector<Real, Dim> extent;      // upper corner of the domain [m]; the lower corner is the origin
+  FaceKind faces[2 * Dim] = {};  // lower and upper face of each axis
+
+  [[nodiscard]] THAWSLIDE_HD bool at_lower(Real along, int a) const { return along <= round_off<Real> * extent[a]; }
+  [[nodiscard]] THAWSLIDE_HD bool at_upper(Real along, int a) const {
+    return along >= extent[a] * (Real(1) - round_off<Real>);
+  }
+
+  // Sets the prescribed components of the momentum of a node at a position.
+  THAWSLIDE_HD void apply_faces(const Vector<Real, Dim>& position, Vector<Real, Dim>& momentum) const {
+    for (int a = 0; a < Dim; ++a) {
+      const FaceKind kind = at_lower(position[a], a)   ? faces[2 * a]
+                            : at_upper(position[a], a) ? faces[2 * a + 1]
+                                                       : FaceKind::open;
+      if (kind == FaceKind::fixed) {
+        momentum.setZero();
+      } else if (kind == FaceKind::roller) {
+        momentum[a] = Real(0);
+      }
+    }
+  }
+};
+
+}  // namespace thawslide::mpm

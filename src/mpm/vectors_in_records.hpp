@@ -1,0 +1,29 @@
+// Vectors in the records of nodes. They go in and out whole, never component by component: a vector put together in
+// memory stalls its next use.
+#pragma once
+
+#include <cstddef>
+
+#include "base/linear.hpp"
+#include "base/portability.hpp"
+
+namespace thawslide::mpm {
+
+template <int Dim, class Real>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> vector_at(const Real* record, std::size_t first) {
+  return Eigen::Map<const Vector<Real, Dim>>(record + first);
+}
+template <int Dim, class Real, class Record>
+requires requires(const Record& record) { record.data(); }
+THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> vector_at(const Record& record, std::size_t first) {
+  return vector_at<Dim, Real>(record.data(), first);
+}
+
+template <int Dim, class Record, class Value>
+THAWSLIDE_HD void set_vector(Record& record, std::size_t first, const Value& v) {
+  for (std::size_t a = 0; a < Dim; ++a) {
+    record[first + a] = v[static_cast<int>(a)];
+  }
+}
+
+}  // namespace thawslide::mpm

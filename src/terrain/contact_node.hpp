@@ -1,0 +1,250 @@
+// What a node does in contact with the ground (Eqs. 15-17, 20; Nairn 2013; Nairn et al. 2018): from its trial momentum
+// to its motion, in the numbers of one node. For host and device. Walls: what constrains the node's momentum, with
+// any(), whether anything might, and apply(mass, momentum), which tells whether a rigid frame did.
+#pragma once
+
+#include "base/linear.hpp"
+#include "base/select.hpp"
+#include "mpm/records.hpp"
+#include "mpm/tile.hpp"
+#include "mpm/vectors_in_records.hpp"
+#include "physics/basal/contact_node.hpp"
+#include "physics/contact.hpp"
+#include "terrain/contact_work.hpp"
+#include "terrain/main_axis.hpp"
+
+namespace thawslide::terrain {
+
+// The smallest contact area, as a share of a cell's face: keeps N = p.n / (A dt) finite where no ground is near.
+inline constexpr double smallest_area = 1e-6;
+
+// One node on its way from trial to final momentum.
+template <int Dim, class Real>
+struct NodeState {
+  Real mass;
+  Vector<Real, Dim> old_momentum, momentum;
+  Vector<Real, Dim> constraint_impulse;  // of walls and frames [N s]
+  bool in_frame;
+};
+
+template <int Dim, class Real, class Walls>
+THAWSLIDE_HD void constrain(const Walls& walls, NodeState<Dim, Real>& state) {
+  if (walls.any()) {
+    const Vector<Real, Dim> before = state.momentum;
+    state.in_frame = walls.apply(state.mass, state.momentum);
+    state.constraint_impulse += state.momentum - before;
+  }
+}
+
+// record: of MomentumLayout.
+template <int Dim, class Real, class Walls, class Record>
+THAWSLIDE_HD NodeState<Dim, Real> trial_state(const Walls& walls, Real dt, Real damping, const Record& record) {
+  using Layout = mpm::MomentumLayout<Dim>;
+  NodeState<Dim, Real> state;
+  state.mass = record[Layout::mass];
+  state.old_momentum = mpm::vector_at<Dim, Real>(record, Layout::momentum);
+  state.momentum =
+      state.old_momentum + dt * mpm::vector_at<Dim, Real>(record, Layout::force) - damping * dt * state.old_momentum;
+  state.constraint_impulse.setZero();
+  state.in_frame = false;
+  constrain(walls, state);
+  return state;
+}
+
+// Momentum with which a node runs into the ground in this step, less what closes the clearance [m] before it.
+template <class Real>
+THAWSLIDE_HD Real approach(bool distance_check, Real clearance, Real dt, Real mass, Real inward_momentum) {
+  return max(Real(0), distance_check ? inward_momentum - mass * (clearance / dt) : inward_momentum);
+}
+
+// How much of the space [m3] that belongs to a node the slide fills, 0 to 1.
+template <class Real>
+THAWSLIDE_HD Real filled_share(Real volume, Real space) {
+  return volume < space ? volume / space : Real(1);
+}
+
+// The share of its ground that a slide over a node of a block covers: as much as it fills of the node's space or of
+// those of the two nodes further from the ground, since contact is felt before the gap below the slide is closed.
+// filled(direction, node): the share of a node of the block in that direction; 0 where there is none.
+template <int Dim, class Real, class Filled>
+THAWSLIDE_HD Real covered_share(std::size_t node, const Vector<Real, Dim>& into_ground, const Filled& filled) {
+  using T = mpm::Tile<Dim>;
+  const int axis = main_axis<Dim, Real>(into_ground);
+  const int outward = into_ground[axis] > Real(0) ? -1 : 1;
+  Real share = filled(T::stencil / 2, static_cast<int>(node));
+  for (int step = 1; step <= 2 && share < Real(1); ++step) {
+    const typename T::Beside further = T::beside(static_cast<int>(node), axis, step * outward);
+    share = max(share, filled(further.direction, further.local));
+  }
+  return share;
+}
+
+// Normal pressure [Pa] of a node on the ground (terrain/base_pressure.hpp). base(k): the record of BaseLayout of its
+// neighbour k of 3^Dim, itself among them, x fastest.
+template <int Dim, class Real, class Base>
+THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Real dt, Real smallest_area,
+                                        const Base& base) {
+  const int across = main_axis<Dim, Real>(into_ground);
+  const auto weight = [&](int axis, std::size_t k) {
+    return axis == across ? Real(1) : k == 1 ? Real(0.5) : Real(0.25);
+  };
+  Real load = 0, covered = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::stencil); ++k) {
+    Real along = weight(0, k % 3) * weight(1, k / 3 % 3);
+    if constexpr (Dim == 3) {
+      along *= weight(2, k / 9);
+    }
+    const auto& record = base(k);
+    load += along * record[mpm::BaseLayout::load];
+    covered += along * record[mpm::BaseLayout::covered];
+  }
+  return load / (dt * max(covered, smallest_area));
+}
+
+// What the laws of the base may ask of a node. state: its record of NodalState; volume: sum S V of the linear shape
+// functions; near_ground: its record of NearGround; pore_pressure: whether there is any.
+template <int Dim, class Real, class StateRecord, class NearGroundRecord>
+THAWSLIDE_HD physics::basal::ContactNode<Real> contact_node_of(const StateRecord& known, Real volume,
+                                                               const NearGroundRecord& near_ground, Real pressure,
+                                                               bool pore_pressure, const Vector<Real, Dim>& into_ground,
+                                                               const NodeState<Dim, Real>& state) {
+  using mpm::NearGround, mpm::NodalState;
+  // A node may have GIMP mass but no linear weight: then its averages are by mass.
+  const auto average = [&](Real by_linear, std::size_t by_mass) {
+    return volume > Real(0) ? by_linear : near_ground[by_mass] / state.mass;
+  };
+  physics::basal::ContactNode<Real> node;
+  node.normal_pressure = pressure;
+  node.pore_pressure = pore_pressure ? average(known[NodalState::pore_pressure], NearGround::pore_pressure) : Real(0);
+  node.saturation = average(near_ground[NearGround::saturation_by_linear] / volume, NearGround::saturation);
+  node.solid_fraction = average(near_ground[NearGround::solid_fraction_by_linear] / volume, NearGround::solid_fraction);
+  node.temperature = average(known[NodalState::temperature], NearGround::temperature);
+  node.slip = near_ground[NearGround::slip] / state.mass;
+  node.speed = (state.momentum - state.momentum.dot(into_ground) * into_ground).norm() / state.mass;
+  return node;
+}
+
+// What a contact node gives to the bed's matter in a step.
+template <class Real>
+struct Bite {
+  Real taken = 0;        // [kg]
+  Real impulse = 0;      // along the slip [N s]
+  Real of_friction = 0;  // what of it friction had taken already [N s]
+};
+
+// Where there is no bed.
+struct NoBed {
+  template <int Dim, class Real>
+  THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& /*impulse*/, const Vector<Real, Dim>& /*along*/,
+                               Real /*tangential_size*/) const {
+    return {};
+  }
+  template <class Real>
+  THAWSLIDE_HD void note_work(Real /*work*/) const {}
+};
+
+// The ground below a contact node, and how it holds the slide: load [kg m/s] and area [m2] of the node, strength of the
+// base [Pa], its friction coefficient.
+template <int Dim, class Real>
+struct HoldOnNode {
+  const Vector<Real, Dim>& normal;  // into the ground
+  Real load, area, strength, friction;
+};
+
+// Applies the contact impulse of one node and adds its work. state.momentum goes from trial to final. left: the node's
+// record of Contact.
+template <int Dim, class Real, class Walls, class FromBed, class Record>
+THAWSLIDE_HD void apply_contact(const Walls& walls, const HoldOnNode<Dim, Real>& hold, Real heat_fraction, Real dt,
+                                const FromBed& bed, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
+                                Record& left) {
+  using mpm::Contact;
+  const Vector<Real, Dim>& normal = hold.normal;
+  const Vector<Real, Dim> tangential = state.momentum - state.momentum.dot(normal) * normal;
+  const Real tangential_size = tangential.norm();
+  auto impulse = physics::contact_impulse(hold.load, tangential_size, hold.area, dt, hold.strength);
+  Vector<Real, Dim> along = Vector<Real, Dim>::Zero();
+  if (tangential_size > Real(0)) {
+    along = tangential / tangential_size;
+  }
+  const Bite<Real> bite = bed.template bite<Dim>(impulse, along, tangential_size);
+  impulse.tangential -= bite.of_friction;
+  const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
+  const Vector<Real, Dim> to_bed = bite.impulse * along;
+  state.momentum += total - to_bed;
+  constrain(walls, state);  // walls and frames outrank the ground
+  const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
+  const Real slip_speed = max(Real(0), Real(middle.dot(along)));
+  const Real friction_work = impulse.slides ? impulse.tangential * slip_speed : Real(0);
+  if (bite.taken > Real(0)) {
+    bed.note_work(to_bed.dot(middle));
+    work.bed_work += to_bed.dot(middle);
+    work.bed_impulse += to_bed;
+  }
+  work.friction_work += friction_work;
+  work.converted += (Real(1) - heat_fraction) * friction_work;
+  work.loss += -total.dot(middle) - friction_work;
+  work.force -= total / dt;
+  work.area += hold.area;
+  work.friction_area += hold.friction * hold.area;
+  work.shear_force += impulse.tangential / dt;
+  left[Contact::touching] = Real(1);
+  left[Contact::slip_speed] = impulse.slides ? slip_speed : Real(0);
+  left[Contact::friction_heat] = heat_fraction * friction_work / dt;
+  left[Contact::normal_force] = impulse.normal / dt;
+  left[Contact::area] = hold.area;
+}
+
+// Records the motion of a node and the energies that constraints, damping and FLIP take. constrained: walls or frames
+// may have acted. motion: its record of MotionLayout.
+template <int Dim, class Real, class Record>
+THAWSLIDE_HD void finish_node(const NodeState<Dim, Real>& state, bool constrained, Real damping, Real dt,
+                              ContactWork<Dim, Real>& work, Record& motion) {
+  using mpm::MotionLayout;
+  const Real inverse_mass = Real(1) / state.mass, inverse_dt = Real(1) / dt;
+  const Vector<Real, Dim> change = state.momentum - state.old_momentum;
+  const Vector<Real, Dim> middle = Real(0.5) * inverse_mass * (state.old_momentum + state.momentum);
+  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::acceleration, change * (inverse_mass * inverse_dt));
+  mpm::set_vector<Dim>(motion, MotionLayout<Dim>::middle_velocity, middle);
+  work.node_kinetic += Real(0.5) * change.squaredNorm() * inverse_mass;
+  if (damping > Real(0)) {
+    work.constraint_impulse -= damping * dt * state.old_momentum;
+    work.damping += damping * dt * state.old_momentum.dot(middle);
+  }
+  if (constrained) {
+    const Real constraint_work = state.constraint_impulse.dot(middle);
+    work.constraint_impulse += state.constraint_impulse;
+    work.frame_work += state.in_frame ? constraint_work : Real(0);
+    work.loss -= state.in_frame ? Real(0) : constraint_work;
+  }
+}
+
+// The ground below a node whose velocity is mapped back; not touching: it is not asked for.
+template <int Dim, class Real>
+struct GroundOfMappedBack {
+  bool touching, distance_check;
+  const Vector<Real, Dim>* normal;
+  Real clearance;
+};
+
+// From the momentum that particles map back to a node (MUSL), in its record of Velocity, to its velocity, by the same
+// conditions as in the step. Returns the work of internal forces [J] at the mid-step velocity less that at this one.
+template <int Dim, class Real, class Walls, class MomentumRecord, class MotionRecord, class VelocityRecord>
+THAWSLIDE_HD Real map_back(const Walls& walls, const GroundOfMappedBack<Dim, Real>& ground,
+                           const Vector<Real, Dim>& gravity, Real dt, const MomentumRecord& record,
+                           const MotionRecord& motion, VelocityRecord& mapped) {
+  using Layout = mpm::MomentumLayout<Dim>;
+  const Real mass = record[Layout::mass];
+  Vector<Real, Dim> momentum = mpm::vector_at<Dim, Real>(mapped, 0);
+  if (ground.touching) {
+    const Vector<Real, Dim>& normal = *ground.normal;
+    momentum -= approach(ground.distance_check, ground.clearance, dt, mass, Real(momentum.dot(normal))) * normal;
+  }
+  walls.apply(mass, momentum);
+  const Vector<Real, Dim> velocity = momentum * (Real(1) / mass);
+  mpm::set_vector<Dim>(mapped, 0, velocity);
+  const Vector<Real, Dim> internal_force = mpm::vector_at<Dim, Real>(record, Layout::force) - mass * gravity;
+  const auto middle = mpm::vector_at<Dim, Real>(motion, mpm::MotionLayout<Dim>::middle_velocity);
+  return dt * internal_force.dot(middle - velocity);
+}
+
+}  // namespace thawslide::terrain

@@ -1,0 +1,263 @@
+// Passes run by the lanes of the processor and as a device runs them, and what they leave, compared to the last bit.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <string>
+#include <typeinfo>
+
+#include "../support/fields.hpp"
+#include "band/pressure_kernels.hpp"
+#include "device/cells.hpp"
+#include "device/host_backend.hpp"
+#include "device/particles.hpp"
+#include "device/passes.hpp"
+#include "mpm/stress_kernel.hpp"
+#include "scene.hpp"
+
+namespace thawslide::testing_support {
+
+using device::Host, device::HostGroup, device::ThreadOrder;
+
+// What a pass needs beside weights and kernels: its records, what of tiles it takes, and whether its sums are asked for
+// at what the ground knows of a node.
+template <class Records, class Takes, class Asked>
+struct Pass {
+  std::string name;
+  Records& records;
+  Takes takes;
+  Asked asked;
+};
+inline constexpr auto everywhere = [](const auto& /*ground*/) { return true; };
+
+// The same on a device, which asks of every particle.
+template <class Takes, int Dim>
+struct TakesOnDevice {
+  Takes takes;
+
+  bool operator()(std::size_t tile) const { return takes(tile); }
+  bool operator()(std::size_t tile, std::size_t cell) const {
+    return mpm::takes_nodes(takes, tile, device::lowest_about<Dim>(cell));
+  }
+};
+
+inline device::LinearWeights on_device(const mpm::LinearWeights& /*weights*/) { return {}; }
+template <class Shape, int Dim>
+device::MomentumWeights<Shape, Dim, double> on_device(const mpm::MomentumWeights<Shape, Dim, double>& weights) {
+  return {weights.sizes.view(), weights.sides};
+}
+template <class Shape, int Dim>
+device::AffineWeights<Shape, Dim, double> on_device(const mpm::AffineWeights<Shape, Dim, double>& weights) {
+  return {{weights.sizes.view(), weights.sides}};
+}
+
+// The records of all nodes that a pass reads, by name.
+template <class Reads>
+class RecordsOnDevice;
+template <class... Names>
+class RecordsOnDevice<mpm::RecordList<Names...>> {
+ public:
+  template <int Dim, class Records>
+  RecordsOnDevice([[maybe_unused]] const mpm::SparseGrid<Dim, double>& grid, [[maybe_unused]] Records& records) {
+    (take<Names>(grid, records), ...);
+  }
+  template <class Name>
+  [[nodiscard]] const double* numbers() const {
+    return numbers_.template of<Name>().data();
+  }
+
+ private:
+  template <class Name, int Dim, class Records>
+  void take(const mpm::SparseGrid<Dim, double>& grid, Records& records) {
+    for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+        const auto& of_name = records.template of<Name>();
+        const auto record = of_name(mpm::NodeAt{b, k});
+        auto& numbers = numbers_.template of<Name>();
+        numbers.insert(numbers.end(), record.begin(), record.end());
+      }
+    }
+  }
+  mpm::ByName<mpm::Named<Names, std::vector<double>>...> numbers_;
+};
+
+// What kernels sum, as numbers.
+inline void take_sum(double sum, std::vector<double>& numbers) { numbers.push_back(sum); }
+inline void take_sum(const mpm::NoAccount& /*sum*/, std::vector<double>& /*numbers*/) {}
+inline void take_sum(const mpm::Deformed<double>& sum, std::vector<double>& numbers) {
+  numbers.insert(numbers.end(), {sum.work.total, sum.work.plastic, sum.work.viscous, sum.work.pore,
+                                 static_cast<double>(sum.bad.id), static_cast<double>(sum.bad.fault)});
+}
+inline void take_sum(const mpm::BadParticle& sum, std::vector<double>& numbers) {
+  numbers.insert(numbers.end(), {static_cast<double>(sum.id), static_cast<double>(sum.fault)});
+}
+inline void take_sum(const band::DrainedWater<double>& sum, std::vector<double>& numbers) {
+  numbers.insert(numbers.end(), {sum.mass, sum.heat});
+}
+
+// Every bit that a pass leaves: in fields, in the patches that it adds to, and its sums.
+using Bits = std::map<std::string, std::vector<double>>;
+
+// on_device: the patches there; null: those of the scene's nodes.
+template <class Name, int Dim, class Asked>
+void take_patches_of(Scene<Dim>& scene, const Asked& asked, const double* on_device, Bits& bits) {
+  constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
+  auto& of_name = bits[typeid(Name).name()];
+  const auto patches = scene.nodes.template of<Name>().patches(scene.grid.tiles().size());
+  for (std::size_t t = 0; t < patches.size(); ++t) {
+    const std::int32_t* blocks = scene.grid.blocks_about_tile(t);
+    mpm::for_each_direction<Dim>([&](auto d) {
+      const auto& block = scene.ground.block(static_cast<std::size_t>(blocks[d]));
+      mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
+        const std::size_t place = t * static_cast<std::size_t>(mpm::Tile<Dim>::patch_nodes) + in_patch;
+        const double* record = on_device != nullptr ? on_device + place * size : patches[t].records[in_patch].data();
+        if (asked(block[in_block])) {
+          of_name.insert(of_name.end(), record, record + size);
+        }
+      });
+    });
+  }
+}
+
+inline bool are_same(const Bits& a, const Bits& b) {
+  return a.size() == b.size() && std::all_of(a.begin(), a.end(), [&](const auto& item) {
+           const auto& other = b.at(item.first);
+           return item.second.size() == other.size() &&
+                  std::memcmp(item.second.data(), other.data(), other.size() * sizeof(double)) == 0;
+         });
+}
+
+template <class Adds>
+struct PatchesOf;
+template <class... Names>
+struct PatchesOf<mpm::RecordList<Names...>> {
+  template <int Dim>
+  static void clear([[maybe_unused]] Scene<Dim>& scene) {
+    [[maybe_unused]] const auto clear_one = [&](auto patches) {
+      for (auto& patch : patches) {
+        patch.clear();
+      }
+    };
+    (clear_one(scene.nodes.template of<Names>().patches(scene.grid.tiles().size())), ...);
+  }
+  template <int Dim, class Asked>
+  static void take([[maybe_unused]] Scene<Dim>& scene, [[maybe_unused]] const Asked& asked,
+                   [[maybe_unused]] const double* on_device, [[maybe_unused]] Bits& bits) {
+    (take_patches_of<Names>(scene, asked, on_device, bits), ...);
+  }
+  static constexpr int count = sizeof...(Names);
+};
+
+// Runs a pass by run(particles, sums) on a copy of the scene's particles; run returns the patches on the device, or
+// null.
+template <class Adds, int Dim, class Asked, class Run>
+Bits bits_of(Scene<Dim>& scene, const Asked& asked, const Run& run) {
+  mpm::Particles<Dim, double> particles;
+  particles.affine_velocity.keep(true);
+  particles.viscous_stress.keep(true);
+  Scene<Dim>::copy(scene.particles, particles);
+  PatchesOf<Adds>::clear(scene);
+  std::vector<double> sums;
+  const auto patches = run(particles, sums);
+  Bits bits = fields_by_id(particles);
+  bits["sums"] = sums;
+  PatchesOf<Adds>::take(scene, asked, patches.empty() ? nullptr : patches.data(), bits);
+  return bits;
+}
+
+template <class Adds>
+struct NumbersOfPatch {
+  template <int Dim>
+  static constexpr std::size_t count = 0;
+};
+template <class Name, class... Names>
+struct NumbersOfPatch<mpm::RecordList<Name, Names...>> {
+  template <int Dim>
+  static constexpr std::size_t count = mpm::record_size(mpm::components_of<Name, Dim>) * mpm::Tile<Dim>::patch_nodes;
+};
+
+// The pass of some kernels as a device runs it; returns its patches.
+template <int Dim, class Records, class Takes, class Asked, class Weights, class... Kernels>
+std::vector<double> run_on_device(Host host, const Pass<Records, Takes, Asked>& pass, Scene<Dim>& scene,
+                                  const Weights& weights, mpm::Particles<Dim, double>& particles,
+                                  std::vector<double>& sums, const Kernels&... kernels) {
+  using Reads = mpm::AllOf<typename Kernels::Reads...>;
+  using Adds = mpm::AllOf<typename Kernels::Adds...>;
+  const std::size_t tiles = scene.grid.tiles().size(), numbers = tiles * NumbersOfPatch<Adds>::template count<Dim>;
+  Host in_order;
+  const auto view = mpm::view_of(particles);
+  device::Particles<Host, Dim, double> on_host(in_order, view, particles.size());
+  device::Cells<Host, Dim, double> cells(in_order, scene.grid.cell());
+  cells.update(on_host.view(), on_host.by_id(), particles.size());
+  device::PassMemory<Host, double> memory(in_order);
+  std::fill_n(memory.patches(numbers), numbers, 0.0);
+  const RecordsOnDevice<Reads> records(scene.grid, pass.records);
+  const device::PassOver<decltype(on_device(weights)), TakesOnDevice<Takes, Dim>, Dim, double> over{
+      cells.tables(), on_host.view(), on_device(weights), {pass.takes}, scene.grid.cell()};
+  const auto* all = device::particle_pass(host, memory, over, records, kernels...);
+  if constexpr ((!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...)) {
+    (take_sum(all->template of<Kernels>(), sums), ...);
+  }
+  on_host.copy_to(view);
+  const double* patches = memory.patches(numbers);
+  return {patches, patches + numbers};
+}
+
+// The pass of some kernels by lanes and by groups.
+template <int Dim, class Records, class Takes, class Asked, class Weights, class... Kernels>
+void expect_the_bits_of_lanes(const Pass<Records, Takes, Asked>& pass, Scene<Dim>& scene, const Weights& weights,
+                              const Kernels&... kernels) {
+  const std::string& name = pass.name;
+  using Adds = mpm::AllOf<typename Kernels::Adds...>;
+  using Reads = mpm::AllOf<typename Kernels::Reads...>;
+  Bits before = fields_by_id(scene.particles);
+  PatchesOf<Adds>::clear(scene);
+  PatchesOf<Adds>::take(scene, pass.asked, nullptr, before);
+  before["sums"] = {};
+  const Bits by_lanes = bits_of<Adds>(scene, pass.asked, [&](auto& particles, auto& sums) {
+    const auto all = mpm::particle_pass(scene.grid, weights, particles, pass.records, pass.takes, kernels...);
+    std::apply([&](const auto&... sum) { (take_sum(sum, sums), ...); },
+               static_cast<const std::tuple<typename Kernels::Account...>&>(all));
+    return std::vector<double>{};
+  });
+  const auto by_group = [&](const Host& host) {
+    return bits_of<Adds>(scene, pass.asked, [&](auto& particles, auto& sums) {
+      return run_on_device(host, pass, scene, weights, particles, sums, kernels...);
+    });
+  };
+  EXPECT_FALSE(are_same(by_lanes, before)) << name;
+  for (const auto& [field, numbers] : by_lanes) {
+    EXPECT_TRUE(std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }))
+        << name << field;
+  }
+  for (const ThreadOrder order : {ThreadOrder::forward, ThreadOrder::backward, ThreadOrder::shuffled}) {
+    for (const std::size_t threads : {std::size_t{32}, std::size_t{7}}) {
+      const Bits found = by_group(Host(order, threads));
+      for (const auto& [field, numbers] : by_lanes) {
+        ASSERT_EQ(found.at(field).size(), numbers.size()) << name << ": " << field;
+        EXPECT_EQ(std::memcmp(found.at(field).data(), numbers.data(), numbers.size() * sizeof(double)), 0)
+            << name << ": " << field << ", " << threads << " threads, order " << static_cast<int>(order);
+      }
+    }
+  }
+  constexpr bool reads = !std::is_same_v<Reads, mpm::RecordList<>>;
+  constexpr bool adds_up = (!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...);
+  constexpr int added = PatchesOf<Adds>::count, first = reads ? 0 : 1, last = added > 0 ? 2 * added : adds_up ? 1 : 0;
+  for (int barrier = first; barrier <= last; ++barrier) {
+    EXPECT_FALSE(are_same(by_lanes, by_group(Host(ThreadOrder::shuffled, 7, barrier))))
+        << name << ", barrier " << barrier;
+  }
+}
+template <int Dim, class Weights, class... Kernels>
+void expect_the_bits_of_lanes(const std::string& name, Scene<Dim>& scene, const Weights& weights,
+                              const Kernels&... kernels) {
+  const Pass<mpm::Nodes<Dim, double>, decltype(mpm::every_tile), decltype(everywhere)> pass{
+      name, scene.nodes, mpm::every_tile, everywhere};
+  expect_the_bits_of_lanes(pass, scene, weights, kernels...);
+}
+
+}  // namespace thawslide::testing_support
