@@ -137,6 +137,7 @@ def test_numbers_of_an_explosion_are_drawn_or_left_out(make_run: MakeRun, capsys
     assert (folder / "figures" / "motion.png").is_file()
 
 
+@pytest.mark.filterwarnings("ignore:Glyph")  # the font has no Chinese
 def test_dollar_signs_and_odd_letters_are_text(make_run: MakeRun) -> None:
     """A pair of dollar signs would begin a formula, and a formula with a mistake could not be drawn."""
     folder = make_run()
