@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import os
+import re
 import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -18,6 +19,7 @@ from thawslide.key_numbers import boiling_note, found_for, key_numbers, shown
 from thawslide.maps import Maps, on_map
 from thawslide.run import Run
 from thawslide.run_facts import Ending
+from thawslide.whole_file import written_whole
 
 
 @dataclass
@@ -59,7 +61,8 @@ def make_report(
                 if not isinstance(error, NotInRunError):
                     report.faults.append(name)
                 progress(f"[{number}/{len(chosen)}] {name}: left out, {error}")
-        report.page.write_text(_page(run, report), encoding="utf-8")
+        with written_whole(report.page) as beside:
+            beside.write_text(_page(run, report), encoding="utf-8")
     except OSError as error:
         raise ReportError(f"{error.filename or output}: cannot be written: {error.strerror or error}") from error
     return report
@@ -73,7 +76,8 @@ def _draw(run: Run, name: str, folder: Path, dpi: int, progress: Callable[[str],
         if isinstance(drawn, Film):
             drawn.write(path, dpi, progress)
         else:
-            drawn.savefig(path, dpi=dpi)
+            with written_whole(path) as beside:
+                drawn.savefig(beside, dpi=dpi)
     except (ValueError, ArithmeticError, MemoryError) as error:
         raise ReportError(f"{run.folder}: {name} cannot be drawn of these numbers: {error}") from error
     return path
@@ -86,7 +90,7 @@ def figures_of(run: Run) -> list[str]:
 
 def _page(run: Run, report: Report) -> str:
     title = html.escape(run.title)
-    damage = f"Left out, since their files are damaged: {', '.join(report.faults)}." if report.faults else ""
+    damage = f"Could not be drawn: {', '.join(report.faults)}. Why stands under Left out." if report.faults else ""
     notes = [note for note in (ending_note(run), damage, boiling_note(run), *run.warnings) if note]
     parts = [
         f"<h1>{title}</h1>",
@@ -150,7 +154,8 @@ def _about(maps: Maps, name: str) -> tuple[str, str]:
 
 def page_frame(title: str, body: str) -> str:
     """Return a whole HTML page in the style of all reports; title and body are HTML already."""
-    return _FRAME.replace("TITLE", title).replace("BODY", body)
+    before, between, after = re.split("TITLE|BODY", _FRAME)  # not one after the other: a title may be "BODY"
+    return f"{before}{title}{between}{body}{after}"
 
 
 def ending_note(run: Run) -> str:

@@ -49,13 +49,13 @@ def read_facts(path: Path) -> dict[str, Any]:
 
 
 def ending_of(folder: Path, facts: dict[str, Any]) -> Ending:
-    """Return how a run ended; one that run.json calls running is asked for its lock."""
+    """Return how a run ended. While a process holds its lock it runs, whatever run.json says: it may have resumed."""
+    if is_held(folder / LOCK):
+        return Ending.RUNNING
     if not facts:
         return Ending.UNKNOWN
     ending = Ending(facts["status"])
-    if ending is Ending.RUNNING and not is_held(folder / LOCK):
-        return Ending.KILLED
-    return ending
+    return Ending.KILLED if ending is Ending.RUNNING else ending
 
 
 def is_held(lock: Path) -> bool:
@@ -66,10 +66,8 @@ def is_held(lock: Path) -> bool:
     try:
         # Without O_NONBLOCK a pipe of that name would wait for ever.
         handle = os.open(lock, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
-    except FileNotFoundError:
-        return False
     except OSError:
-        return True
+        return False
     try:
         fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
     except OSError:

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from thawslide.arrays import Numbers
 from thawslide.errors import NotInRunError, ReportError, quoted
 
-_COMPONENTS = {"velocity": 3, "displacement": 3, "stress": 6}  # of fields that are no scalars
+_COMPONENTS = {"velocity": {3}, "displacement": {3}, "stress": {6}, "mass": {1}, "volume": {1}, "in_band": {1}}
+_ANY = {1, 3, 6}  # of other fields: scalars, vectors and tensors
 _FAULTS = (OSError, RuntimeError, KeyError, ValueError, TypeError, MemoryError)  # what h5py says of a damaged file
 _AGAIN = "it is damaged; remove it or run the case again"
 
@@ -34,18 +35,18 @@ class Snapshot(Mapping[str, NDArray[Any]]):
             self.time, self.step = file.time, file.step
             if not {"Points", "PointData"} <= set(file.names("VTKHDF")):
                 raise ReportError(f"{path}: snapshot without Points or PointData; {_AGAIN}")
-            self.points: Numbers = file.array("VTKHDF/Points", 3).astype(np.float64)
+            self.points: Numbers = file.array("VTKHDF/Points", {3}).astype(np.float64)
             self._fields: dict[str, NDArray[Any]] = {}
             self._units: dict[str, str] = {}
             for name in file.names("VTKHDF/PointData"):
                 if fields is not None and name not in fields:
                     continue
                 place = f"VTKHDF/PointData/{name}"
-                self._fields[name] = file.array(place, _COMPONENTS.get(name, 1), len(self.points))
+                self._fields[name] = file.array(place, _COMPONENTS.get(name, _ANY), len(self.points))
                 self._units[name] = file.unit(place)
             self.base: dict[str, Numbers] = {}
             for name in file.names("base"):
-                components = 3 if name == "position_m" else 1
+                components = {3} if name == "position_m" else {1}
                 self.base[name] = file.array(f"base/{name}", components).astype(np.float64)
         if len({len(values) for values in self.base.values()}) > 1:
             raise ReportError(f"{path}: columns of the base differ in their numbers of rows; {_AGAIN}")
@@ -100,15 +101,17 @@ class _SnapshotFile:
         group = self._at(place)
         return [str(name) for name in group] if isinstance(group, h5py.Group) else []
 
-    def array(self, place: str, components: int, rows: int | None = None) -> NDArray[Any]:
-        """Read a dataset of shape (rows,) or (rows, components)."""
+    def array(self, place: str, components: Collection[int], rows: int | None = None) -> NDArray[Any]:
+        """Read a dataset of shape (rows,) or (rows, n), with n, 1 or more, among those that are allowed."""
         data, name = self._at(place), place.rpartition("/")[2]
         if not isinstance(data, h5py.Dataset):
             raise ReportError(f"{self._path}: {quoted(place)} is no dataset; {_AGAIN}")
         if data.is_virtual or data.external or data.dtype.kind not in "fiu":
             raise ReportError(f"{self._path}: {quoted(place)} does not hold plain numbers; {_AGAIN}")
         shape: tuple[int, ...] = data.shape or ()
-        if len(shape) != (1 if components == 1 else 2) or (components > 1 and shape[1] != components):
+        if not (len(shape) == 1 and 1 in components) and not (
+            len(shape) == 2 and shape[1] > 1 and shape[1] in components
+        ):
             raise ReportError(f"{self._path}: {quoted(place)} has the shape {shape}; {_AGAIN}")
         if rows is not None and shape[0] != rows:
             raise ReportError(f"{self._path}: field {quoted(name)} has {shape[0]} rows for {rows} particles; {_AGAIN}")

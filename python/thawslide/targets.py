@@ -30,7 +30,7 @@ _VOLUME: Units = {
     "km3": (1e9, 0.0),
     "km³": (1e9, 0.0),
 }
-_ANGLE: Units = {"degrees": (1.0, 0.0), "deg": (1.0, 0.0), "°": (1.0, 0.0), "rad": (57.29577951308232, 0.0)}
+_ANGLE: Units = {"degrees": (1.0, 0.0), "deg": (1.0, 0.0), "°": (1.0, 0.0), "rad": (math.degrees(1.0), 0.0)}
 _SHARE: Units = {"-": (1.0, 0.0), "1": (1.0, 0.0), "": (1.0, 0.0), "%": (1e-2, 0.0)}
 _TIMES = {"time_s": 1.0, "time_min": 60.0, "time_h": 3600.0}  # the column's name: seconds
 

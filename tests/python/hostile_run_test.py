@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from pathlib import Path
 
 import h5py
@@ -15,6 +16,7 @@ from thawslide import Run
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
 from thawslide.report import make_report
+from thawslide.whole_file import written_whole
 
 
 def report(folder: Path, capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:
@@ -77,7 +79,7 @@ def test_a_snapshot_with_a_damaged_field_costs_its_figures_only(
     assert code == 2
     assert "error: velocity is left out: " in told
     assert "000004.vtkhdf: 'VTKHDF/PointData/velocity' has the shape (3,); it is damaged" in told
-    assert "Left out, since their files are damaged: velocity" in page
+    assert "Could not be drawn: velocity. Why stands under Left out." in page
     assert (folder / "figures" / "motion.png").is_file()
 
 
@@ -114,7 +116,7 @@ def test_damaged_maps_cost_their_figures_only(map_run: Path, damaged: str, capsy
     code, told, page = report(map_run, capsys)
     assert code == 2
     assert f"{damaged}: cannot be read as a Geo" in told
-    assert "Left out, since their files are damaged: " in page
+    assert "Could not be drawn: " in page
     assert (map_run / "figures" / "motion.png").is_file()
 
 
@@ -125,12 +127,17 @@ def test_numbers_of_an_explosion_are_drawn_or_left_out(make_run: MakeRun, capsys
         if name not in ("time_s", "step"):
             values[5:] = [1e30, 1e200, -1e308, np.inf, -np.inf, np.nan]
     write_history(folder / "history.csv", columns)
-    code, told, page = report(folder, capsys)
-    assert code in (0, 2)
-    assert "Traceback" not in told
-    assert page
+    with warnings.catch_warnings(record=True) as noise:
+        warnings.simplefilter("always")
+        code, told, page = report(folder, capsys)
+    assert [str(each.message) for each in noise if issubclass(each.category, RuntimeWarning)] == []
+    assert code == 2
+    assert "error: band is left out: " in told
+    assert "Could not be drawn: band. Why stands under Left out." in page
+    assert (folder / "figures" / "motion.png").is_file()
 
 
+@pytest.mark.filterwarnings("ignore:Glyph")  # the font has no Chinese
 def test_dollar_signs_and_odd_letters_are_text(make_run: MakeRun) -> None:
     """A pair of dollar signs would begin a formula, and a formula with a mistake could not be drawn."""
     folder = make_run()
@@ -146,6 +153,27 @@ def test_dollar_signs_and_odd_letters_are_text(make_run: MakeRun) -> None:
     assert said == f"{title}: motion of the slide"
     assert r"reported: $\nothing$, $5 and $6" in [text.get_text() for text in speed.get_legend().get_texts()]
     assert len(make_report(Run(folder), dpi=50).figures) == 8
+
+
+def test_a_title_is_no_part_of_the_page(make_run: MakeRun) -> None:
+    folder = make_run()
+    case = (folder / "case.toml").read_text().replace("Block on a slope & <more>", "BODY of TITLE")
+    (folder / "case.toml").write_text(case)
+    page = make_report(Run(folder), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    assert "<title>BODY of TITLE</title>" in page
+    assert page.count("<h1>") == 1
+
+
+def test_what_cannot_be_written_leaves_the_earlier_file_whole(make_run: MakeRun) -> None:
+    folder = make_run()
+    report = make_report(Run(folder), names=["motion"], dpi=50)
+    before = {path: path.read_bytes() for path in (report.page, report.figures["motion"])}
+    for path in before:
+        with pytest.raises(OSError, match="full"), written_whole(path) as beside:
+            beside.write_bytes(b"the first half")
+            raise OSError("full")
+        assert path.read_bytes() == before[path]
+        assert not list(path.parent.glob("*.part*"))
 
 
 def test_ticks_of_powers_stay_formulas(map_run: Path, make_run: MakeRun) -> None:

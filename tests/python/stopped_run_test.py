@@ -79,7 +79,18 @@ def test_what_is_no_lock_file_is_answered_at_once(tmp_path: Path) -> None:
     assert not is_held(tmp_path / "pipe")
     assert not is_held(tmp_path / "nothing")
     (tmp_path / "circle").symlink_to("circle")
-    assert is_held(tmp_path / "circle"), "who cannot be asked may be alive"
+    assert not is_held(tmp_path / "circle")
+
+
+@pytest.mark.parametrize("text", ['{"status": "stopped"}', '{"status": "done"}', None])
+def test_a_run_whose_lock_is_held_runs_again_whatever_run_json_says(map_run: Path, text: str | None) -> None:
+    if text is None:
+        (map_run / "run.json").unlink()
+    else:
+        (map_run / "run.json").write_text(text)
+    with (map_run / LOCK).open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        assert Run(map_run).ending is Ending.RUNNING
 
 
 def test_the_page_of_a_killed_run_says_how_to_go_on(map_run: Path) -> None:

@@ -26,6 +26,7 @@ from thawslide.figures.slide_on_map import SPEED, columns_on, where_thick
 from thawslide.figures.style import BLUE, RED, STYLE, time_axis, time_line, write_plainly
 from thawslide.maps import Map
 from thawslide.run import Run
+from thawslide.whole_file import written_whole
 
 MOST_FRAMES = 240
 _SECONDS = 12.0  # that a film lasts, where its frames are neither too slow nor too fast
@@ -62,7 +63,13 @@ class Film:
 
     def write(self, path: Path, dpi: int, progress: Callable[[str], None] = lambda line: None) -> None:
         """Write an mp4 file (H.264, which browsers and slides play); progress tells every few seconds how far it is."""
-        beside = path.with_name(f"{path.stem}.part{path.suffix}")
+        try:
+            with written_whole(path) as beside:
+                self._write_frames(beside, dpi, lambda text: progress(f"      {path.name}: {text}"))
+        except (OSError, RuntimeError) as error:
+            raise ReportError(f"{path}: the film cannot be written: {error}") from error
+
+    def _write_frames(self, path: Path, dpi: int, tell: Callable[[str], None]) -> None:
         writer = None
         told = time.monotonic()
         try:
@@ -70,7 +77,7 @@ class Film:
                 if writer is None:
                     size = (frame.shape[1], frame.shape[0])
                     writer = imageio_ffmpeg.write_frames(
-                        beside,
+                        path,
                         size,
                         fps=self.frames_per_second,
                         quality=8,
@@ -82,17 +89,10 @@ class Film:
                 writer.send(frame)
                 if time.monotonic() - told > _TELL_EVERY:
                     told = time.monotonic()
-                    progress(f"      {path.name}: frame {number} of {len(self.indices)}")
-            if writer is not None:
-                writer.close()
-                writer = None
-            beside.replace(path)
-        except (OSError, RuntimeError) as error:
-            raise ReportError(f"{path}: the film cannot be written: {error}") from error
+                    tell(f"frame {number} of {len(self.indices)}")
         finally:
             if writer is not None:
                 writer.close()
-            beside.unlink(missing_ok=True)
 
 
 class _Picture:

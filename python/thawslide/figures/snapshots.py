@@ -86,7 +86,7 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
 
     Stretches stand between grey dotted lines, with their names in the overview and in the panels that show them.
     """
-    shots = chosen_snapshots(run)
+    shots = chosen_snapshots(run, ("volume", painting.field))
     values = [painted_values(shot, painting.field) for shot in shots]
     divisor, unit = prefixed(np.concatenate(values), "Pa") if painting.unit == "Pa" else (1.0, painting.unit)
     values = [value / divisor for value in values]
