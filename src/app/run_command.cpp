@@ -6,6 +6,7 @@
 #include "app/run_loop.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "config/input_limits.hpp"
 #include "config/read_case.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_folder.hpp"
@@ -48,7 +49,7 @@ int run_case(const RunOptions& options) {
                        disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, notes);
     io::make_run_folder(folder, options.overwrite);
     fmt::print("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
-               parameters.general.title.empty() ? parameters.name : parameters.general.title,
+               config::shown(parameters.general.title.empty() ? parameters.name : parameters.general.title),
                simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s");
     settle<Dim>(simulation, folder);
     RunOutput<Dim> output(folder, simulation);

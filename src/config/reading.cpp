@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "config/input_limits.hpp"
+
 namespace thawslide::config {
 
 namespace {
@@ -14,6 +16,30 @@ namespace {
 bool within(const std::string& inner, const std::string& outer) {
   return inner == outer ||
          (inner.size() > outer.size() && inner.compare(0, outer.size(), outer) == 0 && inner[outer.size()] == '.');
+}
+
+// What a number out of its range most likely is.
+std::string likely_unit(const Rule& rule, double found) {
+  constexpr double whole_in_percent = 100.0, coldest_in_kelvin = 150.0;
+  if (rule.unit == "C" && found > coldest_in_kelvin) {
+    return "; is it in kelvin?";
+  }
+  if (rule.unit.empty() && rule.range.low >= 0.0 && rule.range.high <= 1.0 && found > 1.0 &&
+      found <= whole_in_percent) {
+    return fmt::format("; is it in percent? As a share it is {}", plain_number(found / whole_in_percent));
+  }
+  return "";
+}
+
+// The names of the files in a folder; empty if it cannot be read.
+std::vector<std::string> files_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    names.push_back(entry->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace
@@ -67,7 +93,7 @@ void Reading::report_misfit(std::initializer_list<std::string> dotted, std::stri
 
 std::string describe_node(const toml::node& node) {
   if (const auto* text = node.as_string()) {
-    return fmt::format("the text \"{}\"", text->get());
+    return fmt::format("the text \"{}\"", shown(text->get()));
   }
   if (const auto* number = node.as_floating_point()) {
     return number_text(number->get());
@@ -123,8 +149,8 @@ bool ValueReader::number_in_range(const toml::node& node, double& value) const {
   }
   const double found = *node.value<double>();
   if (!rule.range.holds(found)) {
-    return fail(node, fmt::format("is {}; allowed: {}{}{} ({})", plain_number(found), rule.range.text(),
-                                  rule.unit.empty() ? "" : " ", rule.unit, rule.text));
+    return fail(node, fmt::format("is {}; allowed: {}{}{} ({}){}", plain_number(found), rule.range.text(),
+                                  rule.unit.empty() ? "" : " ", rule.unit, rule.text, likely_unit(rule, found)));
   }
   value = found;
   return true;
@@ -154,8 +180,7 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
   const fs::path base = from_command_line ? fs::current_path(error) : reading.folder;
   const fs::path whole = (base / path).lexically_normal();
   if (!from_command_line) {
-    const fs::path inside = fs::weakly_canonical(whole, error).lexically_relative(fs::weakly_canonical(base, error));
-    if (fs::path(path).is_absolute() || inside.empty() || *inside.begin() == "..") {
+    if (fs::path(path).is_absolute() || !lies_within(whole, base)) {
       return fail(node,
                   fmt::format("is \"{}\", which lies outside the folder of the case file; allowed: a file in that "
                               "folder. Copy it there, or give its path with --set {}={}",
@@ -163,7 +188,9 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
     }
   }
   if (!fs::is_regular_file(whole, error)) {
-    return fail(node, fmt::format("is \"{}\": no such file ({}); allowed: {}", path, whole.parent_path().string(),
+    const std::string hint = did_you_mean(whole.filename().string(), files_in(whole.parent_path()));
+    return fail(node, fmt::format("is \"{}\": no such file ({}){} {}: {}", path, whole.parent_path().string(),
+                                  hint.empty() ? ";" : hint, hint.empty() ? "allowed" : "Allowed",
                                   from_command_line ? "a file, told from where you are"
                                                     : "a file, told from the folder of the case file"));
   }
