@@ -20,26 +20,32 @@ bool within(const std::string& inner, const std::string& outer) {
 
 // What a number out of its range most likely is.
 std::string likely_unit(const Rule& rule, double found) {
-  constexpr double whole_in_percent = 100.0, coldest_in_kelvin = 150.0;
+  constexpr double least_percent = 2.0, whole_in_percent = 100.0, coldest_in_kelvin = 150.0,
+                   freezing_in_kelvin = 273.15;
   if (rule.unit == "C" && found > coldest_in_kelvin) {
-    return "; is it in kelvin?";
+    return fmt::format("; if it is in kelvin, it is {:g} C", found - freezing_in_kelvin);
   }
-  if (rule.unit.empty() && rule.range.low >= 0.0 && rule.range.high <= 1.0 && found > 1.0 &&
+  if (rule.unit.empty() && rule.range.low >= 0.0 && rule.range.high <= 1.0 && found >= least_percent &&
       found <= whole_in_percent) {
-    return fmt::format("; is it in percent? As a share it is {}", plain_number(found / whole_in_percent));
+    return fmt::format("; if it is in percent, it is {:g}", found / whole_in_percent);
   }
   return "";
 }
 
-// The names of the files in a folder; empty if it cannot be read.
-std::vector<std::string> files_in(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
+// "; did you mean 'profile.csv'?" of a file that is not there: one of its folder that ends alike. Nothing where none is
+// near.
+std::string similar_file(const std::filesystem::path& file) {
+  std::vector<std::string> stems;
   std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    names.push_back(entry->path().filename().string());
+  for (std::filesystem::directory_iterator entry(file.parent_path(), error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() == file.extension()) {
+      stems.push_back(entry->path().stem().string());
+    }
   }
-  std::sort(names.begin(), names.end());
-  return names;
+  std::sort(stems.begin(), stems.end());
+  const std::string found = nearest(file.stem().string(), stems);
+  return found.empty() ? "" : fmt::format("; did you mean '{}{}'?", found, file.extension().string());
 }
 
 }  // namespace
@@ -188,7 +194,7 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
     }
   }
   if (!fs::is_regular_file(whole, error)) {
-    const std::string hint = did_you_mean(whole.filename().string(), files_in(whole.parent_path()));
+    const std::string hint = similar_file(whole);
     return fail(node, fmt::format("is \"{}\": no such file ({}){} {}: {}", path, whole.parent_path().string(),
                                   hint.empty() ? ";" : hint, hint.empty() ? "allowed" : "Allowed",
                                   from_command_line ? "a file, told from where you are"
