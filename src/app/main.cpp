@@ -1,5 +1,6 @@
 // The command line: what can be asked, and how it ends (exit codes in ARCHITECTURE.md).
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -198,15 +199,27 @@ int run_program(int count, char** arguments) {
 
 }  // namespace
 
+namespace {
+
+// Names of files, attributes and the like come from others: signs that would steer the terminal become '?'.
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(),
+      [](unsigned char letter) { return (letter < 0x20 && letter != '\n' && letter != '\t') || letter == 0x7f; }, '?');
+  return text;
+}
+
+}  // namespace
+
 int main(int count, char** arguments) {
   thawslide::let_threads_wait_passively(arguments);
   try {
     return run_program(count, arguments);
   } catch (const thawslide::UserError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    fmt::print(stderr, "error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const thawslide::RunError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    fmt::print(stderr, "error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::run_went_bad);
   } catch (const std::filesystem::filesystem_error& error) {
     fmt::print(stderr, "error: {}{}: {}\n", error.path1().string(),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
@@ -107,11 +108,17 @@ class NewFolder {
   explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) { make_new_folder(path_); }
   ~NewFolder() {
     std::error_code ignored;
-    if (!keeps_) {
+    if (!keeps_ && !was_there_) {
       fs::remove_all(path_, ignored);
     }
-    if (!keeps_ && was_there_) {
-      fs::create_directory(path_, ignored);
+    // It was empty, and may be a link to a folder elsewhere, which stays.
+    std::vector<fs::path> made;
+    for (fs::directory_iterator entry(path_, ignored), end; !keeps_ && was_there_ && !ignored && entry != end;
+         entry.increment(ignored)) {
+      made.push_back(entry->path());
+    }
+    for (const fs::path& each : made) {
+      fs::remove_all(each, ignored);
     }
   }
   NewFolder(const NewFolder&) = delete;

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/input_files.hpp"
+#include "config/input_limits.hpp"
 #include "config/read_case.hpp"
 #include "io/run_folder.hpp"
 
@@ -48,8 +49,8 @@ int run_case(const RunOptions& options) {
     const io::RunLock lock = io::make_run_folder(folder, options.overwrite);
     RunOutput<Dim> output(folder, simulation);
     say("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
-        parameters.general.title.empty() ? parameters.name : parameters.general.title, simulation.particles().size(),
-        parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s");
+        config::shown(parameters.general.title.empty() ? parameters.name : parameters.general.title),
+        simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s");
     return start_and_run<Dim>(simulation, output, folder);
   });
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 
 namespace thawslide::config {
 
@@ -334,6 +335,9 @@ void check_case(const Case& checked, Reading& reading) {
   check_filter(checked, reading);
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
+  if (reading.sound({"report.targets"}) && !checked.report.targets.empty()) {
+    require_size(checked.report.targets, largest_table_file, "Is it the file of report.targets?");
+  }
 }
 
 }  // namespace thawslide::config

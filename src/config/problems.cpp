@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 
 namespace thawslide::config {
 
@@ -31,8 +32,12 @@ void Problems::raise_if_any() const {
                                         std::tie(b.place.source, b.place.line, b.place.column);
   });
   std::string text;
-  for (const Problem& problem : sorted) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", problem.place.text(), problem.message);
+  const std::size_t told = std::min(sorted.size(), most_problems_told);
+  for (std::size_t k = 0; k < told; ++k) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", sorted[k].place.text(), sorted[k].message);
+  }
+  if (told < sorted.size()) {
+    text += fmt::format("\nand {} more problems.", sorted.size() - told);
   }
   throw UserError(text);
 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 #include "config/problems.hpp"
 
 namespace thawslide::config {
@@ -40,6 +41,7 @@ class ProfileReader {
   explicit ProfileReader(std::string file) : file_(std::move(file)) {}
 
   ProfileTable read() {
+    require_size(file_, largest_table_file, "A terrain model is read with terrain.type = \"dem\".");
     std::ifstream stream(file_, std::ios::binary);
     std::string line;
     while (std::getline(stream, line)) {
@@ -87,7 +89,7 @@ class ProfileReader {
       fail(
           fmt::format("the header is '{}'; allowed: distance_m,terrain_elevation_m[,surface_elevation_m], separated by "
                       "commas",
-                      fmt::join(fields, ",")));
+                      shown(fmt::format("{}", fmt::join(fields, ",")))));
     }
     columns_ = fields.size();
   }
@@ -103,6 +105,9 @@ class ProfileReader {
           fmt::format("the profile folds back: distance_m is {} after {}; allowed: strictly increasing distances. Sort "
                       "the rows, and leave out overhangs and repeated points",
                       distance, table_.distance.back()));
+    }
+    if (table_.distance.size() == most_profile_rows) {
+      fail(fmt::format("the profile has more than {} rows; allowed: as many. Leave points out", most_profile_rows));
     }
     table_.distance.push_back(distance);
     table_.terrain.push_back(terrain);
@@ -124,7 +129,7 @@ class ProfileReader {
     double value = 0.0;
     const auto result = std::from_chars(begin, end, value);
     if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
-      fail(fmt::format("{} is '{}'; allowed: a finite number with a decimal point", all_columns[column], field));
+      fail(fmt::format("{} is '{}'; allowed: a finite number with a decimal point", all_columns[column], shown(field)));
     }
     return value;
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "config/input_limits.hpp"
+
 namespace thawslide::config {
 
 namespace {
@@ -14,6 +16,36 @@ namespace {
 bool within(const std::string& inner, const std::string& outer) {
   return inner == outer ||
          (inner.size() > outer.size() && inner.compare(0, outer.size(), outer) == 0 && inner[outer.size()] == '.');
+}
+
+// What a number out of its range most likely is.
+std::string likely_unit(const Rule& rule, double found) {
+  constexpr double least_percent = 2.0, whole_in_percent = 100.0, coldest_in_kelvin = 150.0,
+                   freezing_in_kelvin = 273.15;
+  if (rule.unit == "C" && found > coldest_in_kelvin) {
+    return fmt::format("; if it is in kelvin, it is {:g} C", found - freezing_in_kelvin);
+  }
+  if (rule.unit.empty() && rule.range.low >= 0.0 && rule.range.high <= 1.0 && found >= least_percent &&
+      found <= whole_in_percent) {
+    return fmt::format("; if it is in percent, it is {:g}", found / whole_in_percent);
+  }
+  return "";
+}
+
+// "; did you mean 'profile.csv'?" of a file that is not there: one of its folder that ends alike. Nothing where none is
+// near.
+std::string similar_file(const std::filesystem::path& file) {
+  std::vector<std::string> stems;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(file.parent_path(), error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() == file.extension()) {
+      stems.push_back(entry->path().stem().string());
+    }
+  }
+  std::sort(stems.begin(), stems.end());
+  const std::string found = nearest(file.stem().string(), stems);
+  return found.empty() ? "" : fmt::format("; did you mean '{}{}'?", found, file.extension().string());
 }
 
 }  // namespace
@@ -67,7 +99,7 @@ void Reading::report_misfit(std::initializer_list<std::string> dotted, std::stri
 
 std::string describe_node(const toml::node& node) {
   if (const auto* text = node.as_string()) {
-    return fmt::format("the text \"{}\"", text->get());
+    return fmt::format("the text \"{}\"", shown(text->get()));
   }
   if (const auto* number = node.as_floating_point()) {
     return number_text(number->get());
@@ -123,8 +155,8 @@ bool ValueReader::number_in_range(const toml::node& node, double& value) const {
   }
   const double found = *node.value<double>();
   if (!rule.range.holds(found)) {
-    return fail(node, fmt::format("is {}; allowed: {}{}{} ({})", plain_number(found), rule.range.text(),
-                                  rule.unit.empty() ? "" : " ", rule.unit, rule.text));
+    return fail(node, fmt::format("is {}; allowed: {}{}{} ({}){}", plain_number(found), rule.range.text(),
+                                  rule.unit.empty() ? "" : " ", rule.unit, rule.text, likely_unit(rule, found)));
   }
   value = found;
   return true;
@@ -154,8 +186,7 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
   const fs::path base = from_command_line ? fs::current_path(error) : reading.folder;
   const fs::path whole = (base / path).lexically_normal();
   if (!from_command_line) {
-    const fs::path inside = fs::weakly_canonical(whole, error).lexically_relative(fs::weakly_canonical(base, error));
-    if (fs::path(path).is_absolute() || inside.empty() || *inside.begin() == "..") {
+    if (fs::path(path).is_absolute() || !lies_within(whole, base)) {
       return fail(node,
                   fmt::format("is \"{}\", which lies outside the folder of the case file; allowed: a file in that "
                               "folder. Copy it there, or give its path with --set {}={}",
@@ -163,7 +194,9 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
     }
   }
   if (!fs::is_regular_file(whole, error)) {
-    return fail(node, fmt::format("is \"{}\": no such file ({}); allowed: {}", path, whole.parent_path().string(),
+    const std::string hint = similar_file(whole);
+    return fail(node, fmt::format("is \"{}\": no such file ({}){} {}: {}", path, whole.parent_path().string(),
+                                  hint.empty() ? ";" : hint, hint.empty() ? "allowed" : "Allowed",
                                   from_command_line ? "a file, told from where you are"
                                                     : "a file, told from the folder of the case file"));
   }

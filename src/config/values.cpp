@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "config/input_limits.hpp"
+
 namespace thawslide::config {
 
 namespace {
@@ -90,8 +92,8 @@ bool read_word(const toml::node& node, const ValueReader& at, const std::vector<
       names.push_back(word.word);
     }
     const std::string hint = did_you_mean(text->get(), names);
-    return at.fail(node, fmt::format("is \"{}\"{}: {}", text->get(), hint.empty() ? "; allowed" : hint + " Allowed",
-                                     list_of_words(words)));
+    return at.fail(node, fmt::format("is \"{}\"{}: {}", shown(text->get()),
+                                     hint.empty() ? "; allowed" : hint + " Allowed", list_of_words(words)));
   }
   found = text->get();
   return true;

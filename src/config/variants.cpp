@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "base/error.hpp"
 #include "config/declaration.hpp"
+#include "config/input_limits.hpp"
 #include "config/reading.hpp"
 
 namespace thawslide::config {
@@ -19,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string read_text(const fs::path& file) {
+  require_size(file, largest_case_file, "A profile, polygons and rasters stand in files of their own.");
   std::ifstream stream(file, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   if (!stream) {
@@ -27,7 +31,52 @@ std::string read_text(const fs::path& file) {
   return text;
 }
 
+bool is_of_key(char letter) {
+  return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '-' || letter == '"' ||
+         letter == '\'';
+}
+
+// The parser follows a dotted key by calling itself. Text with as many dots between words is taken for one.
+void require_shallow(const std::string& text, const std::string& file) {
+  std::size_t line = 1, parts = 1;
+  char before = '\0';  // but for blanks
+  bool after_dot = false;
+  for (const char letter : text) {
+    if (letter == ' ' || letter == '\t') {
+      continue;
+    }
+    parts += after_dot && is_of_key(letter) ? 1 : 0;
+    after_dot = letter == '.' && is_of_key(before);
+    before = letter;
+    if (parts > most_key_parts) {
+      throw UserError(
+          fmt::format("{}:{}: this is no case: a key of more than {} parts; allowed: TABLE.NAME.KEY. Is it "
+                      "the right file?",
+                      file, line, most_key_parts));
+    }
+    if (std::string_view(",=[]{}\n").find(letter) != std::string_view::npos) {
+      parts = 1;
+    }
+    line += letter == '\n' ? 1 : 0;
+  }
+}
+
+// What the parser most likely stumbled over: where a value should have ended it saw something else.
+std::string likely_slip(std::string_view description) {
+  const std::string_view end = "expected a comment or whitespace, saw '";
+  const std::size_t at = description.find(end);
+  const char seen = at == std::string_view::npos ? '\0' : description[at + end.size()];
+  if (seen == ',') {
+    return "A number has a decimal point, no comma. ";
+  }
+  if (std::isalpha(static_cast<unsigned char>(seen)) != 0) {
+    return "A number stands without its unit; a text stands in quotes. ";
+  }
+  return description.find("cannot redefine") == std::string_view::npos ? "" : "A key stands once in a table. ";
+}
+
 toml::table parse(const std::string& text, const std::string& file) {
+  require_shallow(text, file);
   try {
     toml::table root = toml::parse(text, std::string_view(file));
     if (root.empty()) {
@@ -37,8 +86,8 @@ toml::table parse(const std::string& text, const std::string& file) {
     return root;
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
-    throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. Correct the line; https://toml.io tells the rules.",
-                                file, begin.line, begin.column, error.description()));
+    throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. {}Correct the line; https://toml.io tells the rules.",
+                                file, begin.line, begin.column, error.description(), likely_slip(error.description())));
   }
 }
 
@@ -60,6 +109,13 @@ std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, c
   std::error_code error;
   if (!fs::is_regular_file(base, error)) {
     throw UserError(place + ": no such file; allowed: the name of a case file of the same folder.");
+  }
+  if (!lies_within(base, file.parent_path())) {
+    throw UserError(place + ", a link that leads out of the folder; allowed: a case file in it. Copy it there.");
+  }
+  if (chain.size() >= most_case_files) {
+    throw UserError(fmt::format("{}, and {} files stand on one another already; allowed: {}. Join some of them.", place,
+                                chain.size(), most_case_files));
   }
   if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
     throw UserError(place + ", which leads back to itself. Let one of the files stand alone.");

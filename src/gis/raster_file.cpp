@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/spatial_reference.hpp"
 
@@ -33,6 +35,9 @@ namespace {
                   file, messages.remark()));
 }
 
+// Of the formats that GDAL knows some name other files, or places in a network, that a case could not.
+const char* const raster_formats[] = {"GTiff", "AAIGrid", nullptr};
+
 GDALDatasetUniquePtr open_raster(const std::string& file) {
   const GdalMessages messages;
   GDALDriverH driver = GDALIdentifyDriver(file.c_str(), nullptr);
@@ -40,8 +45,8 @@ GDALDatasetUniquePtr open_raster(const std::string& file) {
   const bool is_ascii = driver != nullptr && std::string(GDALGetDescription(driver)) == "AAIGrid";
   const char* const as_double[] = {"DATATYPE=Float64", nullptr};
   GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(),
-                                                 GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
-                                                 is_ascii ? as_double : nullptr, nullptr));
+                                                 GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                                 raster_formats, is_ascii ? as_double : nullptr, nullptr));
   if (dataset == nullptr) {
     fail_open(file, messages);
   }
@@ -74,6 +79,27 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
   layout.y = (north_up ? transform[3] - layout.rows * layout.cell_y : transform[3]) + 0.5 * layout.cell_y;
   layout.crs = wkt_from_reference(dataset.GetSpatialRef());
   return layout;
+}
+
+// Before memory for them is asked for.
+void require_readable(const std::string& file, double columns, double rows) {
+  constexpr double copies = 2.0;  // while what is read becomes the ground
+  const double points = columns * rows, bytes = points * sizeof(double) * copies;
+  if (points > config::most_raster_points) {
+    throw UserError(
+        fmt::format("{}: {:.0f} x {:.0f} points of the raster are asked for; allowed: {:g} points. Crop it "
+                    "(gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make the domain "
+                    "smaller.",
+                    file, columns, rows, config::most_raster_points));
+  }
+  const AvailableMemory available = available_memory();
+  if (bytes > available.bytes) {
+    throw UserError(
+        fmt::format("{}: {:.0f} x {:.0f} points of the raster are asked for; they take {:.3g} GB of memory, and {:.3g} "
+                    "GB {}. Crop it (gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make "
+                    "the domain smaller.",
+                    file, columns, rows, bytes / 1e9, available.bytes / 1e9, available.bound));
+  }
 }
 
 double nodata_of(GDALRasterBand& band, bool& has) {
@@ -124,6 +150,7 @@ Rectangle RasterFile::extent() const {
 Raster RasterFile::read(const std::optional<Rectangle>& window) const {
   const PointWindow part = window ? points_in(layout_, *window) : PointWindow{0, 0, layout_.columns, layout_.rows};
   THAWSLIDE_ASSERT(part.columns > 0 && part.rows > 0, "{}: a window without a point", file_);
+  require_readable(file_, part.columns, part.rows);
   Raster raster = layout_of(layout_, part);
   raster.values.resize(static_cast<std::size_t>(part.columns) * static_cast<std::size_t>(part.rows));
   // GDAL's rows go downwards in a file that is north up: those of the result are filled from the last.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 #include "config/problems.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/geometry.hpp"
@@ -48,10 +49,13 @@ bool holds(OGRwkbGeometryType type, Kind kind) {
   }
 }
 
+// Of the formats that GDAL knows some name other files, or places in a network, that a case could not.
+const char* const vector_formats[] = {"ESRI Shapefile", "GPKG", "GeoJSON", nullptr};
+
 GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
   const GdalMessages messages;
   GDALDatasetUniquePtr dataset(
-      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, vector_formats));
   if (dataset == nullptr) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {
@@ -146,6 +150,7 @@ class LayerReader {
     };
     for (const auto& feature : *layer_) {
       require_whole();
+      require_few(result_.features.size() + 1, config::most_features, word_of(kind_));
       take(*feature);
     }
     require_whole();
@@ -156,6 +161,15 @@ class LayerReader {
   }
 
  private:
+  void require_few(std::size_t found, std::size_t most, const char* what) const {
+    if (found > most) {
+      throw UserError(
+          fmt::format("{}: the file has more than {} {}; allowed: as many. Export those that are meant to a "
+                      "file of their own, or simplify them (ogr2ogr -simplify).",
+                      result_.file, most, what));
+    }
+  }
+
   void choose_reprojection(const std::string& crs) {
     OGREnvelope envelope;
     const bool has_extent = layer_->GetExtent(&envelope) == OGRERR_NONE;
@@ -244,7 +258,9 @@ class LayerReader {
                                 geometry.getGeometryName(), word_of(kind_)));
   }
 
-  void reproject(Polyline2& line, const std::string& title) const {
+  void reproject(Polyline2& line, const std::string& title) {
+    corners_ += line.size();
+    require_few(corners_, config::most_corners, "corners");
     std::vector<double> x, y;
     for (const auto& corner : line) {
       x.push_back(corner[0]);
@@ -266,6 +282,7 @@ class LayerReader {
   GDALDatasetUniquePtr dataset_;
   OGRLayer* layer_ = nullptr;
   Reprojection reprojection_{"", ""};
+  std::size_t corners_ = 0;  // so far
   VectorLayer result_;
 };
 

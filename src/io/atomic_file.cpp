@@ -39,7 +39,7 @@ bool synchronise_folder(const fs::path& folder) {
 
 void write_file_atomically(const fs::path& file, const void* data, std::size_t bytes, const fs::path& previous) {
   const fs::path temporary = file.string() + fmt::format(".{}{}", getpid(), unfinished);
-  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW, 0666);
   if (descriptor < 0) {
     fail(file, temporary, errno);
   }

@@ -162,7 +162,7 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
     // A large file is linked, which takes no room, where the file system can: the run goes on from it all the same.
     std::error_code not_linked;
     if (content.size() > linked_from) {
-      fs::create_hard_link(file, copy, not_linked);
+      fs::create_hard_link(fs::canonical(file), copy, not_linked);  // of the file, where its name is a link
     }
     if (content.size() <= linked_from || not_linked) {
       write_file_atomically(copy, content);

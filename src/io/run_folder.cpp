@@ -39,6 +39,12 @@ fs::path existing_part(const fs::path& folder) {
 }
 
 void require_usable(const fs::path& folder, bool overwrite) {
+  if (fs::is_symlink(folder) && !fs::exists(folder)) {
+    throw UserError(
+        fmt::format("the output folder {} cannot be made: it is a link to a folder that is not there. Give another "
+                    "--output.",
+                    folder.string()));
+  }
   const fs::path part = existing_part(folder);
   if (!fs::is_directory(part)) {
     throw UserError(fmt::format("the output folder {} cannot be made: {} is a file. Give another --output.",

@@ -90,7 +90,18 @@ def test_check_says_what_a_run_will_take(thawslide: Program) -> None:
     assert said["cells"].startswith(f"{1220 * 220} in the domain")
     assert re.match(r"0\.01 s; the limit is 0\.0\d+ s, set by the elastic wave of material 'rock_ice'", said["step"])
     assert said["steps"] == "20000"
-    assert re.fullmatch(r"[1-9]\d{0,2} MB", said["memory"])
+    assert re.fullmatch(r"about [1-9]\d{0,2} MB; \S+ [MG]B are (free|left by .*)", said["memory"])
+    assert re.match(
+        r"slide: 8\.428e\+04 m3 and 1\.738e\+08 kg per metre of width, along 1055 m; 79\.9 m thick in the mean, 90 m "
+        r"in the median and 90 m at most \(vertical\)",
+        said["body"],
+    )
+    assert "              3371 particles 5 m apart; 18 across in the median and 18 at most; -10 C\n" in outcome.stdout
+    assert re.fullmatch(
+        r"about 181 MB: 201 snapshots of 0\.9 MB, 3 checkpoints of 1\.2 MB, history 2\.5 MB, inputs 0\.0 MB; \S+ [MG]B "
+        r"are free",
+        said["disk"],
+    )
     assert re.match(r"about (\d+ h )?(\d+ min ?)?(\d+ s )?on \d+ threads?", said["time"])
     assert "picture" not in said
 

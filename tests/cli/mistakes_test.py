@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from conftest import LAMPLUGH, Program, sets
+from common_mistakes import COMMON_MISTAKES, CommonMistake
+from conftest import LAMPLUGH, SMALL_CASE, Program, sets
 
 
 def refused(thawslide: Program, case: Path, *words: str) -> str:
@@ -29,6 +30,16 @@ def edited(case: Path, old: str, new: str) -> Path:
 
 def line_of(file: Path, start: str) -> int:
     return 1 + next(k for k, line in enumerate(file.read_text().splitlines()) if line.startswith(start))
+
+
+@pytest.mark.parametrize("mistake", COMMON_MISTAKES, ids=lambda mistake: mistake.name)
+def test_common_mistake_word_for_word(thawslide: Program, small_case: Path, mistake: CommonMistake) -> None:
+    mistake.write(SMALL_CASE, small_case)
+    assert refused(thawslide, small_case) == mistake.said.replace("{case}", str(small_case))
+
+
+def test_there_are_twenty_common_mistakes() -> None:
+    assert len({mistake.name for mistake in COMMON_MISTAKES}) == 20
 
 
 def test_missing_case_with_the_nearest_name(thawslide: Program, small_case: Path) -> None:

@@ -198,8 +198,8 @@ def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Sl
         assert told, said["maps"]
         assert 0.0 < float(told[3]) < float(told[4])
         one = int(told[1]) * int(told[2]) * 8
-        assert said["disk"].endswith(
-            f", 12 maps (10 of {one / 1e6:.1f} MB, 2 of {of_ground / 1e6:.1f} MB) before they are compressed"
-        )
+        assert (
+            f", 12 maps (10 of {one / 1e6:.1f} MB, 2 of {of_ground / 1e6:.1f} MB) before they are compressed; "
+        ) in said["disk"]
     refusal = refused(thawslide("check", folder, "--set", "maps.cell=0.01"))
     assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal

@@ -53,8 +53,28 @@ TEST(Mistakes, NotToml) {
       "FOLDER/case.toml:5:8: this is not TOML: Error while parsing value: could not determine value type" + remedy);
   EXPECT_EQ(error_of_changed({{"cell = 5.0", "cell = 5.0\ncell = 6.0"}}),
             "FOLDER/case.toml:6:8: this is not TOML: Error while parsing key-value pair: cannot redefine existing "
-            "floating-point 'cell'" +
+            "floating-point 'cell'. A key stands once in a table" +
                 remedy);
+  EXPECT_EQ(error_of_changed({{"cell = 5.0", "cell = 5,0"}}),
+            "FOLDER/case.toml:5:9: this is not TOML: Error while parsing key-value pair: expected a comment or "
+            "whitespace, saw ','. A number has a decimal point, no comma" +
+                remedy);
+  EXPECT_EQ(error_of_changed({{"cell = 5.0", "cell = 5.0 m"}}),
+            "FOLDER/case.toml:5:12: this is not TOML: Error while parsing key-value pair: expected a comment or "
+            "whitespace, saw 'm'. A number stands without its unit; a text stands in quotes" +
+                remedy);
+}
+
+TEST(Mistakes, NumbersInUnitsThatAreLikely) {
+  const auto with_block = [](const std::string& line) {
+    return error_of_changed({{"[body.block]", "[body.block]\n" + line}});
+  };
+  EXPECT_NE(with_block("porosity = 37.5").find("; if it is in percent, it is 0.375. Correct it"), std::string::npos);
+  EXPECT_NE(with_block("temperature = 263.15").find("; if it is in kelvin, it is -10 C. Correct it"),
+            std::string::npos);
+  for (const char* line : {"porosity = 1.5", "porosity = -1", "porosity = 150", "temperature = 120"}) {
+    EXPECT_EQ(with_block(line).find("; if it is in"), std::string::npos) << line;
+  }
 }
 
 TEST(Mistakes, NumberExpected) {

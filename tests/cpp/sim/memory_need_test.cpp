@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "../support/case_from_text.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "band/base_piece.hpp"
@@ -72,7 +70,7 @@ TEST(MemoryNeed, SumsItsParts) {
 TEST(MemoryNeed, CountsGroundMapsAndReleaseInSpace) {
   const std::string text = testing_support::release_on_dem({1.0, 0.001, 10.0, {0.0, 0.0, 0.0}, {400.0, 400.0, 400.0}},
                                                            testing_support::elastic_rock(0.0), 20.0);
-  const config::Case parameters = case_from_text(text);
+  const config::Case parameters = testing_support::case_on_dem(text);
   config::Site site;
   Raster ground{0.0, 0.0, 20.0, 20.0, 21, 21, std::vector<double>(441, 100.0), ""};
   site.ground = std::make_shared<const Raster>(ground);

@@ -1,0 +1,33 @@
+#include "config/input_limits.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace thawslide::config {
+
+namespace fs = std::filesystem;
+
+void require_size(const fs::path& file, double most_bytes, const std::string& advice) {
+  std::error_code unknown;
+  const auto bytes = static_cast<double>(fs::file_size(file, unknown));
+  if (!unknown && bytes > most_bytes) {
+    throw UserError(fmt::format("{}: the file has {:.4g} MB; allowed: {:g} MB. {}", file.string(), bytes / 1e6,
+                                most_bytes / 1e6, advice));
+  }
+}
+
+std::string shown(const std::string& text) {
+  std::string plain = text.substr(0, most_letters_quoted);
+  std::replace_if(
+      plain.begin(), plain.end(), [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, '?');
+  return plain.size() < text.size() ? plain + "..." : plain;
+}
+
+bool lies_within(const fs::path& path, const fs::path& folder) {
+  std::error_code error;
+  const fs::path inside = fs::weakly_canonical(path, error).lexically_relative(fs::weakly_canonical(folder, error));
+  return !inside.empty() && *inside.begin() != "..";
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,199 @@
+"""Inputs that are too large, too deep, or links: refused with a clear word, or handled as the user guide says."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from conftest import Program, assert_same_bits, run_facts, sets
+from slope_files import CELL, SOUTH, WEST, Slope, made, write_release
+
+PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
+
+
+def refusal(thawslide: Program, *words: object) -> str:
+    outcome = thawslide(*words)
+    assert outcome.returncode == 2 and outcome.stdout == "", outcome.stdout
+    return outcome.stderr
+
+
+def with_profile(case: Path, profile: str = PROFILE) -> Path:
+    """Give the case a profile; return its file."""
+    file = case / "case.toml"
+    text = file.read_text()
+    file.write_text(text.replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "profile.csv"'))
+    (case / "profile.csv").write_text(profile)
+    return case / "profile.csv"
+
+
+def test_large_case_file(thawslide: Program, small_case: Path) -> None:
+    file = small_case / "case.toml"
+    file.write_text(file.read_text() + "#" * 10_000_000 + "\n")
+    assert refusal(thawslide, "check", file) == (
+        f"error: {file}: the file has 10 MB; allowed: 10 MB. A profile, polygons and rasters stand in files of their "
+        "own.\n"
+    )
+
+
+def test_large_profile(thawslide: Program, small_case: Path) -> None:
+    profile = with_profile(small_case)
+    os.truncate(profile, 200_000_000)
+    said = refusal(thawslide, "check", small_case)
+    assert (
+        f'{profile}: the file has 200 MB; allowed: 100 MB. A terrain model is read with terrain.type = "dem".' in said
+    )
+
+
+def test_long_profile(thawslide: Program, small_case: Path) -> None:
+    rows = "".join(f"{k},0\n" for k in range(1_000_001))
+    profile = with_profile(small_case, "distance_m,terrain_elevation_m\n" + rows)
+    assert f"{profile}:1000002: the profile has more than 1000000 rows; allowed: as many." in refusal(
+        thawslide, "check", small_case
+    )
+
+
+@pytest.mark.parametrize("text", ["a{} = 1\n", "[a{}]\nb = 1\n", "[time]\nend = {{ b{} = 1 }}\n", "a {} = 1\n"])
+def test_key_of_many_parts(thawslide: Program, tmp_path: Path, text: str) -> None:
+    """The parser would exhaust the stack."""
+    file = tmp_path / "deep.toml"
+    file.write_text(text.format((" . a" if text.startswith("a {") else ".a") * 200_000))
+    line = 2 if "time" in text else 1
+    assert refusal(thawslide, "check", file) == (
+        f"error: {file}:{line}: this is no case: a key of more than 50 parts; allowed: TABLE.NAME.KEY. Is it the right "
+        "file?\n"
+    )
+
+
+def test_many_problems_are_not_all_told(thawslide: Program, small_case: Path) -> None:
+    file = small_case / "case.toml"
+    file.write_text(file.read_text() + "".join(f"wrong{k} = 1\n" for k in range(80)))
+    said = refusal(thawslide, "check", file).splitlines()
+    assert len(said) == 51 and said[-1] == "and 30 more problems."
+
+
+def test_long_texts_and_signs_of_terminals_are_not_repeated(thawslide: Program, small_case: Path) -> None:
+    said = refusal(thawslide, "check", small_case, "--set", 'time.end="\\u001b[2J' + "x" * 100_000 + '"')
+    assert "\x1b" not in said and 'time.end is the text "?[2J' in said and 'xxx..."; allowed: a number' in said
+
+
+def test_chain_of_case_files(thawslide: Program, small_case: Path) -> None:
+    for k in range(20):
+        base = "case.toml" if k == 0 else f"v{k - 1}.toml"
+        (small_case / f"v{k}.toml").write_text(f'[case]\nbased_on = "{base}"\n')
+    assert thawslide("check", small_case / "v14.toml").returncode == 0
+    said = refusal(thawslide, "check", small_case / "v19.toml")
+    assert "and 16 files stand on one another already; allowed: 16. Join some of them." in said
+
+
+def test_links_to_inputs_lead_nowhere_else(thawslide: Program, small_case: Path) -> None:
+    """A link in the folder may lead to a file in it, and not out of it; what --set names may lead anywhere."""
+    outside = small_case.parent / "elsewhere.csv"
+    outside.write_text(PROFILE)
+    profile = with_profile(small_case)
+    profile.rename(small_case / "real.csv")
+    profile.symlink_to("real.csv")
+    run = small_case.parent / "run"
+    assert thawslide("run", small_case, "--output", run, *sets(time__end=0.01)).returncode == 0
+    copy = run / "inputs" / "profile.csv"
+    assert copy.read_text() == PROFILE and not copy.is_symlink()
+    profile.unlink()
+    profile.symlink_to(outside)
+    assert 'terrain.file is "profile.csv", which lies outside the folder of the case file; allowed:' in refusal(
+        thawslide, "check", small_case
+    )
+    assert thawslide("check", small_case, "--set", f"terrain.file={profile}").returncode == 0
+
+
+def test_links_to_case_files(thawslide: Program, small_case: Path) -> None:
+    """A case file that is a link is read, with the files beside the link; what it is based on stays in the folder."""
+    outside = small_case.parent / "other.toml"
+    (small_case / "case.toml").rename(outside)
+    (small_case / "case.toml").symlink_to(outside)
+    assert thawslide("check", small_case).returncode == 0
+    variant = small_case / "variant.toml"
+    variant.write_text('[case]\nbased_on = "case.toml"\n')
+    assert refusal(thawslide, "check", variant) == (
+        f'error: {variant}:2:12: case.based_on is "case.toml", a link that leads out of the folder; allowed: a case '
+        "file in it. Copy it there.\n"
+    )
+
+
+def test_output_folder_that_is_a_link(thawslide: Program, small_case: Path) -> None:
+    """Results go to where it leads, the link stays, and nothing beside it is touched when a run is replaced."""
+    disk, run, plain = (small_case.parent / name for name in ("disk", "run", "plain"))
+    disk.mkdir()
+    run.symlink_to(disk)
+    words = sets(time__end=0.05)
+    assert thawslide("run", small_case, "--output", run, *words).returncode == 0
+    assert run.is_symlink() and (disk / "run.json").is_file()
+    assert thawslide("run", small_case, "--output", plain, *words).returncode == 0
+    assert_same_bits(run, plain)
+    # A link among the files of a run is replaced, and what it leads to stays.
+    kept = small_case.parent / "kept"
+    kept.mkdir()
+    (kept / "000000.vtkhdf").write_text("of another")
+    for each in (disk / "snapshots").iterdir():
+        each.unlink()
+    (disk / "snapshots").rmdir()
+    (disk / "snapshots").symlink_to(kept)
+    assert thawslide("run", small_case, "--output", run, "--overwrite", *words).returncode == 0
+    assert not (disk / "snapshots").is_symlink() and (kept / "000000.vtkhdf").read_text() == "of another"
+    assert run_facts(run)["status"] == "done"
+
+
+def test_output_folder_that_is_a_link_to_nothing(thawslide: Program, small_case: Path) -> None:
+    run = small_case.parent / "run"
+    run.symlink_to(small_case.parent / "nowhere")
+    said = refusal(thawslide, "run", small_case, "--output", run)
+    assert said == (
+        f"error: the output folder {run} cannot be made: it is a link to a folder that is not there. Give another "
+        "--output.\n"
+    )
+    assert not (small_case.parent / "nowhere").exists()
+
+
+def test_rasters_of_other_formats_are_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """A virtual raster names other files, which a case may not reach."""
+    dem = slope()
+    virtual = tmp_path / "virtual.tif"
+    virtual.write_text(
+        f'<VRTDataset rasterXSize="40" rasterYSize="40"><GeoTransform>{WEST}, {CELL}, 0, {SOUTH + 40 * CELL}, 0, '
+        f'-{CELL}</GeoTransform><VRTRasterBand dataType="Float64" band="1"><SimpleSource><SourceFilename>{dem}'
+        "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>"
+    )
+    said = made(thawslide, tmp_path / "slide", virtual, release, "--thickness", 20)
+    assert said.returncode == 2 and not (tmp_path / "slide").exists()
+    assert "virtual.tif: the raster cannot be opened" in said.stderr
+    assert "Allowed: a GeoTIFF or an ESRI ASCII grid" in said.stderr
+
+
+def test_polygons_without_end(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    polygons = write_release(tmp_path / "many.geojson", WEST + 200.0, SOUTH + 250.0)
+    text = polygons.read_text()
+    start, end = text.index('{"type": "Feature",'), text.rindex("]")
+    polygons.write_text(text[:start] + ",".join([text[start:end]] * 100_001) + text[end:])
+    said = made(thawslide, tmp_path / "slide", slope(), polygons, "--thickness", 20)
+    assert said.returncode == 2 and "the file has more than 100000 polygons; allowed: as many." in said.stderr
+
+
+def test_raster_of_more_points_than_are_taken(thawslide: Program, tmp_path: Path, release: Path) -> None:
+    """Told by its header alone: no memory is asked for."""
+    dem = tmp_path / "large.asc"
+    with dem.open("w") as file:
+        file.write(f"ncols 30000\nnrows 30000\nxllcorner {WEST}\nyllcorner {SOUTH}\ncellsize 1\nNODATA_value -9999\n")
+        file.write(" ".join(["1"] * 1000) + "\n")
+    said = made(thawslide, tmp_path / "slide", dem, release, "--thickness", 20, "--crs", "EPSG:31287")
+    assert said.returncode == 2
+    assert "30000 x 30000 points of the raster are asked for; allowed: 4e+08 points. Crop it" in said.stderr
+
+
+def test_nothing_stays_where_new_fails_into_a_link(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """The folder that the link leads to is empty again, and the link is there."""
+    place, folder = tmp_path / "place", tmp_path / "slide"
+    place.mkdir()
+    folder.symlink_to(place)
+    release = write_release(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
+    outcome = made(thawslide, folder, slope(), release, "--thickness", 20, "--cell", 200)
+    assert outcome.returncode == 2 and "error: no case was made, as it would not run: " in outcome.stderr
+    assert folder.is_symlink() and place.is_dir() and not list(place.iterdir())

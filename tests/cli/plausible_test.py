@@ -1,0 +1,210 @@
+"""What `check` and `run` doubt of a case that is sound, and what they tell of it: as text and as JSON."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, Program, sets
+
+# The case of the tests with what it lacks for nothing to be doubted.
+BAND = '\n[band]\nmodel = "scaled"\nthickness = 0.2\n'
+LID = '\n[body.lid]\nmaterial = "rock"\nmin = [10.0, 3.0]\nmax = [14.0, 6.0]\ntemperature = -10.0\nporosity = 0.3\n'
+CASES = sorted((ROOT / "cases").glob("*/*.toml"))
+BROUGHT = {"alr", "fluchthorn"}  # whose terrain the user brings
+
+
+@pytest.fixture
+def plain_case(small_case: Path) -> Path:
+    file = small_case / "case.toml"
+    text = file.read_text().replace("cohesion = 1.0e5", "cohesion = 1.0e5\nhydraulic_conductivity = 1e-7")
+    file.write_text(text + BAND)
+    return small_case
+
+
+def notes_of(thawslide: Program, case: Path, *words: str) -> list[str]:
+    """Return what `check` notes; fails where it is not the same as JSON."""
+    said = thawslide("check", case, *words)
+    told = thawslide("check", case, "--json", *words)
+    assert said.returncode == told.returncode == 0, said.stderr + told.stderr
+    notes = re.findall(r"^note: (.*)$", said.stdout, re.MULTILINE)
+    assert notes == json.loads(told.stdout)["notes"]
+    return notes
+
+
+def test_nothing_is_doubted_of_a_plain_case(thawslide: Program, plain_case: Path) -> None:
+    assert notes_of(thawslide, plain_case, "--set", "grid.cell=0.5") == []
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.parent.name}/{case.stem}")
+def test_nothing_is_doubted_of_the_cases_of_the_project(thawslide: Program, case: Path) -> None:
+    if case.parent.name in BROUGHT:
+        pytest.skip("the case needs data that are not in the repository")
+    assert "note:" not in thawslide("check", case).stdout
+
+
+COARSE = (
+    "the body block has 3 particles across its median thickness of 1.5 m; fewer than 4 do not tell how it shears and "
+    "thins. A cell of 0.5 m has 6 and more"
+)
+
+
+@pytest.mark.parametrize(
+    ("words", "note"),
+    [
+        (
+            sets(body__block__min="[10.0,2.0]", body__block__max="[14.0,5.0]"),
+            "{case}:27:1: body.block floats: its underside is 2 m above what is below it, and it falls for 0.64 s "
+            'before it touches. Begin it lower by 2 m, or set shape = "surface" or "release", which follow the ground.',
+        ),
+        (
+            sets(terrain__type="none"),
+            '{case}:27:1: body.block has nothing below it: terrain.type is "none" and the lower side of the domain is '
+            "open, so it falls out of the domain. Give terrain.type, or a boundary that holds.",
+        ),
+        (
+            sets(terrain__type="plane", terrain__slope=40, terrain__elevation=8.39),
+            "{case}:27:1: body.block stands on 6.2 % of its area; below the rest is a gap of 0.25 m and more, one "
+            'distance of its particles. Give it the shape of the ground: shape = "surface", "release", or a polygon.',
+        ),
+        (sets(body__block__max="[14.0,1.5]"), COARSE),
+        (
+            sets(band__thickness=5),
+            "--set band.thickness=5: band.thickness is 5 m: more than the body block, 3 m thick in the median. The "
+            "band is the part of a slide that shears at its base: usual is 0.01 to 2 m.",
+        ),
+        (
+            sets(material__rock__youngs_modulus=1e6, time__step=0.001),
+            "--set material.rock.youngs_modulus=1000000.0: material.rock.youngs_modulus is 1000000 Pa: the weight of "
+            "body block, 6.5e+04 Pa at its base, squeezes it by 6 %. Give it 1e+06 Pa or more.",
+        ),
+        (
+            sets(material__rock__youngs_modulus=0.5),
+            "--set material.rock.youngs_modulus=0.5: material.rock.youngs_modulus is 0.5 Pa: so soft that a slide is "
+            "squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa and more.",
+        ),
+        (
+            sets(basal__friction_angle=0.4),
+            "--set basal.friction_angle=0.4: basal.friction_angle is 0.4 degrees: was a coefficient meant? Angles are "
+            'in degrees; for a coefficient set friction = "coefficient" and friction_coefficient.',
+        ),
+        (
+            sets(body__block__temperature=5),
+            "--set body.block.temperature=5: body.block.temperature is 5 C: its pores hold water from the start, no "
+            "ice. Was a temperature below 0 meant?",
+        ),
+        (
+            sets(time__output_interval=100),
+            "--set time.output_interval=100: time.output_interval is 100 s: longer than the run of 0.2 s, which leaves "
+            "a snapshot of its start and one of its end.",
+        ),
+    ],
+)
+def test_what_is_hardly_meant_is_told(thawslide: Program, plain_case: Path, words: list[str], note: str) -> None:
+    """Once each, with place, what was found and what to do; and `run` tells the same."""
+    cell = [] if note == COARSE else sets(grid__cell=0.5)
+    words = [*cell, *sets(time__step=0.0005), *words]
+    told = note.format(case=plain_case / "case.toml")
+    assert notes_of(thawslide, plain_case, *words) == [told]
+    run = thawslide("run", plain_case, "--output", plain_case.parent / "run", *sets(time__end=0.001), *words)
+    assert f"note: {told}\n".replace("0.2 s, which", "0.001 s, which") in run.stdout
+
+
+def test_a_body_on_a_body_does_not_float(thawslide: Program, plain_case: Path) -> None:
+    file = plain_case / "case.toml"
+    file.write_text(file.read_text() + LID)
+    assert notes_of(thawslide, plain_case, "--set", "grid.cell=0.5", "--set", "time.step=0.0005") == []
+    lifted = sets(body__lid__min="[10.0,5.0]", body__lid__max="[14.0,8.0]", grid__cell=0.5, time__step=0.0005)
+    (note,) = notes_of(thawslide, plain_case, *lifted)
+    assert "body.lid floats: its underside is " in note
+
+
+def test_a_side_of_the_domain_that_holds_carries_a_body(thawslide: Program, plain_case: Path) -> None:
+    words = sets(
+        terrain__type="none", grid__boundary__y_min="roller", grid__min="[0.0,0.0]", grid__cell=0.5, time__step=0.0005
+    )
+    assert notes_of(thawslide, plain_case, *words) == []
+
+
+def test_a_default_without_drainage_is_told_by_run_too(thawslide: Program, small_case: Path) -> None:
+    file = small_case / "case.toml"
+    file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
+    note = (
+        f"note: {file}: material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains, and what "
+        "is under pressure may never stop. Of the base of a slide 1e-8 to 1e-5 m/s is said. Give it, and if 0 is meant "
+        "0, and this note goes.\n"
+    )
+    run = thawslide("run", small_case, "--output", small_case.parent / "run", *sets(time__end=0.01))
+    assert note in run.stdout and note in thawslide("check", small_case).stdout
+    assert note not in thawslide("check", small_case, *sets(material__rock__hydraulic_conductivity=0)).stdout
+
+
+def test_json_holds_what_the_text_says(thawslide: Program, plain_case: Path) -> None:
+    told = json.loads(thawslide("check", plain_case, "--json").stdout)
+    (body,) = told["bodies"]
+    # 4 m x 3 m on cells of 1 m; 70 % rock and 30 % ice are 2200.1 kg/m3, with little water.
+    assert body["name"] == "block" and body["particles"] == told["particles"] == 48
+    assert body["volume_m3"] == pytest.approx(12.0, rel=1e-12) and body["area_m2"] == pytest.approx(4.0, rel=1e-12)
+    assert body["mass_kg"] == pytest.approx(12.0 * 2200.1, rel=1e-6)
+    assert body["mean_thickness_m"] == body["median_thickness_m"] == body["largest_thickness_m"] == 3.0
+    assert body["spacing_m"] == 0.5 and body["particles_across"] == 6.0
+    assert body["clearance_m"] == pytest.approx(0.0, abs=1e-12) and body["standing_share"] == 1.0
+    assert body["coldest_C"] == body["warmest_C"] == -10.0
+    assert told["cells"] == 240 and told["steps"] == 200 and told["step_s"] == 0.001
+    assert told["memory"]["particles_bytes"] == 48 * 616 and told["memory"]["available_bytes"] > 1e6
+    disk = told["disk"]
+    assert disk["snapshots"] == 5 and disk["history_rows"] == 21 and disk["checkpoints"] == 3
+    assert disk["need_bytes"] == pytest.approx(
+        5 * disk["snapshot_bytes"] + 3 * disk["checkpoint_bytes"] + disk["history_bytes"] + disk["inputs_bytes"]
+    )
+
+
+def test_what_is_said_of_the_disk_is_what_is_written(thawslide: Program, plain_case: Path) -> None:
+    words = [*sets(grid__cell=0.1), *sets(time__step=0.0001, time__end=0.001, time__output_interval=0.001)]
+    disk = json.loads(thawslide("check", plain_case, "--json", *words).stdout)["disk"]
+    run = plain_case.parent / "run"
+    assert thawslide("run", plain_case, "--output", run, *words).returncode == 0
+    snapshot = (run / "snapshots" / "000001.vtkhdf").stat().st_size
+    assert disk["snapshot_bytes"] == pytest.approx(snapshot, rel=0.02)
+    assert disk["checkpoint_bytes"] == pytest.approx((run / "checkpoint.bin").stat().st_size, rel=0.02)
+    assert disk["snapshots"] == len(list((run / "snapshots").iterdir()))
+
+
+def test_a_run_that_fills_the_disk_is_doubted(thawslide: Program, plain_case: Path) -> None:
+    words = sets(time__output_interval="1e-9", grid__cell=0.5, time__step=0.0005)
+    notes = notes_of(thawslide, plain_case, *words)
+    assert re.fullmatch(
+        r"--set time\.output_interval=1e-9: time\.output_interval is 1e-09 s: that is 200000001 snapshots of 0\.059\d "
+        r"MB, 1\.1\de\+04 GB; with all else 1\.1\de\+04 GB, and \S+ GB are free where runs/small is\. Make it larger, "
+        r"or write to another disk \(--output\)\.",
+        notes[-1],
+    ), notes
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_what_cannot_fit_into_memory_is_refused_at_once(
+    binary: Path, plain_environment: dict[str, str], plain_case: Path, command: str
+) -> None:
+    """Under a limit as batch systems set it; the cell that is named fits."""
+
+    def outcome(cell: str) -> subprocess.CompletedProcess[str]:
+        words = [str(binary), command, str(plain_case), *sets(grid__cell=cell, time__step=1e-7, time__end=1e-7)]
+        words += ["--output", str(plain_case.parent / "run"), "--overwrite"] if command == "run" else []
+        limited = ["bash", "-c", 'ulimit -v 3000000; exec "$@"', "bash", *words]
+        return subprocess.run(limited, env=plain_environment, capture_output=True, text=True, timeout=60, check=False)
+
+    refused = outcome("0.001")
+    assert refused.returncode == 2 and refused.stdout == "" and not (plain_case.parent / "run").exists()
+    found = re.fullmatch(
+        r"error: --set grid\.cell=0\.001: grid\.cell is 0\.001 m, which makes 4\.8e\+07 particles: the run needs about "
+        r"68 GB of memory \(particles 29\.6 GB, writing them 38\.4 GB\), and (\S+) GB are left by the bound of ulimit "
+        r"-v\. Make grid\.cell (\S+) m or more, or particles_per_axis smaller\.\n",
+        refused.stderr,
+    )
+    assert found, refused.stderr
+    assert float(found[1]) < 3.0 and 0.001 < float(found[2]) < 0.02
+    coarser = 0.01 if float(found[2]) <= 0.01 else 0.02
+    assert outcome(str(coarser)).returncode == 0

@@ -1,0 +1,114 @@
+// What bodies come to and how they stand, against sums by hand.
+#include "sim/body_figures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "sim/doubts_of_bodies.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using testing_support::case_from_text;
+
+// A step of two heights on level ground at 1 m: 8 m x 4 m and beside it 4 m x 2 m, as one polygon.
+const std::string step = R"(
+[time]
+end = 1.0
+step = 0.0005
+[grid]
+cell = 1.0
+min = [0.0, 0.0]
+max = [40.0, 20.0]
+[terrain]
+type = "flat"
+elevation = 1.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 1e8
+poisson_ratio = 0.2
+[body.step]
+material = "rock"
+shape = "polygon"
+vertices = [[10.0, 1.0], [22.0, 1.0], [22.0, 3.0], [18.0, 3.0], [18.0, 5.0], [10.0, 5.0]]
+porosity = 0.4
+temperature = { depth = [0.0, 4.0], value = [-2.0, -10.0] }
+[basal]
+friction_angle = 30.0
+[heat]
+enabled = false
+)";
+
+std::vector<BodyFigures> figures_of(const std::string& text, const std::vector<std::string>& sets = {}) {
+  return body_figures(Simulation<2, double>(case_from_text(text, sets)));
+}
+
+TEST(BodyFigures, AreThoseOfTheBody) {
+  const std::vector<BodyFigures> bodies = figures_of(step);
+  ASSERT_EQ(bodies.size(), 1U);
+  const BodyFigures& body = bodies.front();
+  EXPECT_EQ(body.name, "step");
+  EXPECT_EQ(body.particles, 160U);
+  EXPECT_NEAR(body.volume, 40.0, 1e-12);
+  EXPECT_NEAR(body.mass, 40.0 * (0.6 * 2750.0 + 0.4 * 917.0), 1.0) << "some of the ice is water";
+  EXPECT_NEAR(body.area, 12.0, 1e-12);
+  EXPECT_NEAR(body.mean_thickness, 40.0 / 12.0, 1e-12);
+  EXPECT_NEAR(body.median_thickness, 4.0, 1e-12) << "half of the volume is where it is thinner";
+  EXPECT_NEAR(body.largest_thickness, 4.0, 1e-12);
+  EXPECT_EQ(body.spacing, 0.5);
+  EXPECT_NEAR(body.particles_across, 8.0, 1e-12);
+  EXPECT_NEAR(body.warmest, -2.5, 1e-12) << "a quarter of a metre below the top";
+  EXPECT_NEAR(body.coldest, -9.5, 1e-12);
+  EXPECT_NEAR(body.clearance, 0.0, 1e-12);
+  EXPECT_EQ(body.standing_share, 1.0);
+  EXPECT_TRUE(doubts_of_bodies(case_from_text(step), bodies).empty());
+}
+
+TEST(BodyFigures, TellHowFarABodyIsAboveTheGround) {
+  const std::vector<BodyFigures> bodies = figures_of(step, {"terrain.elevation=-0.75"});
+  EXPECT_NEAR(bodies.front().clearance, 1.75, 1e-12);
+  EXPECT_EQ(bodies.front().standing_share, 0.0);
+  const auto doubts = doubts_of_bodies(case_from_text(step), bodies);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_NE(doubts.front().find("body.step floats: its underside is 1.75 m above what is below it, and it falls for "
+                                "0.6 s before it touches. Begin it lower by 1.75 m"),
+            std::string::npos)
+      << doubts.front();
+}
+
+// A box with its lower left corner on a slope of 45 degrees: of its 24 columns the first stands within half a metre.
+TEST(BodyFigures, TellWhatShareOfABodyStands) {
+  const std::vector<BodyFigures> bodies =
+      figures_of(step, {"terrain.type=plane", "terrain.slope=45", "terrain.elevation=11"});
+  EXPECT_NEAR(bodies.front().clearance, 0.25, 1e-12) << "at the middle of the first column";
+  EXPECT_NEAR(bodies.front().standing_share, 1.0 / 24.0, 1e-12);
+}
+
+const std::string lid =
+    "[body.lid]\nmaterial = \"rock\"\nmin = [10.0, 5.0]\nmax = [18.0, 7.0]\nparticles_per_axis = 4\nporosity = 0.4\n";
+
+TEST(BodyFigures, BodiesStandOnBodies) {
+  const std::vector<BodyFigures> bodies = figures_of(step + lid);
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0].name, "lid");
+  EXPECT_NEAR(bodies[0].clearance, 0.0, 1e-12);
+  EXPECT_EQ(bodies[0].standing_share, 1.0);
+  EXPECT_NEAR(bodies[0].mean_thickness, 2.0, 1e-12);
+  EXPECT_EQ(bodies[1].standing_share, 1.0);
+  const std::vector<BodyFigures> moved = figures_of(step + lid, {"body.lid.min=[14.0,5.0]", "body.lid.max=[22.0,7.0]"});
+  EXPECT_NEAR(moved[0].clearance, 0.0, 1e-12);
+  EXPECT_NEAR(moved[0].standing_share, 0.5, 0.04) << "the other half is over the lower step";
+}
+
+TEST(BodyFigures, NothingBelowIsToldSo) {
+  const std::vector<std::string> sets{"terrain.type=none"};
+  EXPECT_TRUE(std::isinf(figures_of(step, sets).front().clearance));
+  const std::vector<std::string> held{"terrain.type=none", "grid.boundary.y_min=fixed", "grid.min=[0.0,1.0]",
+                                      "grid.max=[40.0,21.0]"};
+  EXPECT_NEAR(figures_of(step, held).front().clearance, 0.0, 1e-12) << "the side of the domain holds";
+}
+
+}  // namespace
+}  // namespace thawslide::sim
