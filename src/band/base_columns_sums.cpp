@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "band/base_columns.hpp"
-#include "base/error.hpp"
 #include "base/instances.hpp"
+#include "base/state_numbers.hpp"
 
 namespace thawslide::band {
 
@@ -125,22 +125,22 @@ std::vector<double> BaseColumns<Dim, Real>::state() const {
 
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::restore(const std::vector<double>& numbers) {
-  std::size_t next = 0;
-  const auto take = [&] {
-    THAWSLIDE_ASSERT(next < numbers.size(), "{} numbers of band columns are too few", numbers.size());
-    return numbers[next++];
-  };
-  next_id_ = static_cast<std::int64_t>(take());
-  look_for_gaps_ = take() != 0.0;
-  pieces_.assign(static_cast<std::size_t>(take()), Piece{});
-  const auto set = [&](Real& number) { number = static_cast<Real>(take()); };
+  StateNumbers state(numbers, "band columns");
+  std::size_t of_ledger = 0, of_piece = 2;  // how many numbers they take
+  ledger_.for_each([&](Real&) { ++of_ledger; });
+  Piece any;
+  for_each_number(any, [&](Real&) { ++of_piece; });
+  next_id_ = state.whole(largest_whole);
+  look_for_gaps_ = state.next() != 0.0;
+  pieces_.assign(state.count(of_piece, of_ledger), Piece{});
+  const auto set = [&](Real& number) { number = static_cast<Real>(state.next()); };
   ledger_.for_each(set);
   for (Piece& piece : pieces_) {
-    piece.id = static_cast<std::int64_t>(take());
-    piece.touched = take() != 0.0;
+    piece.id = state.whole(next_id_);
+    piece.touched = state.next() != 0.0;
     for_each_number(piece, set);
   }
-  THAWSLIDE_ASSERT(next == numbers.size(), "{} numbers of band columns for {}", numbers.size(), next);
+  state.expect_end();
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                              \

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/columns_model.hpp"
+#include "sim/restored_state.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -50,6 +51,18 @@ ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Rea
 }
 
 }  // namespace
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>& state) {
+  band_columns_->restore(state);
+  // Pieces go with the slide, whose cells reach beyond the domain.
+  const Real margin = Real(8) * static_cast<Real>(parameters_.grid.cell);
+  for (const auto& piece : band_columns_->pieces()) {
+    if (!is_about_domain<Dim, Real>(piece.position, model_.constraints.extent, margin)) {
+      StateNumbers(state, "band columns").fail(fmt::format("the piece {} lies far beyond the domain", piece.id));
+    }
+  }
+}
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::start_band_columns() {
@@ -106,9 +119,10 @@ void Simulation<Dim, Real>::band_columns_follow() {
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                        \
-  template void Simulation<Dim, Real>::start_band_columns();    \
-  template void Simulation<Dim, Real>::band_columns_to_nodes(); \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                 \
+  template void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>&); \
+  template void Simulation<Dim, Real>::start_band_columns();                             \
+  template void Simulation<Dim, Real>::band_columns_to_nodes();                          \
   template void Simulation<Dim, Real>::band_columns_follow();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

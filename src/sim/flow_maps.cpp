@@ -6,13 +6,11 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/state_numbers.hpp"
 
 namespace thawslide::sim {
 
 namespace {
-
-constexpr std::size_t header_numbers = 2;                  // of a state: columns and rows of the map grid
-constexpr std::size_t row_numbers = 1 + map_cell_numbers;  // of a state, for one cell: its number, what it holds
 
 // The remainder in [0, divisor), also of negative numbers.
 std::uint64_t modulo(int number, int divisor) {
@@ -358,19 +356,24 @@ std::vector<double> FlowMaps::state() const {
 }
 
 void FlowMaps::restore(const std::vector<double>& numbers) {
-  THAWSLIDE_ASSERT(numbers.size() >= header_numbers && (numbers.size() - header_numbers) % row_numbers == 0 &&
-                       numbers[0] == map_grid_.columns && numbers[1] == map_grid_.rows,
-                   "a state of {} numbers for maps of {} x {} cells", numbers.size(), map_grid_.columns,
-                   map_grid_.rows);
+  StateNumbers state(numbers, "maps");
+  const double columns = state.next(), rows = state.next();
+  if (columns != map_grid_.columns || rows != map_grid_.rows) {
+    state.fail(fmt::format("it has {} x {} cells where the case has {} x {}", columns, rows, map_grid_.columns,
+                           map_grid_.rows));
+  }
   tile_index_.clear();
   tiles_.clear();
   active_.clear();
   seen_.clear();
-  for (std::size_t k = header_numbers; k < numbers.size(); k += row_numbers) {
-    const auto number = static_cast<std::int64_t>(numbers[k]);
+  const std::int64_t last_cell = static_cast<std::int64_t>(map_grid_.columns) * map_grid_.rows - 1;
+  while (state.left() > 0) {
+    const std::int64_t number = state.whole(last_cell);
     const int column = static_cast<int>(number % map_grid_.columns), row = static_cast<int>(number / map_grid_.columns);
     MapCellNumbers values;
-    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(k) + 1, map_cell_numbers, values.begin());
+    for (double& value : values) {
+      value = state.next();
+    }
     touch(column >> edge_bits, row >> edge_bits).cells[place_in_tile(column, row)] = map_cell_of(values);
   }
   // Any of them may hold what lies on it now.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/state_numbers.hpp"
 
 namespace thawslide::sim {
 
@@ -140,11 +141,12 @@ std::vector<double> CentreWay::state() const {
 }
 
 void CentreWay::restore(const std::vector<double>& numbers) {
-  THAWSLIDE_ASSERT(numbers.size() % 2 == 0, "{} numbers for corners of two", numbers.size());
   line_ = PathLine();
   line_.reserve(usual_corners);
-  for (std::size_t k = 0; k < numbers.size(); k += 2) {
-    line_.add({numbers[k], numbers[k + 1]});
+  StateNumbers state(numbers, "way of the centre of mass");
+  while (state.left() > 0) {
+    const double x = state.next_finite(), y = state.next_finite();
+    line_.add({x, y});
   }
 }
 

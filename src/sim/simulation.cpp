@@ -11,6 +11,7 @@
 #include "sim/bodies.hpp"
 #include "sim/entrainment.hpp"
 #include "sim/memory_need.hpp"
+#include "sim/restored_state.hpp"
 #include "terrain/band_marks.hpp"
 #include "terrain/map_back.hpp"
 #include "terrain/near_ground.hpp"
@@ -374,16 +375,15 @@ std::vector<double> Simulation<Dim, Real>::scalars() const {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
-  THAWSLIDE_ASSERT(scalars.size() == this->scalars().size(), "{} numbers for {}", scalars.size(),
-                   this->scalars().size());
-  std::size_t k = 0;
-  time_ = scalars[k++];
-  last_step_ = scalars[k++];
-  rear_at_start_ = scalars[k++];
-  step_number_ = static_cast<std::int64_t>(scalars[k++]);
-  next_id_ = static_cast<std::int64_t>(scalars[k++]);
-  column_time_ = scalars[k++];
-  ledger_.for_each([&](Real& account) { account = static_cast<Real>(scalars[k++]); });
+  StateNumbers state(scalars, "run");
+  time_ = state.next_finite();
+  last_step_ = state.next_finite();
+  rear_at_start_ = state.next_finite();
+  step_number_ = state.whole(largest_whole);
+  next_id_ = state.whole(largest_whole);
+  column_time_ = state.next_finite();
+  ledger_.for_each([&](Real& account) { account = static_cast<Real>(state.next()); });
+  require_sound(particles_, model_, next_id_, state);
   // Rows came back in order of id: nothing of the former order may be trusted.
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
   for (std::size_t p = 0; p < particles_.size(); ++p) {

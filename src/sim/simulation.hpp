@@ -72,7 +72,7 @@ class Simulation {
   [[nodiscard]] const band::BaseColumns<Dim, Real>* band_columns() const {
     return band_columns_ ? &*band_columns_ : nullptr;
   }
-  void restore_band_columns(const std::vector<double>& state) { band_columns_->restore(state); }
+  void restore_band_columns(const std::vector<double>& state);
   // Null where there is none that is erodible.
   [[nodiscard]] const terrain::Bed<Dim, Real>* bed() const { return bed_ ? &*bed_ : nullptr; }
   void restore_bed(const std::vector<double>& state) { bed_->restore(state); }
@@ -87,6 +87,8 @@ class Simulation {
 
   // Everything a checkpoint must hold beyond the particles' fields, as numbers; and its way back.
   [[nodiscard]] std::vector<double> scalars() const;
+  // To the particles that a checkpoint gave back. This, and restore_band_columns and restore_bed, throw UserError for a
+  // state that no run has.
   void restore(const std::vector<double>& scalars);
 
  private:

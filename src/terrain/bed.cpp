@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/instances.hpp"
+#include "base/state_numbers.hpp"
 
 namespace thawslide::terrain {
 
@@ -210,16 +211,19 @@ void Bed<Dim, Real>::restore(const std::vector<double>& numbers) {
   left_ = initial_;
   covered_.assign(covered_.size(), 0);
   loose_.clear();
-  std::size_t k = 0;
-  const auto next = [&] { return static_cast<Real>(numbers.at(k++)); };
-  const auto next_column = [&] { return static_cast<std::size_t>(numbers.at(k++)); };
-  const std::size_t changed = next_column();
+  StateNumbers state(numbers, "bed");
+  const auto next = [&] { return static_cast<Real>(state.next_finite()); };
+  const auto next_column = [&] {
+    return static_cast<std::size_t>(state.whole(static_cast<std::int64_t>(left_.size()) - 1));
+  };
+  constexpr std::size_t of_column = 3;  // numbers: which it is, what is left, the parts of it that are covered
+  const std::size_t changed = state.count(of_column);
   for (std::size_t c = 0; c < changed; ++c) {
     const std::size_t column = next_column();
-    left_.at(column) = next();
-    covered_.at(column) = static_cast<std::uint16_t>(next());
+    left_[column] = next();
+    covered_[column] = static_cast<std::uint16_t>(state.whole(std::numeric_limits<std::uint16_t>::max()));
   }
-  while (k < numbers.size()) {
+  while (state.left() > 0) {
     LooseMatter<Dim, Real>& matter = loose_[next_column()];
     for (Real* number : {&matter.mass, &matter.work, &matter.normal_pressure, &matter.idle}) {
       *number = next();

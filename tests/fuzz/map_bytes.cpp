@@ -87,22 +87,6 @@ const SoundFiles& sound_files() {
   return made;
 }
 
-// The file with some of its bytes overwritten, or cut off.
-std::string changed(std::string file, Provider& bytes) {
-  while (bytes.remaining_bytes() > 0 && !file.empty()) {
-    const auto place = bytes.ConsumeIntegralInRange<std::size_t>(0, file.size() - 1);
-    const std::string put = bytes.ConsumeRandomLengthString(8);
-    if (put.empty() && fuzz::chance(bytes, 8)) {
-      file.resize(place);
-      continue;
-    }
-    for (std::size_t k = 0; k < put.size() && place + k < file.size(); ++k) {
-      file[place + k] = put[k];
-    }
-  }
-  return file;
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
@@ -123,18 +107,18 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
       read_features(fuzz::in_memory("area.geojson", bytes.ConsumeRemainingBytesAsString()));
       break;
     case 'p':
-      read_raster(fuzz::in_memory("map.tif", changed(sound.tiff, bytes)));
+      read_raster(fuzz::in_memory("map.tif", fuzz::changed(sound.tiff, bytes)));
       break;
     case 'd':
-      read_raster(fuzz::in_memory("map.tif", changed(sound.tiled, bytes)));
+      read_raster(fuzz::in_memory("map.tif", fuzz::changed(sound.tiled, bytes)));
       break;
     case 'g':
-      read_features(fuzz::in_memory("area.gpkg", changed(sound.geopackage, bytes)));
+      read_features(fuzz::in_memory("area.gpkg", fuzz::changed(sound.geopackage, bytes)));
       break;
     case 's':
       fuzz::in_memory("area.shx", sound.shape_index);
       fuzz::in_memory("area.dbf", sound.shape_table);
-      read_features(fuzz::in_memory("area.shp", changed(sound.shape, bytes)));
+      read_features(fuzz::in_memory("area.shp", fuzz::changed(sound.shape, bytes)));
       break;
     default:
       return -1;

@@ -3,7 +3,6 @@
 
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
-#include <fuzzer/FuzzedDataProvider.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
@@ -13,11 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "changes.hpp"
 #include "target.hpp"
 
 namespace thawslide::fuzz {
-
-using Provider = FuzzedDataProvider;
 
 inline const std::string memory = "/vsimem/";
 
@@ -55,8 +53,6 @@ inline double number_from(Provider& bytes, double low, double high) {
   constexpr int steps = 64;
   return low + (high - low) * bytes.ConsumeIntegralInRange(0, steps) / steps;
 }
-
-inline bool chance(Provider& bytes, int of) { return bytes.ConsumeIntegralInRange(1, of) == 1; }
 
 // The reference systems that a file may tell: of the ground, another one, in feet, in degrees, of no place, none.
 inline OGRSpatialReference* system_from(Provider& bytes) {

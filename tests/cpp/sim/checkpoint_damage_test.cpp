@@ -2,9 +2,11 @@
 // program.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <random>
 
 #include "../support/slide_in_space.hpp"
@@ -133,6 +135,35 @@ class SignedCheckpoint : public CheckpointDamage {
     return "";
   }
 
+  // What reading and going on from it say; empty: they do not mind.
+  std::string error_of_restored(const std::string& body) const {
+    if (const std::string error = error_of_signed(body); !error.empty()) {
+      return error;
+    }
+    Simulation<3, double> simulation(small_slide());
+    RunRecords<3> records(simulation, {});
+    std::vector<double> scalars;
+    try {
+      const NamedNumbers blocks =
+          io::read_checkpoint<3, double>(io::newest_checkpoint(folder_), simulation.particles(), scalars);
+      simulation.restore(scalars);
+      records.restore(blocks);
+    } catch (const UserError& error) {
+      EXPECT_EQ(std::string(error.what()).find("the checkpoint's state of the "), 0U) << error.what();
+      return error.what();
+    }
+    return "";
+  }
+
+  // Where the count of particles stands, after dimension, bytes of a number and particles at t = 0; that of the scalars
+  // follows.
+  std::size_t place_of_counts(const std::string& body) const {
+    const std::array<std::uint64_t, 3> before{3, sizeof(double), at_start_};
+    const std::size_t place = body.find(std::string(reinterpret_cast<const char*>(before.data()), sizeof before));
+    EXPECT_NE(place, std::string::npos);
+    return place + sizeof before;
+  }
+
   // The body with another number of 8 bytes at a place.
   static std::string with_number(std::string body, std::size_t place, std::uint64_t number) {
     std::memcpy(body.data() + place, &number, sizeof number);
@@ -157,7 +188,7 @@ TEST_F(SignedCheckpoint, CutOffAnywhereIsRefused) {
 // Each of these asked for as much memory as it says, or read beyond the end.
 TEST_F(SignedCheckpoint, CountsBeyondTheFileAreRefused) {
   const std::string body = body_of(bytes_of_last_);
-  constexpr std::size_t particles = 40, scalars = 48;  // places of these counts: after the mark and four numbers more
+  const std::size_t particles = place_of_counts(body), scalars = particles + sizeof(std::uint64_t);
   for (const std::uint64_t number : {std::uint64_t{1} << 62U, ~std::uint64_t{0}, std::uint64_t{body.size()}}) {
     EXPECT_NE(error_of_signed(with_number(body, particles, number)).find(fmt::format("it tells of {} part", number)),
               std::string::npos);
@@ -166,15 +197,51 @@ TEST_F(SignedCheckpoint, CountsBeyondTheFileAreRefused) {
   }
 }
 
-TEST_F(SignedCheckpoint, AnyOtherByteGivesAValueOrAMessage) {
+TEST_F(SignedCheckpoint, AnyOtherBytesGiveAStateOrAMessage) {
   const std::string body = body_of(bytes_of_last_);
+  EXPECT_EQ(error_of_restored(body), "");
   std::mt19937 random(4);
-  for (int k = 0; k < 2000; ++k) {
+  for (int k = 0; k < 1000; ++k) {
     std::string changed = body;
     char& byte = changed[random() % changed.size()];
     byte = another(byte, random);
-    static_cast<void>(error_of_signed(changed));
+    static_cast<void>(error_of_restored(changed));
   }
+}
+
+// Without these a particle's cell, body or id would be looked up where there is none.
+TEST_F(SignedCheckpoint, ParticlesThatNoRunHasAreRefused) {
+  const auto with = [&](const auto& change) {
+    Simulation<3, double> simulation(small_slide());
+    std::vector<double> scalars = simulation.scalars();
+    change(simulation.particles(), scalars);
+    try {
+      simulation.restore(scalars);
+    } catch (const UserError& error) {
+      const std::string said = error.what();
+      return said.substr(0, said.find(". Use another copy"));
+    }
+    return std::string();
+  };
+  using Particles = mpm::Particles<3, double>;
+  using Numbers = std::vector<double>;
+  const std::string run = "the checkpoint's state of the run is none that a run has: ";
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(with([](Particles&, Numbers&) {}), "");
+  EXPECT_EQ(with([](Particles& of, Numbers&) { of.position(5, 1) = missing; }),
+            run + "particle 5 lies outside the domain");
+  EXPECT_EQ(with([](Particles& of, Numbers&) { of.position(5, 1) = 1e300; }),
+            run + "particle 5 lies outside the domain");
+  EXPECT_EQ(with([](Particles& of, Numbers&) { of.body(5) = 7; }),
+            run + "particle 5 has the body 7 and the material 0, which the case does not have");
+  EXPECT_EQ(with([](Particles& of, Numbers&) { of.id(5) = 4; }),
+            run + "the particle in row 5 has the id 4; allowed: from 5 to 95");
+  EXPECT_EQ(with([](Particles& of, Numbers&) { of.mass(5) = -1.0; }).find(run + "particle 5 has a mass of -1 kg"), 0U);
+  EXPECT_EQ(with([](Particles&, Numbers& scalars) { scalars[3] = 0.5; }),
+            run + "it has 0.5 for its number 4; allowed: whole numbers from 0 to 9007199254740992");
+  EXPECT_EQ(with([](Particles&, Numbers& scalars) { scalars[0] = missing; }),
+            run + "it has nan for its number 1, which must be finite");
+  EXPECT_EQ(with([](Particles&, Numbers& scalars) { scalars.resize(7); }), run + "it has 7 numbers, which are too few");
 }
 
 }  // namespace

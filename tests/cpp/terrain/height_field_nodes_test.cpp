@@ -105,7 +105,8 @@ Node by_quadrature(const Raster& points, const Position& position, double cell, 
     q = std::clamp(q, -1.0, 1.0);
     return q > 0.0 ? 0.5 * (1.0 - q) * (1.0 - q) : 1.0 - 0.5 * (1.0 + q) * (1.0 + q);
   };
-  for (const auto& [a, b, c] : triangles(points)) {
+  for (const auto& [first, second, third] : triangles(points)) {
+    const Position a = first, b = second, c = third;  // clang 14 takes no names of a binding into a function
     const Position across = 0.5 * (b - a).cross(c - a) / (parts * parts);
     const auto add = [&](double i, double j) {
       const Position q = (a + i / parts * (b - a) + j / parts * (c - a) - position) / cell;

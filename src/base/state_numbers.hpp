@@ -1,0 +1,68 @@
+// Takes the numbers of a state off one after another, as a checkpoint gave them back. They are held against what they
+// stand for: a checksum says that nothing changed since, not who wrote it.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace thawslide {
+
+class StateNumbers {
+ public:
+  // what: the state is of, for messages: "band columns". Keeps a reference to the numbers.
+  StateNumbers(const std::vector<double>& numbers, const char* what) : numbers_(numbers), what_(what) {}
+
+  [[nodiscard]] std::size_t left() const { return numbers_.size() - next_; }
+  double next() {
+    if (left() == 0) {
+      fail(fmt::format("it has {} numbers, which are too few", numbers_.size()));
+    }
+    return numbers_[next_++];
+  }
+  // One that is neither infinite nor missing.
+  double next_finite() {
+    const double number = next();
+    if (!std::isfinite(number)) {
+      fail(fmt::format("it has {} for its number {}, which must be finite", number, next_));
+    }
+    return number;
+  }
+  // A whole number from 0 to `most`, which a real number can count to.
+  std::int64_t whole(std::int64_t most) {
+    const double number = next();
+    if (!(number >= 0.0 && number <= static_cast<double>(most) && number == std::floor(number))) {
+      fail(fmt::format("it has {} for its number {}; allowed: whole numbers from 0 to {}", number, next_, most));
+    }
+    return static_cast<std::int64_t>(number);
+  }
+  // Of items that have so many of the numbers each, from `header` numbers further on.
+  std::size_t count(std::size_t numbers_each, std::size_t header = 0) {
+    const std::size_t room = left() > header ? (left() - 1 - header) / numbers_each : 0;
+    return static_cast<std::size_t>(whole(static_cast<std::int64_t>(room)));
+  }
+  void expect_end() const {
+    if (left() > 0) {
+      fail(fmt::format("{} of its {} numbers are left over", left(), numbers_.size()));
+    }
+  }
+  [[noreturn]] void fail(const std::string& found) const {
+    throw UserError(
+        fmt::format("the checkpoint's state of the {} is none that a run has: {}. Use another copy of the checkpoint, "
+                    "or run the case from its start.",
+                    what_, found));
+  }
+
+ private:
+  const std::vector<double>& numbers_;
+  const char* what_;
+  std::size_t next_ = 0;
+};
+
+inline constexpr std::int64_t largest_whole = std::int64_t{1} << 53;  // up to which every whole number is a double
+
+}  // namespace thawslide
