@@ -130,13 +130,14 @@ void ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
   const Real face = Dim == 2 ? cell : cell * cell;
   for (int k = 0; k < T::nodes; ++k) {
     const int above = T::node(T::index(block), k)[Dim - 1] - ground_index;
-    nodes[k] = {};
-    nodes[k].normal.setZero();
-    nodes[k].normal[Dim - 1] = -1.0;
-    nodes[k].distance = static_cast<Real>(above) * cell;
-    nodes[k].candidate = above == 0;
-    nodes[k].area = above == 0 ? face : 0.0;
-    nodes[k].space = above == 0 ? 0.5 * face * cell : above > 0 ? face * cell : 0.0;
+    terrain::GroundAtNode<Dim, Real> node;
+    node.normal.setZero();
+    node.normal[Dim - 1] = -1.0;
+    node.distance = static_cast<Real>(above) * cell;
+    node.candidate = above == 0;
+    node.area = above == 0 ? face : 0.0;
+    node.space = above == 0 ? 0.5 * face * cell : above > 0 ? face * cell : 0.0;
+    nodes[k] = node;
   }
 }
 
