@@ -1,0 +1,166 @@
+// thawslide_device_test: steps on a card against the same on the processor, and how fast the card is.
+//   thawslide_device_test            small slides compared, then 100,000 and 10 million particles for their speed
+//   thawslide_device_test --compare  small slides alone: for compute-sanitizer
+//   thawslide_device_test --speed N  so many particles alone
+// Exit codes: 0 the bits are the same, or differ by at most 1e-12 of each quantity's largest value (it says which);
+// 1 they differ by more, or two runs on the card differ at all; 2 wrong options; 5 there is no card to run on.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "card.hpp"
+#include "steps_on.hpp"
+
+namespace thawslide::card_test {
+namespace {
+
+constexpr int no_card = 5;
+constexpr double tolerance = 1e-12;
+
+struct Comparison {
+  std::size_t fields = 0, fields_of_same_bits = 0;
+  double largest = 0;  // difference, as a share of the field's largest value
+};
+
+template <int Dim>
+Comparison compare(const ParticleMemory<Dim>& a, const ParticleMemory<Dim>& b) {
+  // Places in memory may differ: particles are told apart by id.
+  std::vector<std::size_t> by_id_a(a.size()), by_id_b(a.size());
+  const auto list = [](const ParticleMemory<Dim>& of, std::vector<std::size_t>& by_id) {
+    for (std::size_t k = 0; k < by_id.size(); ++k) {
+      by_id[static_cast<std::size_t>(of.view().id(k) / 3)] = k;
+    }
+  };
+  list(a, by_id_a);
+  list(b, by_id_b);
+  Comparison all;
+  mpm::for_fields_of(a.view(), b.view(),
+                     [&]<class T, int Components>(const mpm::FieldView<T, Components>& of_a,
+                                                  const mpm::FieldView<T, Components>& of_b) {
+                       bool same = true;
+                       double scale = 0, difference = 0;
+                       for (std::size_t k = 0; k < a.size(); ++k) {
+                         for (int c = 0; c < Components; ++c) {
+                           const T x = of_a(by_id_a[k], c), y = of_b(by_id_b[k], c);
+                           same = same && std::memcmp(&x, &y, sizeof x) == 0;
+                           scale = std::max(scale, std::abs(static_cast<double>(x)));
+                           const double apart = std::abs(static_cast<double>(x) - static_cast<double>(y));
+                           difference = apart <= difference ? difference : apart;  // not a number is the largest
+                         }
+                       }
+                       ++all.fields;
+                       all.fields_of_same_bits += same ? 1 : 0;
+                       const double share = difference == 0 ? 0 : difference / scale;
+                       all.largest = share <= all.largest ? all.largest : share;
+                     });
+  return all;
+}
+
+template <int Dim>
+void take_steps(Steps<Dim>& steps, int from, int to) {
+  for (int k = from; k < to; ++k) {
+    steps.step(k * time_step, time_step);
+  }
+}
+
+bool tell(const char* what, const Comparison& found, bool bits_are_asked_for) {
+  const bool is_well = bits_are_asked_for ? found.fields_of_same_bits == found.fields : found.largest <= tolerance;
+  std::printf("%-60s %zu of %zu fields have the same bits, largest difference %.3g: %s\n", what,
+              found.fields_of_same_bits, found.fields, found.largest, is_well ? "well" : "WRONG");
+  return is_well;
+}
+
+template <int Dim>
+bool compare_slides(const Size& size) {
+  ParticleMemory<Dim> start(size.particles(Dim));
+  seed(size, start);
+  bool well = true;
+  const std::string dim = Dim == 2 ? "2D, " : "3D, ";
+  const auto processor = on_processor(start), card = on_card(start), again = on_card(start);
+  ParticleMemory<Dim> of_processor(start.size()), of_card(start.size()), of_second(start.size());
+  int done = 0;
+  for (const int steps : {1, 20, 60}) {
+    take_steps(*processor, done, steps);
+    take_steps(*card, done, steps);
+    if (steps == 20) {
+      again->sort_in_memory();  // which may change nothing
+    }
+    take_steps(*again, done, steps);
+    done = steps;
+    processor->copy_to(of_processor.view());
+    card->copy_to(of_card.view());
+    again->copy_to(of_second.view());
+    const std::string when = dim + std::to_string(start.size()) + " particles, " + std::to_string(steps) + " steps, ";
+    // Round-off grows from step to step: it is held to the tolerance after the first one.
+    const Comparison found = compare(of_processor, of_card);
+    well = tell((when + "card against processor").c_str(), found, false) || steps > 1 ? well : false;
+    well = tell((when + "card against card").c_str(), compare(of_card, of_second), true) && well;
+  }
+  return well;
+}
+
+bool measure(std::size_t particles) {
+  const double height = std::cbrt(static_cast<double>(particles) / 8.0 / 16.0);  // as long as wide, a quarter as high
+  const auto cells = [](double number) { return static_cast<std::size_t>(std::max(1.0, std::round(number))); };
+  const Size size{cells(4 * height), cells(4 * height), cells(height)};
+  ParticleMemory<3> start(size.particles(3));
+  seed(size, start);
+  const auto card = on_card(start);
+  take_steps(*card, 0, 5);
+  card->sort_in_memory();
+  take_steps(*card, 5, 10);
+  const auto begin = std::chrono::steady_clock::now();
+  int steps = 0;
+  double seconds = 0;
+  while (seconds < 5.0 && steps < 200) {
+    take_steps(*card, 10 + steps, 20 + steps);
+    steps += 10;
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  std::printf("3D, %zu particles: %.4g million particle-steps a second, %.4g ms a step\n", start.size(),
+              static_cast<double>(start.size()) * steps / seconds / 1e6, 1e3 * seconds / steps);
+  return true;
+}
+
+int run(const std::string& what, std::size_t particles) {
+  const Card card = find_card();
+  if (!card.is_usable) {
+    std::fprintf(stderr, "nothing was run: %s\n", card.why_not.c_str());
+    return no_card;
+  }
+  std::printf("%s\n", card.name.c_str());
+  bool well = true;
+  if (what != "--speed") {
+    well = compare_slides<2>({20, 1, 8}) && well;
+    well = compare_slides<3>({8, 5, 4}) && well;
+  }
+  if (what.empty()) {
+    measure(100'000);
+    measure(10'000'000);
+  } else if (what == "--speed") {
+    measure(particles);
+  }
+  return well ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace thawslide::card_test
+
+int main(int count, char** arguments) {
+  const std::string what = count > 1 ? arguments[1] : "";
+  const bool is_speed = what == "--speed" && count == 3;
+  const long long particles = is_speed ? std::atoll(arguments[2]) : 0;
+  if (!(count == 1 || (what == "--compare" && count == 2) || (is_speed && particles > 0))) {
+    std::fprintf(stderr, "usage: thawslide_device_test [--compare | --speed PARTICLES]\n");
+    return 2;
+  }
+  try {
+    return thawslide::card_test::run(what, static_cast<std::size_t>(particles));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "the card failed: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,158 @@
+// A block of frictional matter that slides down a plane, seeded without any other part of the program: for steps on a
+// card and on the processor, compared.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "device/step_model.hpp"
+#include "mpm/particle_view.hpp"
+
+namespace thawslide::card_test {
+
+using Real = double;
+
+// All fields of so many particles, 0 at first.
+template <int Dim>
+class ParticleMemory {
+ public:
+  explicit ParticleMemory(std::size_t count) : count_(count) {
+    mpm::for_fields_of(view_, view_, [&](auto& field, const auto& /*same*/) { take_room(field); });
+  }
+  ParticleMemory(const ParticleMemory&) = delete;
+  ParticleMemory& operator=(const ParticleMemory&) = delete;
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] const mpm::ParticleView<Dim, Real>& view() const { return view_; }
+
+ private:
+  template <class T, int Components>
+  void take_room(mpm::FieldView<T, Components>& field) {
+    constexpr std::size_t block = mpm::particles_of_block;
+    const std::size_t numbers = (count_ + block - 1) / block * block * Components;
+    memory_.emplace_back(numbers * sizeof(T), std::byte{0});
+    field.numbers = reinterpret_cast<T*>(memory_.back().data());
+  }
+
+  std::size_t count_;
+  mpm::ParticleView<Dim, Real> view_{};
+  std::vector<std::vector<std::byte>> memory_;
+};
+
+inline constexpr Real cell = 1.0;           // [m]
+inline constexpr int ground_index = 8;      // of the nodes on the ground, along the vertical
+inline constexpr Real density = 2000.0;     // [kg/m3]
+inline constexpr Real slope = 35.0;         // [degrees]
+inline constexpr Real time_step = 1e-3;     // [s]
+inline constexpr std::size_t per_axis = 2;  // particles in a cell
+
+// Cells of the block along each axis; in the plane the second one is not used.
+struct Size {
+  std::size_t length, width, height;
+
+  [[nodiscard]] std::size_t particles(int dim) const {
+    const std::size_t in_plane = length * height * per_axis * per_axis;
+    return dim == 2 ? in_plane : in_plane * width * per_axis;
+  }
+};
+
+template <int Dim>
+void seed(const Size& size, ParticleMemory<Dim>& memory) {
+  const mpm::ParticleView<Dim, Real>& p = memory.view();
+  const std::array<std::size_t, 3> count{size.length * per_axis, (Dim == 2 ? size.height : size.width) * per_axis,
+                                         size.height * per_axis};
+  const Real spacing = cell / static_cast<Real>(per_axis);
+  Real volume = 1;
+  for (int a = 0; a < Dim; ++a) {
+    volume *= spacing;
+  }
+  for (std::size_t k = 0; k < memory.size(); ++k) {
+    const std::array<std::size_t, 3> place{k % count[0], k / count[0] % count[1], k / count[0] / count[1]};
+    p.id(k) = static_cast<std::int64_t>((k * 7919) % memory.size() * 3);  // in no order, with gaps
+    for (int a = 0; a < Dim; ++a) {
+      const Real from = a == Dim - 1 ? static_cast<Real>(ground_index) * cell : Real(16) * cell;
+      // A little out of line, so that no two particles do the same.
+      const Real off = 0.05 * std::sin(static_cast<Real>(k % 1009) + a);
+      p.position(k, a) = from + (static_cast<Real>(place[static_cast<std::size_t>(a)]) + 0.5 + off) * spacing;
+    }
+    p.volume(k) = p.initial_volume(k) = volume;
+    p.mass(k) = density * volume;
+    p.velocity(k, 0) = 6.0;
+    p.velocity(k, Dim - 1) = -0.3;
+    const Real depth = static_cast<Real>(size.height) * cell - (p.position(k, Dim - 1) - ground_index * cell);
+    for (int c = 0; c < 3; ++c) {
+      p.stress(k, c) = -0.5 * density * 9.81 * depth;
+    }
+    p.temperature(k) = -0.5;
+    p.porosity(k) = p.initial_porosity(k) = 0.3;
+    p.liquid_saturation(k) = 0.2;
+    p.pore_pressure(k) = 1e3;
+    p.contact_offset(k) = 0.5 * spacing;
+    p.thermal_scaling(k) = 1.0;
+  }
+}
+
+template <int Dim>
+device::StepModel<Dim, Real> model_of_slide() {
+  device::StepModel<Dim, Real> model;
+  model.cell = cell;
+  model.half_sizes = {0.5 / static_cast<Real>(per_axis)};
+  model.gravity.setZero();
+  model.gravity[0] = 9.81 * std::sin(slope * pi<Real> / 180.0);
+  model.gravity[Dim - 1] = -9.81 * std::cos(slope * pi<Real> / 180.0);
+  model.pic_share = 0.01;
+  mpm::MaterialModel<Real> material;
+  material.elastic = physics::Elastic<Real>::from_young_poisson(1e8, 0.3);
+  const Real friction_angle = 30.0 * pi<Real> / 180.0;
+  material.law = physics::MohrCoulomb<Real>::make(material.elastic, {.friction_angle = friction_angle,
+                                                                     .dilation_angle = 0.0,
+                                                                     .cohesion = 1e3,
+                                                                     .residual_cohesion = 1e3,
+                                                                     .tension_cutoff = 1e3,
+                                                                     .residual_friction_angle = friction_angle});
+  model.materials = {material};
+  model.faces.extent.setConstant(1e5);
+  model.lower.setZero();
+  model.upper = model.faces.extent;
+  model.base.grounds[0].friction = physics::basal::ConstantFriction<Real>{std::tan(20.0 * pi<Real> / 180.0)};
+  model.base.grounds[0].cohesion = physics::basal::ConstantCohesion<Real>{0.0};
+  model.distance_check = true;
+  return model;
+}
+
+// A plane along the grid.
+template <int Dim>
+void ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
+  using T = mpm::Tile<Dim>;
+  const Real face = Dim == 2 ? cell : cell * cell;
+  for (int k = 0; k < T::nodes; ++k) {
+    const int above = T::node(T::index(block), k)[Dim - 1] - ground_index;
+    terrain::GroundAtNode<Dim, Real> node;
+    node.normal.setZero();
+    node.normal[Dim - 1] = -1.0;
+    node.distance = static_cast<Real>(above) * cell;
+    node.candidate = above == 0;
+    node.area = above == 0 ? face : 0.0;
+    node.space = above == 0 ? 0.5 * face * cell : above > 0 ? face * cell : 0.0;
+    nodes[k] = node;
+  }
+}
+
+// Steps on some backend.
+template <int Dim>
+class Steps {
+ public:
+  Steps() = default;
+  virtual ~Steps() = default;
+  Steps(const Steps&) = delete;
+  Steps& operator=(const Steps&) = delete;
+
+  virtual device::StepSums<Dim, Real> step(Real time, Real dt) = 0;
+  virtual void sort_in_memory() = 0;
+  virtual void copy_to(const mpm::ParticleView<Dim, Real>& particles) const = 0;
+};
+
+}  // namespace thawslide::card_test
