@@ -75,6 +75,10 @@ int resume_run(const ResumeOptions& options) {
       fmt::print("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
       return static_cast<int>(ExitCode::done);
     }
+    if (simulation.is_at_rest()) {
+      fmt::print("{} has come to rest at {:g} s; nothing to do\n", folder.string(), simulation.time());
+      return static_cast<int>(ExitCode::done);
+    }
     if (!checkpoint.note.empty()) {
       fmt::print("note: {}; going on from the checkpoint before\n", checkpoint.note);
     }

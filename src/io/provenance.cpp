@@ -84,6 +84,9 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["simulated_time_s"] = p.simulated_time;
   json["steps"] = p.steps;
   json["particles"] = p.particles;
+  for (const auto& [cause, count] : p.removed) {
+    json["removed_particles"][cause] = count;
+  }
   json["wall_s"] = p.wall_seconds;
   json["particle_steps_per_second"] = p.wall_seconds > 0.0 ? p.particle_steps / p.wall_seconds : 0.0;
   json["seconds_per_stage"] = p.seconds_per_stage;

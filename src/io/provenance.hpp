@@ -23,7 +23,8 @@ struct Provenance {
   std::string version, commit, command, host, processor, started;  // started: UTC, ISO 8601
   int threads = 1;
   std::size_t particles = 0;
-  std::vector<double> origin, gravity;  // [m], [m/s2] in grid axes
+  std::vector<std::pair<std::string, std::int64_t>> removed;  // particles so far, by cause
+  std::vector<double> origin, gravity;                        // [m], [m/s2] in grid axes
   std::vector<InputFile> inputs;
   std::string status, message;  // running, done, stopped, failed
   double simulated_time = 0.0, wall_seconds = 0.0;
