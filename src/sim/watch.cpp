@@ -45,16 +45,18 @@ template <int Dim, class Real>
 WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const {
   const auto smallest = static_cast<Real>(parameters_.guards.smallest_volume);
   const auto largest = static_cast<Real>(parameters_.guards.largest_volume);
-  const auto fast = static_cast<Real>(parameters_.time.stop_at_rest);
+  // A way of more than this in a step is fast. The velocity of a particle has parts beside that the grid does not see,
+  // and which move nothing (FLIP).
+  const Real fast_way = static_cast<Real>(parameters_.time.stop_at_rest) * dt_;
   return parallel_sum<WatchedSums<Real>>(grid_.tiles().size(), [&](std::size_t t, WatchedSums<Real>& seen) {
     for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
       const std::uint32_t p = grid_.order()[k];
       const Real mass = particles_.mass(p);
       const auto velocity = particles_.velocity.template get<Vector<Real, Dim>>(p);
-      const Real speed2 = velocity.squaredNorm();
+      const auto way = particles_.step_displacement.template get<Vector<Real, Dim>>(p);
       seen.mass += mass;
-      seen.fast_mass += speed2 > fast * fast ? mass : Real(0);
-      seen.kinetic += Real(0.5) * mass * speed2;
+      seen.fast_mass += way.squaredNorm() > fast_way * fast_way ? mass : Real(0);
+      seen.kinetic += Real(0.5) * mass * velocity.squaredNorm();
       for (int a = 0; a < Dim; ++a) {
         seen.potential -=
             mass * model_.motion.gravity[a] * (particles_.position(p, a) + static_cast<Real>(model_.origin[a]));
