@@ -127,7 +127,7 @@ def test_what_guards_remove_is_counted(thawslide: Program, tmp_path: Path) -> No
         "not_finite": 0,
         "volume": int(told[2]),
     }
-    assert columns["removed_mass_kg"][-1] == pytest.approx(columns["left_mass_kg"][-1], rel=1e-12) > 0.0
+    assert 0.0 < columns["removed_mass_kg"][-1] == pytest.approx(columns["left_mass_kg"][-1], rel=1e-12)
 
 
 def test_a_run_with_particles_removed_goes_on_to_the_same_bits(
