@@ -149,8 +149,9 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, const C
     throw UserError(fmt::format("the end of {:g} s has passed: the run's checkpoint is of {:g} s. Give a later one.",
                                 end, simulation.time()));
   }
-  if (is_at_end && next.earlier.status == "done") {
-    say("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
+  if ((is_at_end || simulation.is_at_rest()) && next.earlier.status == "done") {
+    say("{} has {} at {:g} s; nothing to do\n", folder.string(), is_at_end ? "reached its end" : "come to rest",
+        simulation.time());
     return static_cast<int>(ExitCode::done);
   }
   if (!checkpoint.note.empty()) {

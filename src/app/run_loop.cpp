@@ -34,6 +34,27 @@ class FrontWatch {
   double front_ = std::nan(""), time_ = 0.0;
 };
 
+// Tells once that guards remove particles.
+class RemovalWatch {
+ public:
+  explicit RemovalWatch(const sim::Removed& before) : told_(before.by_guards() > 0) {}
+
+  // Empty while there is nothing new to tell.
+  template <int Dim>
+  std::string note(const sim::Simulation<Dim, double>& simulation) {
+    if (told_ || simulation.removed().by_guards() == 0) {
+      return "";
+    }
+    told_ = true;
+    return fmt::format(
+        "note: at t = {:.6g} s guards have removed {}; history.csv has their mass, run.json their number",
+        simulation.time(), sim::text_of(simulation.removed()));
+  }
+
+ private:
+  bool told_;
+};
+
 // Where the slide's front is at the end, in words.
 std::string front_text(double front, double runout) {
   return std::isfinite(front) ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
@@ -68,6 +89,9 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutp
     if (std::isfinite(number)) {
       say("  {:<28}{:12.6g}\n", name, number);
     }
+  }
+  if (simulation.removed().by_guards() > 0) {
+    say("guards have removed {}\n", sim::text_of(simulation.removed()));
   }
   say("results in {}\n", folder.string());
 }
@@ -118,6 +142,7 @@ int take_steps(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   Progress progress(begin);
   FrontWatch front;
   BoilingWatch boiling;
+  RemovalWatch removal(simulation.removed());
   output.start_clock();
   const auto wall = [&] { return output.wall_seconds(); };
   const int most_threads = thread_count();
@@ -146,11 +171,15 @@ int take_steps(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   };
   catch_signals();
   try {
-    while (simulation.time() < times.end - 0.5 * simulation.last_step() && caught_signal() == 0) {
+    while (simulation.time() < times.end - 0.5 * simulation.last_step() && !simulation.is_at_rest() &&
+           caught_signal() == 0) {
       const double next_event = std::min(
           {snapshots.next(), checkpoints.next(), times.history_interval > 0.0 ? history.next() : times.end, times.end});
       step(next_event);
       const double dt = simulation.last_step();
+      if (const std::string note = removal.note(simulation); !note.empty()) {
+        progress.note(note);
+      }
       output.after_step(simulation);
       if (times.history_interval <= 0.0 || history.reached(simulation.time(), dt)) {
         output.write_history(simulation);
@@ -191,8 +220,16 @@ int take_steps(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
               simulation.time(), folder.string());
     return static_cast<int>(ExitCode::stopped_by_signal);
   }
+  const std::string rest = simulation.is_at_rest() ? simulation.rest_text() : "";
+  if (!rest.empty()) {
+    output.write_history(simulation);
+    output.write_snapshot(simulation);
+  }
   output.write_checkpoint(simulation);
-  close("done", "");
+  close("done", rest);
+  if (!rest.empty()) {
+    say("{}\n", rest);
+  }
   return static_cast<int>(ExitCode::done);
 }
 

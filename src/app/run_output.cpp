@@ -298,6 +298,8 @@ void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::s
   add_figures(simulation);
   provenance_.simulated_time = simulation.time();
   provenance_.steps = simulation.step_number();
+  const sim::Removed& removed = simulation.removed();
+  provenance_.removed = {{"left", removed.left}, {"not_finite", removed.not_finite}, {"volume", removed.volume}};
   provenance_.parts.back().wall_seconds = wall_seconds;
   provenance_.seconds_per_stage = seconds_per_stage(simulation);
   provenance_.seconds_beside = snapshots_.seconds_beside();

@@ -27,7 +27,7 @@ enum class CurveKind { power_law, linear };
 enum class BodyShape { box, polygon, surface, release };
 enum class ThicknessAlong { vertical, normal };
 enum class Placement { on_top, cut };
-enum class Leaving { stop, remove };
+enum class Policy { stop, remove };
 enum class ShapeFunction { ugimp, linear, quadratic };
 enum class Transfer { flip, blend, apic, fmpm };
 enum class InitialStress { geostatic, none, settle };
@@ -67,15 +67,28 @@ struct Time {
   double safety = 0.8;            // of the limits, adaptive
   double output_interval = 1.0;   // s between snapshots
   double history_interval = 0.0;  // s between history rows; 0: every step
+  double stop_at_rest = 0.0;      // m/s that the slide may move at and is at rest; 0: it runs to the end
+  double rest_time = 10.0;        // s that it has to be at rest
 };
 
 struct Grid {
   double cell = 0.0;
   Point min{};  // the domain
   Point max{};
-  Leaving leaving = Leaving::stop;  // what becomes of particles that leave the domain or the DEM
+  Policy leaving = Policy::stop;  // what becomes of particles that leave the domain or the DEM
   // kinds of boundary at x_min, x_max, y_min, y_max, z_min, z_max
   std::array<BoundaryKind, 6> boundary{};
+};
+
+// What ends a run that goes wrong, or is taken out of it.
+struct Guards {
+  Policy not_finite = Policy::stop, volume = Policy::stop;
+  double smallest_volume = 0.25;                                    // of that at t = 0
+  double largest_volume = std::numeric_limits<double>::infinity();  // of that at t = 0
+  double removed_mass = 0.01;                                       // of all mass
+  double energy_growth = 0.25;                                      // of all energy so far
+  double smallest_step = 0.001;                                     // of the first one
+  double most_steps = 1e9;                                          // to the end
 };
 
 struct Terrain {
@@ -316,6 +329,7 @@ struct Case {
   General general;
   Time time;
   Grid grid;
+  Guards guards;
   Terrain terrain;
   Phases phases;
   Freezing freezing;
@@ -339,6 +353,9 @@ struct Case {
 };
 
 inline bool has_band_columns(const Case& parameters) { return parameters.band.model == BandKind::columns; }
+inline bool guards_remove(const Case& parameters) {
+  return parameters.guards.not_finite == Policy::remove || parameters.guards.volume == Policy::remove;
+}
 inline bool has_pore_water(const Case& parameters) { return parameters.pressure.enabled && parameters.heat.enabled; }
 inline bool water_seeps(const Case& parameters) {
   const auto conducts = [](const auto& each) { return each.second.hydraulic_conductivity > 0.0; };

@@ -17,9 +17,10 @@ namespace thawslide::config {
 namespace {
 
 // What the step reads anew each time and keeps no state for. A table ends with a dot: all of its keys.
-constexpr std::array<std::string_view, 11> changeable = {
+constexpr std::array<std::string_view, 12> changeable = {
     "time.",
     "checkpoint.",
+    "guards.",
     "grid.leaving",
     "mechanics.mass_damping",
     "mechanics.pic_share",

@@ -51,6 +51,20 @@ std::vector<Parameter<Time>> time_parameters() {
                                           .unit = "s",
                                           .range = at_least(0),
                                           .text = "simulated time between rows of history.csv; 0: a row every step"}),
+      parameter(&Time::stop_at_rest,
+                {.key = "stop_at_rest",
+                 .unit = "m/s",
+                 .range = above(0),
+                 .text = "the run ends before time.end when, for time.rest_time, no more than 0.5 % of the slide's "
+                         "mass has been faster than this; never before more of it has"})
+          .otherwise("the run goes on to time.end"),
+      parameter(&Time::rest_time,
+                {.key = "rest_time",
+                 .unit = "s",
+                 .range = at_least(0),
+                 .text = "how long the slide has to be slower than time.stop_at_rest for the run to end"})
+          .only_if("when time.stop_at_rest is given", "stop_at_rest",
+                   [](const Case&, const Time& time) { return time.stop_at_rest > 0.0; }),
   };
 }
 
@@ -61,6 +75,46 @@ std::vector<Parameter<Grid>> grid_parameters() {
       parameter(&Grid::max, {.key = "max", .unit = "m", .text = "highest corner of the domain"}).required(),
       parameter(&Grid::leaving,
                 {.key = "leaving", .text = "what becomes of particles that leave the domain or the DEM"}),
+  };
+}
+
+// Where there is no choice between stopping and removing, what is wrong is the step or the case, not a particle, and a
+// run without that particle would be as wrong.
+std::vector<Parameter<Guards>> guard_parameters() {
+  return {
+      parameter(&Guards::not_finite, {.key = "not_finite",
+                                      .text = "what becomes of particles whose position, volume, stress, "
+                                              "temperature or pore pressure is not a finite number"}),
+      parameter(&Guards::volume, {.key = "volume",
+                                  .text = "what becomes of particles whose volume turns over, or whose volume over "
+                                          "that of t = 0 leaves guards.smallest_volume to guards.largest_volume"}),
+      parameter(&Guards::smallest_volume,
+                {.key = "smallest_volume",
+                 .range = {.low = 0, .high = 1, .high_open = true},
+                 .text = "smallest volume of a particle over that of t = 0, looked at every 10 steps"}),
+      parameter(&Guards::largest_volume,
+                {.key = "largest_volume",
+                 .range = {.low = 1, .low_open = true, .infinity_allowed = true},
+                 .text = "largest volume of a particle over that of t = 0, looked at every 10 steps; inf: any"}),
+      parameter(&Guards::removed_mass,
+                {.key = "removed_mass",
+                 .range = between(0, 1),
+                 .text = "share of all mass that guards may remove before the run ends after all"}),
+      parameter(&Guards::energy_growth,
+                {.key = "energy_growth",
+                 .range = {.low = 0, .low_open = true, .infinity_allowed = true},
+                 .text = "growth of energy without a cause, as a share of the energy so far, that ends the run, looked "
+                         "at every 10 steps; inf: any. The step makes such energy, not a particle: there is none to "
+                         "remove"}),
+      parameter(&Guards::smallest_step,
+                {.key = "smallest_step",
+                 .range = {.low = 0, .high = 1, .high_open = true},
+                 .text = "smallest adaptive step over the first one, below which the run ends; 0: any. All particles "
+                         "share the step, and which of them to do without is not the program's to choose"}),
+      parameter(&Guards::most_steps,
+                {.key = "most_steps",
+                 .range = {.low = 1, .infinity_allowed = true},
+                 .text = "steps still to come, at the length of the next adaptive one, above which the run ends"}),
   };
 }
 
@@ -198,6 +252,8 @@ void declare_run(Tables& tables) {
   tables.push_back(std::make_unique<SingleTable<Grid>>("grid", "The background grid", &Case::grid, grid_parameters()));
   tables.push_back(std::make_unique<SingleTable<Grid>>("grid.boundary", "What the sides of the grid do to velocities",
                                                        &Case::grid, six_sides(&Grid::boundary, "velocity condition")));
+  tables.push_back(std::make_unique<SingleTable<Guards>>("guards", "What ends a run that goes wrong", &Case::guards,
+                                                         guard_parameters()));
   tables.push_back(
       std::make_unique<SingleTable<Terrain>>("terrain", "The ground", &Case::terrain, terrain_parameters()));
   tables.push_back(std::make_unique<SingleTable<Checkpoint>>("checkpoint", "States to resume from", &Case::checkpoint,

@@ -67,8 +67,8 @@ inline std::vector<Choice<Placement>> choices(Placement) {
   return {{Placement::on_top, "on_top", "put on the DEM, which it slides on"},
           {Placement::cut, "cut", "cut out of the DEM: it slides on the DEM less the thickness"}};
 }
-inline std::vector<Choice<Leaving>> choices(Leaving) {
-  return {{Leaving::stop, "stop", "they end the run"}, {Leaving::remove, "remove", "they are removed and counted"}};
+inline std::vector<Choice<Policy>> choices(Policy) {
+  return {{Policy::stop, "stop", "they end the run"}, {Policy::remove, "remove", "they are removed and counted"}};
 }
 inline std::vector<Choice<ShapeFunction>> choices(ShapeFunction) {
   return {{ShapeFunction::ugimp, "ugimp", "uniform generalised interpolation"},

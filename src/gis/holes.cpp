@@ -56,7 +56,7 @@ std::string holes_note(const config::Case& parameters, const config::Site& site)
       "{} of {} points of the terrain model within the domain have no data, the nearest at ({:.0f}, {:.0f}){}: a slide "
       "that gets there {}",
       unknown, points, nearest_x, nearest_y, from,
-      parameters.grid.leaving == config::Leaving::remove ? "is removed and counted" : "ends the run");
+      parameters.grid.leaving == config::Policy::remove ? "is removed and counted" : "ends the run");
 }
 
 }  // namespace thawslide::gis

@@ -127,6 +127,9 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["simulated_time_s"] = p.simulated_time;
   json["steps"] = p.steps;
   json["particles"] = p.particles;
+  for (const auto& [cause, count] : p.removed) {
+    json["removed_particles"][cause] = count;
+  }
   json["wall_s"] = wall;
   json["particle_steps_per_second"] = wall > 0.0 ? particle_steps / wall : 0.0;
   json["parts"] = std::move(parts);

@@ -33,7 +33,8 @@ struct RunPart {
 struct Provenance {
   std::vector<RunPart> parts;  // one at least
   std::size_t particles = 0;
-  std::vector<double> origin, gravity;  // [m], [m/s2] in grid axes
+  std::vector<std::pair<std::string, std::int64_t>> removed;  // particles so far, by cause
+  std::vector<double> origin, gravity;                        // [m], [m/s2] in grid axes
   std::vector<InputFile> inputs;
   std::string status, message;  // running, done, stopped, failed
   double simulated_time = 0.0;

@@ -25,7 +25,16 @@ struct StressWork {
 };
 
 // What can be wrong with a particle.
-enum class Fault { none, volume_not_finite, volume_not_positive, state_not_finite, left_domain, left_map };
+enum class Fault {
+  none,
+  volume_not_finite,
+  volume_not_positive,
+  volume_too_small,
+  volume_too_large,
+  state_not_finite,
+  left_domain,
+  left_map
+};
 
 // A particle found in a bad state, the one of smallest id; id < 0 if all are well.
 struct BadParticle {

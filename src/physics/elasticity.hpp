@@ -1,6 +1,7 @@
 // Linear isotropic elasticity (the elastic part of Eq. 11). Tension positive; tensors xx yy zz xy yz xz with tensor
 // shear strains.
 //   d sigma = lambda tr(d eps) I + 2 G d eps,  lambda = E nu/((1+nu)(1-2nu)),  G = E/(2(1+nu))
+//   w = (sigma:sigma - lambda/(3 lambda + 2 G) tr(sigma)^2)/(4 G), its energy per volume
 #pragma once
 
 #include "base/linear.hpp"
@@ -33,6 +34,16 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(con
   stress[1] += pressure;
   stress[2] += pressure;
   return stress;
+}
+
+// Energy that a stress [Pa] holds [J/m3].
+template <class Real>
+Real elastic_energy_density(const Elastic<Real>& elastic, const SymmetricTensor<Real>& stress) {
+  const Real trace = stress[0] + stress[1] + stress[2];
+  const Real square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2] +
+                      Real(2) * (stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5]);
+  const Real lateral = elastic.lame_lambda / (Real(3) * elastic.lame_lambda + Real(2) * elastic.shear_modulus);
+  return (square - lateral * trace * trace) / (Real(4) * elastic.shear_modulus);
 }
 
 }  // namespace thawslide::physics

@@ -14,24 +14,6 @@ namespace thawslide::sim {
 
 namespace {
 
-const char* fault_text(mpm::Fault fault) {
-  switch (fault) {
-    case mpm::Fault::volume_not_finite:
-      return "its volume is not a finite number";
-    case mpm::Fault::volume_not_positive:
-      return "its volume ratio is not positive";
-    case mpm::Fault::state_not_finite:
-      return "its position, stress, temperature or pore pressure is not a finite number";
-    case mpm::Fault::left_domain:
-      return "it left the domain";
-    case mpm::Fault::left_map:
-      return "the terrain below it is not known: the DEM ends or has a hole there";
-    case mpm::Fault::none:
-      break;
-  }
-  return "nothing is wrong with it";
-}
-
 // A particle this many times faster than the body's mean has come loose from it.
 constexpr double runaway = 5.0;
 
@@ -87,6 +69,19 @@ double room_on(const config::Site& site, const Place2& place, const Place2& velo
   return std::max(room, 0.0);
 }
 
+// Place in memory; of several the one of smallest id.
+template <int Dim, class Real>
+std::size_t fastest_particle(const mpm::Particles<Dim, Real>& particles) {
+  const auto speed = [&](std::size_t p) { return particles.velocity.template get<Vector<Real, Dim>>(p).norm(); };
+  std::size_t fastest = 0;
+  for (std::size_t p = 1; p < particles.size(); ++p) {
+    if (speed(p) > speed(fastest) || (speed(p) == speed(fastest) && particles.id(p) < particles.id(fastest))) {
+      fastest = p;
+    }
+  }
+  return fastest;
+}
+
 // The cause that lies in pores closed by heat, if some are: their water then has no room, and its pressure no bound.
 template <int Dim, class Real>
 std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
@@ -112,6 +107,66 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
 }
 
 }  // namespace
+
+// Throws where none has that id.
+template <int Dim, class Real>
+std::size_t Simulation<Dim, Real>::place_in_memory(std::int64_t id) const {
+  std::size_t p = 0;
+  while (p < particles_.size() && particles_.id(p) != id) {
+    ++p;
+  }
+  THAWSLIDE_ASSERT(p < particles_.size(), "bad particle {} is not among the particles", id);
+  return p;
+}
+
+// In the coordinates of the case [m].
+template <int Dim, class Real>
+Vector<double, Dim> Simulation<Dim, Real>::place_of(std::size_t p) const {
+  Vector<double, Dim> place;
+  for (int a = 0; a < Dim; ++a) {
+    place[a] = static_cast<double>(particles_.position(p, a)) + model_.origin[a];
+  }
+  return place;
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::particle_text(std::size_t p) const {
+  const Vector<double, Dim> place = place_of(p);
+  std::string numbers;
+  for (int a = 0; a < Dim; ++a) {
+    numbers += fmt::format("{}{:.10g}", a == 0 ? "" : ", ", place[a]);
+  }
+  return fmt::format("particle {} of body '{}' at ({}) m", particles_.id(p),
+                     model_.body_names[static_cast<std::size_t>(particles_.body(p))], numbers);
+}
+
+// Of the particle that bad_ is about.
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::fault_text(std::size_t p) const {
+  const auto ratio = static_cast<double>(particles_.volume(p) / particles_.initial_volume(p));
+  const config::Guards& guards = parameters_.guards;
+  switch (bad_.fault) {
+    case mpm::Fault::volume_not_finite:
+      return "its volume is not a finite number";
+    case mpm::Fault::volume_not_positive:
+      return "its volume ratio is not positive";
+    case mpm::Fault::volume_too_small:
+      return fmt::format("its volume is {:.4g} of that at t = 0, where guards.smallest_volume allows {:g}", ratio,
+                         guards.smallest_volume);
+    case mpm::Fault::volume_too_large:
+      return fmt::format("its volume is {:.4g} of that at t = 0, where guards.largest_volume allows {:g}", ratio,
+                         guards.largest_volume);
+    case mpm::Fault::state_not_finite:
+      return "its position, stress, temperature or pore pressure is not a finite number";
+    case mpm::Fault::left_domain:
+      return "it left the domain";
+    case mpm::Fault::left_map:
+      return "the terrain below it is not known: the DEM ends or has a hole there";
+    case mpm::Fault::none:
+      break;
+  }
+  return "nothing is wrong with it";
+}
 
 // How much further a particle would go the way it moves, until friction has taken its energy, v2/(2 g tan(angle)), and
 // how far the terrain model reaches there.
@@ -140,17 +195,36 @@ std::string Simulation<Dim, Real>::way_ahead(std::size_t p) const {
 }
 
 template <int Dim, class Real>
-std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
-  const std::string too_long =
-      "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
-      "is torn apart; try half of time.step, or viscosity_time or gaps_close_first in the material.";
+bool Simulation<Dim, Real>::is_too_soft(std::size_t p) const {
   const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
-  const double modulus = parameters_.materials.at(material).youngs_modulus;
-  if (modulus < config::softest_modulus) {
+  return parameters_.materials.at(material).youngs_modulus < config::softest_modulus;
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::step_to_halve() const {
+  return parameters_.time.stepping == config::Stepping::fixed ? "time.step" : "time.safety";
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::cause_in_material(std::size_t p) const {
+  if (is_too_soft(p)) {
+    const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
     return fmt::format(
         "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa), and its own weight squeezes it flat; broken "
         "rock and ice have 1e7 Pa and more.",
-        material, modulus);
+        material, parameters_.materials.at(material).youngs_modulus);
+  }
+  return fmt::format(
+      "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
+      "is torn apart; try half of {}, or viscosity_time or gaps_close_first in the material.",
+      step_to_halve());
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
+  const std::string too_long = cause_in_material(p);
+  if (is_too_soft(p)) {
+    return too_long;
   }
   const bool pressurized = model_.band.heat && model_.band.pressure;
   if (bad_.fault == mpm::Fault::state_not_finite && pressurized) {
@@ -175,8 +249,9 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   const std::string speeds =
       fmt::format("It moves at {:.4g} m/s{}, the slide at {:.4g} m/s in the mean. ", own, towards, mean);
   if (own > runaway * mean) {
-    return speeds +
-           "Likely cause: it came loose from the slide; try half of time.step, or viscosity_time in the material.";
+    return fmt::format(
+        "{}Likely cause: it came loose from the slide; try half of {}, or viscosity_time in the material.", speeds,
+        step_to_halve());
   }
   const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow";
   const int way_out = axis_of_way_out<Dim, Real>(particles_.position.template get<Vector<Real, Dim>>(p), velocity,
@@ -195,25 +270,41 @@ void Simulation<Dim, Real>::stop_if_bad() {
   if (bad_.id < 0) {
     return;
   }
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    if (particles_.id(p) == bad_.id) {
-      std::string place;
-      for (int a = 0; a < Dim; ++a) {
-        place += fmt::format("{}{:.10g}", a == 0 ? "" : ", ",
-                             static_cast<double>(particles_.position(p, a)) + model_.origin[a]);
-      }
-      throw RunError(
-          fmt::format("the run went bad at t = {:.6g} s (step {}): particle {} of body '{}' at ({}) m: {}. {}", time_,
-                      step_number_, bad_.id, model_.body_names[static_cast<std::size_t>(particles_.body(p))], place,
-                      fault_text(bad_.fault), likely_cause(p)));
-    }
-  }
-  THAWSLIDE_ASSERT(false, "bad particle {} is not among the particles", bad_.id);
+  const std::size_t p = place_in_memory(bad_.id);
+  throw RunError(fmt::format("the run went bad at t = {:.6g} s (step {}): {}: {}. {}", time_, step_number_,
+                             particle_text(p), fault_text(p), likely_cause(p)));
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                       \
-  template std::string Simulation<Dim, Real>::way_ahead(std::size_t) const;    \
-  template std::string Simulation<Dim, Real>::likely_cause(std::size_t) const; \
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_for_energy(double growth, double share) const {
+  const std::size_t fastest = fastest_particle(particles_);
+  const BodySums<Dim, Real> sums = sum_over_body(*this);
+  const std::string cause =
+      parameters_.basal.distance_check || !model_.ground || is_too_soft(fastest)
+          ? cause_in_material(fastest)
+          : "Likely cause: without basal.distance_check the ground is felt up to a cell early, and throws back what "
+            "falls onto it with more energy than it had; set it to true.";
+  throw RunError(fmt::format(
+      "the run went bad at t = {:.6g} s (step {}): {:.3g} J{} of energy have come without a cause, {:.3g} % of all so "
+      "far, where guards.energy_growth allows {:g} %. The fastest particle, {}, moves at {:.4g} m/s, the slide at "
+      "{:.4g} m/s in the mean. {}",
+      time_, step_number_, growth, Dim == 2 ? " per m of width" : "", 100.0 * share,
+      100.0 * parameters_.guards.energy_growth, particle_text(fastest).substr(std::string("particle ").size()),
+      static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(fastest).norm()),
+      std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass)), cause));
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                            \
+  template std::size_t Simulation<Dim, Real>::place_in_memory(std::int64_t) const;  \
+  template Vector<double, Dim> Simulation<Dim, Real>::place_of(std::size_t) const;  \
+  template std::string Simulation<Dim, Real>::particle_text(std::size_t) const;     \
+  template std::string Simulation<Dim, Real>::fault_text(std::size_t) const;        \
+  template std::string Simulation<Dim, Real>::way_ahead(std::size_t) const;         \
+  template bool Simulation<Dim, Real>::is_too_soft(std::size_t) const;              \
+  template std::string Simulation<Dim, Real>::step_to_halve() const;                \
+  template std::string Simulation<Dim, Real>::cause_in_material(std::size_t) const; \
+  template std::string Simulation<Dim, Real>::likely_cause(std::size_t) const;      \
+  template void Simulation<Dim, Real>::stop_for_energy(double, double) const;       \
   template void Simulation<Dim, Real>::stop_if_bad();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

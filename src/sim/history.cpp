@@ -167,6 +167,9 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
   add("left_mass_kg", ledger.left_mass);
   add("left_mechanical_J", ledger.left_mechanical);
   add("left_heat_J", ledger.left_thermal);
+  if (config::guards_remove(simulation.parameters())) {
+    add("removed_mass_kg", ledger.removed_mass);
+  }
   add_bed(simulation, add);
   const Vector<Real, Dim> residual = sums.momentum + ledger.left_momentum + ledger.bed_impulse -
                                      ledger.joined_momentum - ledger.initial_momentum - ledger.gravity_impulse -

@@ -36,17 +36,20 @@ struct Ledger {
   // Carried away by particles that left and were removed.
   Real left_mechanical = 0, left_thermal = 0, left_mass = 0;
   Vector<Real, Dim> left_momentum = Vector<Real, Dim>::Zero();
+  Real removed_mass = 0;  // of left_mass, by guards
 
   // Calls visit(number) with each of the numbers above, in order.
   template <class Visit>
   void for_each(const Visit& visit) {
-    for (Real* account :
-         {&stress_work,  &plastic,         &viscous,           &damping,       &friction_work,      &contact_loss,
-          &frame_work,   &numerical,       &pore_work,         &friction_heat, &converted,          &boundary_heat,
-          &band_rescale, &advection,       &capacity_heat,     &porosity_heat, &initial_mechanical, &initial_thermal,
-          &initial_mass, &left_mechanical, &left_thermal,      &left_mass,     &joined_mechanical,  &joined_thermal,
-          &joined_mass,  &drained_heat,    &drained_water,     &vented_water,  &left_seeped,        &bed_work,
-          &bed_heat,     &bed_joined_mass, &bed_joined_kinetic}) {
+    for (Real* account : {&stress_work,        &plastic,         &viscous,           &damping,
+                          &friction_work,      &contact_loss,    &frame_work,        &numerical,
+                          &pore_work,          &friction_heat,   &converted,         &boundary_heat,
+                          &band_rescale,       &advection,       &capacity_heat,     &porosity_heat,
+                          &initial_mechanical, &initial_thermal, &initial_mass,      &left_mechanical,
+                          &left_thermal,       &left_mass,       &joined_mechanical, &joined_thermal,
+                          &joined_mass,        &drained_heat,    &drained_water,     &vented_water,
+                          &left_seeped,        &bed_work,        &bed_heat,          &bed_joined_mass,
+                          &bed_joined_kinetic, &removed_mass}) {
       visit(*account);
     }
     for (Vector<Real, Dim>* impulse : {&gravity_impulse, &ground_impulse, &constraint_impulse, &initial_momentum,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "band/averages.hpp"
 #include "base/error.hpp"
@@ -30,6 +29,10 @@ namespace thawslide::sim {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::step(double dt) {
   dt_ = static_cast<Real>(dt);
+  ledger_before_ = ledger_;
+  if (step_number_ == 0) {
+    start_watch();  // once more: who set the run up may have changed the state
+  }
   stopwatch_.time("find_cells", [&] { find_particles_cells(); });
   stopwatch_.time("average_band_on_grid", [&] { average_band_on_grid(); });
   if (parameters_.mechanics.enabled) {
@@ -46,8 +49,12 @@ void Simulation<Dim, Real>::step(double dt) {
   time_ =
       fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
   last_step_ = dt;
+  watch();
+  mark_bad_particles();
   stop_if_bad();
-  handle_left_particles();
+  mark_left_particles();
+  stop_if_bad();
+  remove_marked_particles();
   if (bed_in_reach() != nullptr) {
     stopwatch_.time("take_up_bed", [&] { take_up_bed(); });
   }
@@ -189,7 +196,7 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::take_new_positions() {
   if (parameters_.mechanics.enabled) {
     // Those that are to be removed may be on their way out of the domain until the end of the step.
-    const Real margin = parameters_.grid.leaving == config::Leaving::remove ? grid_.cell() : Real(0);
+    const Real margin = parameters_.grid.leaving == config::Policy::remove ? grid_.cell() : Real(0);
     const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
     mpm::take_new_positions(particles_, Vector<Real, Dim>(-beyond),
                             Vector<Real, Dim>(model_.constraints.extent + beyond), bad_);
@@ -244,48 +251,7 @@ void Simulation<Dim, Real>::begin() {
   band::set_pore_pressure(model_.band, particles_);
   start_band_columns();
   start_ledger();
-}
-
-template <int Dim, class Real>
-bool Simulation<Dim, Real>::needs_settling() const {
-  return parameters_.mechanics.enabled && parameters_.mechanics.initial_stress == config::InitialStress::settle;
-}
-
-template <int Dim, class Real>
-void Simulation<Dim, Real>::settle() {
-  if (!needs_settling()) {
-    return;
-  }
-  THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
-                   static_cast<std::size_t>(next_id_) - particles_at_start_);
-  const Model<Dim, Real> model = model_;
-  model_.band.heat = model_.band.pressure = false;
-  model_.constraints.frames.clear();
-  model_.contact.base_holds = true;
-  model_.contact.band_columns = false;
-  band_columns_.reset();
-  model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
-  const config::Leaving leaving = std::exchange(parameters_.grid.leaving, config::Leaving::stop);  // nothing may go
-  const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
-                                                                         : parameters_.time.safety * step_limit().step;
-  const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
-  for (std::int64_t k = 0; k < steps; ++k) {
-    step(dt);
-  }
-  parameters_.grid.leaving = leaving;
-  // The settled stress goes to particles as they were seeded, so that nothing else of the settling stays.
-  std::vector<SymmetricTensor<Real>> settled(particles_.size());
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    settled[static_cast<std::size_t>(particles_.id(p))] = mpm::full_tensor<Dim, Real>(particles_.stress, p);
-  }
-  model_ = model;
-  seed();
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    for (int c = 0; c < mpm::Particles<Dim, Real>::tensor_components; ++c) {
-      particles_.stress(p, c) = settled[static_cast<std::size_t>(particles_.id(p))][c];
-    }
-  }
-  begin();
+  start_watch();
 }
 
 template <int Dim, class Real>
@@ -344,32 +310,17 @@ double Simulation<Dim, Real>::band_thickness() const {
 }
 
 template <int Dim, class Real>
-StepLimit Simulation<Dim, Real>::step_limit() const {
-  return sim::step_limit(parameters_, model_, band_thickness(), particles_);
-}
-
-template <int Dim, class Real>
-double Simulation<Dim, Real>::next_step(double until) const {
-  if (parameters_.time.stepping == config::Stepping::fixed) {
-    const double left = parameters_.time.end - time_;  // the last step may be shorter
-    return left > (1.0 - 1e-9) * parameters_.time.step ? parameters_.time.step : left;
-  }
-  double dt = parameters_.time.safety * largest_stable_step(parameters_, model_, band_thickness(), particles_);
-  if (parameters_.time.step > 0.0) {
-    dt = std::min(dt, parameters_.time.step);
-  }
-  const double left = until - time_;
-  const double steps = std::ceil(left / dt * (1.0 - 1e-12));
-  return left / std::max(1.0, steps);
-}
-
-template <int Dim, class Real>
 std::vector<double> Simulation<Dim, Real>::scalars() const {
   std::vector<double> numbers{
       time_,       last_step_, rear_at_start_, static_cast<double>(step_number_), static_cast<double>(next_id_),
       column_time_};
   Ledger<Dim, Real> ledger = ledger_;
   ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
+  Watch watch = watch_;
+  watch.for_each([&](double number) { numbers.push_back(number); });
+  for (const std::int64_t count : {removed_.left, removed_.not_finite, removed_.volume}) {
+    numbers.push_back(static_cast<double>(count));
+  }
   return numbers;
 }
 
@@ -383,6 +334,10 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   next_id_ = state.whole(largest_whole);
   column_time_ = state.next_finite();
   ledger_.for_each([&](Real& account) { account = static_cast<Real>(state.next()); });
+  watch_.for_each([&](double& number) { number = state.next(); });
+  for (std::int64_t* count : {&removed_.left, &removed_.not_finite, &removed_.volume}) {
+    *count = state.whole(largest_whole);
+  }
   require_sound(particles_, model_, next_id_, state);
   // Rows came back in order of id: nothing of the former order may be trusted.
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));

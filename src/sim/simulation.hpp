@@ -15,6 +15,7 @@
 #include "sim/ledger.hpp"
 #include "sim/model.hpp"
 #include "sim/time_step.hpp"
+#include "sim/watch.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
@@ -51,8 +52,14 @@ class Simulation {
   // Particles join between two steps, with ids that none has had. They are in no band until the next step.
   void append(const std::vector<NewParticle<Dim, Real>>& joining);
 
-  // The step to take next [s]: the fixed one, or the largest adaptive one, shortened to end at `until`.
+  // The step to take next [s]: the fixed one, or the largest adaptive one, shortened to end at `until`. Throws RunError
+  // for an adaptive step too short to go on with (guards.smallest_step, guards.most_steps).
   [[nodiscard]] double next_step(double until) const;
+
+  // Whether the slide has come to rest, as time.stop_at_rest has it; and since when, in words.
+  [[nodiscard]] bool is_at_rest() const;
+  [[nodiscard]] std::string rest_text() const;
+  [[nodiscard]] const Removed& removed() const { return removed_; }
 
   [[nodiscard]] const config::Case& parameters() const { return parameters_; }
   [[nodiscard]] const config::Site& site() const { return site_; }
@@ -104,7 +111,10 @@ class Simulation {
   void conduct_heat();
   void drain_pore_pressure();
   void take_new_positions();
-  void handle_left_particles();
+  void watch();
+  void mark_bad_particles();
+  void mark_left_particles();
+  void remove_marked_particles();
   // Null where there is none, and while the base holds.
   [[nodiscard]] const terrain::Bed<Dim, Real>* bed_in_reach() const {
     return model_.contact.base_holds ? nullptr : bed();
@@ -116,6 +126,23 @@ class Simulation {
   void seed();
   // Everything that follows from positions and stress at t = 0.
   void begin();
+  void start_watch();
+  [[nodiscard]] WatchedSums<Real> look_at_particles() const;
+  void stop_if_energy_grows(const WatchedSums<Real>& seen);
+  void note_rest(const WatchedSums<Real>& seen);
+  void book_marked_particles();
+  void mend_ledger();
+  [[nodiscard]] double adaptive_step() const;
+  void stop_if_step_collapses(double dt) const;
+  [[nodiscard]] std::size_t place_in_memory(std::int64_t id) const;
+  [[nodiscard]] Vector<double, Dim> place_of(std::size_t particle) const;
+  [[nodiscard]] std::string particle_text(std::size_t particle) const;
+  [[nodiscard]] std::string fault_text(std::size_t particle) const;
+  [[nodiscard]] bool is_too_soft(std::size_t particle) const;
+  [[nodiscard]] std::string step_to_halve() const;
+  [[nodiscard]] std::string cause_in_material(std::size_t particle) const;
+  [[noreturn]] void stop_for_energy(double growth, double share) const;
+  [[noreturn]] void stop_for_removed_mass(double share);
   [[nodiscard]] std::string likely_cause(std::size_t particle) const;
   [[nodiscard]] std::string way_ahead(std::size_t particle) const;
   void mark_band();
@@ -145,9 +172,11 @@ class Simulation {
   std::optional<band::BaseColumns<Dim, Real>> band_columns_;
   std::optional<terrain::Bed<Dim, Real>> bed_;
   terrain::ContactWork<Dim, Real> contact_;
-  Ledger<Dim, Real> ledger_;
+  Ledger<Dim, Real> ledger_, ledger_before_;  // of now, and before the step
+  Watch watch_;
+  Removed removed_;
   mpm::BadParticle bad_;
-  std::vector<std::uint8_t> left_;  // by particle, while those that have left are removed
+  std::vector<std::uint8_t> marks_;  // by particle, of those that are to be removed
   Stopwatch stopwatch_;
   double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, thickness_in_force_ = -1.0,
          column_time_ = 0.0;  // since the last step of the band columns

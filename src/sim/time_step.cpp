@@ -42,52 +42,85 @@ std::string wave_text(const std::string& material, double cell, double speed, do
                      cell);
 }
 
-// Calls take(step [s], text) for every limit; text() says what sets it.
-template <int Dim, class Real, class Take>
-void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
-                const mpm::Particles<Dim, Real>& particles, const Take& take) {
-  const double cell = parameters.grid.cell;
-  // What is taken up of the bed counts from the start.
-  double smallest_density = model.bed_density > Real(0) ? static_cast<double>(model.bed_density) : HUGE_VAL;
-  double largest_speed = 0.0;
-  double largest_diffusivity = 0.0;
-  double largest_seepage = 0.0;
-  double pore_stiffness = 0.0;
+// An extreme of some numbers, and the place in memory of the particle that it is of.
+struct Extreme {
+  static constexpr std::size_t no_particle = ~std::size_t{0};
+  double value = 0.0;
+  std::size_t particle = no_particle;
+
+  void raise(double other, std::size_t p) {
+    if (other > value) {
+      *this = {other, p};
+    }
+  }
+  void lower(double other, std::size_t p) {
+    if (other < value) {
+      *this = {other, p};
+    }
+  }
+};
+
+// What of the particles sets limits.
+struct Extremes {
+  Extreme density{HUGE_VAL};  // smallest [kg/m3]
+  Extreme speed;              // largest [m/s]
+  Extreme diffusivity;        // largest, of heat [m2/s]
+  Extreme seepage;            // largest diffusivity of pore pressure [m2/s]
+  double pore_stiffness = 0;  // largest [Pa]
+};
+
+template <int Dim, class Real>
+Extremes extremes_of(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles) {
+  Extremes found;
+  if (model.bed_density > Real(0)) {
+    found.density.value = static_cast<double>(model.bed_density);  // what is taken up of it counts from the start
+  }
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    smallest_density = std::min(smallest_density, static_cast<double>(particles.mass(p) / particles.volume(p)));
+    found.density.lower(static_cast<double>(particles.mass(p) / particles.volume(p)), p);
     double speed2 = 0.0;
     for (int a = 0; a < Dim; ++a) {
       speed2 += static_cast<double>(particles.velocity(p, a) * particles.velocity(p, a));
     }
-    largest_speed = std::max(largest_speed, std::sqrt(speed2));
+    found.speed.raise(std::sqrt(speed2), p);
     const Real porosity = particles.initial_porosity(p);
     const Real saturation = particles.liquid_saturation(p);
-    largest_diffusivity = std::max(
-        largest_diffusivity, static_cast<double>(physics::conductivity(model.motion.phases, porosity, saturation) /
-                                                 physics::heat_capacity(model.motion.phases, porosity, saturation)));
+    found.diffusivity.raise(static_cast<double>(physics::conductivity(model.motion.phases, porosity, saturation) /
+                                                physics::heat_capacity(model.motion.phases, porosity, saturation)),
+                            p);
     const Real storing = physics::storing_porosity(model.motion.phases, porosity, model.band.skeleton_compressibility);
-    pore_stiffness =
-        std::max(pore_stiffness, static_cast<double>(physics::pore_stiffness(model.motion.phases, storing, Real(1))));
+    found.pore_stiffness = std::max(
+        found.pore_stiffness, static_cast<double>(physics::pore_stiffness(model.motion.phases, storing, Real(1))));
     const auto material = static_cast<std::size_t>(particles.material(p));
-    largest_seepage = std::max(
-        largest_seepage, static_cast<double>(physics::hydraulic_diffusivity(
-                             model.motion.phases, storing, Real(1), model.band.hydraulic_conductivity[material])));
+    found.seepage.raise(static_cast<double>(physics::hydraulic_diffusivity(
+                            model.motion.phases, storing, Real(1), model.band.hydraulic_conductivity[material])),
+                        p);
   }
   if (!model.motion.effective_stress || !model.band.volumetric_term) {
-    pore_stiffness = 0.0;  // the pore does not push back
+    found.pore_stiffness = 0.0;  // the pore does not push back
   }
+  return found;
+}
+
+// Calls take(step [s], kind, place in memory of the particle that sets it, text) for every limit; text() says what it
+// is.
+template <int Dim, class Real, class Take>
+void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+                const mpm::Particles<Dim, Real>& particles, const Take& take) {
+  const double cell = parameters.grid.cell;
+  const Extremes found = extremes_of(model, particles);
   if (parameters.mechanics.enabled) {
     for (std::size_t m = 0; m < model.motion.materials.size(); ++m) {
       const auto& material = model.motion.materials[m];
-      const double modulus = static_cast<double>(material.elastic.p_wave_modulus()) + pore_stiffness;
-      const double speed = std::sqrt(modulus / smallest_density);
+      const double modulus = static_cast<double>(material.elastic.p_wave_modulus()) + found.pore_stiffness;
+      const double speed = std::sqrt(modulus / found.density.value);
       const auto viscosity_time = static_cast<double>(material.viscosity_time);
-      take(wave_share * wave_limit(cell, speed, viscosity_time),
-           [&] { return wave_text(model.material_names[m], cell, speed, viscosity_time); });
+      const bool is_viscous = viscosity_rules(cell, speed, viscosity_time);
+      take(wave_share * wave_limit(cell, speed, viscosity_time), is_viscous ? LimitKind::viscosity : LimitKind::wave,
+           found.density.particle, [&] { return wave_text(model.material_names[m], cell, speed, viscosity_time); });
     }
-    if (largest_speed > 0.0) {
-      take(particle_share * cell / largest_speed,
-           [&] { return fmt::format("the particle speed of {:.4g} m/s", largest_speed); });
+    if (found.speed.value > 0.0) {
+      take(particle_share * cell / found.speed.value, LimitKind::particle_speed, found.speed.particle,
+           [&] { return fmt::format("the particle speed of {:.4g} m/s", found.speed.value); });
     }
   }
   if (model.contact.band_columns) {
@@ -96,14 +129,14 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
   // Heat and pore pressure see the finer grid of the band.
   const double scaled = thickness * (cell / static_cast<double>(model.largest_layer));
   const double length = thickness > 0.0 ? std::min(cell, scaled) : cell;
-  if (parameters.heat.enabled && parameters.heat.conduction && largest_diffusivity > 0.0) {
-    take(diffusion_share * length * length / (2.0 * Dim * largest_diffusivity),
-         [&] { return fmt::format("heat conduction over {:.4g} m", length); });
+  if (parameters.heat.enabled && parameters.heat.conduction && found.diffusivity.value > 0.0) {
+    take(diffusion_share * length * length / (2.0 * Dim * found.diffusivity.value), LimitKind::conduction,
+         found.diffusivity.particle, [&] { return fmt::format("heat conduction over {:.4g} m", length); });
   }
-  if (parameters.pressure.enabled && parameters.pressure.seepage && largest_seepage > 0.0) {
+  if (parameters.pressure.enabled && parameters.pressure.seepage && found.seepage.value > 0.0) {
     const double pore_length = model.band.seepage_as_printed ? std::sqrt(cell * length) : length;
-    take(diffusion_share * pore_length * pore_length / (2.0 * Dim * largest_seepage),
-         [&] { return fmt::format("seepage over {:.4g} m", pore_length); });
+    take(diffusion_share * pore_length * pore_length / (2.0 * Dim * found.seepage.value), LimitKind::seepage,
+         found.seepage.particle, [&] { return fmt::format("seepage over {:.4g} m", pore_length); });
   }
 }
 
@@ -114,7 +147,9 @@ double largest_stable_step(const config::Case& parameters, const Model<Dim, Real
                            const mpm::Particles<Dim, Real>& particles) {
   double smallest = HUGE_VAL;
   for_limits(parameters, model, thickness, particles,
-             [&](double step, const auto& /*text*/) { smallest = std::min(smallest, step); });
+             [&](double step, LimitKind /*kind*/, std::size_t /*particle*/, const auto& /*text*/) {
+               smallest = std::min(smallest, step);
+             });
   return smallest;
 }
 
@@ -122,11 +157,12 @@ template <int Dim, class Real>
 StepLimit step_limit(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                      const mpm::Particles<Dim, Real>& particles) {
   StepLimit limit{HUGE_VAL, "no limit"};
-  for_limits(parameters, model, thickness, particles, [&](double step, const auto& text) {
+  const auto take = [&](double step, LimitKind kind, std::size_t p, const auto& text) {
     if (step < limit.step) {
-      limit = {step, text()};
+      limit = {step, text(), kind, p == Extreme::no_particle ? -1 : particles.id(p)};
     }
-  });
+  };
+  for_limits(parameters, model, thickness, particles, take);
   return limit;
 }
 

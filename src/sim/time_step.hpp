@@ -10,10 +10,15 @@
 
 namespace thawslide::sim {
 
+// What sets a limit on the step.
+enum class LimitKind { none, wave, viscosity, particle_speed, conduction, seepage };
+
 // One limit on the step [s], and what sets it.
 struct StepLimit {
   double step;
   std::string what;
+  LimitKind kind = LimitKind::none;
+  std::int64_t particle = -1;  // id of the one that sets it; negative: none does
 };
 
 // The band's smallest thickness over time [m]; 0 without a band.

@@ -64,10 +64,20 @@ def test_domain_too_short_for_the_slide(thawslide: Program, small_case: Path, tm
 
 def test_load_beyond_the_step(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     # A fall at 1e5 m/s2 is too fast for a step of 4 ms, which the start does not show.
-    told = went_bad(
-        thawslide, small_case, tmp_path / "run",
+    fall = [
         *sets(time__step=0.004, case__gravity=1e5, mechanics__initial_stress='"none"'),
         *sets(body__block__min="[10,4]", body__block__max="[14,8]"),
-    )  # fmt: skip
+    ]
+    outcome = thawslide("run", small_case, "--output", tmp_path / "guarded", *fall)
+    assert outcome.returncode == 3
+    assert re.fullmatch(
+        r"error: the run went bad at t = \S+ s \(step \d+\): \S+ J per m of width of energy have come without a cause, "
+        r"\S+ % of all so far, where guards\.energy_growth allows 25 %\. The fastest particle, \d+ of body 'block' at "
+        r"\(\S+, \S+\) m, moves at \S+ m/s, the slide at \S+ m/s in the mean\. Likely cause: the step is too long for "
+        r"what the material does, or the material is softer than its load, or it is torn apart; try half of "
+        r"time\.step, or viscosity_time or gaps_close_first in the material\.\n",
+        outcome.stderr,
+    ), outcome.stderr
+    told = went_bad(thawslide, small_case, tmp_path / "run", *fall, *sets(guards__energy_growth="inf"))
     assert told[7] == "its volume ratio is not positive"
     assert told[8].startswith("the step is too long for what the material does")

@@ -21,6 +21,8 @@ step = 0.25
 safety = 0.5
 output_interval = 1.5
 history_interval = 0.125
+stop_at_rest = 0.0625
+rest_time = 5.0
 [grid]
 cell = 2.5
 min = [-5.0, -10.0]
@@ -31,6 +33,15 @@ x_min = "fixed"
 x_max = "roller"
 y_min = "roller"
 y_max = "fixed"
+[guards]
+not_finite = "remove"
+volume = "remove"
+smallest_volume = 0.125
+largest_volume = 20.0
+removed_mass = 0.0625
+energy_growth = 0.5
+smallest_step = 0.25
+most_steps = 1000000.0
 [terrain]
 type = "profile"
 elevation = -1.0

@@ -37,7 +37,7 @@ TEST_F(Maps, HaveDefaults) {
   EXPECT_EQ(found.terrain.crs, "");
   EXPECT_EQ(found.terrain.resample, 0.0);
   EXPECT_EQ(found.terrain.smooth, 0.0);
-  EXPECT_EQ(found.grid.leaving, Leaving::stop);
+  EXPECT_EQ(found.grid.leaving, Policy::stop);
   const Body& slide = found.bodies.at("slide");
   EXPECT_EQ(slide.shape, BodyShape::release);
   EXPECT_EQ(slide.release, path_of("release.geojson"));
@@ -80,7 +80,7 @@ TEST_F(Maps, AreRead) {
   EXPECT_EQ(slide.temperature.source, path_of("map.tif"));
   EXPECT_EQ(slide.ice_content.over, InitialField::Over::attribute);
   EXPECT_EQ(slide.ice_content.source, "ice");
-  EXPECT_EQ(found.grid.leaving, Leaving::remove);
+  EXPECT_EQ(found.grid.leaving, Policy::remove);
   EXPECT_EQ(found.maps.cell, 20.0);
   EXPECT_EQ(found.maps.arrival_thickness, 0.5);
   EXPECT_EQ(found.maps.path, path_of("line.geojson"));
@@ -95,7 +95,7 @@ TEST_F(Maps, AreSetOnTheCommandLine) {
   const Case found = read(
       {}, {"grid.leaving=remove", "terrain.crs=EPSG:31287", "terrain.resample=20", "body.slide.polygons=[\"a\"]",
            "body.slide.thickness={ surface = \"" + file + "\" }", "maps.arrival_thickness=1", "terrain.file=" + file});
-  EXPECT_EQ(found.grid.leaving, Leaving::remove);
+  EXPECT_EQ(found.grid.leaving, Policy::remove);
   EXPECT_EQ(found.terrain.crs, "EPSG:31287");
   EXPECT_EQ(found.terrain.resample, 20.0);
   EXPECT_EQ(found.bodies.at("slide").polygons, std::vector<std::string>{"a"});

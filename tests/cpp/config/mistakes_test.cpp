@@ -8,7 +8,8 @@ namespace fs = std::filesystem;
 using namespace case_messages;
 
 const std::string all_tables =
-    "[case], [time], [grid], [grid.boundary], [terrain], [checkpoint], [maps], [probe.NAME], [report], [phases], "
+    "[case], [time], [grid], [grid.boundary], [guards], [terrain], [checkpoint], [maps], [probe.NAME], [report], "
+    "[phases], "
     "[freezing], [material.NAME], [body.NAME], [frame.NAME], [initial], [mechanics], [basal], [substrate.NAME], "
     "[bed], [mechanisms], [band], "
     "[heat], [heat.boundary], [pressure], [block].";
@@ -232,7 +233,7 @@ TEST(Mistakes, SeveralInOrderOfTheirPlaces) {
             "FOLDER/case.toml:1:1: key 'time.end' is missing: it has no default. Add 'end = ...' to [time]: simulated "
             "time at which the run ends, a number, > 0 [s].\n"
             "FOLDER/case.toml:2:1: key 'time.ende' is not known in [time]; did you mean 'end'? Allowed here: end, "
-            "stepping, step, safety, output_interval, history_interval.\n"
+            "stepping, step, safety, output_interval, history_interval, stop_at_rest, rest_time.\n"
             "FOLDER/case.toml:5:8: grid.cell is -5; allowed: > 0 m (side of a grid cell).\n"
             "FOLDER/case.toml:6:1: key 'grid.colour' is not known in [grid]. Allowed here: cell, min, max, leaving, "
             "boundary.\n"

@@ -1,0 +1,97 @@
+// The step to take next, and what is said of one too short to go on with.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// What to do about a limit that has become a small part of what it was.
+std::string advice_on(LimitKind kind) {
+  switch (kind) {
+    case LimitKind::wave:
+      return "A wave runs the faster the lighter the matter: the particle is torn apart. Try gaps_close_first in its "
+             "material, or take such particles out with guards.volume = \"remove\" and a guards.largest_volume.";
+    case LimitKind::viscosity:
+      return "Try a smaller viscosity_time in the material: its limit falls with the square of the wave speed, which "
+             "grows as matter is torn apart; or take such particles out with guards.volume = \"remove\" and a "
+             "guards.largest_volume.";
+    case LimitKind::particle_speed:
+      return "The particle came loose, or the run has become unstable: try half of time.safety, or viscosity_time in "
+             "the material.";
+    case LimitKind::conduction:
+    case LimitKind::seepage:
+      return "The band has become thin, or its matter conducts well: try a larger band.thickness, or band.model = "
+             "\"columns\", whose steps have no such limit.";
+    case LimitKind::none:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+StepLimit Simulation<Dim, Real>::step_limit() const {
+  return sim::step_limit(parameters_, model_, band_thickness(), particles_);
+}
+
+template <int Dim, class Real>
+double Simulation<Dim, Real>::adaptive_step() const {
+  const double dt = parameters_.time.safety * largest_stable_step(parameters_, model_, band_thickness(), particles_);
+  return parameters_.time.step > 0.0 ? std::min(dt, parameters_.time.step) : dt;
+}
+
+template <int Dim, class Real>
+double Simulation<Dim, Real>::next_step(double until) const {
+  if (parameters_.time.stepping == config::Stepping::fixed) {
+    const double left = parameters_.time.end - time_;  // the last step may be shorter
+    return left > (1.0 - 1e-9) * parameters_.time.step ? parameters_.time.step : left;
+  }
+  const double dt = adaptive_step();
+  stop_if_step_collapses(dt);
+  const double left = until - time_;
+  const double steps = std::ceil(left / dt * (1.0 - 1e-12));
+  return left / std::max(1.0, steps);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
+  const config::Guards& guards = parameters_.guards;
+  const double steps = (parameters_.time.end - time_) / dt;
+  std::string why;
+  if (dt < guards.smallest_step * watch_.first_step) {
+    why = fmt::format("{:.2g} of the first one, {:.4g} s, where guards.smallest_step allows {:g}",
+                      dt / watch_.first_step, watch_.first_step, guards.smallest_step);
+  } else if (steps > guards.most_steps) {
+    why = fmt::format("and {:.2g} of them would be left to time.end, where guards.most_steps allows {:g}", steps,
+                      guards.most_steps);
+  } else {
+    return;
+  }
+  const StepLimit limit = step_limit();
+  std::string where;
+  if (limit.particle >= 0) {
+    const std::size_t p = place_in_memory(limit.particle);
+    where = fmt::format(", of {}, whose volume is {:.3g} of that at t = 0", particle_text(p),
+                        static_cast<double>(particles_.volume(p) / particles_.initial_volume(p)));
+  }
+  throw RunError(
+      fmt::format("the run went bad at t = {:.6g} s (step {}): the next step would be {:.3g} s, {}. It is set "
+                  "by {}{}. {}",
+                  time_, step_number_, dt, why, limit.what, where, advice_on(limit.kind)));
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                          \
+  template StepLimit Simulation<Dim, Real>::step_limit() const;   \
+  template double Simulation<Dim, Real>::adaptive_step() const;   \
+  template double Simulation<Dim, Real>::next_step(double) const; \
+  template void Simulation<Dim, Real>::stop_if_step_collapses(double) const;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

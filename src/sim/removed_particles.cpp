@@ -1,0 +1,219 @@
+// Particles that are bad, or have left the domain or the part of the terrain that is known: they end the run, or are
+// removed and counted, as the case has it.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "base/parallel.hpp"
+#include "sim/simulation.hpp"
+#include "sim/slide_left.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// Why a particle is removed.
+enum Mark : std::uint8_t { stays, has_left, is_not_finite, has_bad_volume };
+
+Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
+  switch (fault) {
+    case mpm::Fault::volume_not_finite:
+    case mpm::Fault::state_not_finite:
+      return guards.not_finite == config::Policy::remove ? is_not_finite : stays;
+    case mpm::Fault::volume_not_positive:
+    case mpm::Fault::volume_too_small:
+    case mpm::Fault::volume_too_large:
+      return guards.volume == config::Policy::remove ? has_bad_volume : stays;
+    case mpm::Fault::left_domain:
+    case mpm::Fault::left_map:
+    case mpm::Fault::none:
+      break;
+  }
+  return stays;
+}
+
+// What is wrong with a particle by itself, after a step.
+template <int Dim, class Real>
+mpm::Fault fault_of(const mpm::Particles<Dim, Real>& particles, std::size_t p, const config::Guards& guards) {
+  const Real volume = particles.volume(p);
+  if (!std::isfinite(volume)) {
+    return mpm::Fault::volume_not_finite;
+  }
+  Real state = particles.temperature(p) + particles.pore_pressure(p) + particles.stress(p, 0);
+  for (int a = 0; a < Dim; ++a) {
+    state += particles.step_displacement(p, a);
+  }
+  if (!std::isfinite(state)) {
+    return mpm::Fault::state_not_finite;
+  }
+  const auto ratio = static_cast<double>(volume / particles.initial_volume(p));
+  if (ratio <= 0.0) {
+    return mpm::Fault::volume_not_positive;
+  }
+  if (ratio < guards.smallest_volume) {
+    return mpm::Fault::volume_too_small;
+  }
+  return ratio > guards.largest_volume ? mpm::Fault::volume_too_large : mpm::Fault::none;
+}
+
+// Marks the particles beyond the sides of the domain.
+template <int Dim, class Real>
+void mark_left_domain(const mpm::Particles<Dim, Real>& particles, const Vector<Real, Dim>& extent,
+                      std::vector<std::uint8_t>& marks) {
+  constexpr std::size_t of_a_task = 1024;
+  parallel_for((marks.size() + of_a_task - 1) / of_a_task, [&](std::size_t task) {
+    for (std::size_t p = task * of_a_task; p < std::min(marks.size(), (task + 1) * of_a_task); ++p) {
+      for (int a = 0; a < Dim && marks[p] == stays; ++a) {
+        if (particles.position(p, a) < Real(0) || particles.position(p, a) > extent[a]) {
+          marks[p] = has_left;
+        }
+      }
+    }
+  });
+}
+
+std::int64_t count_of(const std::vector<std::uint8_t>& marks, Mark mark) {
+  return std::count(marks.begin(), marks.end(), std::uint8_t{mark});
+}
+
+}  // namespace
+
+// Leaves in bad_ what has to end the run.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::mark_bad_particles() {
+  const config::Guards& guards = parameters_.guards;
+  marks_.clear();
+  if (bad_.id < 0 || mark_of(bad_.fault, guards) == stays) {
+    return;
+  }
+  bad_ = {};
+  marks_.assign(particles_.size(), stays);
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    const mpm::Fault fault = fault_of(particles_, p, guards);
+    marks_[p] = mark_of(fault, guards);
+    if (fault != mpm::Fault::none && marks_[p] == stays) {
+      bad_.note(particles_.id(p), fault);
+    }
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::mark_left_particles() {
+  const bool removes = parameters_.grid.leaving == config::Policy::remove;
+  if (removes) {
+    marks_.resize(particles_.size(), stays);
+    mark_left_domain<Dim, Real>(particles_, model_.constraints.extent, marks_);
+  }
+  const std::size_t tiles = model_.ground ? grid_.tiles().size() : 0;
+  bad_ += parallel_sum<mpm::BadParticle>(tiles, [&](std::size_t t, mpm::BadParticle& bad) {
+    // The tile's own block stands in the middle of those about it; its ground is looked at a cell further.
+    const auto own = static_cast<std::size_t>(grid_.blocks_about_tile(t)[mpm::Tile<Dim>::stencil / 2]);
+    if (!ground_.partly_unknown(own)) {
+      return;
+    }
+    for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
+      const std::uint32_t p = grid_.order()[k];
+      const auto place = particles_.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>();
+      if (model_.ground->is_known(place) || (!marks_.empty() && marks_[p] != stays)) {
+        continue;
+      }
+      if (removes) {
+        marks_[p] = has_left;
+      } else {
+        bad.note(particles_.id(p), mpm::Fault::left_map);
+      }
+    }
+  });
+}
+
+// What the marked particles take along. Of one that is not finite mass and place are known, and no more: the residuals
+// of the other accounts show what it had.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::book_marked_particles() {
+  std::vector<std::uint8_t> known = marks_;
+  for (const std::uint32_t p : grid_.order()) {
+    if (marks_[p] == is_not_finite) {
+      known[p] = stays;
+      ledger_.left_mass += particles_.mass(p);
+      ledger_.left_mechanical -= particles_.mass(p) * model_.motion.gravity.dot(place_of(p).template cast<Real>());
+    }
+    ledger_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_bad_volume ? particles_.mass(p) : Real(0);
+  }
+  const BodySums<Dim, Real> sums = sum_over_body(*this, &known);
+  ledger_.left_mass += sums.mass;
+  ledger_.left_mechanical += sums.kinetic + sums.potential;
+  ledger_.left_thermal += sums.sensible + sums.latent;
+  ledger_.left_momentum += sums.momentum;
+  ledger_.left_seeped += sums.seeped;
+}
+
+// What a step with a particle that is not finite did is not known either: its accounts stay as they were.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::mend_ledger() {
+  std::vector<Real> before;
+  ledger_before_.for_each([&](const Real& account) { before.push_back(account); });
+  std::size_t k = 0;
+  ledger_.for_each([&](Real& account) {
+    account = std::isfinite(account) ? account : before[k];
+    ++k;
+  });
+}
+
+// Names of the bad particles that were marked last the one of smallest id.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    if (marks_[p] == is_not_finite || marks_[p] == has_bad_volume) {
+      bad_.note(particles_.id(p), fault_of(particles_, p, parameters_.guards));
+    }
+  }
+  const std::size_t last = place_in_memory(bad_.id);
+  throw RunError(
+      fmt::format("the run went bad at t = {:.6g} s (step {}): [guards] has removed {}, {:.3g} % of all mass, where "
+                  "guards.removed_mass allows {:g} %; among the last: {}: {}. {}",
+                  time_, step_number_, text_of(removed_), 100.0 * share, 100.0 * parameters_.guards.removed_mass,
+                  particle_text(last), fault_text(last), likely_cause(last)));
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::remove_marked_particles() {
+  const Removed now{count_of(marks_, has_left), count_of(marks_, is_not_finite), count_of(marks_, has_bad_volume)};
+  if (now.left + now.by_guards() == 0) {
+    return;
+  }
+  const bool none_stays = static_cast<std::size_t>(now.left + now.by_guards()) == particles_.size();
+  if (none_stays && now.by_guards() == 0) {
+    throw SlideLeft(fmt::format(
+        "the whole slide has left the domain or the known ground at t = {:.6g} s (step {}); the last {:.4g} kg{} "
+        "of it, which left in this step, still stand in mass_kg. Widen [grid] min and max, or give a DEM "
+        "that reaches further, to follow it on.",
+        time_, step_number_, static_cast<double>(sum_over_body(*this).mass), Dim == 2 ? " per m of width" : ""));
+  }
+  if (now.not_finite > 0) {
+    mend_ledger();
+  }
+  book_marked_particles();
+  removed_.left += now.left;
+  removed_.not_finite += now.not_finite;
+  removed_.volume += now.volume;
+  const auto all_mass = static_cast<double>(ledger_.initial_mass + ledger_.joined_mass);
+  const double share = static_cast<double>(ledger_.removed_mass) / all_mass;
+  if (none_stays || share > parameters_.guards.removed_mass) {
+    stop_for_removed_mass(share);
+  }
+  grid_.remove(particles_, particles_.remove(marks_));
+  update_ground();
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                              \
+  template void Simulation<Dim, Real>::mark_bad_particles();          \
+  template void Simulation<Dim, Real>::mark_left_particles();         \
+  template void Simulation<Dim, Real>::book_marked_particles();       \
+  template void Simulation<Dim, Real>::mend_ledger();                 \
+  template void Simulation<Dim, Real>::stop_for_removed_mass(double); \
+  template void Simulation<Dim, Real>::remove_marked_particles();
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,62 @@
+// Gravity is switched on before t = 0, with damping and on a base that holds.
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::needs_settling() const {
+  return parameters_.mechanics.enabled && parameters_.mechanics.initial_stress == config::InitialStress::settle;
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::settle() {
+  if (!needs_settling()) {
+    return;
+  }
+  THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
+                   static_cast<std::size_t>(next_id_) - particles_at_start_);
+  const Model<Dim, Real> model = model_;
+  model_.band.heat = model_.band.pressure = false;
+  model_.constraints.frames.clear();
+  model_.contact.base_holds = true;
+  model_.contact.band_columns = false;
+  band_columns_.reset();
+  model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
+  const config::Policy leaving = std::exchange(parameters_.grid.leaving, config::Policy::stop);  // nothing may go
+  const config::Guards guards = parameters_.guards;
+  parameters_.guards.not_finite = parameters_.guards.volume = config::Policy::stop;
+  const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
+                                                                         : parameters_.time.safety * step_limit().step;
+  const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
+  for (std::int64_t k = 0; k < steps; ++k) {
+    step(dt);
+  }
+  parameters_.grid.leaving = leaving;
+  parameters_.guards = guards;
+  // The settled stress goes to particles as they were seeded, so that nothing else of the settling stays.
+  std::vector<SymmetricTensor<Real>> settled(particles_.size());
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    settled[static_cast<std::size_t>(particles_.id(p))] = mpm::full_tensor<Dim, Real>(particles_.stress, p);
+  }
+  model_ = model;
+  seed();
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    for (int c = 0; c < mpm::Particles<Dim, Real>::tensor_components; ++c) {
+      particles_.stress(p, c) = settled[static_cast<std::size_t>(particles_.id(p))][c];
+    }
+  }
+  begin();
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                       \
+  template bool Simulation<Dim, Real>::needs_settling() const; \
+  template void Simulation<Dim, Real>::settle();
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

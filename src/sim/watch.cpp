@@ -1,0 +1,149 @@
+// What a run is watched for while it goes well: energy without a cause, volumes out of range, and rest.
+#include "sim/watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "base/parallel.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// Round-off of sums over particles, of which the potential energy is by far the largest.
+constexpr double round_off = 1e-10;
+
+// Energy that is there or went where the accounts say, less what came in [J]: what the transfers and the time steps
+// made, or lost. It is mechanical_residual_J and numerical_J of the history together, which in a stable run keep each
+// other's balance.
+template <int Dim, class Real>
+double energy_made(const Ledger<Dim, Real>& ledger, const WatchedSums<Real>& seen) {
+  const Real there = seen.kinetic + seen.potential + ledger.stress_work + ledger.pore_work + ledger.left_mechanical;
+  const Real gone = ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss + ledger.bed_work;
+  const Real came = ledger.frame_work + ledger.joined_mechanical + ledger.initial_mechanical;
+  return static_cast<double>(there + gone - came);
+}
+
+// All energy that matter held or moved with, or that has been dissipated [J].
+template <int Dim, class Real>
+double energy_so_far(const Ledger<Dim, Real>& ledger, const WatchedSums<Real>& seen, double held_at_start) {
+  return held_at_start + static_cast<double>(seen.kinetic + std::abs(ledger.stress_work) + ledger.viscous +
+                                             ledger.damping + ledger.friction_work + ledger.contact_loss);
+}
+
+}  // namespace
+
+std::string text_of(const Removed& removed) {
+  return fmt::format("{} particle{}: {} not finite, {} by their volume", removed.by_guards(),
+                     removed.by_guards() == 1 ? "" : "s", removed.not_finite, removed.volume);
+}
+
+template <int Dim, class Real>
+WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const {
+  const auto smallest = static_cast<Real>(parameters_.guards.smallest_volume);
+  const auto largest = static_cast<Real>(parameters_.guards.largest_volume);
+  // A way of more than this in a step is fast. The velocity of a particle has parts beside that the grid does not see,
+  // and which move nothing (FLIP).
+  const Real fast_way = static_cast<Real>(parameters_.time.stop_at_rest) * dt_;
+  return parallel_sum<WatchedSums<Real>>(grid_.tiles().size(), [&](std::size_t t, WatchedSums<Real>& seen) {
+    for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
+      const std::uint32_t p = grid_.order()[k];
+      const Real mass = particles_.mass(p);
+      const auto velocity = particles_.velocity.template get<Vector<Real, Dim>>(p);
+      const auto way = particles_.step_displacement.template get<Vector<Real, Dim>>(p);
+      seen.mass += mass;
+      seen.fast_mass += way.squaredNorm() > fast_way * fast_way ? mass : Real(0);
+      seen.kinetic += Real(0.5) * mass * velocity.squaredNorm();
+      for (int a = 0; a < Dim; ++a) {
+        seen.potential -=
+            mass * model_.motion.gravity[a] * (particles_.position(p, a) + static_cast<Real>(model_.origin[a]));
+      }
+      const Real ratio = particles_.volume(p) / particles_.initial_volume(p);
+      if (ratio < smallest || ratio > largest) {
+        seen.volumes.note(particles_.id(p),
+                          ratio < smallest ? mpm::Fault::volume_too_small : mpm::Fault::volume_too_large);
+      }
+    }
+  });
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::start_watch() {
+  watch_ = {};
+  removed_ = {};
+  for (std::size_t p = 0; p < particles_.size() && parameters_.mechanics.enabled; ++p) {
+    const auto& material = model_.motion.materials[static_cast<std::size_t>(particles_.material(p))];
+    const SymmetricTensor<Real> stress = mpm::full_tensor<Dim, Real>(particles_.stress, p);
+    watch_.held_at_start +=
+        static_cast<double>(particles_.volume(p) * physics::elastic_energy_density(material.elastic, stress));
+  }
+  watch_.lowest_made = energy_made(ledger_, look_at_particles());
+  watch_.first_step = parameters_.time.stepping == config::Stepping::adaptive ? adaptive_step() : 0.0;
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::watch() {
+  if (!parameters_.mechanics.enabled || (step_number_ % watch_interval != 0 && bad_.id < 0)) {
+    return;
+  }
+  const WatchedSums<Real> seen = look_at_particles();
+  stop_if_energy_grows(seen);
+  bad_ += seen.volumes;
+  note_rest(seen);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>& seen) {
+  const double made = energy_made(ledger_, seen);
+  watch_.lowest_made = std::min(watch_.lowest_made, made);
+  watch_.largest_energy = std::max(watch_.largest_energy, energy_so_far(ledger_, seen, watch_.held_at_start));
+  const double growth = made - watch_.lowest_made;
+  const double allowed = parameters_.guards.energy_growth;
+  if (growth > allowed * watch_.largest_energy + round_off * static_cast<double>(std::abs(seen.potential))) {
+    stop_for_energy(growth, growth / watch_.largest_energy);
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::note_rest(const WatchedSums<Real>& seen) {
+  if (parameters_.time.stop_at_rest == 0.0) {
+    return;
+  }
+  if (seen.fast_mass > static_cast<Real>(stray_share) * seen.mass) {
+    watch_.has_moved = 1.0;
+    watch_.rest_since = -1.0;
+  } else if (watch_.rest_since < 0.0) {
+    watch_.rest_since = time_;
+  }
+}
+
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::is_at_rest() const {
+  const config::Time& times = parameters_.time;
+  return times.stop_at_rest > 0.0 && watch_.has_moved > 0.0 && watch_.rest_since >= 0.0 &&
+         time_ - watch_.rest_since >= times.rest_time * (1.0 - 1e-9);
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::rest_text() const {
+  return fmt::format(
+      "the slide is at rest: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s "
+      "(time.stop_at_rest)",
+      watch_.rest_since, 100.0 * stray_share, parameters_.time.stop_at_rest);
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                               \
+  template WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const;         \
+  template void Simulation<Dim, Real>::start_watch();                                  \
+  template void Simulation<Dim, Real>::watch();                                        \
+  template void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>&); \
+  template void Simulation<Dim, Real>::note_rest(const WatchedSums<Real>&);            \
+  template bool Simulation<Dim, Real>::is_at_rest() const;                             \
+  template std::string Simulation<Dim, Real>::rest_text() const;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

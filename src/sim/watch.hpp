@@ -1,0 +1,62 @@
+// What a run is watched for every few steps (guards, rest); a checkpoint keeps it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "mpm/accounts.hpp"
+
+namespace thawslide::sim {
+
+// Steps between two looks. An instability takes longer from one per cent of the energy to all of it.
+inline constexpr std::int64_t watch_interval = 10;
+
+// The share of the mass that may move while the slide is at rest: the front leaves the same share out, and so a stray
+// particle keeps no deposit from being one.
+inline constexpr double stray_share = 0.005;
+
+struct Watch {
+  double held_at_start = 0.0;   // elastic energy at t = 0 [J]
+  double largest_energy = 0.0;  // largest so far of all that was held, moved or dissipated [J]
+  double lowest_made = 0.0;     // lowest so far of the energy that nothing accounts for [J]
+  double first_step = 0.0;      // the adaptive one at t = 0 [s]
+  double rest_since = -1.0;     // [s]; negative: it moves
+  double has_moved = 0.0;       // 1: more than the stray share has been faster than time.stop_at_rest
+
+  // Calls visit(number) with each, in order.
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    for (double* number : {&held_at_start, &largest_energy, &lowest_made, &first_step, &rest_since, &has_moved}) {
+      visit(*number);
+    }
+  }
+};
+
+// How many particles were taken out of a run, by cause.
+struct Removed {
+  std::int64_t left = 0, not_finite = 0, volume = 0;
+
+  [[nodiscard]] std::int64_t by_guards() const { return not_finite + volume; }
+};
+
+// "12 particles: 3 not finite, 9 by their volume", of those that guards have removed.
+[[nodiscard]] std::string text_of(const Removed& removed);
+
+// What a look at all particles finds.
+template <class Real>
+struct WatchedSums {
+  Real kinetic = 0, potential = 0;  // [J]
+  Real mass = 0, fast_mass = 0;     // [kg]; fast: above time.stop_at_rest
+  mpm::BadParticle volumes;         // of smallest id whose volume is out of range
+
+  WatchedSums& operator+=(const WatchedSums& part) {
+    kinetic += part.kinetic;
+    potential += part.potential;
+    mass += part.mass;
+    fast_mass += part.fast_mass;
+    volumes += part.volumes;
+    return *this;
+  }
+};
+
+}  // namespace thawslide::sim

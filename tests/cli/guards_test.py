@@ -1,0 +1,148 @@
+"""Guards and rest: what ends a run before its time, what is taken out of it, and what is told of that."""
+
+from __future__ import annotations
+
+import re
+import signal
+from pathlib import Path
+
+import pytest
+from conftest import (
+    LAMPLUGH,
+    Interrupted,
+    Program,
+    assert_same_bits,
+    history,
+    run_facts,
+    sets,
+    snapshot_files,
+)
+
+# A block of 48 particles that slides to a stop within about 1.2 s.
+SLIDES = sets(time__end=5, body__block__velocity="[2,0]", material__rock__viscosity_time=0.0005)
+RESTS = [*SLIDES, *sets(time__stop_at_rest=0.1, time__rest_time=0.4)]
+
+
+def test_a_run_ends_at_rest(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run, whole = tmp_path / "run", tmp_path / "whole"
+    outcome = thawslide("run", small_case, "--output", run, *RESTS)
+    assert outcome.returncode == 0, outcome.stderr
+    facts = run_facts(run)
+    told = re.fullmatch(
+        r"the slide is at rest: since t = (\S+) s no more than 0\.5 % of its mass has moved faster than 0\.1 m/s "
+        r"\(time\.stop_at_rest\)",
+        facts["message"],
+    )
+    assert told, facts["message"]
+    assert outcome.stdout.endswith(facts["message"] + "\n")
+    assert facts["status"] == "done"
+    end = facts["simulated_time_s"]
+    assert end == pytest.approx(float(told[1]) + 0.4, abs=0.0101) and 1.0 < end < 2.0
+    # All outputs are of that moment; up to there the run is the one without the key.
+    columns = history(run)
+    assert columns["time_s"][-1] == end
+    assert thawslide("run", small_case, "--output", whole, *SLIDES, *sets(time__end=end)).returncode == 0
+    assert_same_bits(run, whole)
+
+
+def test_a_run_at_rest_is_left_as_it_is(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
+    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0
+    end = run_facts(run)["simulated_time_s"]
+    assert outcome.stdout == f"{run} has come to rest at {end:g} s; nothing to do\n"
+    assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
+
+
+def test_a_stop_amid_the_rest_changes_no_end(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run, whole = tmp_path / "run", tmp_path / "whole"
+    assert thawslide("run", small_case, "--output", whole, *RESTS).returncode == 0
+    end = run_facts(whole)["simulated_time_s"]
+    stop = round(end - 0.2, 2)
+    words = sets(time__output_interval=10, time__history_interval=0.1)
+    assert thawslide("run", small_case, "--output", whole, "--overwrite", *RESTS, *words).returncode == 0
+    assert thawslide("run", small_case, "--output", run, *RESTS, *words, *sets(time__end=stop)).returncode == 0
+    assert run_facts(run)["simulated_time_s"] == pytest.approx(stop)
+    file = run / "case.toml"
+    text = file.read_text()
+    assert text.count(f"\nend = {stop} ") == 1
+    file.write_text(text.replace(f"\nend = {stop} ", "\nend = 5.0 "))
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert run_facts(run)["simulated_time_s"] == end
+    assert run_facts(run)["message"] == run_facts(whole)["message"]
+    assert history(run)["kinetic_J"][-1] == history(whole)["kinetic_J"][-1]
+    assert (run / "checkpoint.bin").read_bytes() == (whole / "checkpoint.bin").read_bytes()
+
+
+def test_an_explosion_is_not_told_to_widen_the_domain(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    """Felt a cell early, the ground throws the falling block back with more energy than it had."""
+    run = tmp_path / "run"
+    fall = sets(
+        time__end=2,
+        body__block__min="[10,3]",
+        body__block__max="[14,6]",
+        basal__distance_check="false",
+    )
+    outcome = thawslide("run", small_case, "--output", run, *fall, *sets(guards__energy_growth=0.001))
+    assert outcome.returncode == 3, outcome.stdout
+    assert "J per m of width of energy have come without a cause" in outcome.stderr
+    assert "set it to true" in outcome.stderr and "widen" not in outcome.stderr
+    facts = run_facts(run)
+    assert facts["status"] == "failed" and outcome.stderr == f"error: {facts['message']}\n"
+    assert len(snapshot_files(run)) > 1
+
+
+def test_what_guards_remove_is_counted(thawslide: Program, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    words = sets(
+        time__end=20,
+        material__rock_ice__youngs_modulus=0.5,
+        guards__volume='"remove"',
+        guards__removed_mass=0.05,
+    )
+    outcome = thawslide("run", LAMPLUGH, "--output", run, *words)
+    assert outcome.returncode == 3
+    told = re.fullmatch(
+        r"error: the run went bad at t = \S+ s \(step (\d+)\): \[guards\] has removed (\d+) particles: 0 not finite, "
+        r"(\d+) by their volume, (\S+) % of all mass, where guards\.removed_mass allows 5 %; among the last: particle "
+        r"\d+ of body 'slide' at \(\S+, \S+\) m: its volume is 0\.2\d+ of that at t = 0, where guards\.smallest_volume "
+        r"allows 0\.25\. Likely cause: material 'rock_ice' is too soft \(youngs_modulus 0\.5 Pa\), and its own weight "
+        r"squeezes it flat; broken rock and ice have 1e7 Pa and more\.\n",
+        outcome.stderr,
+    )
+    assert told, outcome.stderr
+    assert told[2] == told[3] and 5.0 < float(told[4]) < 10.0
+    assert re.search(
+        r"note: at t = \S+ s guards have removed \d+ particles?: 0 not finite, \d+ by their volume; history\.csv has "
+        r"their mass, run\.json their number\n",
+        outcome.stdout,
+    )
+    assert f"guards have removed {told[2]} particles: 0 not finite, {told[2]} by their volume\n" in outcome.stdout
+    facts, columns = run_facts(run), history(run)
+    assert facts["removed_particles"] == {
+        "left": 0,
+        "not_finite": 0,
+        "volume": int(told[2]),
+    }
+    assert 0.0 < columns["removed_mass_kg"][-1] == pytest.approx(columns["left_mass_kg"][-1], rel=1e-12)
+
+
+def test_a_run_with_particles_removed_goes_on_to_the_same_bits(
+    thawslide: Program, interrupted: Interrupted, tmp_path: Path
+) -> None:
+    run, whole = tmp_path / "run", tmp_path / "whole"
+    words = sets(
+        time__end=4.5, time__output_interval=0.7, material__rock_ice__youngs_modulus=0.5, guards__volume='"remove"',
+        guards__removed_mass=1, guards__smallest_volume=0.5,
+    )  # fmt: skip
+    assert thawslide("run", LAMPLUGH, "--output", whole, *words).returncode == 0
+    assert interrupted(LAMPLUGH, run, words, signal.SIGTERM, 60) == 4
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert_same_bits(run, whole)
+    removed = run_facts(whole)["removed_particles"]
+    assert run_facts(run)["removed_particles"] == removed and removed["volume"] > 0
+    assert (run / "checkpoint.bin").read_bytes() == (whole / "checkpoint.bin").read_bytes()

@@ -1,0 +1,219 @@
+// What a run is guarded against: energy without a cause, volumes out of range, what is not finite, steps too short; and
+// what is taken out of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <regex>
+
+#include "../support/case_from_text.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+// A block of 800 particles that flies and rings.
+const std::string block = R"(
+[time]
+end = 1.0
+step = 0.01
+[grid]
+cell = 10.0
+min = [-50.0, -150.0]
+max = [300.0, 150.0]
+[material.rock]
+law = "elastic"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+[body.block]
+material = "rock"
+shape = "box"
+min = [0.0, 0.0]
+max = [100.0, 50.0]
+velocity = [20.0, 0.0]
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+std::string failure_of(Simulation<2, double>& simulation, double dt, int steps) {
+  set_thread_count(1);
+  try {
+    for (int k = 0; k < steps; ++k) {
+      simulation.step(dt);
+    }
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "it went well";
+}
+
+std::string failure_of_next(const Simulation<2, double>& simulation) {
+  try {
+    (void)simulation.next_step(1.0);
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "it went well";
+}
+
+void expect_match(const std::string& text, const std::string& pattern) {
+  EXPECT_TRUE(std::regex_match(text, std::regex(pattern))) << text;
+}
+
+std::size_t place_of(const Simulation<2, double>& simulation, std::int64_t id) {
+  std::size_t p = 0;
+  while (simulation.particles().id(p) != id) {
+    ++p;
+  }
+  return p;
+}
+
+TEST(EnergyGuard, StableStepsPass) {
+  Simulation<2, double> simulation(paper_case(block));
+  EXPECT_EQ(failure_of(simulation, 0.9 * simulation.step_limit().step, 200), "it went well");
+}
+
+TEST(EnergyGuard, AStepThatIsTooLongIsToldSoWhileAllIsFinite) {
+  Simulation<2, double> simulation(paper_case(block));
+  expect_match(failure_of(simulation, 2.1 * simulation.step_limit().step, 400),
+               "the run went bad at t = [0-9.]+ s \\(step [0-9]+\\): [0-9.e+]+ J per m of width of energy have come "
+               "without a cause, [0-9.e+]+ % of all so far, where guards.energy_growth allows 25 %\\. The fastest "
+               "particle, [0-9]+ of body 'block' at \\([0-9.]+, -?[0-9.]+\\) m, moves at [0-9.e+]+ m/s, the slide at "
+               "[0-9.e+]+ m/s in the mean\\. Likely cause: the step is too long for what the material does, or the "
+               "material is softer than its load, or it is torn apart; try half of time.step, or viscosity_time or "
+               "gaps_close_first in the material\\.");
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    ASSERT_TRUE(std::isfinite(simulation.particles().velocity(p, 0) + simulation.particles().stress(p, 0)));
+  }
+}
+
+TEST(EnergyGuard, CanBeLaidOff) {
+  Simulation<2, double> simulation(paper_case(block, {"guards.energy_growth=inf"}));
+  const std::string failure = failure_of(simulation, 2.1 * simulation.step_limit().step, 400);
+  EXPECT_EQ(failure.find("cause, "), std::string::npos) << failure;
+  EXPECT_NE(failure.find("the run went bad at t = "), std::string::npos) << failure;
+}
+
+TEST(EnergyGuard, NamesTheShareOfAdaptiveSteps) {
+  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive"}));
+  const std::string failure = failure_of(simulation, 2.1 * simulation.step_limit().step, 400);
+  EXPECT_NE(failure.find("try half of time.safety"), std::string::npos) << failure;
+}
+
+TEST(VolumeGuard, EndsTheRunOutsideTheRange) {
+  for (const auto& [ratio, what] :
+       {std::pair("0.2", "its volume is 0\\.2[0-9]* of that at t = 0, where guards.smallest_volume allows 0\\.25"),
+        std::pair("3", "its volume is 3(\\.[0-9]+)? of that at t = 0, where guards.largest_volume allows 2")}) {
+    Simulation<2, double> simulation(paper_case(block, {"guards.largest_volume=2"}));
+    simulation.particles().volume(place_of(simulation, 17)) *= std::stod(ratio);
+    expect_match(failure_of(simulation, 0.005, 20),
+                 "the run went bad at t = 0\\.05 s \\(step 10\\): particle 17 of body 'block' at \\(.*\\) m: " +
+                     std::string(what) + "\\. Likely cause: the step is too long .*");
+  }
+}
+
+TEST(VolumeGuard, TakesOutAndCounts) {
+  Simulation<2, double> simulation(paper_case(block, {"guards.volume=remove"}));
+  const double mass = simulation.particles().mass(place_of(simulation, 17));
+  simulation.particles().volume(place_of(simulation, 17)) *= 0.2;
+  EXPECT_EQ(failure_of(simulation, 0.005, 20), "it went well");
+  EXPECT_EQ(simulation.particles().size() + 1, simulation.particles_at_start());
+  EXPECT_EQ(simulation.removed().volume, 1);
+  EXPECT_EQ(simulation.removed().by_guards(), 1);
+  EXPECT_EQ(text_of(simulation.removed()), "1 particle: 0 not finite, 1 by their volume");
+  const HistoryRow row = history_row(simulation);
+  EXPECT_EQ(value_of(row, "removed_mass_kg"), mass);
+  EXPECT_EQ(value_of(row, "left_mass_kg"), mass);
+  EXPECT_NEAR(value_of(row, "mass_residual_kg"), 0.0, 1e-12 * value_of(row, "mass_kg"));
+  EXPECT_NEAR(value_of(row, "momentum_residual_x_N_s"), 0.0, 1e-9 * value_of(row, "momentum_x_N_s"));
+}
+
+TEST(FiniteGuard, TakesOutTheOneThatIsNotFinite) {
+  Simulation<2, double> simulation(paper_case(block, {"guards.not_finite=remove"}));
+  const double mass = simulation.particles().mass(place_of(simulation, 17));
+  simulation.particles().temperature(place_of(simulation, 17)) = no_number;  // which moves nothing here
+  EXPECT_EQ(failure_of(simulation, 0.005, 20), "it went well");
+  EXPECT_EQ(text_of(simulation.removed()), "1 particle: 1 not finite, 0 by their volume");
+  EXPECT_EQ(value_of(history_row(simulation), "removed_mass_kg"), mass);
+}
+
+TEST(FiniteGuard, KeepsTheAccountsOfWhatStays) {
+  Simulation<2, double> simulation(paper_case(block, {"guards.not_finite=remove", "guards.removed_mass=0.6"}));
+  simulation.step(0.005);
+  simulation.particles().velocity(place_of(simulation, 17), 0) = no_number;  // and so of all that it shares nodes with
+  EXPECT_EQ(failure_of(simulation, 0.005, 20), "it went well");
+  EXPECT_GT(simulation.removed().not_finite, 1);
+  EXPECT_EQ(simulation.particles().size() + static_cast<std::size_t>(simulation.removed().not_finite),
+            simulation.particles_at_start());
+  const HistoryRow row = history_row(simulation);
+  for (const auto& [column, value] : row) {
+    const bool has_no_base = column.rfind("band_", 0) == 0;
+    EXPECT_TRUE(std::isfinite(value) || has_no_base) << column;
+  }
+  EXPECT_NEAR(value_of(row, "mass_residual_kg"), 0.0, 1e-12 * value_of(row, "mass_kg"));
+  EXPECT_EQ(value_of(row, "removed_mass_kg"), value_of(row, "left_mass_kg"));
+}
+
+TEST(FiniteGuard, EndsTheRunThatHasLostTooMuch) {
+  Simulation<2, double> simulation(paper_case(block, {"guards.not_finite=remove"}));
+  simulation.step(0.005);
+  simulation.particles().velocity(place_of(simulation, 17), 0) = no_number;
+  expect_match(failure_of(simulation, 0.005, 20),
+               "the run went bad at t = 0\\.01 s \\(step 2\\): \\[guards\\] has removed [0-9]+ particles: [0-9]+ not "
+               "finite, 0 by their volume, [0-9.]+ % of all mass, where guards.removed_mass allows 1 %; among the "
+               "last: particle [0-9]+ of body 'block' at \\(.*\\) m: its .* is not a finite number\\. Likely cause: "
+               ".*");
+}
+
+TEST(StepGuard, NamesTheLimitAndTheParticle) {
+  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive"}));
+  simulation.particles().volume(place_of(simulation, 17)) *= 1e7;
+  expect_match(
+      failure_of_next(simulation),
+      "the run went bad at t = 0 s \\(step 0\\): the next step would be [0-9.e-]+ s, 0\\.000[0-9]+ of the first "
+      "one, 0\\.01 s, where guards.smallest_step allows 0\\.001\\. It is set by the elastic wave of material "
+      "'rock' \\([0-9.e+]+ m/s\\) on cells of 10 m, of particle 17 of body 'block' at \\(.*\\) m, whose "
+      "volume is 1e\\+07 of that at t = 0\\. A wave runs the faster the lighter the matter: the particle is "
+      "torn apart\\. Try gaps_close_first in its material, or take such particles out with guards.volume = "
+      "\"remove\" and a guards.largest_volume\\.");
+}
+
+TEST(StepGuard, CallsViscosityByItsName) {
+  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive", "material.rock.viscosity_time=0.1"}));
+  simulation.particles().volume(place_of(simulation, 17)) *= 1e4;
+  const std::string failure = failure_of_next(simulation);
+  EXPECT_NE(failure.find("It is set by the viscosity of material 'rock' (viscosity_time 0.1 s"), std::string::npos)
+      << failure;
+  EXPECT_NE(failure.find("Try a smaller viscosity_time in the material"), std::string::npos) << failure;
+}
+
+TEST(StepGuard, NamesAParticleThatIsTooFast) {
+  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive"}));
+  simulation.particles().velocity(place_of(simulation, 17), 1) = 1e6;
+  const std::string failure = failure_of_next(simulation);
+  EXPECT_NE(failure.find("It is set by the particle speed of 1e+06 m/s, of particle 17 of body 'block' at ("),
+            std::string::npos)
+      << failure;
+  EXPECT_NE(failure.find("try half of time.safety"), std::string::npos) << failure;
+}
+
+TEST(StepGuard, CountsTheStepsToTheEnd) {
+  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive", "guards.most_steps=50"}));
+  const std::string failure = failure_of_next(simulation);
+  EXPECT_NE(failure.find("the next step would be 0.01 s, and 1e+02 of them would be left to time.end, where "
+                         "guards.most_steps allows 50. It is set by the elastic wave"),
+            std::string::npos)
+      << failure;
+}
+
+}  // namespace
+}  // namespace thawslide::sim

@@ -1,0 +1,118 @@
+// A run that ends when its slide has come to rest.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "base/parallel.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+// A block that slides to a stop on friction: from 2 m/s by 0.2 g in about a second.
+const std::string block = R"(
+[time]
+end = 5.0
+step = 0.002
+stop_at_rest = 0.05
+rest_time = 0.4
+[grid]
+cell = 1.0
+min = [0.0, -2.0]
+max = [20.0, 20.0]
+[terrain]
+type = "flat"
+[material.rock]
+law = "elastic"
+youngs_modulus = 1e8
+poisson_ratio = 0.2
+viscosity_time = 0.005
+[body.block]
+material = "rock"
+shape = "box"
+min = [5.0, 0.0]
+max = [15.0, 6.0]
+velocity = [2.0, 0.0]
+[basal]
+friction = "constant"
+friction_angle = 11.31
+cohesion = 0.0
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+// Steps to rest, or to the end; then the time.
+double end_of(Simulation<2, double>& simulation) {
+  set_thread_count(1);
+  while (!simulation.is_at_rest() && simulation.time() < 5.0 - 1e-9) {
+    simulation.step(simulation.next_step(5.0));
+  }
+  return simulation.time();
+}
+
+TEST(Rest, EndsARunAfterItsTime) {
+  Simulation<2, double> simulation(paper_case(block));
+  const double end = end_of(simulation);
+  EXPECT_TRUE(simulation.is_at_rest());
+  EXPECT_GT(end, 1.02 - 0.05 / 2.0 + 0.4);
+  EXPECT_LT(end, 1.02 + 0.4 + 0.4) << "it rings for a while";
+  const std::string text = simulation.rest_text();
+  EXPECT_EQ(text.rfind("the slide is at rest: since t = ", 0), 0U) << text;
+  EXPECT_NE(text.find(" s no more than 0.5 % of its mass has moved faster than 0.05 m/s (time.stop_at_rest)"),
+            std::string::npos)
+      << text;
+}
+
+TEST(Rest, IsNotKnownWithoutTheKey) {
+  Simulation<2, double> simulation(
+      paper_case(block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]")), {"time.end=2"}));
+  while (simulation.time() < 2.0 - 1e-9) {
+    simulation.step(simulation.next_step(2.0));
+  }
+  EXPECT_FALSE(simulation.is_at_rest());
+}
+
+TEST(Rest, NeverComesBeforeTheSlideHasMoved) {
+  Simulation<2, double> simulation(paper_case(block, {"body.block.velocity=[0.0,0.0]"}));
+  EXPECT_EQ(end_of(simulation), 5.0);
+  EXPECT_FALSE(simulation.is_at_rest());
+}
+
+TEST(Rest, AStrayParticleKeepsNoSlideMoving) {
+  const std::string stray = R"([body.stray]
+material = "rock"
+min = [6.0, 12.0]
+max = [6.5, 12.5]
+velocity = [0.0, 6.0]
+)";
+  Simulation<2, double> simulation(paper_case(block + stray));
+  const double end = end_of(simulation);
+  EXPECT_LT(end, 1.8);
+  double fastest = 0.0;
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    fastest = std::max(fastest, std::abs(simulation.particles().velocity(p, 1)));
+  }
+  EXPECT_GT(fastest, 5.0) << "the stray one still flies";
+}
+
+TEST(Rest, GoesOnFromACheckpointAmidTheRestToTheSameEnd) {
+  Simulation<2, double> whole(paper_case(block)), parted(paper_case(block));
+  const double end = end_of(whole);
+  EXPECT_LT(end, 2.0);
+  while (parted.time() < end - 0.2) {
+    parted.step(parted.next_step(5.0));
+  }
+  const std::vector<double> before = parted.scalars();
+  parted.restore(before);
+  EXPECT_EQ(parted.scalars(), before);
+  EXPECT_EQ(end_of(parted), end);
+}
+
+}  // namespace
+}  // namespace thawslide::sim
