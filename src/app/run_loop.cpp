@@ -5,6 +5,7 @@
 
 #include "app/boiling_note.hpp"
 #include "app/progress.hpp"
+#include "app/run_summary.hpp"
 #include "app/say.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
@@ -55,47 +56,6 @@ class RemovalWatch {
   bool told_;
 };
 
-// Where the slide's front is at the end, in words.
-std::string front_text(double front, double runout) {
-  return std::isfinite(front) ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
-                              : "no front: maps.path is not given, and the slide has hardly moved, so there is no path "
-                                "to measure along";
-}
-
-template <int Dim>
-void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
-                   double wall, const std::filesystem::path& folder) {
-  const std::size_t at_start = output.particles_at_start(), at_end = simulation.particles().size();
-  say("{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n", at_start,
-      at_end == at_start ? "" : fmt::format(", {} of them at the end", at_end), steps, duration_text(wall),
-      output.particle_steps() / wall / 1e6, thread_count() == 1 ? "" : "at most ", thread_count(),
-      thread_count() == 1 ? "" : "s");
-  std::vector<std::pair<double, std::string>> stages;
-  for (const auto& [name, seconds] : output.seconds_per_stage(simulation)) {
-    stages.emplace_back(seconds, name);
-  }
-  std::sort(stages.rbegin(), stages.rend());
-  for (const auto& [seconds, name] : stages) {
-    say("  {:<28}{:8.2f} s {:5.1f} %\n", name, seconds, 100.0 * seconds / wall);
-  }
-  const sim::HistoryRow row = output.history_row(simulation);
-  const auto value = [&](const std::string& name) {
-    return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
-  };
-  say("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", simulation.time(),
-      value("mean_velocity_m_s"), value("mean_displacement_m"),
-      front_text(value("front_position_m"), value("runout_m")));
-  for (const auto& [name, number] : output.figures()) {
-    if (std::isfinite(number)) {
-      say("  {:<28}{:12.6g}\n", name, number);
-    }
-  }
-  if (simulation.removed().by_guards() > 0) {
-    say("guards have removed {}\n", sim::text_of(simulation.removed()));
-  }
-  say("results in {}\n", folder.string());
-}
-
 // Settles a case that asks for it; a body that goes bad on the way leaves its files as any other run does.
 template <int Dim>
 void settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
@@ -128,110 +88,153 @@ int end_unwritten(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>
   return static_cast<int>(ExitCode::not_written);
 }
 
+// The steps of one process, and what is written between them.
 template <int Dim>
-int take_steps(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
-  const config::Time& times = simulation.parameters().time;
-  const double begin = simulation.time();
-  const std::int64_t first_step = simulation.step_number();
-  const double last_step = simulation.last_step();
-  Schedule history(times.history_interval, begin, last_step, times.end);
-  Schedule snapshots(times.output_interval, begin, last_step, times.end);
-  const double checkpoint_interval = simulation.parameters().checkpoint.interval;
-  const double wall_between_checkpoints = simulation.parameters().checkpoint.wall_interval;
-  Schedule checkpoints(checkpoint_interval > 0.0 ? checkpoint_interval : times.end, begin, last_step, times.end);
-  Progress progress(begin);
-  FrontWatch front;
-  BoilingWatch boiling;
-  RemovalWatch removal(simulation.removed());
-  output.start_clock();
-  const auto wall = [&] { return output.wall_seconds(); };
-  const int most_threads = thread_count();
-  ThreadChoice choice(most_threads, 0.0);
-  double seconds_in_steps = 0.0, wall_of_checkpoint = 0.0;
-  const auto step = [&](double until) {
-    const double before = wall();
-    output.before_step(simulation);
-    simulation.step(simulation.next_step(until));
-    seconds_in_steps += wall() - before;
-    set_thread_count(choice.after_step(seconds_in_steps));
-  };
-  const auto close = [&](const std::string& status, const std::string& message) {
-    set_thread_count(most_threads);
-    output.write_index();
-    const double wall_seconds = wall();
-    output.write_provenance(simulation, status, message, wall_seconds);
-    progress.finish();
-    print_summary(simulation, output, simulation.step_number() - first_step, wall_seconds, folder);
-  };
-  // Of a run that ends before its time; nothing can go on from there.
-  const auto write_state_at_end = [&] {
-    output.write_history(simulation);
-    output.write_snapshot(simulation);
-    output.write_maps(simulation);
-  };
-  catch_signals();
-  try {
-    while (simulation.time() < times.end - 0.5 * simulation.last_step() && !simulation.is_at_rest() &&
-           caught_signal() == 0) {
-      const double next_event = std::min(
-          {snapshots.next(), checkpoints.next(), times.history_interval > 0.0 ? history.next() : times.end, times.end});
-      step(next_event);
-      const double dt = simulation.last_step();
-      if (const std::string note = removal.note(simulation); !note.empty()) {
-        progress.note(note);
-      }
-      output.after_step(simulation);
-      if (times.history_interval <= 0.0 || history.reached(simulation.time(), dt)) {
-        output.write_history(simulation);
-      }
-      if (snapshots.reached(simulation.time(), dt)) {
-        output.write_snapshot(simulation);
-        if (const std::string note = boiling.note<Dim>(simulation); !note.empty()) {
-          progress.note(note);
+class Loop {
+ public:
+  using Simulation = sim::Simulation<Dim, double>;
+
+  Loop(Simulation& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder)
+      : simulation_(simulation),
+        output_(output),
+        folder_(folder),
+        times_(simulation.parameters().time),
+        first_step_(simulation.step_number()),
+        history_(schedule(times_.history_interval)),
+        snapshots_(schedule(times_.output_interval)),
+        checkpoints_(schedule(simulation.parameters().checkpoint.interval > 0.0
+                                  ? simulation.parameters().checkpoint.interval
+                                  : times_.end)),
+        progress_(simulation.time()),
+        removal_(simulation.removed()),
+        most_threads_(thread_count()),
+        threads_(most_threads_, 0.0) {
+    output_.start_clock();
+  }
+
+  // Returns the exit code; throws RunError where the run went bad. What there is has been written in either case.
+  int run() {
+    catch_signals();
+    try {
+      while (goes_on()) {
+        step();
+        write_what_is_due();
+        if (progress_.due(simulation_.time(), times_.end)) {
+          progress_.show(front_.state(simulation_, output_.front_position(simulation_), steps()));
         }
       }
-      const bool is_old = wall_between_checkpoints > 0.0 && wall() - wall_of_checkpoint > wall_between_checkpoints;
-      if (checkpoints.reached(simulation.time(), dt) || is_old) {
-        output.write_checkpoint(simulation);
-        wall_of_checkpoint = wall();
-        output.write_provenance(simulation, "running", "", wall_of_checkpoint);
-      }
-      if (progress.due(simulation.time(), times.end)) {
-        progress.show(
-            front.state(simulation, output.front_position(simulation), simulation.step_number() - first_step));
-      }
+    } catch (const sim::SlideLeft& end) {
+      output_.slide_left();
+      write_last_state();
+      close("done", end.what());
+      say("{}\n", end.what());
+      return static_cast<int>(ExitCode::done);
+    } catch (const RunError& error) {
+      write_last_state();
+      close("failed", error.what());
+      throw;
     }
-  } catch (const sim::SlideLeft& end) {
-    output.slide_left();
-    write_state_at_end();
-    close("done", end.what());
-    say("{}\n", end.what());
-    return static_cast<int>(ExitCode::done);
-  } catch (const RunError& error) {
-    write_state_at_end();
-    close("failed", error.what());
-    throw;
+    return caught_signal() != 0 ? end_by_signal() : end_in_time();
   }
-  if (caught_signal() != 0) {
+
+ private:
+  [[nodiscard]] Schedule schedule(double interval) const {
+    return {interval, simulation_.time(), simulation_.last_step(), times_.end};
+  }
+  [[nodiscard]] std::int64_t steps() const { return simulation_.step_number() - first_step_; }
+  [[nodiscard]] bool goes_on() const {
+    return simulation_.time() < times_.end - 0.5 * simulation_.last_step() && !simulation_.is_at_rest() &&
+           caught_signal() == 0;
+  }
+
+  void step() {
+    const double next_row = times_.history_interval > 0.0 ? history_.next() : times_.end;
+    const double before = output_.wall_seconds();
+    output_.before_step(simulation_);
+    simulation_.step(simulation_.next_step(std::min({snapshots_.next(), checkpoints_.next(), next_row, times_.end})));
+    seconds_in_steps_ += output_.wall_seconds() - before;
+    set_thread_count(threads_.after_step(seconds_in_steps_));
+    tell(removal_.note(simulation_));
+    output_.after_step(simulation_);
+  }
+
+  void write_what_is_due() {
+    const double time = simulation_.time(), dt = simulation_.last_step();
+    if (times_.history_interval <= 0.0 || history_.reached(time, dt)) {
+      output_.write_history(simulation_);
+    }
+    if (snapshots_.reached(time, dt)) {
+      output_.write_snapshot(simulation_);
+      tell(boiling_.note<Dim>(simulation_));
+    }
+    const double wall_interval = simulation_.parameters().checkpoint.wall_interval;
+    const bool is_old = wall_interval > 0.0 && output_.wall_seconds() - wall_of_checkpoint_ > wall_interval;
+    if (checkpoints_.reached(time, dt) || is_old) {
+      output_.write_checkpoint(simulation_);
+      wall_of_checkpoint_ = output_.wall_seconds();
+      output_.write_provenance(simulation_, "running", "", wall_of_checkpoint_);
+    }
+  }
+
+  void tell(const std::string& note) {
+    if (!note.empty()) {
+      progress_.note(note);
+    }
+  }
+
+  // Of a run that ends before its time; nothing can go on from there.
+  void write_last_state() {
+    output_.write_history(simulation_);
+    output_.write_snapshot(simulation_);
+    output_.write_maps(simulation_);
+  }
+
+  void close(const std::string& status, const std::string& message) {
+    set_thread_count(most_threads_);
+    output_.write_index();
+    const double wall = output_.wall_seconds();
+    output_.write_provenance(simulation_, status, message, wall);
+    progress_.finish();
+    print_summary(simulation_, output_, steps(), wall, folder_);
+  }
+
+  int end_by_signal() {
     // The checkpoint holds this moment. A row or a snapshot of it would not be there had the run gone on.
-    output.write_checkpoint(simulation);
+    output_.write_checkpoint(simulation_);
     close("stopped", fmt::format("signal {}", caught_signal()));
     say_error("stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),
-              simulation.time(), folder.string());
+              simulation_.time(), folder_.string());
     return static_cast<int>(ExitCode::stopped_by_signal);
   }
-  const std::string rest = simulation.is_at_rest() ? simulation.rest_text() : "";
-  if (!rest.empty()) {
-    output.write_history(simulation);
-    output.write_snapshot(simulation);
+
+  int end_in_time() {
+    const std::string rest = simulation_.is_at_rest() ? simulation_.rest_text() : "";
+    if (!rest.empty()) {
+      output_.write_history(simulation_);
+      output_.write_snapshot(simulation_);
+    }
+    output_.write_checkpoint(simulation_);
+    close("done", rest);
+    if (!rest.empty()) {
+      say("{}\n", rest);
+    }
+    return static_cast<int>(ExitCode::done);
   }
-  output.write_checkpoint(simulation);
-  close("done", rest);
-  if (!rest.empty()) {
-    say("{}\n", rest);
-  }
-  return static_cast<int>(ExitCode::done);
-}
+
+  Simulation& simulation_;
+  RunOutput<Dim>& output_;
+  const std::filesystem::path& folder_;
+  const config::Time& times_;
+  std::int64_t first_step_;
+  Schedule history_, snapshots_, checkpoints_;
+  Progress progress_;
+  FrontWatch front_;
+  BoilingWatch boiling_;
+  RemovalWatch removal_;
+  int most_threads_;
+  ThreadChoice threads_;
+  double seconds_in_steps_ = 0.0, wall_of_checkpoint_ = 0.0;
+};
 
 }  // namespace
 
@@ -257,7 +260,7 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
 template <int Dim>
 int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
   try {
-    return take_steps<Dim>(simulation, output, folder);
+    return Loop<Dim>(simulation, output, folder).run();
   } catch (const WriteError& error) {
     return end_unwritten<Dim>(simulation, output, error, folder);
   }
