@@ -19,9 +19,9 @@ from thawslide.report import make_report
 from thawslide.whole_file import written_whole
 
 
-def report(folder: Path, capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:
-    """Return exit code, what standard error says, and the page."""
-    code = main([str(folder), "--dpi", "50"])
+def report(folder: Path, capsys: pytest.CaptureFixture[str], *only: str) -> tuple[int, str, str]:
+    """Return exit code, what standard error says, and the page; all figures that suit the run, or those named."""
+    code = main([str(folder), "--dpi", "50", *(["--only", ",".join(only)] if only else [])])
     page = folder / "report.html"
     return code, capsys.readouterr().err, page.read_text(encoding="utf-8") if page.is_file() else ""
 
@@ -30,7 +30,7 @@ def test_history_cut_in_the_middle_of_a_row(make_run: MakeRun, capsys: pytest.Ca
     folder = make_run()
     text = (folder / "history.csv").read_text()
     (folder / "history.csv").write_text(text[: len(text) // 2])
-    code, told, page = report(folder, capsys)
+    code, told, page = report(folder, capsys, "motion")
     assert code == 0
     for words in (told, page):
         assert "history.csv: the last row was cut off and is left out" in words
@@ -60,7 +60,7 @@ def test_a_missing_and_a_damaged_snapshot(make_run: MakeRun, capsys: pytest.Capt
     folder = make_run()
     (folder / "snapshots" / "000003.vtkhdf").unlink()
     (folder / "snapshots" / "000005.vtkhdf").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
-    code, told, page = report(folder, capsys)
+    code, told, page = report(folder, capsys, "velocity")
     assert code == 0
     for words in (told, page):
         assert "000003.vtkhdf: not there; the figures have the others" in words
@@ -86,7 +86,7 @@ def test_a_snapshot_with_a_damaged_field_costs_its_figures_only(
 def test_no_run_json(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
     folder = make_run()
     (folder / "run.json").unlink()
-    code, _, page = report(folder, capsys)
+    code, _, page = report(folder, capsys, "motion")
     assert code == 0
     assert "There is no run.json, so whether this run came to its end is not known." in page
 
@@ -103,7 +103,7 @@ def test_run_json_cut_off(make_run: MakeRun, text: str, capsys: pytest.CaptureFi
 def test_a_killed_run_says_how_to_go_on(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
     folder = make_run()
     (folder / "run.json").write_text(json.dumps({"status": "running", "simulated_time_s": 0.0}))
-    code, _, page = report(folder, capsys)
+    code, _, page = report(folder, capsys, "motion")
     assert code == 0
     assert "This run stopped without a word" in page
     assert f"`thawslide resume {folder}` goes on" in page
