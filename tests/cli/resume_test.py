@@ -336,7 +336,7 @@ def test_a_changed_input_is_refused_and_a_changed_original_told(
         (
             ["--set", "grid.cell=2", "--set", "body.block.porosity=0.1", "--end", "1"],
             "a run that goes on cannot change grid.cell, body.block.porosity: what it has computed so far was for the "
-            "case it has. Allowed: [time], [checkpoint], grid.leaving, ",
+            "case it has. Allowed: [time], [checkpoint], [guards], grid.leaving, ",
         ),
         (["--end", "0.1"], "the end of 0.1 s has passed: the run's checkpoint is of 0.2 s. Give a later one."),
         (["--end", "-1"], "-1 found; allowed: above 0"),
