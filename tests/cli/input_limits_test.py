@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -185,7 +186,19 @@ def test_raster_of_more_points_than_are_taken(thawslide: Program, tmp_path: Path
         file.write(" ".join(["1"] * 1000) + "\n")
     said = made(thawslide, tmp_path / "slide", dem, release, "--thickness", 20, "--crs", "EPSG:31287")
     assert said.returncode == 2
-    assert "30000 x 30000 points of the raster are asked for; allowed: 4e+08 points. Crop it" in said.stderr
+    assert "30000 x 30000 points of it are asked for; allowed: 4e+08 points. Crop it" in said.stderr
+
+
+def test_terrain_taken_to_more_points_than_are_taken(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    assert made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 20).returncode == 0
+    said = refusal(thawslide, "check", tmp_path / "slide", "--set", "terrain.resample=0.01")
+    assert re.search(
+        r"--set terrain\.resample=0\.01: terrain\.resample: \S+dem\.tif: \d+ x \d+ points of it are asked for; "
+        r"allowed: 4e\+08 points\. Crop it",
+        said,
+    ), said
 
 
 def test_nothing_stays_where_new_fails_into_a_link(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
