@@ -47,7 +47,8 @@ void draw_setup(const nlohmann::ordered_json& setup, const std::string& picture)
   std::fflush(stdout);  // what was said so far stands before what the child says
   const pid_t child = fork();
   if (child == 0) {
-    if (file.becomes_input()) {
+    // What it says is no result: of ours there may be a program that reads it.
+    if (file.becomes_input() && dup2(STDERR_FILENO, STDOUT_FILENO) == STDOUT_FILENO) {
       execlp("thawslide-report", "thawslide-report", "--setup", "/dev/stdin", "--picture", picture.c_str(), nullptr);
     }
     _exit(127);

@@ -87,6 +87,21 @@ void doubt_ground(const std::string& table, const GroundStrength& ground, Doubts
   }
 }
 
+void doubt_bed(const Case& parameters, Doubts& doubts) {
+  const Bed& bed = parameters.bed;
+  if (bed.law == BedLaw::none) {
+    return;
+  }
+  if (bed.friction_angle > 0.0 && bed.friction_angle < smallest_angle) {
+    doubts.add("bed.friction_angle", bed.friction_angle, " degrees",
+               "was a coefficient meant? Angles are in degrees; 6 is a coefficient of 0.1.");
+  }
+  if (parameters.heat.enabled && bed.temperature > parameters.freezing.reference_temperature) {
+    doubts.add("bed.temperature", bed.temperature, " C",
+               "the bed's pores hold water, no ice. Was a temperature below 0 meant?");
+  }
+}
+
 void doubt_bodies(const Case& parameters, Doubts& doubts) {
   for (const auto& [name, body] : parameters.bodies) {
     const auto& temperatures = body.temperature.table.value;
@@ -96,11 +111,6 @@ void doubt_bodies(const Case& parameters, Doubts& doubts) {
       doubts.add("body." + name + ".temperature", warmest, " C",
                  "its pores hold water from the start, no ice. Was a temperature below 0 meant?");
     }
-  }
-  if (parameters.heat.enabled && parameters.bed.law != BedLaw::none &&
-      parameters.bed.temperature > parameters.freezing.reference_temperature) {
-    doubts.add("bed.temperature", parameters.bed.temperature, " C",
-               "the bed's pores hold water, no ice. Was a temperature below 0 meant?");
   }
 }
 
@@ -133,6 +143,7 @@ std::vector<std::string> implausible(const Case& parameters) {
   for (const auto& [name, substrate] : parameters.substrates) {
     doubt_ground("substrate." + name, substrate, doubts);
   }
+  doubt_bed(parameters, doubts);
   doubt_bodies(parameters, doubts);
   doubt_output(parameters, doubts);
   return doubts.take();

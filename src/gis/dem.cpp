@@ -109,6 +109,7 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
   if (as_it_is) {
     return raster;
   }
+  told_at(parameters, "terrain.resample", [&] { require_readable(file.file(), target.columns, target.rows); });
   return resampled(raster, target);
 }
 

@@ -81,27 +81,6 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
   return layout;
 }
 
-// Before memory for them is asked for.
-void require_readable(const std::string& file, double columns, double rows) {
-  constexpr double copies = 2.0;  // while what is read becomes the ground
-  const double points = columns * rows, bytes = points * sizeof(double) * copies;
-  if (points > config::most_raster_points) {
-    throw UserError(
-        fmt::format("{}: {:.0f} x {:.0f} points of the raster are asked for; allowed: {:g} points. Crop it "
-                    "(gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make the domain "
-                    "smaller.",
-                    file, columns, rows, config::most_raster_points));
-  }
-  const AvailableMemory available = available_memory();
-  if (bytes > available.bytes) {
-    throw UserError(
-        fmt::format("{}: {:.0f} x {:.0f} points of the raster are asked for; they take {:.3g} GB of memory, and {:.3g} "
-                    "GB {}. Crop it (gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make "
-                    "the domain smaller.",
-                    file, columns, rows, bytes / 1e9, available.bytes / 1e9, available.bound));
-  }
-}
-
 double nodata_of(GDALRasterBand& band, bool& has) {
   int given = 0;
   double value = 0.0;
@@ -117,6 +96,26 @@ double nodata_of(GDALRasterBand& band, bool& has) {
 }
 
 }  // namespace
+
+void require_readable(const std::string& file, double columns, double rows) {
+  constexpr double copies = 2.0;  // while what is read becomes the ground
+  const double points = columns * rows, bytes = points * sizeof(double) * copies;
+  if (points > config::most_raster_points) {
+    throw UserError(
+        fmt::format("{}: {:.0f} x {:.0f} points of it are asked for; allowed: {:g} points. Crop it "
+                    "(gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make the domain "
+                    "smaller.",
+                    file, columns, rows, config::most_raster_points));
+  }
+  const AvailableMemory available = available_memory();
+  if (bytes > available.bytes) {
+    throw UserError(
+        fmt::format("{}: {:.0f} x {:.0f} points of it are asked for; they take {:.3g} GB of memory, and {:.3g} "
+                    "GB {}. Crop it (gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make "
+                    "the domain smaller.",
+                    file, columns, rows, bytes / 1e9, available.bytes / 1e9, available.bound));
+  }
+}
 
 RasterFile::RasterFile(const std::string& file) : handle_(std::make_unique<Handle>()), file_(file) {
   handle_->dataset = open_raster(file);

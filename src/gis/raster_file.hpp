@@ -11,6 +11,10 @@
 
 namespace thawslide::gis {
 
+// Before memory is asked for so many points of a file. Throws UserError for more than are taken, or than fit into
+// memory.
+void require_readable(const std::string& file, double columns, double rows);
+
 // A file that is open. What it throws is a UserError that begins with the file's name.
 class RasterFile {
  public:

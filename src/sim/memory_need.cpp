@@ -146,21 +146,22 @@ const config::Case& require_memory(const config::Case& parameters, const config:
                                    const AvailableMemory& available) {
   const BodiesAtStart bodies = bodies_at_start<Dim>(parameters, site);
   const double cell = parameters.grid.cell;
+  const MemoryNeed need = memory_need<Dim>(parameters, site, bodies);
+  const double fitting = smallest_cell<Dim>(need, cell, available.bytes);
   if (bodies.particles > most_particles) {
-    const double factor = std::pow(bodies.particles / most_particles, 1.0 / Dim);
+    const double countable = 1.05 * cell * std::pow(bodies.particles / most_particles, 1.0 / Dim);
     throw UserError(fmt::format(
         "{}: grid.cell is {} m, which makes {:.3g} particles; allowed: {:.3g}. Make grid.cell {:.2g} m or more, or "
         "particles_per_axis smaller.",
-        config::place_of(parameters, "grid.cell"), cell, bodies.particles, most_particles, 1.05 * factor * cell));
+        config::place_of(parameters, "grid.cell"), cell, bodies.particles, most_particles,
+        std::max(fitting, countable)));
   }
-  const MemoryNeed need = memory_need<Dim>(parameters, site, bodies);
   if (need.total() <= available.bytes) {
     return parameters;
   }
   const std::string amounts =
       fmt::format("the run needs about {:.3g} GB of memory ({}), and {:.3g} GB {}", need.total() / gigabyte,
                   parts_of(need), available.bytes / gigabyte, available.bound);
-  const double fitting = smallest_cell<Dim>(need, cell, available.bytes);
   if (fitting == 0.0) {
     refuse_fixed_part(parameters, need, amounts);
   }

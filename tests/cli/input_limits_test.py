@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -105,6 +106,17 @@ def test_links_to_inputs_lead_nowhere_else(thawslide: Program, small_case: Path)
     assert thawslide("check", small_case, "--set", f"terrain.file={profile}").returncode == 0
 
 
+def test_the_copy_of_a_large_input_is_of_what_its_link_leads_to(thawslide: Program, small_case: Path) -> None:
+    """Above 50 MB it is a hard link, and of the file."""
+    profile = with_profile(small_case, PROFILE + ("#" * 99 + "\n") * 510_000)
+    profile.rename(small_case / "real.csv")
+    profile.symlink_to("real.csv")
+    run = small_case.parent / "run"
+    assert thawslide("run", small_case, "--output", run, *sets(time__end=0.01)).returncode == 0
+    copy = run / "inputs" / "profile.csv"
+    assert not copy.is_symlink() and copy.samefile(small_case / "real.csv")
+
+
 def test_links_to_case_files(thawslide: Program, small_case: Path) -> None:
     """A case file that is a link is read, with the files beside the link; what it is based on stays in the folder."""
     outside = small_case.parent / "other.toml"
@@ -185,7 +197,19 @@ def test_raster_of_more_points_than_are_taken(thawslide: Program, tmp_path: Path
         file.write(" ".join(["1"] * 1000) + "\n")
     said = made(thawslide, tmp_path / "slide", dem, release, "--thickness", 20, "--crs", "EPSG:31287")
     assert said.returncode == 2
-    assert "30000 x 30000 points of the raster are asked for; allowed: 4e+08 points. Crop it" in said.stderr
+    assert "30000 x 30000 points of it are asked for; allowed: 4e+08 points. Crop it" in said.stderr
+
+
+def test_terrain_taken_to_more_points_than_are_taken(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    assert made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 20).returncode == 0
+    said = refusal(thawslide, "check", tmp_path / "slide", "--set", "terrain.resample=0.01")
+    assert re.search(
+        r"--set terrain\.resample=0\.01: terrain\.resample: \S+dem\.tif: \d+ x \d+ points of it are asked for; "
+        r"allowed: 4e\+08 points\. Crop it",
+        said,
+    ), said
 
 
 def test_nothing_stays_where_new_fails_into_a_link(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

@@ -113,6 +113,14 @@ def test_what_is_hardly_meant_is_told(thawslide: Program, plain_case: Path, word
     assert f"note: {told}\n".replace("0.2 s, which", "0.001 s, which") in run.stdout
 
 
+def test_nothing_is_doubted_of_the_example_of_the_guide(thawslide: Program, tmp_path: Path) -> None:
+    guide = (ROOT / "docs" / "user-guide.md").read_text()
+    example = re.search(r"```toml\n(\[case\]\ntitle = \"A block on a slope\".*?)```", guide, re.DOTALL)
+    assert example
+    (tmp_path / "case.toml").write_text(example[1])
+    assert notes_of(thawslide, tmp_path) == []
+
+
 def test_a_body_on_a_body_does_not_float(thawslide: Program, plain_case: Path) -> None:
     file = plain_case / "case.toml"
     file.write_text(file.read_text() + LID)

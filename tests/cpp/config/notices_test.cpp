@@ -156,13 +156,16 @@ TEST(Notices, DoubtABaseWithoutABand) {
   EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "basal.heat_fraction=0"})), none);
 }
 
-TEST(Notices, DoubtABedOfWater) {
+TEST(Notices, DoubtABed) {
   const std::string text = changed(with_columns) +
                            "[bed]\nlaw = \"momentum\"\ndepth = 1.0\nstrength = 1e3\n"
                            "depth_per_slip = 0.1\nmaterial = \"rock\"\n";
   EXPECT_EQ(notices(testing_support::case_from_text(text, {"pressure.frozen=none", "bed.temperature=4"})),
             std::vector<std::string>{"--set bed.temperature=4: bed.temperature is 4 C: the bed's pores hold water, no "
                                      "ice. Was a temperature below 0 meant?"});
+  EXPECT_EQ(notices(testing_support::case_from_text(text, {"pressure.frozen=none", "bed.friction_angle=0.1"})),
+            std::vector<std::string>{"--set bed.friction_angle=0.1: bed.friction_angle is 0.1 degrees: was a "
+                                     "coefficient meant? Angles are in degrees; 6 is a coefficient of 0.1."});
 }
 
 TEST(Notices, TellOfGapsBetweenSubstrates) {
