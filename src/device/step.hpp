@@ -9,7 +9,7 @@
 #include "device/cells.hpp"
 #include "device/ground.hpp"
 #include "device/heat_works.hpp"
-#include "device/material_kernel.hpp"
+#include "device/material_stress.hpp"
 #include "device/node_works.hpp"
 #include "device/particles.hpp"
 #include "device/passes.hpp"
