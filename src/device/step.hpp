@@ -46,6 +46,7 @@ class Step {
     }
     half_sizes_.set(model.half_sizes);
     inverse_sizes_.set(inverse);
+    sums_.set(std::vector<Sums>(1));
   }
 
   [[nodiscard]] const Particles<Backend, Dim, Real>& particles() const { return particles_; }
