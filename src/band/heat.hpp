@@ -4,29 +4,11 @@
 #include <functional>
 
 #include "band/model.hpp"
+#include "band/nodal_heat.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/particles.hpp"
 
 namespace thawslide::band {
-
-// Heat that came into the body in one step [J], by source.
-template <class Real>
-struct HeatGain {
-  Real friction = 0;
-  Real boundary = 0;
-  Real advection = 0;
-  Real capacity = 0;  // made by updating with the old apparent capacity
-  Real porosity = 0;  // made by counting masses from the current porosity and volume
-
-  HeatGain& operator+=(const HeatGain& part) {
-    friction += part.friction;
-    boundary += part.boundary;
-    advection += part.advection;
-    capacity += part.capacity;
-    porosity += part.porosity;
-    return *this;
-  }
-};
 
 // Heat content, temperature and saturation of all particles after dt; nodes.state must hold what average_on_grid made
 // of this step. first_step: prescribed temperatures jump now.

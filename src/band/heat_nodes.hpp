@@ -53,19 +53,6 @@ struct SetNodalState {
   }
 };
 
-// What comes of some nodes.
-template <class Real>
-struct NodalHeat {
-  HeatGain<Real> gain;
-  bool any_orphan = false;  // heat at a node without linear weight
-
-  NodalHeat& operator+=(const NodalHeat& part) {
-    gain += part.gain;
-    any_orphan = any_orphan || part.any_orphan;
-    return *this;
-  }
-};
-
 // The rate of temperature of a node (Eq. 19) with a heat capacity [J/K] and the heat that particles took by subgrid
 // diffusion [J]; friction heat and face conditions come in here. first_step: prescribed temperatures jump now.
 template <int Dim, class Real>
@@ -78,32 +65,29 @@ struct SolveTemperatureRate {
 
   void operator()(mpm::Nodes<Dim, Real>& nodes, const mpm::NodeAt& at, Real capacity, Real subgrid,
                   NodalHeat<Real>& sum) const {
-    using mpm::HeatRates;
-    const auto& rates = nodes.heat_rates(at);
-    const Real friction = nodes.contact(at)[mpm::Contact::friction_heat];
-    Real& rate = nodes.state(at)[mpm::NodalState::temperature_rate];
-    rate = Real(0);
-    if (nodes.orphan_heat.holds(at.block)) {
-      nodes.orphan_heat.of_block(at.block)[at.node][0] = Real(0);
-    }
-    sum.gain.friction += dt * friction;
-    if (!(capacity > Real(0))) {
-      if (friction > Real(0)) {
-        nodes.orphan_heat.of_block(at.block)[at.node][0] =
-            friction / nodes.momentum(at)[mpm::MomentumLayout<Dim>::mass];
-        sum.any_orphan = true;
-      }
-      return;
-    }
-    Real power = rates[HeatRates::conduction] + rates[HeatRates::advection] + friction - subgrid * (Real(1) / dt);
-    sum.gain.advection += dt * rates[HeatRates::advection];
+    const bool held = nodes.orphan_heat.holds(at.block);
+    Real none = 0;
+    Real& orphan = held ? nodes.orphan_heat.of_block(at.block)[at.node][0] : none;
+    solve_temperature_rate<Dim>(
+        nodes.heat_rates(at), capacity, subgrid, nodes.contact(at)[mpm::Contact::friction_heat], nodes.momentum(at), dt,
+        nodes.state(at)[mpm::NodalState::temperature_rate], orphan, sum,
+        [&](Real& rate, Real& power) { return meets_face(nodes, at, capacity, rate, power, sum); });
+    THAWSLIDE_ASSERT(held || !(orphan > Real(0)), "friction heat at node {} of block {}, which is in no contact",
+                     at.node, at.block);
+  }
+
+ private:
+  // The condition of the face that a node lies on, if any: whether it prescribes the rate; else heat that flows in adds
+  // to the power.
+  bool meets_face(const mpm::Nodes<Dim, Real>& nodes, const mpm::NodeAt& at, Real capacity, Real& rate, Real& power,
+                  NodalHeat<Real>& sum) const {
     const HeatFace<Real>* face = has_faces ? face_of(grid, model, at) : nullptr;
     if (face != nullptr && face->kind == FaceHeat::temperature) {
       const auto& averages = nodes.averages(at);
       const Real mapped = averages[mpm::Averages::temperature] / averages[mpm::Averages::volume];
       rate = first_step ? (face->value - mapped) / dt : Real(0);
       sum.gain.boundary += dt * (capacity * rate - power);
-      return;
+      return true;
     }
     if (face != nullptr && face->kind == FaceHeat::flux) {
       // A full row of cells gives its face node half a cell of volume: area = 2 V / cell.
@@ -111,7 +95,7 @@ struct SolveTemperatureRate {
       sum.gain.boundary += dt * inflow;
       power += inflow;
     }
-    rate = power / capacity;
+    return false;
   }
 };
 

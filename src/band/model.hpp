@@ -6,14 +6,13 @@
 #include <variant>
 #include <vector>
 
+#include "band/any_heat_content.hpp"
 #include "band/particle_heat.hpp"
 #include "band/physics.hpp"
 #include "base/linear.hpp"
 #include "mpm/body_sizes.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/transfer.hpp"
-#include "physics/freezing.hpp"
-#include "physics/heat_content.hpp"
 
 namespace thawslide::band {
 
@@ -26,10 +25,6 @@ struct HeatFace {
 };
 
 enum class ScaledRegion { all, first_layer };
-
-template <class Real>
-using AnyHeatContent = std::variant<physics::HeatContent<Real, physics::PowerLawCurve<Real>>,
-                                    physics::HeatContent<Real, physics::LinearCurve<Real>>>;
 
 template <int Dim, class Real>
 struct BandModel : BandPhysics<Real> {

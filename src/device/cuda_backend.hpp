@@ -3,10 +3,12 @@
 
 #include <cuda_runtime.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -152,6 +154,22 @@ class Cuda {
   // Waits until the card has done all that it was given.
   void wait() { expect_done(cudaDeviceSynchronize(), "waiting for the card"); }
 
+  // From now on the end of each stage is waited for, which makes a step slower; seconds by stage, so far.
+  void time_stages() {
+    wait();
+    times_stages_ = true;
+    last_ = Clock::now();
+  }
+  void end_stage(const char* stage) {
+    if (times_stages_) {
+      wait();
+      const auto now = Clock::now();
+      seconds_[stage] += std::chrono::duration<double>(now - last_).count();
+      last_ = now;
+    }
+  }
+  [[nodiscard]] const std::map<std::string, double>& seconds() const { return seconds_; }
+
  private:
   // Memory that is kept between calls.
   struct Room {
@@ -178,7 +196,12 @@ class Cuda {
     expect_done(work(memory, bytes), doing);
   }
 
+  using Clock = std::chrono::steady_clock;
+
   int card_ = 0;
+  bool times_stages_ = false;
+  Clock::time_point last_;
+  std::map<std::string, double> seconds_;
   Room sorted_keys_, sorted_values_, working_;
 };
 

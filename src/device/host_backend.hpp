@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace thawslide::device {
@@ -142,6 +144,11 @@ class Host {
   void sum_before(const std::uint32_t* numbers, std::uint32_t* sums, std::size_t count) {
     std::exclusive_scan(numbers, numbers + count, sums, std::uint32_t{0});
   }
+
+  // Stages are not timed here.
+  void end_stage(const char* /*stage*/) {}
+  void time_stages() {}
+  [[nodiscard]] std::map<std::string, double> seconds() const { return {}; }
 
  private:
   ThreadOrder order_;

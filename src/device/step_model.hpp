@@ -3,8 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "band/any_heat_content.hpp"
+#include "band/nodal_heat.hpp"
+#include "band/physics.hpp"
 #include "mpm/accounts.hpp"
 #include "mpm/domain_faces.hpp"
 #include "mpm/material.hpp"
@@ -16,6 +20,17 @@
 #include "terrain/surface.hpp"
 
 namespace thawslide::device {
+
+// Heat of particles, by masses of t = 0 and the secant to their heat content; no conditions at the domain's faces.
+template <class Real>
+struct HeatModel {
+  band::BandPhysics<Real> physics;
+  band::AnyHeatContent<Real> content;
+  std::vector<Real> hydraulic_conductivity;  // by material [m/s]
+  Real scaling_in_band = 1;                  // xi
+  bool starts = true;                        // the first step is that of t = 0
+  bool scales_all = true;                    // and elsewhere too
+};
 
 template <int Dim, class Real>
 struct StepModel {
@@ -32,9 +47,10 @@ struct StepModel {
   mpm::DomainFaces<Dim, Real> faces;
   Vector<Real, Dim> lower, upper;  // particles may be between these [m]
   terrain::BasalLaw<Real> base;
-  bool base_holds = false;      // no slip at all
-  bool pore_pressure = true;    // off: P = 0 at contact nodes
-  bool distance_check = false;  // a node may close its clearance before contact acts
+  bool base_holds = false;              // no slip at all
+  bool pore_pressure = true;            // off: P = 0 at contact nodes
+  std::optional<HeatModel<Real>> heat;  // none: temperatures rest
+  bool distance_check = false;          // a node may close its clearance before contact acts
 };
 
 // Tells what the nodes of a block know of the ground: of all nodes, x fastest. Empty where there is no ground.
@@ -48,6 +64,8 @@ struct StepSums {
   Real particle_kinetic = 0;  // as mpm::MoveWork
   Real mapped_back = 0;       // work of internal forces at mid-step velocities less that at the mapped-back ones
   mpm::Deformed<Real> deformed;
+  Real band_rescale = 0;  // heat by another scaling
+  band::HeatGain<Real> heat;
   mpm::BadParticle bad;  // after the particles have moved
 };
 

@@ -3,7 +3,7 @@
 //   linear     S = 1 + m (T - Tref), between 0 and 1                                               (Sec. 3.1)
 // A curve gives S, dS/dT [1/K] (at Tref the one of the frozen side: Sec. 3.1 starts exactly there) and the integral of
 // S from Tref to T [K], which the heat content needs. A new curve needs the same members and its line in HeatContent's
-// list of curves (band/model.hpp).
+// list of curves (band/any_heat_content.hpp).
 #pragma once
 
 #include <cmath>

@@ -13,9 +13,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 PHYSICS = Path(__file__).with_name("physics_kernels.cu")
 STEP = Path(__file__).with_name("step_kernels.cu")
+CARD = Path(__file__).with_name("card") / "on_card.cu"
 BASAL_LAWS = ROOT / "src" / "physics" / "basal" / "laws.hpp"
 OLDEST = 12  # version of nvcc: the first with C++20
-LIMIT = 300.0  # s; it takes about 10 alone
+LIMIT = 600.0  # s; alone it takes about 10, and 60 for the step on a card
 
 # Registers that a kernel may use: what nvcc 13.0 gives it, and a tenth or so for other versions. A multiprocessor of
 # sm_90 has 65,536, so that 80 leave it 24 groups of 32 threads, 96 leave it 20.
@@ -202,3 +203,11 @@ def test_every_kernel_of_the_step_is_compiled() -> None:
     code = STEP.read_text()
     by_law = {"UpdateStress"}  # chooses among the laws of Deform, on the processor
     assert {kernel for kernel in kernels - by_law if not re.search(rf"\b{kernel}<", code)} == set()
+
+
+def test_the_step_on_a_card_compiles_without_spills(tmp_path: Path) -> None:
+    """As launched: passes by groups of threads, nodes, sorting."""
+    used = resources(compiled(find_nvcc(), CARD, tmp_path))
+    ours = {kernel: spilled for kernel, (_, spilled) in used.items() if kernel.startswith("device::run_")}
+    assert len(ours) > 50
+    assert {kernel: spilled for kernel, spilled in ours.items() if spilled > 0} == {}

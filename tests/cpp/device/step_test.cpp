@@ -1,5 +1,7 @@
-// Steps as a device takes them (device/mechanics.hpp) against those of Simulation: the same bits, whatever the order of
+// Steps as a device takes them (device/step.hpp) against those of Simulation: the same bits, whatever the order of
 // threads and of particles in memory. The stages of Simulation are compiled without contraction here.
+#include "device/step.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -10,7 +12,6 @@
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
 #include "device/host_backend.hpp"
-#include "device/mechanics.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -42,6 +43,15 @@ device::StepModel<Dim, double> step_model_of(const Simulation<Dim, double>& simu
   model.base_holds = from.contact.base_holds;
   model.pore_pressure = from.contact.pore_pressure;
   model.distance_check = from.contact.distance_check;
+  if (from.band.heat) {
+    EXPECT_TRUE(from.band.secant_capacity && !from.band.current_masses && !from.band.rescaling_mixes);
+    const double thickness = simulation.parameters().band.thickness.at(0.0);
+    model.heat = device::HeatModel<double>{.physics = from.band,
+                                           .content = from.band.heat_content,
+                                           .hydraulic_conductivity = from.band.hydraulic_conductivity,
+                                           .scaling_in_band = model.cell / thickness,
+                                           .scales_all = from.band.region == band::ScaledRegion::all};
+  }
   return model;
 }
 
@@ -57,15 +67,15 @@ device::AskGround<Dim, double> ground_of(const Simulation<Dim, double>& simulati
   };
 }
 
-// Fields that the mechanics of a step has no part in.
-const std::set<std::string> others{"thermal_scaling"};
+// Fields that a step without heat has no part in.
+const std::set<std::string> of_heat{"thermal_scaling"};
 
 template <int Dim>
 void expect_the_same_particles(const mpm::Particles<Dim, double>& expected, const mpm::Particles<Dim, double>& found,
-                               const std::string& when) {
+                               bool heat, const std::string& when) {
   const auto numbers = fields_by_id(found);
   for (const auto& [name, of_processor] : fields_by_id(expected)) {
-    if (others.count(name) == 0) {
+    if (heat || of_heat.count(name) == 0) {
       EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
           << name << ", " << when;
     }
@@ -93,9 +103,11 @@ void expect_the_steps_of_the_processor(const config::Case& parameters, int steps
   Simulation<Dim, double> simulation(parameters);
   ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeKind::ugimp);
   Host host = with;
-  device::Mechanics<Host, mpm::Ugimp<double>, Dim, double> mechanics(
-      host, step_model_of(simulation), mpm::view_of(simulation.particles()), simulation.particles().size(),
-      ground_of(simulation));
+  device::Step<Host, mpm::Ugimp<double>, Dim, double> mechanics(host, step_model_of(simulation),
+                                                                mpm::view_of(simulation.particles()),
+                                                                simulation.particles().size(), ground_of(simulation));
+  const bool heat = simulation.model().band.heat;
+  double friction_heat = 0, advection = 0, band_rescale = 0;
   const std::vector<std::uint64_t> blocks = simulation.grid().blocks();
   for (int k = 0; k < steps; ++k) {
     if (k == sorted_before) {
@@ -107,6 +119,11 @@ void expect_the_steps_of_the_processor(const config::Case& parameters, int steps
     const std::string when = fmt::format("step {}", k);
     expect_the_same_contact(simulation.contact(), sums.contact, when);
     EXPECT_EQ(sums.bad.id, -1) << when;
+    if (heat) {
+      EXPECT_EQ(friction_heat += sums.heat.friction, simulation.ledger().friction_heat) << when;
+      EXPECT_EQ(advection += sums.heat.advection, simulation.ledger().advection) << when;
+      EXPECT_EQ(band_rescale += sums.band_rescale, simulation.ledger().band_rescale) << when;
+    }
     if (::testing::Test::HasFailure()) {
       return;
     }
@@ -118,26 +135,26 @@ void expect_the_steps_of_the_processor(const config::Case& parameters, int steps
   mpm::Particles<Dim, double> found;
   found.resize(simulation.particles().size());
   mechanics.particles().copy_to(mpm::view_of(found));
-  expect_the_same_particles(simulation.particles(), found, "at the end");
+  expect_the_same_particles(simulation.particles(), found, heat, "at the end");
+  EXPECT_EQ(heat, friction_heat > 0.0);
 }
 
-const std::vector<std::string> mechanics_alone{"heat.enabled=false", "pressure.enabled=false"};
-
 template <int Dim>
-config::Case sliding_bodies(const std::vector<std::string>& more = {}) {
-  std::vector<std::string> sets = mechanics_alone;
-  sets.insert(sets.end(), more.begin(), more.end());
-  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, "type = \"flat\"\nelevation = 0.0", sets);
+config::Case sliding_bodies(const std::string& heat) {
+  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, "type = \"flat\"\nelevation = 0.0",
+                         {"heat.enabled=" + heat, "pressure.enabled=false"});
 }
 
 TEST(DeviceStep, HasTheBitsOfTheProcessorInThePlane) {
-  expect_the_steps_of_the_processor<2>(sliding_bodies<2>(), 150, -1, Host(ThreadOrder::forward));
-  expect_the_steps_of_the_processor<2>(sliding_bodies<2>(), 150, 60, Host(ThreadOrder::backward, 7));
-  expect_the_steps_of_the_processor<2>(sliding_bodies<2>(), 150, 60, Host(ThreadOrder::shuffled, 32));
+  for (const std::string heat : {"false", "true"}) {
+    expect_the_steps_of_the_processor<2>(sliding_bodies<2>(heat), 150, -1, Host(ThreadOrder::forward));
+    expect_the_steps_of_the_processor<2>(sliding_bodies<2>(heat), 150, 60, Host(ThreadOrder::backward, 7));
+    expect_the_steps_of_the_processor<2>(sliding_bodies<2>(heat), 150, 60, Host(ThreadOrder::shuffled, 32));
+  }
 }
 
 TEST(DeviceStep, HasThemInSpace) {
-  expect_the_steps_of_the_processor<3>(sliding_bodies<3>(), 100, 50, Host(ThreadOrder::shuffled, 96));
+  expect_the_steps_of_the_processor<3>(sliding_bodies<3>("true"), 100, 50, Host(ThreadOrder::shuffled, 96));
 }
 
 }  // namespace

@@ -59,18 +59,31 @@ Comparison compare(const ParticleMemory<Dim>& a, const ParticleMemory<Dim>& b) {
   return all;
 }
 
+// Returns the sums of the last one.
 template <int Dim>
-void take_steps(Steps<Dim>& steps, int from, int to) {
+device::StepSums<Dim, Real> take_steps(Steps<Dim>& steps, int from, int to) {
+  device::StepSums<Dim, Real> sums;
   for (int k = from; k < to; ++k) {
-    steps.step(k * time_step, time_step);
+    sums = steps.step(k * time_step, time_step);
   }
+  return sums;
 }
 
 bool tell(const char* what, const Comparison& found, bool bits_are_asked_for) {
   const bool is_well = bits_are_asked_for ? found.fields_of_same_bits == found.fields : found.largest <= tolerance;
   std::printf("%-60s %zu of %zu fields have the same bits, largest difference %.3g: %s\n", what,
-              found.fields_of_same_bits, found.fields, found.largest, is_well ? "well" : "WRONG");
+              found.fields_of_same_bits, found.fields, found.largest, is_well ? "well" : "beyond what is allowed");
   return is_well;
+}
+
+// Whether the slide does what it is there for.
+template <int Dim>
+bool tell_work(const device::StepSums<Dim, Real>& sums) {
+  const bool works = sums.contact.friction_work > 0 && sums.deformed.work.plastic > 0 && sums.heat.friction > 0;
+  std::printf("%s: friction work %.4g J, plastic work %.4g J, friction heat %.4g J in the last step: %s\n",
+              Dim == 2 ? "2D" : "3D", sums.contact.friction_work, sums.deformed.work.plastic, sums.heat.friction,
+              works ? "well" : "WRONG");
+  return works;
 }
 
 template <int Dim>
@@ -83,13 +96,14 @@ bool compare_slides(const Size& size) {
   ParticleMemory<Dim> of_processor(start.size()), of_card(start.size()), of_second(start.size());
   int done = 0;
   for (const int steps : {1, 20, 60}) {
-    take_steps(*processor, done, steps);
+    const auto sums = take_steps(*processor, done, steps);
     take_steps(*card, done, steps);
     if (steps == 20) {
       again->sort_in_memory();  // which may change nothing
     }
     take_steps(*again, done, steps);
     done = steps;
+    well = (steps < 60 || tell_work(sums)) && well;
     processor->copy_to(of_processor.view());
     card->copy_to(of_card.view());
     again->copy_to(of_second.view());
@@ -102,7 +116,7 @@ bool compare_slides(const Size& size) {
   return well;
 }
 
-bool measure(std::size_t particles) {
+void measure(std::size_t particles) {
   const double height = std::cbrt(static_cast<double>(particles) / 8.0 / 16.0);  // as long as wide, a quarter as high
   const auto cells = [](double number) { return static_cast<std::size_t>(std::max(1.0, std::round(number))); };
   const Size size{cells(4 * height), cells(4 * height), cells(height)};
@@ -122,7 +136,12 @@ bool measure(std::size_t particles) {
   }
   std::printf("3D, %zu particles: %.4g million particle-steps a second, %.4g ms a step\n", start.size(),
               static_cast<double>(start.size()) * steps / seconds / 1e6, 1e3 * seconds / steps);
-  return true;
+  card->time_stages();
+  constexpr int timed = 20;
+  take_steps(*card, 10 + steps, 10 + steps + timed);
+  for (const auto& [stage, spent] : card->seconds()) {
+    std::printf("  %-28s %.4g ms\n", stage.c_str(), 1e3 * spent / timed);
+  }
 }
 
 int run(const std::string& what, std::size_t particles) {

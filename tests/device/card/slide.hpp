@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "device/step_model.hpp"
@@ -59,6 +61,26 @@ struct Size {
   }
 };
 
+inline physics::Phases<Real> phases() {
+  return {.rock_density = 2700.0,
+          .ice_density = 917.0,
+          .water_density = 1000.0,
+          .rock_heat_capacity = 800.0,
+          .ice_heat_capacity = 2100.0,
+          .water_heat_capacity = 4200.0,
+          .rock_conductivity = 3.0,
+          .ice_conductivity = 2.2,
+          .water_conductivity = 0.6,
+          .rock_expansion = 3e-5,
+          .ice_expansion = 1.5e-4,
+          .water_expansion = 1e-4,
+          .water_bulk_modulus = 2e9,
+          .latent_heat = 3.34e5,
+          .water_unit_weight = 9810.0,
+          .ice_to_rock_density_ratio = 0.34};
+}
+inline physics::HeatContent<Real, physics::PowerLawCurve<Real>> heat_content() { return {phases(), {0.0, 5.0}, true}; }
+
 template <int Dim>
 void seed(const Size& size, ParticleMemory<Dim>& memory) {
   const mpm::ParticleView<Dim, Real>& p = memory.view();
@@ -86,9 +108,10 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
     for (int c = 0; c < 3; ++c) {
       p.stress(k, c) = -0.5 * density * 9.81 * depth;
     }
-    p.temperature(k) = -0.5;
+    p.temperature(k) = p.previous_temperature(k) = -0.5 + 0.1 * std::sin(static_cast<Real>(k % 17));
     p.porosity(k) = p.initial_porosity(k) = 0.3;
-    p.liquid_saturation(k) = 0.2;
+    p.heat_content(k) = heat_content().content(p.temperature(k), p.porosity(k));
+    p.liquid_saturation(k) = p.initial_saturation(k) = heat_content().curve.saturation(p.temperature(k));
     p.pore_pressure(k) = 1e3;
     p.contact_offset(k) = 0.5 * spacing;
     p.thermal_scaling(k) = 1.0;
@@ -114,6 +137,13 @@ device::StepModel<Dim, Real> model_of_slide() {
                                                                      .tension_cutoff = 1e3,
                                                                      .residual_friction_angle = friction_angle});
   model.materials = {material};
+  model.phases = phases();
+  model.heat = device::HeatModel<Real>{.physics = {},
+                                       .content = heat_content(),
+                                       .hydraulic_conductivity = {1e-9},
+                                       .scaling_in_band = 10.0,
+                                       .scales_all = false};
+  model.heat->physics.phases = model.phases;
   model.faces.extent.setConstant(1e5);
   model.lower.setZero();
   model.upper = model.faces.extent;
@@ -153,6 +183,9 @@ class Steps {
   virtual device::StepSums<Dim, Real> step(Real time, Real dt) = 0;
   virtual void sort_in_memory() = 0;
   virtual void copy_to(const mpm::ParticleView<Dim, Real>& particles) const = 0;
+  // From now on each stage is waited for and timed; seconds by stage, so far.
+  virtual void time_stages() = 0;
+  [[nodiscard]] virtual std::map<std::string, double> seconds() const = 0;
 };
 
 }  // namespace thawslide::card_test

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "device/mechanics.hpp"
+#include "device/step.hpp"
 #include "slide.hpp"
 
 namespace thawslide::card_test {
@@ -19,10 +19,12 @@ class StepsOn final : public Steps<Dim> {
   void copy_to(const mpm::ParticleView<Dim, Real>& particles) const override {
     mechanics_.particles().copy_to(particles);
   }
+  void time_stages() override { backend_.time_stages(); }
+  [[nodiscard]] std::map<std::string, double> seconds() const override { return backend_.seconds(); }
 
  private:
   Backend backend_;
-  device::Mechanics<Backend, mpm::Ugimp<Real>, Dim, Real> mechanics_;
+  device::Step<Backend, mpm::Ugimp<Real>, Dim, Real> mechanics_;
 };
 
 template <int Dim>

@@ -1,5 +1,5 @@
-// The mechanics of a step on a device: momentum to the grid, contact, motion and stress (simulation.cpp has the same
-// stages for the processor). Temperatures and pore pressures rest.
+// A step on a device: momentum to the grid, contact, motion, stress and heat (simulation.cpp has the same stages for
+// the processor). Pore pressures rest.
 #pragma once
 
 #include <variant>
@@ -8,7 +8,8 @@
 #include "device/block_pass.hpp"
 #include "device/cells.hpp"
 #include "device/ground.hpp"
-#include "device/material_kernel.hpp"
+#include "device/heat_works.hpp"
+#include "device/material_stress.hpp"
 #include "device/node_works.hpp"
 #include "device/particles.hpp"
 #include "device/passes.hpp"
@@ -20,7 +21,7 @@ namespace thawslide::device {
 
 // Shape: of momentum's shape functions (mpm/shape.hpp).
 template <class Backend, class Shape, int Dim, class Real>
-class Mechanics {
+class Step {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   template <class Name>
   using Numbers = mpm::Named<Name, Array<Real, Backend>>;
@@ -28,8 +29,8 @@ class Mechanics {
 
  public:
   // So many particles of the processor's memory, copied. ask_ground: none where there is no ground.
-  Mechanics(Backend& backend, const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles,
-            std::size_t count, AskGround<Dim, Real> ask_ground)
+  Step(Backend& backend, const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles,
+       std::size_t count, AskGround<Dim, Real> ask_ground)
       : backend_(backend),
         model_(model),
         particles_(backend, particles, count),
@@ -39,8 +40,13 @@ class Mechanics {
     for (const Real half : model.half_sizes) {
       inverse.push_back(Real(1) / half);
     }
+    if (model.heat) {
+      hydraulic_.set(model.heat->hydraulic_conductivity);
+      first_step_ = model.heat->starts;
+    }
     half_sizes_.set(model.half_sizes);
     inverse_sizes_.set(inverse);
+    sums_.set(std::vector<Sums>(1));
   }
 
   [[nodiscard]] const Particles<Backend, Dim, Real>& particles() const { return particles_; }
@@ -56,14 +62,25 @@ class Mechanics {
   // One step of dt [s] from a time [s] on.
   Sums step(Real time, Real dt) {
     find_cells();
-    if (ground_.exists()) {
+    backend_.end_stage("find_cells");
+    if (ground_.exists() || model_.heat) {
       average();
+      backend_.end_stage("average_band_on_grid");
     }
     add_momentum();
+    backend_.end_stage("momentum_to_grid");
     resolve_contact(time, dt);
+    backend_.end_stage("resolve_contact");
     move(time, dt);
+    backend_.end_stage("move_particles");
     update_stress(dt);
+    backend_.end_stage("update_stress_and_porosity");
+    if (model_.heat) {
+      conduct_heat(dt);
+      backend_.end_stage("conduct_heat");
+    }
     take_positions();
+    backend_.end_stage("take_new_positions");
     Sums sums;
     backend_.copy_out(&sums, sums_.data(), 1);
     return sums;
@@ -79,6 +96,12 @@ class Mechanics {
     const std::size_t nodes = cells_.tables().blocks * block_nodes;
     make_room<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion, mpm::Velocity>(
         nodes);
+    if (model_.heat) {
+      make_room<mpm::HeatRates, mpm::OrphanHeat>(nodes);
+      secant_rates_.resize(of<mpm::HeatRates>().size());
+      changing_tiles_.resize(cells_.tables().tiles);
+      changing_blocks_.resize(cells_.tables().blocks);
+    }
     if (ground_.exists()) {
       ground_.update(cells_.tables(), cells_.block_keys());
       base_.resize(nodes * NodeViews<Dim, Real>::base_size);
@@ -184,6 +207,44 @@ class Mechanics {
     }
   }
 
+  void conduct_heat(Real dt) {
+    using Rescale = RescaleBand<Dim, Real>;
+    const Rescale rescale{model_.heat->scaling_in_band, model_.heat->scales_all};
+    keep(&run(over(LinearWeights{}, EveryTile{}), rescale)->template of<Rescale>(), &sums_.data()->band_rescale);
+    std::visit([&](const auto& content) { conduct_heat_by(content, dt); }, model_.heat->content);
+    first_step_ = false;
+  }
+  template <class Content>
+  void conduct_heat_by(const Content& content, Real dt) {
+    const TileTables<Dim> tables = cells_.tables();
+    const band::HydraulicConductivity<Real> hydraulic{hydraulic_.data(), hydraulic_.size() == 1};
+    run(over(LinearWeights{}, EveryTile{}), HeatFlows<Dim, Real, Content>{content, model_.heat->physics, hydraulic, dt,
+                                                                          Real(1) / model_.cell, !first_step_});
+    sum<mpm::HeatRates, void>(EveryTile{});
+    solve_rates(nullptr, dt);
+    mark_tiles(MayChange<Dim, Real, Content>{views(), particles_.view(), content, dt});
+    backend_.for_each(tables.blocks, MarkBlocks<Dim>{tables, changing_tiles_.data(), changing_blocks_.data()});
+    run(over(LinearWeights{}, MarkedTiles{changing_tiles_.data()}), SecantCapacity<Dim, Real, Content>{content, dt});
+    backend_.for_each(secant_rates_.size(), SumPatches<mpm::HeatRates, void, EveryTile, Dim, Real>{
+                                                tables, {}, memory_.patches(0), secant_rates_.data()});
+    keep(&solve_rates(changing_blocks_.data(), dt)->gain, &sums_.data()->heat);
+    mark_tiles(HoldsHeat<Dim, Real>{of<mpm::OrphanHeat>().data()});
+    run(over(weights(), MarkedTiles{changing_tiles_.data()}), band::TakeOrphanHeat<Dim, Real>{dt});
+    run(over(LinearWeights{}, EveryTile{}), TakeHeat<Dim, Real, Content>{content, model_.heat->physics, dt});
+  }
+  const band::NodalHeat<Real>* solve_rates(const std::uint8_t* changing_blocks, Real dt) {
+    const std::size_t blocks = cells_.tables().blocks;
+    const SolveRates<Dim, Real> solve{views(),         of<mpm::HeatRates>().data(),  secant_rates_.data(),
+                                      changing_blocks, of<mpm::OrphanHeat>().data(), dt};
+    return block_pass<Dim>(backend_, blocks, solve, memory_.template sums<band::NodalHeat<Real>>(blocks + 1));
+  }
+  template <class Asks>
+  void mark_tiles(const Asks& asks) {
+    constexpr std::size_t threads = 128;
+    backend_.for_groups(cells_.tables().tiles, threads, 0,
+                        MarkTiles<Asks, Dim>{cells_.tables(), asks, changing_tiles_.data()});
+  }
+
   void take_positions() {
     using Kernel = mpm::TakePosition<Dim, Real>;
     keep(&run(over(LinearWeights{}, EveryTile{}), Kernel{model_.lower, model_.upper})->template of<Kernel>(),
@@ -248,12 +309,16 @@ class Mechanics {
   PassMemory<Backend, Real> memory_{backend_};
   Array<Real, Backend> half_sizes_{backend_}, inverse_sizes_{backend_}, base_{backend_};
   Array<BaseOfNode<Real>, Backend> bases_{backend_};
+  Array<Real, Backend> secant_rates_{backend_}, hydraulic_{backend_};
+  Array<std::uint8_t, Backend> changing_tiles_{backend_}, changing_blocks_{backend_};
+  bool first_step_ = true;
   Array<Sums, Backend> sums_{backend_, 1};
   mpm::ByName<Numbers<mpm::Averages>, Numbers<mpm::NodalState>, Numbers<mpm::Momentum>, Numbers<mpm::NearGround>,
-              Numbers<mpm::Contact>, Numbers<mpm::Motion>, Numbers<mpm::Velocity>>
+              Numbers<mpm::Contact>, Numbers<mpm::Motion>, Numbers<mpm::Velocity>, Numbers<mpm::HeatRates>,
+              Numbers<mpm::OrphanHeat>>
       records_{{Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)},
                {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)},
-               {Array<Real, Backend>(backend_)}};
+               {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)}};
 
  public:
   // The records that a pass reads (device/passes.hpp).

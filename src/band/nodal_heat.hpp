@@ -1,0 +1,66 @@
+// What nodes do in conduct_heat (Eq. 19), in the numbers of one node, and what comes of it. For host and device.
+#pragma once
+
+#include "base/portability.hpp"
+#include "mpm/records.hpp"
+
+namespace thawslide::band {
+
+// Heat that came into the body in one step [J], by source.
+template <class Real>
+struct HeatGain {
+  Real friction = 0;
+  Real boundary = 0;
+  Real advection = 0;
+  Real capacity = 0;  // made by updating with the old apparent capacity
+  Real porosity = 0;  // made by counting masses from the current porosity and volume
+
+  THAWSLIDE_HD HeatGain& operator+=(const HeatGain& part) {
+    friction += part.friction;
+    boundary += part.boundary;
+    advection += part.advection;
+    capacity += part.capacity;
+    porosity += part.porosity;
+    return *this;
+  }
+};
+
+// What comes of some nodes.
+template <class Real>
+struct NodalHeat {
+  HeatGain<Real> gain;
+  bool any_orphan = false;  // heat at a node without linear weight
+
+  THAWSLIDE_HD NodalHeat& operator+=(const NodalHeat& part) {
+    gain += part.gain;
+    any_orphan = any_orphan || part.any_orphan;
+    return *this;
+  }
+};
+
+// The rate of temperature [K/s] of a node with a heat capacity [J/K], the heat that particles took by subgrid diffusion
+// [J] and friction heat [W]. rates, momentum: its records of HeatRates and Momentum. orphan: friction heat per mass
+// [W/kg] where the node has no linear weight. meets_face(rate, power): whether a condition at a face has set the rate;
+// it may add to the power [W].
+template <int Dim, class Real, class Rates, class MomentumRecord, class MeetsFace>
+THAWSLIDE_HD void solve_temperature_rate(const Rates& rates, Real capacity, Real subgrid, Real friction,
+                                         const MomentumRecord& momentum, Real dt, Real& rate, Real& orphan,
+                                         NodalHeat<Real>& sum, const MeetsFace& meets_face) {
+  using mpm::HeatRates;
+  rate = orphan = Real(0);
+  sum.gain.friction += dt * friction;
+  if (!(capacity > Real(0))) {
+    if (friction > Real(0)) {
+      orphan = friction / momentum[mpm::MomentumLayout<Dim>::mass];
+      sum.any_orphan = true;
+    }
+    return;
+  }
+  Real power = rates[HeatRates::conduction] + rates[HeatRates::advection] + friction - subgrid * (Real(1) / dt);
+  sum.gain.advection += dt * rates[HeatRates::advection];
+  if (!meets_face(rate, power)) {
+    rate = power / capacity;
+  }
+}
+
+}  // namespace thawslide::band
