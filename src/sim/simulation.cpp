@@ -53,6 +53,9 @@ void Simulation<Dim, Real>::step(double dt) {
   mark_bad_particles();
   stop_if_bad();
   mark_left_particles();
+  if (bad_.id >= 0) {
+    watch();  // what an explosion throws off the known ground is not told to get a larger one
+  }
   stop_if_bad();
   remove_marked_particles();
   if (bed_in_reach() != nullptr) {

@@ -74,14 +74,17 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::start_watch() {
   watch_ = {};
   removed_ = {};
-  for (std::size_t p = 0; p < particles_.size() && parameters_.mechanics.enabled; ++p) {
+  watch_.first_step = parameters_.time.stepping == config::Stepping::adaptive ? adaptive_step() : 0.0;
+  if (!parameters_.mechanics.enabled) {
+    return;
+  }
+  for (const std::uint32_t p : grid_.order()) {
     const auto& material = model_.motion.materials[static_cast<std::size_t>(particles_.material(p))];
     const SymmetricTensor<Real> stress = mpm::full_tensor<Dim, Real>(particles_.stress, p);
     watch_.held_at_start +=
         static_cast<double>(particles_.volume(p) * physics::elastic_energy_density(material.elastic, stress));
   }
   watch_.lowest_made = energy_made(ledger_, look_at_particles());
-  watch_.first_step = parameters_.time.stepping == config::Stepping::adaptive ? adaptive_step() : 0.0;
 }
 
 template <int Dim, class Real>

@@ -111,9 +111,10 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   const std::string bed =
       "[bed]\nlaw = \"momentum\"\ndepth = 2.0\nstrength = 0.0\ndepth_per_slip = 0.5\nmaterial = \"rock\"\n";
   const std::string ice = "[substrate.ice]\nfriction_angle = 5.0\n";
+  const std::string resting = changed({{"step = 0.001", "step = 0.001\nstop_at_rest = 0.1"}});
   for (const std::string& text :
        {sound + wall + ice + "x_min = 50.0\n", sound + noise, sound + bed, sound + columns, sound + columns + growth,
-        sound_on_dem, of_surface, sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
+        sound_on_dem, of_surface, resting, sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = resolved_toml(found, "inputs");
     for (const auto& table : tables()) {
