@@ -24,7 +24,7 @@ std::string text_of(const sim::BodyFigures& body, int dimension) {
   return fmt::format(
       "  body        {}: {:.4g} m3 and {:.4g} kg{}, {} {:.4g} {}; {:.3g} m thick in the mean, {:.3g} m in the median "
       "and {:.3g} m at most (vertical)\n"
-      "              {} particles {:.3g} m apart; {:.2g} across in the median and {:.2g} at most; {}\n",
+      "              {} particles {:.3g} m apart; {:.3g} across in the median and {:.3g} at most; {}\n",
       body.name, body.volume, body.mass, is_plane ? " per metre of width" : "", is_plane ? "along" : "over", body.area,
       is_plane ? "m" : "m2", body.mean_thickness, body.median_thickness, body.largest_thickness, body.particles,
       body.spacing, body.particles_across, body.most_particles_across,
