@@ -100,6 +100,21 @@ def corruption_text(found: dict[str, Any]) -> str:
     )
 
 
+def mistakes_text(found: dict[str, Any]) -> str:
+    """Return the part on wrong case files."""
+    row = found["rows"][0]
+    return (
+        "## Wrong case files\n\n"
+        + paragraph(
+            f"{row['cases']} case files, each wrong in one thing: every parameter with a value of another type, out of "
+            "its range, with a word that it does not take, and misspelt. Each must be refused with code 2, file and "
+            f"line, what was found and what is allowed, before anything is written. Not told so: {len(row['findings'])}. "
+            "The twenty commonest mistakes are tested word for word (`tests/cli/mistakes_test.py`)."
+        )
+        + findings_text(found["rows"])
+    )
+
+
 def soak_text(found: dict[str, Any]) -> str:
     """Return the part on a million steps."""
     row = found["rows"][0]
@@ -121,7 +136,13 @@ def soak_text(found: dict[str, Any]) -> str:
     )
 
 
-TEXTS = {"kills": kills_text, "writes": writes_text, "corruption": corruption_text, "soak": soak_text}
+TEXTS = {
+    "kills": kills_text,
+    "writes": writes_text,
+    "corruption": corruption_text,
+    "mistakes": mistakes_text,
+    "soak": soak_text,
+}
 
 
 def write_page(results: Path, page: Path) -> None:

@@ -9,7 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
+
+from conftest import Program
 
 # A sound case in the plane, and one in space: table, its keys.
 PLANE: dict[str, dict[str, str]] = {
@@ -164,3 +167,19 @@ def case_with(group: list[Fault], name: str) -> WrongCase:
             lines.append(fault.line)
             said[len(lines)] = fault.said
     return WrongCase(name, "\n".join(lines) + "\n", said)
+
+
+def faults_of_answer(thawslide: Program, folder: Path, case: WrongCase) -> list[str]:
+    """Return what is wrong with the program's answer to a wrong case."""
+    file = folder / "case.toml"
+    file.write_text(case.text)
+    outcome = thawslide("run", file, "--output", folder / "run")
+    wrong = []
+    if outcome.returncode != 2 or outcome.stdout != "":
+        wrong.append(f"exit code {outcome.returncode}, output {outcome.stdout!r}")
+    if sorted(each.name for each in folder.iterdir()) != ["case.toml"]:
+        wrong.append("something was written")
+    for line, said in case.said.items():
+        if not re.search(rf"^(error: )?{re.escape(str(file))}:{line}:\d+: {re.escape(said)}", outcome.stderr, re.M):
+            wrong.append(f"line {line} ({case.text.splitlines()[line - 1]}) is not told as: {said}")
+    return [f"{case.name}: {each}\n{outcome.stderr}" for each in wrong]

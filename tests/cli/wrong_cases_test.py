@@ -3,35 +3,18 @@
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 from conftest import Program
-from wrong_cases import FAULTS, WrongCase, case_with, faults, wrong_cases, wrong_cases_by_table
+from wrong_cases import FAULTS, case_with, faults, faults_of_answer, wrong_cases, wrong_cases_by_table
 
 
 @pytest.fixture(scope="module")
 def tables(thawslide: Program) -> list[dict[str, Any]]:
     described: list[dict[str, Any]] = json.loads(thawslide("describe", "--json").stdout)
     return described
-
-
-def faults_of_answer(thawslide: Program, folder: Path, case: WrongCase) -> list[str]:
-    """Return what is wrong with the program's answer to a wrong case."""
-    file = folder / "case.toml"
-    file.write_text(case.text)
-    outcome = thawslide("run", file, "--output", folder / "run")
-    wrong = []
-    if outcome.returncode != 2 or outcome.stdout != "":
-        wrong.append(f"exit code {outcome.returncode}, output {outcome.stdout!r}")
-    if sorted(each.name for each in folder.iterdir()) != ["case.toml"]:
-        wrong.append("something was written")
-    for line, said in case.said.items():
-        if not re.search(rf"^(error: )?{re.escape(str(file))}:{line}:\d+: {re.escape(said)}", outcome.stderr, re.M):
-            wrong.append(f"line {line} ({case.text.splitlines()[line - 1]}) is not told as: {said}")
-    return [f"{case.name}: {each}\n{outcome.stderr}" for each in wrong]
 
 
 def test_there_are_hundreds_of_wrong_cases(tables: list[dict[str, Any]]) -> None:
