@@ -5,6 +5,7 @@
 #include "app/run_loop.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/state_numbers.hpp"
 #include "config/read_case.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_folder.hpp"
@@ -66,10 +67,10 @@ int resume_run(const ResumeOptions& options) {
     const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
     simulation.restore(scalars);
     if (simulation.band_columns() != nullptr) {
-      simulation.restore_band_columns(blocks.at("band_columns"));
+      simulation.restore_band_columns(block_of(blocks, "band_columns"));
     }
     if (simulation.bed() != nullptr) {
-      simulation.restore_bed(blocks.at("bed"));
+      simulation.restore_bed(block_of(blocks, "bed"));
     }
     if (simulation.time() >= parameters.time.end - 0.5 * simulation.last_step()) {
       fmt::print("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
