@@ -205,7 +205,8 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
   reader.expect(particles.size(), "particles at t = 0:");
   const std::vector<std::size_t> record_bytes = row_sizes<Dim, Real>();
   // Some have left since, or joined.
-  particles.resize(reader.count(std::accumulate(record_bytes.begin(), record_bytes.end(), std::size_t{0}), "particles"));
+  particles.resize(
+      reader.count(std::accumulate(record_bytes.begin(), record_bytes.end(), std::size_t{0}), "particles"));
   scalars = reader.numbers();
   auto row_bytes = record_bytes.begin();
   for (mpm::FieldBase* field : particles.fields.all()) {
