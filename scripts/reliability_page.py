@@ -109,7 +109,8 @@ def mistakes_text(found: dict[str, Any]) -> str:
             f"{row['cases']} case files, each wrong in one thing: every parameter with a value of another type, out of "
             "its range, with a word that it does not take, and misspelt. Each must be refused with code 2, file and "
             "line, what was found and what is allowed, before anything is written. Not told so: "
-            f"{len(row['findings'])}. The twenty commonest mistakes are tested word for word (`tests/cli/mistakes_test.py`)."
+            f"{len(row['findings'])}. The twenty commonest mistakes are tested word for word "
+            "(`tests/cli/mistakes_test.py`)."
         )
         + findings_text(found["rows"])
     )

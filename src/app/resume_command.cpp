@@ -6,6 +6,7 @@
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/state_numbers.hpp"
 #include "config/case_changes.hpp"
 #include "config/describe.hpp"
 #include "config/read_case.hpp"
@@ -119,10 +120,10 @@ template <int Dim>
 void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>& scalars, const NamedNumbers& blocks) {
   simulation.restore(scalars);
   if (simulation.band_columns() != nullptr) {
-    simulation.restore_band_columns(blocks.at("band_columns"));
+    simulation.restore_band_columns(block_of(blocks, "band_columns"));
   }
   if (simulation.bed() != nullptr) {
-    simulation.restore_bed(blocks.at("bed"));
+    simulation.restore_bed(block_of(blocks, "bed"));
   }
 }
 
@@ -142,7 +143,11 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, const C
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
   std::vector<double> scalars;
   const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
-  restore<Dim>(simulation, scalars, blocks);
+  try {
+    restore<Dim>(simulation, scalars, blocks);
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("{}: {}", checkpoint.file.string(), error.what()));
+  }
   const double end = next.parameters.time.end, half_a_step = 0.5 * simulation.last_step();
   const bool is_at_end = simulation.time() >= end - half_a_step;
   if (is_at_end && simulation.time() > end + half_a_step) {

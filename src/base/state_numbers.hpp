@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/named_numbers.hpp"
 
 namespace thawslide {
 
@@ -62,6 +63,18 @@ class StateNumbers {
   const char* what_;
   std::size_t next_ = 0;
 };
+
+// One of the blocks of a checkpoint.
+inline const std::vector<double>& block_of(const NamedNumbers& blocks, const char* name) {
+  const auto found = blocks.find(name);
+  if (found == blocks.end()) {
+    throw UserError(
+        fmt::format("the checkpoint's state of the run is none that a run has: it has no block '{}' among {}. Use "
+                    "another copy of the checkpoint, or run the case from its start.",
+                    name, blocks.size()));
+  }
+  return found->second;
+}
 
 inline constexpr std::int64_t largest_whole = std::int64_t{1} << 53;  // up to which every whole number is a double
 

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/state_numbers.hpp"
 #include "sim/front.hpp"
 
 namespace thawslide::sim {
@@ -77,12 +78,6 @@ std::vector<PieceBelow> pieces_below(const Simulation<3, double>& simulation) {
   return pieces;
 }
 
-const std::vector<double>& block(const NamedNumbers& blocks, const char* name) {
-  const auto found = blocks.find(name);
-  THAWSLIDE_ASSERT(found != blocks.end(), "no block '{}' among {}", name, blocks.size());
-  return found->second;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -150,9 +145,9 @@ NamedNumbers RunRecords<Dim>::state() const {
 template <int Dim>
 void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
   if (maps_) {
-    maps_->restore(block(blocks, "maps"));
-    way_.restore(block(blocks, "centre_way"));
-    release_top_ = block(blocks, "release_top").at(0);
+    maps_->restore(block_of(blocks, "maps"));
+    way_.restore(block_of(blocks, "centre_way"));
+    release_top_ = StateNumbers(block_of(blocks, "release_top"), "release's top").next();
   }
 }
 

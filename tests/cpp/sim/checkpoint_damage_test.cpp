@@ -201,7 +201,7 @@ TEST_F(SignedCheckpoint, AnyOtherBytesGiveAStateOrAMessage) {
   const std::string body = body_of(bytes_of_last_);
   EXPECT_EQ(error_of_restored(body), "");
   std::mt19937 random(4);
-  for (int k = 0; k < 1000; ++k) {
+  for (int k = 0; k < 300; ++k) {
     std::string changed = body;
     char& byte = changed[random() % changed.size()];
     byte = another(byte, random);
@@ -213,9 +213,11 @@ TEST_F(SignedCheckpoint, AnyOtherBytesGiveAStateOrAMessage) {
 TEST_F(SignedCheckpoint, ParticlesThatNoRunHasAreRefused) {
   const auto with = [&](const auto& change) {
     Simulation<3, double> simulation(small_slide());
-    std::vector<double> scalars = simulation.scalars();
-    change(simulation.particles(), scalars);
+    std::vector<double> scalars;
     try {
+      static_cast<void>(
+          io::read_checkpoint<3, double>(io::newest_checkpoint(folder_), simulation.particles(), scalars));
+      change(simulation.particles(), scalars);
       simulation.restore(scalars);
     } catch (const UserError& error) {
       const std::string said = error.what();
@@ -227,7 +229,7 @@ TEST_F(SignedCheckpoint, ParticlesThatNoRunHasAreRefused) {
   using Numbers = std::vector<double>;
   const std::string run = "the checkpoint's state of the run is none that a run has: ";
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(with([](Particles&, Numbers&) {}), "");
+  EXPECT_EQ(with([](Particles& of, Numbers&) { EXPECT_EQ(of.size(), 32U); }), "");
   EXPECT_EQ(with([](Particles& of, Numbers&) { of.position(5, 1) = missing; }),
             run + "particle 5 lies outside the domain");
   EXPECT_EQ(with([](Particles& of, Numbers&) { of.position(5, 1) = 1e300; }),
@@ -235,7 +237,7 @@ TEST_F(SignedCheckpoint, ParticlesThatNoRunHasAreRefused) {
   EXPECT_EQ(with([](Particles& of, Numbers&) { of.body(5) = 7; }),
             run + "particle 5 has the body 7 and the material 0, which the case does not have");
   EXPECT_EQ(with([](Particles& of, Numbers&) { of.id(5) = 4; }),
-            run + "the particle in row 5 has the id 4; allowed: from 5 to 95");
+            run + "the particle in row 5 has the id 4; allowed: from 5 to 31");
   EXPECT_EQ(with([](Particles& of, Numbers&) { of.mass(5) = -1.0; }).find(run + "particle 5 has a mass of -1 kg"), 0U);
   EXPECT_EQ(with([](Particles&, Numbers& scalars) { scalars[3] = 0.5; }),
             run + "it has 0.5 for its number 4; allowed: whole numbers from 0 to 9007199254740992");
