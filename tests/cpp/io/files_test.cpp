@@ -64,7 +64,8 @@ TEST_F(Files, EmptyOnesAreReadAndMissingOnesAreNot) {
 
 TEST_F(Files, ProvenanceIsWrittenOfTextsThatAreNotUnicode) {
   Provenance provenance;
-  provenance.command = "thawslide run caf\xE9";
+  provenance.parts.push_back(part_of_this_process());
+  provenance.parts.back().command = "thawslide run caf\xE9";
   write_provenance(folder_ / "run.json", provenance);
   EXPECT_NE(read_file(folder_ / "run.json").find("\"thawslide run caf\xEF\xBF\xBD\""), std::string::npos);
 }
