@@ -79,7 +79,8 @@ void expect_the_same_positions(Scene<Dim>& scene) {
   EXPECT_TRUE(are_same(by_tiles, in_memory));
   EXPECT_NE(by_tiles.at("position"), fields_by_id(scene.particles).at("position"));
   const Pass<mpm::Nodes<Dim, double>, decltype(mpm::every_tile), decltype(everywhere)> pass{
-      "positions", scene.nodes, mpm::every_tile, everywhere};
+      "positions", scene.nodes, mpm::every_tile, everywhere,
+      false};  // the bad particle of smallest id may be of a later chunk
   expect_the_bits_of_lanes(pass, scene, mpm::LinearWeights{}, kernel);
   for (const mpm::BadParticle& found : bad) {
     EXPECT_EQ(found.fault, mpm::Fault::left_domain);
