@@ -76,16 +76,19 @@ void make_folder(const fs::path& folder) {
   }
 }
 
+bool is_unfinished(const fs::path& file) {
+  // Files of maps keep their own ending, by which they are told: NAME.123.part.tif.
+  return file.extension() == unfinished || file.stem().extension() == unfinished;
+}
+
 void remove_unfinished_files(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
     return;
   }
   std::vector<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const fs::path& file = entry.path();
-    // Files of maps keep their own ending, by which they are told: NAME.123.part.tif.
-    if (file.extension() == unfinished || file.stem().extension() == unfinished) {
-      found.push_back(file);
+    if (is_unfinished(entry.path())) {
+      found.push_back(entry.path());
     }
   }
   for (const fs::path& file : found) {

@@ -17,6 +17,9 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view t
 // Makes a folder where there is none. Throws WriteError with the path and the system's reason.
 void make_folder(const std::filesystem::path& folder);
 
+// Whether the name is that of a file beside its place, as a process writes it.
+[[nodiscard]] bool is_unfinished(const std::filesystem::path& file);
+
 // Removes what a process that was killed while it wrote has left beside its files; nothing where there is no folder.
 void remove_unfinished_files(const std::filesystem::path& folder);
 

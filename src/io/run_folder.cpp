@@ -2,6 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
@@ -12,20 +16,32 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* files_of_a_run[] = {"run.json",      "history.csv", "probes.csv",
-                                          "case.toml",     "terrain.csv", "particles.vtkhdf",
-                                          checkpoint_name, "report.html", previous_checkpoint_name,
-                                          "snapshots",     "inputs",      "figures",
-                                          "maps"};
+constexpr std::string_view files_of_a_run[] = {"run.json",      "history.csv", "probes.csv",
+                                               "case.toml",     "terrain.csv", "particles.vtkhdf",
+                                               checkpoint_name, "report.html", previous_checkpoint_name,
+                                               "snapshots",     "inputs",      "figures",
+                                               "maps"};
 
 bool holds_a_run(const fs::path& folder) {
   return fs::exists(folder / "run.json") || fs::exists(folder / "history.csv") || fs::exists(folder / "snapshots");
 }
 
-// A process that ended before it had written its case and run.json has left its lock, and nothing that anyone would
-// miss.
+// A process that ended before it had written run.json has left its lock, and nothing that anyone would miss.
 bool holds_no_more_than_a_start(const fs::path& folder) {
-  return fs::exists(folder / lock_name) && !fs::exists(folder / "run.json");
+  if (!fs::exists(folder / lock_name) || fs::exists(folder / "run.json")) {
+    return false;
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_known =
+        name == lock_name || is_unfinished(entry.path()) ||
+        std::find(std::begin(files_of_a_run), std::end(files_of_a_run), name) != std::end(files_of_a_run);
+    const bool has_rows = name == "history.csv" && fs::file_size(entry.path()) > 0;
+    if (!is_known || has_rows) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -78,7 +94,7 @@ RunLock make_run_folder(const fs::path& folder, bool overwrite) {
   }
   RunLock lock(folder);
   require_usable(folder, overwrite);
-  for (const char* name : files_of_a_run) {
+  for (const std::string_view name : files_of_a_run) {
     fs::remove_all(folder / name, error);
     if (error) {
       throw UserError(fmt::format("cannot remove {}: {}", (folder / name).string(), error.message()));

@@ -6,6 +6,7 @@
 
 #include "../support/case_from_text.hpp"
 #include "base/parallel.hpp"
+#include "io/checkpoint.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -108,10 +109,14 @@ TEST(Rest, GoesOnFromACheckpointAmidTheRestToTheSameEnd) {
   while (parted.time() < end - 0.2) {
     parted.step(parted.next_step(5.0));
   }
-  const std::vector<double> before = parted.scalars();
-  parted.restore(before);
-  EXPECT_EQ(parted.scalars(), before);
-  EXPECT_EQ(end_of(parted), end);
+  const auto folder = folder_of_this_test();
+  io::write_checkpoint<2, double>(folder, parted.particles(), parted.particles_at_start(), parted.scalars());
+  Simulation<2, double> resumed(paper_case(block));
+  std::vector<double> scalars;
+  io::read_checkpoint<2, double>(io::newest_checkpoint(folder), resumed.particles(), scalars);
+  resumed.restore(scalars);
+  EXPECT_EQ(resumed.scalars(), parted.scalars());
+  EXPECT_EQ(end_of(resumed), end);
 }
 
 }  // namespace
