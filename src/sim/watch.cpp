@@ -16,6 +16,10 @@ namespace {
 // Round-off of sums over particles, of which the potential energy is by far the largest.
 constexpr double round_off = 1e-10;
 
+// A body that all but rests holds so little energy that the step's own errors are a large share of it. Energy counts no
+// less than that of a fall by this share of a cell, which an instability passes within some steps.
+constexpr double noticed_fall = 0.01;
+
 // Energy that is there or went where the accounts say, less what came in [J]: what the transfers and the time steps
 // made, or lost. It is mechanical_residual_J and numerical_J of the history together, which in a stable run keep each
 // other's balance.
@@ -104,9 +108,11 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>& seen) 
   watch_.lowest_made = std::min(watch_.lowest_made, made);
   watch_.largest_energy = std::max(watch_.largest_energy, energy_so_far(ledger_, seen, watch_.held_at_start));
   const double growth = made - watch_.lowest_made;
-  const double allowed = parameters_.guards.energy_growth;
-  if (growth > allowed * watch_.largest_energy + round_off * static_cast<double>(std::abs(seen.potential))) {
-    stop_for_energy(growth, growth / watch_.largest_energy);
+  const double weight = static_cast<double>(seen.mass * model_.motion.gravity.norm());
+  const double energy = std::max(watch_.largest_energy, weight * noticed_fall * parameters_.grid.cell);
+  const double round_off_of_sums = round_off * static_cast<double>(std::abs(seen.potential));
+  if (growth > parameters_.guards.energy_growth * energy + round_off_of_sums) {
+    stop_for_energy(growth, growth / energy);
   }
 }
 

@@ -52,7 +52,9 @@ def test_a_run_at_rest_is_left_as_it_is(thawslide: Program, small_case: Path, tm
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0
     end = run_facts(run)["simulated_time_s"]
-    assert outcome.stdout == f"{run} has come to rest at {end:g} s; nothing to do\n"
+    told = run_facts(run)["message"]
+    assert told.startswith("the slide is at rest: ")
+    assert outcome.stdout == f"{run} has reached its end at {end:g} s: {told}; nothing to do\n"
     assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
 
 
@@ -65,11 +67,7 @@ def test_a_stop_amid_the_rest_changes_no_end(thawslide: Program, small_case: Pat
     assert thawslide("run", small_case, "--output", whole, "--overwrite", *RESTS, *words).returncode == 0
     assert thawslide("run", small_case, "--output", run, *RESTS, *words, *sets(time__end=stop)).returncode == 0
     assert run_facts(run)["simulated_time_s"] == pytest.approx(stop)
-    file = run / "case.toml"
-    text = file.read_text()
-    assert text.count(f"\nend = {stop} ") == 1
-    file.write_text(text.replace(f"\nend = {stop} ", "\nend = 5.0 "))
-    outcome = thawslide("resume", run)
+    outcome = thawslide("resume", run, "--end", 5)
     assert outcome.returncode == 0, outcome.stderr
     assert run_facts(run)["simulated_time_s"] == end
     assert run_facts(run)["message"] == run_facts(whole)["message"]
