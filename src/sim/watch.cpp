@@ -40,11 +40,6 @@ double energy_so_far(const Ledger<Dim, Real>& ledger, const WatchedSums<Real>& s
 
 }  // namespace
 
-std::string text_of(const Removed& removed) {
-  return fmt::format("{} particle{}: {} not finite, {} by their volume", removed.by_guards(),
-                     removed.by_guards() == 1 ? "" : "s", removed.not_finite, removed.volume);
-}
-
 template <int Dim, class Real>
 WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const {
   const auto smallest = static_cast<Real>(parameters_.guards.smallest_volume);

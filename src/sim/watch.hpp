@@ -1,6 +1,8 @@
 // What a run is watched for every few steps (guards, rest); a checkpoint keeps it.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string>
 
@@ -40,7 +42,10 @@ struct Removed {
 };
 
 // "12 particles: 3 not finite, 9 by their volume", of those that guards have removed.
-[[nodiscard]] std::string text_of(const Removed& removed);
+[[nodiscard]] inline std::string text_of(const Removed& removed) {
+  return fmt::format("{} particle{}: {} not finite, {} by their volume", removed.by_guards(),
+                     removed.by_guards() == 1 ? "" : "s", removed.not_finite, removed.volume);
+}
 
 // What a look at all particles finds.
 template <class Real>
