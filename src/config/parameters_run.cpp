@@ -103,8 +103,9 @@ std::vector<Parameter<Guards>> guard_parameters() {
       parameter(&Guards::energy_growth,
                 {.key = "energy_growth",
                  .range = {.low = 0, .low_open = true, .infinity_allowed = true},
-                 .text = "growth of energy without a cause, as a share of the energy so far (at least of a fall by a "
-                         "hundredth of a cell), that ends the run, looked at every 10 steps; inf: any. The step makes "
+                 .text = "growth of energy without a cause within some 500 steps, as a share of the energy so far (at "
+                         "least of a fall by a "
+                         "cell), that ends the run, looked at every 10 steps; inf: any. The step makes "
                          "such energy, not a particle: there is none to "
                          "remove"}),
       parameter(&Guards::smallest_step,

@@ -17,8 +17,12 @@ namespace {
 constexpr double round_off = 1e-10;
 
 // A body that all but rests holds so little energy that the step's own errors are a large share of it. Energy counts no
-// less than that of a fall by this share of a cell, which an instability passes within some steps.
-constexpr double noticed_fall = 0.01;
+// less than that of a fall by so many cells, which an instability passes within some steps.
+constexpr double noticed_fall = 1.0;
+
+// An instability grows within some hundred steps. What a body that rests for long makes little by little, and loses
+// again on the ground, is none: the level that energy rises from follows it by this share each time it is looked at.
+constexpr double forgotten_share = 0.02;
 
 // Energy that is there or went where the accounts say, less what came in [J]: what the transfers and the time steps
 // made, or lost. It is mechanical_residual_J and numerical_J of the history together, which in a stable run keep each
@@ -100,7 +104,7 @@ void Simulation<Dim, Real>::watch() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>& seen) {
   const double made = energy_made(ledger_, seen);
-  watch_.lowest_made = std::min(watch_.lowest_made, made);
+  watch_.lowest_made = std::min(made, watch_.lowest_made + forgotten_share * (made - watch_.lowest_made));
   watch_.largest_energy = std::max(watch_.largest_energy, energy_so_far(ledger_, seen, watch_.held_at_start));
   const double growth = made - watch_.lowest_made;
   const double weight = static_cast<double>(seen.mass * model_.motion.gravity.norm());

@@ -20,7 +20,7 @@ inline constexpr double stray_share = 0.005;
 struct Watch {
   double held_at_start = 0.0;   // elastic energy at t = 0 [J]
   double largest_energy = 0.0;  // largest so far of all that was held, moved or dissipated [J]
-  double lowest_made = 0.0;     // lowest so far of the energy that nothing accounts for [J]
+  double lowest_made = 0.0;     // lowest of late of the energy that nothing accounts for [J]
   double first_step = 0.0;      // the adaptive one at t = 0 [s]
   double rest_since = -1.0;     // [s]; negative: it moves
   double has_moved = 0.0;       // 1: more than the stray share has been faster than time.stop_at_rest
