@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
 
 namespace thawslide::io {
 
@@ -18,12 +17,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Whether another process holds the file. A file system without locks has none to refuse: runs go on there all the
+// same.
+bool is_held(int descriptor, int kind) { return flock(descriptor, kind | LOCK_NB) != 0 && errno == EWOULDBLOCK; }
+
 // Who only asks holds the lock for a moment, so one refusal tells nothing.
 bool take(int descriptor) {
   constexpr int attempts = 20;
   constexpr useconds_t pause = 5000;  // microseconds
   for (int k = 0; k < attempts; ++k) {
-    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+    if (!is_held(descriptor, LOCK_EX)) {
       return true;
     }
     usleep(pause);
@@ -39,12 +42,15 @@ bool is_of_name(int descriptor, const fs::path& file) {
          opened.st_dev == named.st_dev;
 }
 
-std::string holder_of(const fs::path& file) {
-  std::string text = read_file(file);
-  while (!text.empty() && text.back() == '\n') {
-    text.pop_back();
+// What the holder has written into the file, which it may have removed since.
+std::string holder_of(int descriptor) {
+  char text[512];
+  const ssize_t length = pread(descriptor, text, sizeof text, 0);
+  std::string words(text, length > 0 ? static_cast<std::size_t>(length) : 0);
+  while (!words.empty() && words.back() == '\n') {
+    words.pop_back();
   }
-  return text.empty() ? "another process" : text;
+  return words.empty() ? "another process" : words;
 }
 
 std::string this_process() {
@@ -65,9 +71,10 @@ RunLock::RunLock(const fs::path& folder) : file_(folder / lock_name), descriptor
       throw WriteError(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
     }
     if (!take(descriptor_)) {
+      const std::string holder = holder_of(descriptor_);
       close(descriptor_);
-      throw UserError(fmt::format("{} is being written by {}. Wait until that has ended, or stop it.", folder.string(),
-                                  holder_of(file_)));
+      throw UserError(
+          fmt::format("{} is being written by {}. Wait until that has ended, or stop it.", folder.string(), holder));
     }
   } while (!is_of_name(descriptor_, file_));
   const std::string text = this_process();
@@ -97,9 +104,10 @@ std::optional<std::string> process_at_work(const fs::path& folder) {
   if (descriptor < 0) {
     return std::nullopt;
   }
-  const bool is_free = flock(descriptor, LOCK_SH | LOCK_NB) == 0;
+  const std::optional<std::string> holder =
+      is_held(descriptor, LOCK_SH) ? std::optional(holder_of(descriptor)) : std::nullopt;
   close(descriptor);
-  return is_free ? std::nullopt : std::optional(holder_of(file));
+  return holder;
 }
 
 }  // namespace thawslide::io

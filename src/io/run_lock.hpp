@@ -1,4 +1,5 @@
-// Who writes a run's folder: a process holds the lock as long as it lives, however it ends.
+// Who writes a run's folder: a process holds the lock as long as it lives, however it ends. On a file system without
+// locks nobody is known to be at work.
 #pragma once
 
 #include <filesystem>

@@ -6,6 +6,7 @@ import hashlib
 import os
 import random
 import resource
+import shutil
 import subprocess
 import time
 from dataclasses import dataclass, field
@@ -108,15 +109,18 @@ def changed_files(expected: dict[str, str], found: dict[str, str]) -> list[str]:
 def killed(
     program: Path, subject: Subject, run: Path, expected: dict[str, str], span: float, chance: random.Random
 ) -> Trial:
-    """Kill a run at a random moment of `span` seconds, go on with it and compare."""
-    delay = chance.uniform(0.0, span)
+    """Kill a run at a random moment of `span` seconds, go on with it and compare; one that had ended is run again."""
     quiet = subprocess.DEVNULL
-    with subprocess.Popen(command_of(program, subject, run), stdout=quiet, stderr=quiet) as process:
-        try:
-            process.wait(timeout=delay)
-        except subprocess.TimeoutExpired:
-            process.kill()
-        code = process.wait()
+    code = 0
+    while code == 0:
+        delay = chance.uniform(0.0, span)
+        shutil.rmtree(run, ignore_errors=True)
+        with subprocess.Popen(command_of(program, subject, run), stdout=quiet, stderr=quiet) as process:
+            try:
+                process.wait(timeout=delay)
+            except subprocess.TimeoutExpired:
+                process.kill()
+            code = process.wait()
     remarks = unreadable(run) + go_on(program, subject, run)
     changed = changed_files(expected, digest(run))
     return Trial(subject.name, f"killed after {delay:.3f} s", code, "", not changed, remarks + changed)
