@@ -37,12 +37,12 @@ std::string advice_on(LimitKind kind) {
 
 template <int Dim, class Real>
 StepLimit Simulation<Dim, Real>::step_limit() const {
-  return sim::step_limit(parameters_, model_, band_thickness(), particles_);
+  return sim::step_limit(parameters_, model_, band_thickness(), particles());
 }
 
 template <int Dim, class Real>
 double Simulation<Dim, Real>::adaptive_step() const {
-  const double dt = parameters_.time.safety * largest_stable_step(parameters_, model_, band_thickness(), particles_);
+  const double dt = parameters_.time.safety * largest_stable_step(parameters_, model_, band_thickness(), particles());
   return parameters_.time.step > 0.0 ? std::min(dt, parameters_.time.step) : dt;
 }
 

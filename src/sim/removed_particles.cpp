@@ -202,6 +202,7 @@ void Simulation<Dim, Real>::remove_marked_particles() {
   if (none_stays || share > parameters_.guards.removed_mass) {
     stop_for_removed_mass(share);
   }
+  leave_device();
   grid_.remove(particles_, particles_.remove(marks_));
   update_ground();
 }

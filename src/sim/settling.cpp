@@ -20,6 +20,7 @@ void Simulation<Dim, Real>::settle() {
   }
   THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
                    static_cast<std::size_t>(next_id_) - particles_at_start_);
+  THAWSLIDE_ASSERT(!make_step_, "a run settles on the processor, before {} steps on a device", step_number_);
   const Model<Dim, Real> model = model_;
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();

@@ -33,6 +33,24 @@ void Simulation<Dim, Real>::step(double dt) {
   if (step_number_ == 0) {
     start_watch();  // once more: who set the run up may have changed the state
   }
+  if (make_step_) {
+    stopwatch_.time("step_on_device", [&] { take_step_on_device(); });
+  } else {
+    take_step_here();
+  }
+  ++step_number_;
+  const bool fixed = parameters_.time.stepping == config::Stepping::fixed && dt == parameters_.time.step;
+  time_ =
+      fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
+  last_step_ = dt;
+  if (looks_at_particles()) {
+    bring_particles_back();
+    look_after_step();
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::take_step_here() {
   stopwatch_.time("find_cells", [&] { find_particles_cells(); });
   stopwatch_.time("average_band_on_grid", [&] { average_band_on_grid(); });
   if (parameters_.mechanics.enabled) {
@@ -44,11 +62,11 @@ void Simulation<Dim, Real>::step(double dt) {
   stopwatch_.time("conduct_heat", [&] { conduct_heat(); });
   stopwatch_.time("drain_pore_pressure", [&] { drain_pore_pressure(); });
   stopwatch_.time("take_new_positions", [&] { take_new_positions(); });
-  ++step_number_;
-  const bool fixed = parameters_.time.stepping == config::Stepping::fixed && dt == parameters_.time.step;
-  time_ =
-      fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
-  last_step_ = dt;
+}
+
+// What ends a run, or takes particles out of it, or brings new ones.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::look_after_step() {
   watch();
   mark_bad_particles();
   stop_if_bad();
@@ -73,7 +91,7 @@ void Simulation<Dim, Real>::find_particles_cells() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::update_ground() {
+void Simulation<Dim, Real>::update_ground() const {
   if (model_.ground && grid_.blocks_changed()) {
     ground_.update(*model_.ground, grid_, model_.substrates.get());
   }
@@ -103,15 +121,7 @@ void Simulation<Dim, Real>::resolve_contact() {
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_, bed_to_meet());
   collect_bed();
-  ledger_.friction_work += contact_.friction_work;
-  ledger_.converted += model_.band.heat ? contact_.converted : contact_.friction_work;
-  ledger_.contact_loss += contact_.loss;
-  ledger_.frame_work += contact_.frame_work;
-  ledger_.damping += contact_.damping;
-  ledger_.gravity_impulse +=
-      dt_ * (ledger_.initial_mass + ledger_.joined_mass - ledger_.left_mass) * model_.motion.gravity;
-  ledger_.ground_impulse -= dt_ * contact_.force;
-  ledger_.constraint_impulse += contact_.constraint_impulse;
+  book_contact();
   if (model_.ground) {
     terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
   }
@@ -139,11 +149,7 @@ bool Simulation<Dim, Real>::filters_in_this_step() const {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_stress_and_porosity() {
-  const auto work = mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, bad_);
-  ledger_.stress_work += work.total;
-  ledger_.plastic += work.plastic;
-  ledger_.viscous += work.viscous;
-  ledger_.pore_work += model_.motion.effective_stress ? work.pore : Real(0);
+  book_stress_work(mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, bad_));
 }
 
 template <int Dim, class Real>
@@ -174,12 +180,7 @@ void Simulation<Dim, Real>::conduct_heat() {
   if (!model_.band.heat) {
     return;
   }
-  const auto gain = band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_);
-  ledger_.friction_heat += gain.friction;
-  ledger_.boundary_heat += gain.boundary;
-  ledger_.advection += gain.advection;
-  ledger_.capacity_heat += gain.capacity;
-  ledger_.porosity_heat += gain.porosity;
+  book_heat(band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_));
 }
 
 template <int Dim, class Real>

@@ -11,6 +11,7 @@
 #include "band/pore_pressure.hpp"
 #include "base/stopwatch.hpp"
 #include "config/case.hpp"
+#include "device/any_step.hpp"
 #include "mpm/motion.hpp"
 #include "sim/ledger.hpp"
 #include "sim/model.hpp"
@@ -49,6 +50,9 @@ class Simulation {
   // One time step of dt [s]. Throws RunError when a particle goes bad; the state then is that of the failed step.
   void step(double dt);
 
+  // From now on steps are taken on a device. Throws UserError, with the key, for what no device does yet.
+  void take_steps_on(const std::string& device, device::MakeStep<Dim, Real> make);
+
   // Particles join between two steps, with ids that none has had. They are in no band until the next step.
   void append(const std::vector<NewParticle<Dim, Real>>& joining);
 
@@ -67,9 +71,19 @@ class Simulation {
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] double last_step() const { return last_step_; }
   [[nodiscard]] std::int64_t step_number() const { return step_number_; }
-  [[nodiscard]] mpm::Particles<Dim, Real>& particles() { return particles_; }
-  [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const { return particles_; }
-  [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const { return grid_; }
+  // Who may change them must not keep the reference over a step that a device takes.
+  [[nodiscard]] mpm::Particles<Dim, Real>& particles() {
+    leave_device();
+    return particles_;
+  }
+  [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const {
+    bring_particles_back();
+    return particles_;
+  }
+  [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const {
+    bring_particles_back();
+    return grid_;
+  }
   [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const { return nodes_; }
   // Null without terrain.
   [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
@@ -99,9 +113,24 @@ class Simulation {
   void restore(const std::vector<double>& scalars);
 
  private:
+  // The step on a device (step_on_device.cpp).
+  void take_step_on_device();
+  // Where particles stand on a device, copies them; they stay there.
+  void bring_particles_back() const;
+  // The same, and the next step on the device begins with those of the processor.
+  void leave_device();
+  [[nodiscard]] bool looks_at_particles() const;
+
+  // What a step did goes to the accounts.
+  void book_contact();
+  void book_stress_work(const mpm::StressWork<Real>& work);
+  void book_heat(const band::HeatGain<Real>& gain);
+
   // The stages of a step, in order (simulation.cpp).
+  void take_step_here();
+  void look_after_step();
   void find_particles_cells();
-  void update_ground();
+  void update_ground() const;
   void momentum_to_grid();
   void average_band_on_grid();
   void resolve_contact();
@@ -164,10 +193,14 @@ class Simulation {
   config::Case parameters_;
   config::Site site_;
   Model<Dim, Real> model_;
-  mpm::Particles<Dim, Real> particles_;
-  mpm::SparseGrid<Dim, Real> grid_;
+  // Where a device takes the steps these are what was brought back last: how they are brought back is no change.
+  mutable mpm::Particles<Dim, Real> particles_;
+  mutable mpm::SparseGrid<Dim, Real> grid_;
+  mutable terrain::GroundOnGrid<Dim, Real> ground_;
+  mutable bool particles_are_here_ = true;
   mpm::Nodes<Dim, Real> nodes_;
-  terrain::GroundOnGrid<Dim, Real> ground_;
+  device::MakeStep<Dim, Real> make_step_;  // empty: the processor takes the steps
+  std::unique_ptr<device::AnyStep<Dim, Real>> device_step_;
   band::FlowDepth<Dim, Real> flow_depth_;
   std::optional<band::BaseColumns<Dim, Real>> band_columns_;
   std::optional<terrain::Bed<Dim, Real>> bed_;

@@ -12,6 +12,30 @@
 
 namespace thawslide::terrain {
 
+// Of a block by its key.
+template <int Dim>
+typename mpm::Tile<Dim>::Index first_node_of(std::uint64_t block) {
+  auto first = mpm::Tile<Dim>::index(block);
+  for (int& along : first) {
+    along *= mpm::Tile<Dim>::edge;
+  }
+  return first;
+}
+
+// What the nodes of a block learn of the ground. `substrates`: null where it is all of one kind.
+template <int Dim>
+void ask_ground(const Surface<Dim>& surface, const Substrates* substrates, std::uint64_t block, double cell,
+                GroundAtNode<Dim, double>* nodes) {
+  using T = mpm::Tile<Dim>;
+  const typename T::Index first = first_node_of<Dim>(block);
+  surface.at_block(first, cell, T::edge, nodes);
+  for (int n = 0; n < T::nodes && substrates != nullptr; ++n) {
+    const typename T::Index node = T::node({}, n);
+    const auto along = [&](std::size_t a) { return static_cast<double>(first[a] + node[a]) * cell; };
+    nodes[n].substrate = substrates->at(along(0), Dim == 3 ? along(1) : 0.0);
+  }
+}
+
 template <int Dim, class Real>
 class GroundOnGrid {
   using T = mpm::Tile<Dim>;
@@ -98,35 +122,25 @@ class GroundOnGrid {
 
   void learn(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
     std::array<GroundAtNode<Dim, double>, static_cast<std::size_t>(T::nodes)> nodes;
-    typename T::Index first = T::index(keys_[k]);
+    ask_ground<Dim>(surface, substrates, keys_[k], cell, nodes.data());
+    const typename T::Index first = first_node_of<Dim>(keys_[k]);
     typename Surface<Dim>::Place from, to;
-    for (int a = 0; a < Dim; ++a) {
-      first[static_cast<std::size_t>(a)] *= T::edge;
-      if (a + 1 < Dim) {
-        from[a] = static_cast<double>(first[static_cast<std::size_t>(a)] - 1) * cell;
-        to[a] = static_cast<double>(first[static_cast<std::size_t>(a)] + T::edge) * cell;
-      }
+    for (int a = 0; a + 1 < Dim; ++a) {
+      from[a] = static_cast<double>(first[static_cast<std::size_t>(a)] - 1) * cell;
+      to[a] = static_cast<double>(first[static_cast<std::size_t>(a)] + T::edge) * cell;
     }
-    surface.at_block(first, cell, T::edge, nodes.data());
     any_candidate_[k] = 0;
     partly_unknown_[k] = surface.is_known(from, to) ? 0 : 1;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       GroundAtNode<Dim, Real>& known = blocks_[k][n];
       known.candidate = nodes[n].candidate;
-      known.substrate = substrates != nullptr ? substrate_below(*substrates, first, static_cast<int>(n), cell) : 0;
+      known.substrate = nodes[n].substrate;
       known.normal = nodes[n].normal.template cast<Real>();
       known.area = static_cast<Real>(nodes[n].area);
       known.space = static_cast<Real>(nodes[n].space);
       known.distance = static_cast<Real>(nodes[n].distance);
       any_candidate_[k] |= known.candidate ? 1 : 0;
     }
-  }
-
-  // Of node n of the block whose first node is `first`.
-  static int substrate_below(const Substrates& substrates, const typename T::Index& first, int n, double cell) {
-    const typename T::Index node = T::node({}, n);
-    const auto along = [&](std::size_t a) { return static_cast<double>(first[a] + node[a]) * cell; };
-    return substrates.at(along(0), Dim == 3 ? along(1) : 0.0);
   }
 
   void find_near(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) {

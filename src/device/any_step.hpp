@@ -1,0 +1,35 @@
+// A step whose backend and shape functions were chosen when the program was built, for whoever takes steps on a device
+// without knowing which.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "device/step_model.hpp"
+#include "mpm/particle_view.hpp"
+
+namespace thawslide::device {
+
+template <int Dim, class Real>
+class AnyStep {
+ public:
+  AnyStep() = default;
+  virtual ~AnyStep() = default;
+  AnyStep(const AnyStep&) = delete;
+  AnyStep& operator=(const AnyStep&) = delete;
+
+  // One step of dt [s] from a time [s] on.
+  virtual StepSums<Dim, Real> step(Real time, Real dt) = 0;
+  // Particles move in memory to stand in canonical order. Results do not depend on it.
+  virtual void sort_in_memory() = 0;
+  // To as many particles, in the order of the device's memory.
+  virtual void copy_to(const mpm::ParticleView<Dim, Real>& particles) const = 0;
+};
+
+// Copies so many particles to a device, where steps go on from them.
+template <int Dim, class Real>
+using MakeStep = std::function<std::unique_ptr<AnyStep<Dim, Real>>(
+    const StepModel<Dim, Real>&, const mpm::ParticleView<Dim, Real>&, std::size_t count, AskGround<Dim, Real>)>;
+
+}  // namespace thawslide::device

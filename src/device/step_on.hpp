@@ -1,0 +1,31 @@
+// The step on one backend, as an AnyStep.
+#pragma once
+
+#include <utility>
+
+#include "device/any_step.hpp"
+#include "device/step.hpp"
+
+namespace thawslide::device {
+
+template <class Backend, class Shape, int Dim, class Real>
+class StepOn final : public AnyStep<Dim, Real> {
+ public:
+  // backend: what Backend is made of.
+  template <class... Words>
+  StepOn(const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
+         AskGround<Dim, Real> ask_ground, Words&&... backend)
+      : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask_ground)) {}
+
+  StepSums<Dim, Real> step(Real time, Real dt) override { return step_.step(time, dt); }
+  void sort_in_memory() override { step_.sort_in_memory(); }
+  void copy_to(const mpm::ParticleView<Dim, Real>& particles) const override { step_.particles().copy_to(particles); }
+
+  [[nodiscard]] Backend& backend() { return backend_; }
+
+ private:
+  Backend backend_;
+  Step<Backend, Shape, Dim, Real> step_;
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,109 @@
+#include "sim/device_model.hpp"
+
+#include "base/instances.hpp"
+#include "terrain/ground_on_grid.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+template <int Dim, class Real>
+bool has_heat_at_faces(const band::BandModel<Dim, Real>& band) {
+  for (const band::HeatFace<Real>& face : band.faces) {
+    if (face.kind != band::FaceHeat::insulated) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real>& model) {
+  const struct {
+    bool is_asked;
+    const char* what;
+  } options[] = {
+      {!parameters.mechanics.enabled, "mechanics.enabled = false"},
+      {model.motion.shape != mpm::ShapeKind::ugimp, "mechanics.shape_functions other than \"ugimp\""},
+      {model.motion.transfer != mpm::TransferKind::flip_pic, "mechanics.transfer = \"apic\""},
+      {model.motion.filter_order > 0, "mechanics.fmpm_order"},
+      {!model.constraints.frames.empty(), "[frame]"},
+      {parameters.terrain.form == config::TerrainForm::rigid_points, "terrain.form = \"rigid_points\""},
+      {model.contact.band_columns, "band.model = \"columns\""},
+      {model.bed_density > Real(0), "[bed]"},
+      {model.band.pressure, "pressure.enabled = true"},
+      {model.band.heat && has_heat_at_faces(model.band), "heat.boundary"},
+      {model.band.heat && !model.band.secant_capacity, "heat.update = \"printed\""},
+      {model.band.current_masses, "heat.masses = \"current\""},
+      {model.band.rescaling_mixes, "band.thickness_change = \"conserving\""},
+      {static_cast<bool>(model.layer_thickness), "band.cut_cells = \"equal_thickness\""},
+      {parameters.band.thickness.value.size() > 1, "band.thickness as a table"},
+  };
+  for (const auto& option : options) {
+    if (option.is_asked) {
+      return option.what;
+    }
+  }
+  return "";
+}
+
+template <int Dim, class Real>
+device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, const Model<Dim, Real>& model,
+                                             double thickness, bool starts) {
+  device::StepModel<Dim, Real> device;
+  device.cell = static_cast<Real>(parameters.grid.cell);
+  for (std::size_t body = 0; body < model.body_names.size(); ++body) {
+    device.half_sizes.push_back(model.motion.sizes.half(body));
+  }
+  device.sides = model.motion.sides;
+  device.gravity = model.motion.gravity;
+  device.pic_share = model.motion.pic_share;
+  device.mass_damping = model.contact.mass_damping;
+  device.materials = model.motion.materials;
+  device.phases = model.motion.phases;
+  device.effective_stress = model.motion.effective_stress;
+  device.lubrication = model.motion.lubrication;
+  device.faces = model.constraints;
+  // Particles that are to be removed may be on their way out of the domain until the end of the step.
+  const Real margin = parameters.grid.leaving == config::Policy::remove ? device.cell : Real(0);
+  const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
+  device.lower = -beyond;
+  device.upper = model.constraints.extent + beyond;
+  device.base = model.contact.law;
+  device.base_holds = model.contact.base_holds;
+  device.pore_pressure = model.contact.pore_pressure;
+  device.distance_check = model.contact.distance_check;
+  if (model.band.heat) {
+    device.heat = device::HeatModel<Real>{
+        .physics = model.band,
+        .content = model.band.heat_content,
+        .hydraulic_conductivity = model.band.hydraulic_conductivity,
+        .scaling_in_band = thickness > 0.0 ? device.cell / static_cast<Real>(thickness) : Real(1),
+        .starts = starts,
+        .scales_all = model.band.region == band::ScaledRegion::all};
+  }
+  return device;
+}
+
+template <int Dim, class Real>
+device::AskGround<Dim, Real> ground_for_device(const Model<Dim, Real>& model, Real cell) {
+  if (!model.ground) {
+    return {};
+  }
+  return [ground = model.ground, substrates = model.substrates, cell](std::uint64_t block,
+                                                                      terrain::GroundAtNode<Dim, Real>* nodes) {
+    terrain::ask_ground<Dim>(*ground, substrates.get(), block, static_cast<double>(cell), nodes);
+  };
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                         \
+  template std::string not_on_devices<Dim, Real>(const config::Case&, const Model<Dim, Real>&);                  \
+  template device::StepModel<Dim, Real> device_model_of<Dim, Real>(const config::Case&, const Model<Dim, Real>&, \
+                                                                   double, bool);                                \
+  template device::AskGround<Dim, Real> ground_for_device<Dim, Real>(const Model<Dim, Real>&, Real cell);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,124 @@
+// Steps that a device takes (src/device), and how its particles come back.
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "sim/device_model.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::take_steps_on(const std::string& device, device::MakeStep<Dim, Real> make) {
+  const std::string missing = not_on_devices(parameters_, model_);
+  if (!missing.empty()) {
+    throw UserError(fmt::format("{}: no step on {} does {} yet. Run it on the processor: --device cpu",
+                                parameters_.name, device, missing));
+  }
+  leave_device();
+  make_step_ = std::move(make);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::take_step_on_device() {
+  if (!device_step_) {
+    device_step_ = make_step_(device_model_of(parameters_, model_, band_thickness(), step_number_ == 0),
+                              mpm::view_of(particles_), particles_.size(), ground_for_device(model_, grid_.cell()));
+  }
+  if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
+    device_step_->sort_in_memory();
+  }
+  const device::StepSums<Dim, Real> sums = device_step_->step(static_cast<Real>(time_), dt_);
+  particles_are_here_ = false;
+  contact_ = sums.contact;
+  book_contact();
+  ledger_.numerical += sums.particle_kinetic - contact_.node_kinetic;
+  ledger_.numerical += sums.mapped_back;
+  book_stress_work(sums.deformed.work);
+  ledger_.band_rescale += sums.band_rescale;
+  book_heat(sums.heat);
+  bad_ += sums.deformed.bad;
+  bad_ += sums.bad;
+}
+
+// Whether what follows a step needs the particles, or only the next one does, wherever it is taken.
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::looks_at_particles() const {
+  return !make_step_ || bad_.id >= 0 || step_number_ % watch_interval == 0 ||
+         parameters_.grid.leaving == config::Policy::remove || parameters_.terrain.kind == config::TerrainKind::dem;
+}
+
+// The grid becomes that of where particles stood when they came last, as it is after a step of the processor: of those
+// that have gone bad since, or have left, it knows their last sound place.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::bring_particles_back() const {
+  if (particles_are_here_) {
+    return;
+  }
+  particles_are_here_ = true;
+  grid_.update(particles_, 0);
+  update_ground();
+  std::vector<std::int64_t> ids(particles_.size());
+  for (std::size_t p = 0; p < ids.size(); ++p) {
+    ids[p] = particles_.id(p);
+  }
+  device_step_->copy_to(mpm::view_of(particles_));
+  // They have come in the device's order.
+  std::vector<std::uint32_t> places(static_cast<std::size_t>(next_id_)), order(ids.size());
+  for (std::size_t p = 0; p < ids.size(); ++p) {
+    places[static_cast<std::size_t>(particles_.id(p))] = static_cast<std::uint32_t>(p);
+  }
+  for (std::size_t p = 0; p < ids.size(); ++p) {
+    order[p] = places[static_cast<std::size_t>(ids[p])];
+  }
+  particles_.reorder(order);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::leave_device() {
+  bring_particles_back();
+  device_step_.reset();
+}
+
+// Contact and everything that acts on the slide as a whole.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::book_contact() {
+  ledger_.friction_work += contact_.friction_work;
+  ledger_.converted += model_.band.heat ? contact_.converted : contact_.friction_work;
+  ledger_.contact_loss += contact_.loss;
+  ledger_.frame_work += contact_.frame_work;
+  ledger_.damping += contact_.damping;
+  ledger_.gravity_impulse +=
+      dt_ * (ledger_.initial_mass + ledger_.joined_mass - ledger_.left_mass) * model_.motion.gravity;
+  ledger_.ground_impulse -= dt_ * contact_.force;
+  ledger_.constraint_impulse += contact_.constraint_impulse;
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::book_stress_work(const mpm::StressWork<Real>& work) {
+  ledger_.stress_work += work.total;
+  ledger_.plastic += work.plastic;
+  ledger_.viscous += work.viscous;
+  ledger_.pore_work += model_.motion.effective_stress ? work.pore : Real(0);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>& gain) {
+  ledger_.friction_heat += gain.friction;
+  ledger_.boundary_heat += gain.boundary;
+  ledger_.advection += gain.advection;
+  ledger_.capacity_heat += gain.capacity;
+  ledger_.porosity_heat += gain.porosity;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                               \
+  template void Simulation<Dim, Real>::take_steps_on(const std::string&, device::MakeStep<Dim, Real>); \
+  template void Simulation<Dim, Real>::take_step_on_device();                                          \
+  template bool Simulation<Dim, Real>::looks_at_particles() const;                                     \
+  template void Simulation<Dim, Real>::bring_particles_back() const;                                   \
+  template void Simulation<Dim, Real>::leave_device();                                                 \
+  template void Simulation<Dim, Real>::book_contact();                                                 \
+  template void Simulation<Dim, Real>::book_stress_work(const mpm::StressWork<Real>&);                 \
+  template void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,133 @@
+// Runs whose steps a device takes, the processor in a card's place, against runs of the processor: particles, accounts
+// and errors. The stages of Simulation are compiled without contraction here.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "../support/fields.hpp"
+#include "../support/two_bodies.hpp"
+#include "base/error.hpp"
+#include "device/host_backend.hpp"
+#include "device/step_on.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+using device::Host, device::ThreadOrder;
+
+template <int Dim>
+device::MakeStep<Dim, double> in_place_of_a_card(ThreadOrder order) {
+  return [order](const auto& model, const auto& particles, std::size_t count,
+                 auto ask_ground) -> std::unique_ptr<device::AnyStep<Dim, double>> {
+    return std::make_unique<device::StepOn<Host, mpm::Ugimp<double>, Dim, double>>(model, particles, count,
+                                                                                   std::move(ask_ground), order);
+  };
+}
+
+template <int Dim>
+config::Case sliding_bodies(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> sets{"pressure.enabled=false"};
+  sets.insert(sets.end(), more.begin(), more.end());
+  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, "type = \"flat\"\nelevation = 0.0", sets);
+}
+
+template <int Dim>
+void expect_the_same_run(const config::Case& parameters, int steps) {
+  Simulation<Dim, double> on_processor(parameters), on_device(parameters);
+  on_device.take_steps_on("a card", in_place_of_a_card<Dim>(ThreadOrder::shuffled));
+  on_device.set_sorting_interval(32);
+  for (int k = 0; k < steps; ++k) {
+    on_processor.step(on_processor.next_step(10.0));
+    on_device.step(on_device.next_step(10.0));
+    ASSERT_EQ(on_device.time(), on_processor.time());
+  }
+  const auto numbers = fields_by_id(on_device.particles());
+  for (const auto& [name, of_processor] : fields_by_id(on_processor.particles())) {
+    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
+        << name;
+  }
+  const auto expected = history_row(on_processor), found = history_row(on_device);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    // Sums over particles go by where these stood when they came back last.
+    EXPECT_NEAR(found[k].second, expected[k].second, 1e-9 * std::abs(expected[k].second) + 1e-6) << found[k].first;
+  }
+}
+
+TEST(DeviceRun, GivesTheParticlesOfTheProcessor) {
+  expect_the_same_run<2>(sliding_bodies<2>(), 75);
+  expect_the_same_run<2>(sliding_bodies<2>({"time.stepping=\"adaptive\""}), 45);
+  expect_the_same_run<3>(sliding_bodies<3>(), 35);
+}
+
+// Steps go on from particles that the processor has changed.
+TEST(DeviceRun, GoesOnFromWhatTheProcessorMakesOfIt) {
+  const config::Case parameters = sliding_bodies<2>();
+  Simulation<2, double> on_processor(parameters), on_device(parameters);
+  on_device.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::backward));
+  for (Simulation<2, double>* simulation : {&on_processor, &on_device}) {
+    for (int k = 0; k < 7; ++k) {
+      simulation->step(0.002);
+    }
+    mpm::Particles<2, double>& particles = simulation->particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.velocity(p, 0) *= 0.5;
+    }
+    for (int k = 0; k < 6; ++k) {
+      simulation->step(0.002);
+    }
+  }
+  const auto numbers = fields_by_id(on_device.particles());
+  for (const auto& [name, of_processor] : fields_by_id(on_processor.particles())) {
+    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
+        << name;
+  }
+}
+
+std::string error_of(Simulation<2, double>& simulation) {
+  try {
+    for (int k = 0; k < 200; ++k) {
+      simulation.step(0.002);
+    }
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(DeviceRun, EndsWithTheSameWords) {
+  const config::Case parameters = sliding_bodies<2>();
+  Simulation<2, double> on_processor(parameters), on_device(parameters);
+  on_device.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+  for (Simulation<2, double>* simulation : {&on_processor, &on_device}) {
+    for (std::size_t p = 0; p < simulation->particles().size(); ++p) {
+      simulation->particles().velocity(p, 0) = -500.0;
+    }
+  }
+  const std::string expected = error_of(on_processor);
+  EXPECT_NE(expected.find("left the domain"), std::string::npos) << expected;
+  EXPECT_EQ(error_of(on_device), expected);
+}
+
+TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
+  const std::pair<const char*, const char*> options[] = {
+      {"mechanics.transfer=\"apic\"", "mechanics.transfer = \"apic\""},
+      {"mechanics.enabled=false", "mechanics.enabled = false"},
+      {"heat.masses=\"current\"", "heat.masses = \"current\""}};
+  for (const auto& [set, told] : options) {
+    Simulation<2, double> simulation(sliding_bodies<2>({set}));
+    try {
+      simulation.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+      ADD_FAILURE() << set;
+    } catch (const UserError& error) {
+      EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("--device cpu"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim
