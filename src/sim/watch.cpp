@@ -110,6 +110,7 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>& seen) 
   const double weight = static_cast<double>(seen.mass * model_.motion.gravity.norm());
   const double energy = std::max(watch_.largest_energy, weight * noticed_fall * parameters_.grid.cell);
   const double round_off_of_sums = round_off * static_cast<double>(std::abs(seen.potential));
+  watch_.made_share = made > round_off_of_sums ? made / energy : 0.0;
   if (growth > parameters_.guards.energy_growth * energy + round_off_of_sums) {
     stop_for_energy(growth, growth / energy);
   }
@@ -136,6 +137,18 @@ bool Simulation<Dim, Real>::is_at_rest() const {
 }
 
 template <int Dim, class Real>
+std::string Simulation<Dim, Real>::energy_note() const {
+  if (watch_.made_share <= parameters_.guards.energy_growth) {
+    return "";
+  }
+  return fmt::format(
+      "note: by t = {:.6g} s the steps have made {:.3g} % of all energy, little by little and without a cause: do not "
+      "trust what the slide does from here on. A body without viscosity flutters: give its material a viscosity_time "
+      "(0.001 to 0.02 s), or take smaller steps",
+      time_, 100.0 * watch_.made_share);
+}
+
+template <int Dim, class Real>
 std::string Simulation<Dim, Real>::rest_text() const {
   return fmt::format(
       "the slide is at rest: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s "
@@ -150,6 +163,7 @@ std::string Simulation<Dim, Real>::rest_text() const {
   template void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>&); \
   template void Simulation<Dim, Real>::note_rest(const WatchedSums<Real>&);            \
   template bool Simulation<Dim, Real>::is_at_rest() const;                             \
+  template std::string Simulation<Dim, Real>::energy_note() const;                     \
   template std::string Simulation<Dim, Real>::rest_text() const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
