@@ -52,7 +52,7 @@ def test_a_signal_that_was_ignored_stays_ignored(
 
 def test_a_signal_ends_the_settling(binary: Path, thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
-    words = sets(mechanics__initial_stress="settle", mechanics__settle_time=1000)
+    words = sets(mechanics__initial_stress="settle", mechanics__settle_time=1000, mechanics__settle_damping=10)
     process = started(binary, run, small_case, *words)
     wait_for(run / "run.json")
     time.sleep(0.3)
