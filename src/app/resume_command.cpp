@@ -78,8 +78,9 @@ std::vector<std::string> sets_of(const ResumeOptions& options) {
 }
 
 // What to do about changes of case.toml.
-std::string advice_on(const fs::path& folder, const std::vector<std::string>& changes) {
-  if (changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0) {
+std::string advice_on(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& changes) {
+  const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
+  if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
     return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.", folder.string(),
                        config::read_case(folder).time.end);
   }
@@ -113,7 +114,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
   const std::vector<std::string> changes = config::differences(now, before, config::keys_of(sets));
   if (!changes.empty()) {
     throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
-                                joined(changes, "; "), advice_on(folder, changes)));
+                                joined(changes, "; "), advice_on(folder, facts, changes)));
   }
   if (!last.changes.empty() && sets.empty()) {
     ask_again(folder, last.changes);
@@ -152,7 +153,7 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
       throw UserError(fmt::format(
           "{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(), facts.simulated_time,
           file.string(), joined(changes, "; "),
-          is_known ? advice_on(folder, changes) : "There is no checkpoint to go on from: run the case anew."));
+          is_known ? advice_on(folder, facts, changes) : "There is no checkpoint to go on from: run the case anew."));
     }
   }
   say("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
