@@ -77,17 +77,15 @@ std::vector<std::string> sets_of(const ResumeOptions& options) {
   return sets;
 }
 
-// What to do about changes of case.toml.
-std::string advice_on(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& changes) {
+// What to do about changes of case.toml; otherwise: than for a later end.
+std::string advice_on(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& changes,
+                      const std::string& otherwise) {
   const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
   if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
     return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.", folder.string(),
                        config::read_case(folder).time.end);
   }
-  return fmt::format(
-      "Put that back, or remove the file, which then is written anew; what should change is told on the command line: "
-      "thawslide resume {} --set KEY=VALUE, or --end T.",
-      folder.string());
+  return otherwise;
 }
 
 [[noreturn]] void ask_again(const fs::path& folder, const std::vector<std::string>& changes) {
@@ -113,8 +111,12 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
   }
   const std::vector<std::string> changes = config::differences(now, before, config::keys_of(sets));
   if (!changes.empty()) {
+    const std::string usual = fmt::format(
+        "Put that back, or remove the file, which then is written anew; what should change is told on the command "
+        "line: thawslide resume {} --set KEY=VALUE, or --end T.",
+        folder.string());
     throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
-                                joined(changes, "; "), advice_on(folder, facts, changes)));
+                                joined(changes, "; "), advice_on(folder, facts, changes, usual)));
   }
   if (!last.changes.empty() && sets.empty()) {
     ask_again(folder, last.changes);
@@ -150,10 +152,10 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
         is_known ? config::differences(io::read_file(file), io::case_of(io::newest_checkpoint(folder)))
                  : std::vector<std::string>{"its SHA-256 is not that of run.json"};
     if (!changes.empty()) {
-      throw UserError(fmt::format(
-          "{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(), facts.simulated_time,
-          file.string(), joined(changes, "; "),
-          is_known ? advice_on(folder, facts, changes) : "There is no checkpoint to go on from: run the case anew."));
+      throw UserError(fmt::format("{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(),
+                                  facts.simulated_time, file.string(), joined(changes, "; "),
+                                  is_known ? advice_on(folder, facts, changes, "Put that back, or run the case anew.")
+                                           : "There is no checkpoint to go on from: run the case anew."));
     }
   }
   say("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,

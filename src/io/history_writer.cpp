@@ -104,11 +104,12 @@ class KeptRows {
         }
       }
     }
+    constexpr std::size_t most_named = 20;
     std::string words;
-    for (const auto& [from, to] : gaps) {
-      words += fmt::format("{}{:g} and {:g} s", words.empty() ? ": between t = " : ", ", from, to);
+    for (std::size_t k = 0; k < std::min(gaps.size(), most_named); ++k) {
+      words += fmt::format("{}{:g} and {:g} s", k == 0 ? ": between t = " : ", ", gaps[k].first, gaps[k].second);
     }
-    return words;
+    return gaps.size() > most_named ? fmt::format("{} and {} more", words, gaps.size() - most_named) : words;
   }
 
   std::string text_;  // with the header

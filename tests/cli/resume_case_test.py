@@ -91,6 +91,9 @@ def test_a_new_end_in_the_case_file_is_answered_with_the_command(
     assert outcome.stderr == (
         f"error: {begin}: time.end is 0.4, was 0.2. A new end is told on the command line: {command}.\n"
     )
+    edit(done, "\ncohesion = 100000.0 ", "\ncohesion = 200000.0 ")
+    assert "Put that back, or r" in thawslide("resume", done).stderr
+    edit(done, "\ncohesion = 200000.0 ", "\ncohesion = 100000.0 ")
     outcome = thawslide(*command.split()[1:])
     assert outcome.returncode == 0, outcome.stderr
     assert run_facts(done)["simulated_time_s"] == pytest.approx(0.4)
