@@ -91,7 +91,7 @@ def figures_of(run: Run) -> list[str]:
 def _page(run: Run, report: Report) -> str:
     title = html.escape(run.title)
     damage = f"Could not be drawn: {', '.join(report.faults)}. Why stands under Left out." if report.faults else ""
-    notes = [note for note in (ending_note(run), damage, boiling_note(run), *run.warnings) if note]
+    notes = [note for note in (ending_note(run), damage, boiling_note(run), *resume_notes(run), *run.warnings) if note]
     parts = [
         f"<h1>{title}</h1>",
         f'<p class="where">Run folder: {html.escape(run.folder.resolve().name)}</p>',
@@ -175,6 +175,13 @@ def ending_note(run: Run) -> str:
     words = "was still running when this was written" if run.ending is Ending.RUNNING else run.ending.value
     note = f"This run did not come to its end ({words}){message}. The figures show what it has written."
     return f"{note} {go_on}" if run.ending is Ending.STOPPED else note
+
+
+def resume_notes(run: Run) -> list[str]:
+    """Return what the parts of a run found damaged when they went on with it, such as rows that are lost."""
+    parts = run.facts.get("parts")
+    told = [part.get("notes") for part in parts if isinstance(part, dict)] if isinstance(parts, list) else []
+    return [str(note)[:1000] for notes in told if isinstance(notes, list) for note in notes[:100]]
 
 
 def _table(rows: Any, style: str, head: Sequence[str] = ()) -> str:

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/thread_choice.hpp"
+#include "io/checkpoint.hpp"
 #include "sim/history.hpp"
 #include "sim/slide_left.hpp"
 
@@ -82,10 +83,9 @@ int end_unwritten(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>
     output.write_provenance(simulation, "stopped", error.what(), output.wall_seconds());
   } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): it is told below what could not be written first
   }
-  say_error(
-      "error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` goes on from the last "
-      "checkpoint\n",
-      error.what(), simulation.time(), folder.string());
+  say_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
+            simulation.time(), folder.string(),
+            io::has_checkpoint(folder) ? "goes on from the last checkpoint" : "starts it again");
   return static_cast<int>(ExitCode::not_written);
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import re
 import signal
@@ -70,6 +71,9 @@ def test_one_process_at_a_time(thawslide: Program, at_work: subprocess.Popen[str
         outcome = thawslide(*words)
         assert outcome.returncode == 2
         assert outcome.stderr == message
+    outcome = thawslide("run", LAMPLUGH, "--output", run)
+    assert outcome.returncode == 2
+    assert f"{run} is being written by process {at_work.pid} on {socket.gethostname()}. Give another" in outcome.stderr
     assert at_work.poll() is None and (run / "history.csv").exists()
 
 
@@ -108,6 +112,32 @@ def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Pa
         "checkpoint_age_s": pytest.approx(30, abs=30),
         "time_left_s": None,
     }
+
+
+def test_a_broken_case_hides_nobody(thawslide: Program, at_work: subprocess.Popen[str], tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    (run / "case.toml").write_text("[time\n")
+    process = f"process {at_work.pid} on {socket.gethostname()}"
+    outcome = thawslide("status", run)
+    assert outcome.returncode == 0, outcome.stderr
+    first, second, *_ = outcome.stdout.splitlines()
+    assert first == f"{run}: running, by {process}"
+    assert re.match(rf"  \S+ s simulated; its end is not known: {re.escape(str(run / 'case.toml'))}:1:", second), second
+    facts = json.loads(thawslide("status", run, "--json").stdout)
+    assert (facts["state"], facts["process"], facts["end_s"]) == ("running", process, None)
+    at_work.kill()
+    at_work.communicate(timeout=LIMIT)
+    assert json.loads(thawslide("status", run, "--json").stdout)["state"] == "killed"
+
+
+def test_a_run_that_sets_up_is_alive(thawslide: Program, tmp_path: Path) -> None:
+    (tmp_path / "run.lock").write_text("process 7 on here\n")
+    with (tmp_path / "run.lock").open() as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        outcome = thawslide("status", tmp_path)
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith(f"{tmp_path}: running, by process 7 on here\n")
+    assert thawslide("status", tmp_path).returncode == 2
 
 
 def test_status_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> None:
