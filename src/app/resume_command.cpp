@@ -9,6 +9,7 @@
 #include "base/state_numbers.hpp"
 #include "config/case_changes.hpp"
 #include "config/describe.hpp"
+#include "config/notices.hpp"
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
@@ -131,6 +132,7 @@ template <int Dim>
 int start_anew(const fs::path& folder, const Continuation& next) {
   Notes notes;
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
+  notes.add(config::notices(next.parameters));
   say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   take_changes(folder, next);
@@ -162,6 +164,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, const C
   if (!checkpoint.note.empty()) {
     say("note: {}; going on from the checkpoint before\n", checkpoint.note);
   }
+  notes.add(config::notices(next.parameters));
   say("going on from t = {:g} s\n", simulation.time());
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
   take_changes(folder, next);
