@@ -11,6 +11,7 @@
 #include "base/state_numbers.hpp"
 #include "config/case_changes.hpp"
 #include "config/describe.hpp"
+#include "config/notices.hpp"
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
@@ -222,6 +223,7 @@ template <int Dim>
 int start_anew(const fs::path& folder, const Continuation& next) {
   Notes notes;
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
+  notes.add(config::notices(next.parameters));
   say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   take_changes(folder, next);
@@ -260,6 +262,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
         fmt::format("{}; it is kept as {}, and the run goes on from the checkpoint before", checkpoint.note,
                     aside.filename().string()));
   }
+  notes.add(config::notices(next.parameters));
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
   say("going on from t = {:g} s{}\n", simulation.time(),
       had_come_to > simulation.time()
@@ -283,7 +286,7 @@ int resume_run(const ResumeOptions& options) {
                     folder.string()));
   }
   const std::vector<std::string> sets = sets_of(options);
-  if (sets.empty() && !io::process_at_work(folder)) {
+  if (sets.empty() && io::process_at_work(folder).process.empty()) {
     const io::Provenance facts = io::read_provenance(folder);
     if (facts.status == "done") {
       return leave_finished(folder, facts);

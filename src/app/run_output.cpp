@@ -24,9 +24,17 @@ Schedule::Schedule(double interval, double begin, double last_step, double end)
 }
 
 void Schedule::pass(double time, double step) {
-  while (next_ < end_ && next_ <= time + 0.5 * step) {
-    next_ = std::min(static_cast<double>(++count_) * interval_, end_);
+  if (interval_ <= 0.0) {
+    return;
   }
+  // The first multiple beyond the time, computed: to count up to it would take for ever where the interval is tiny. The
+  // quotient is rounded, so that the floor may be two short.
+  const double beyond = time + 0.5 * step;
+  count_ = std::max(count_, std::floor(beyond / interval_));
+  for (int k = 0; k < 2 && count_ * interval_ <= beyond; ++k) {
+    ++count_;
+  }
+  next_ = std::min(count_ * interval_, end_);
 }
 
 bool Schedule::reached(double time, double step) {

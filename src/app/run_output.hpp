@@ -31,7 +31,7 @@ class Schedule {
   void pass(double time, double step);
 
   double interval_, end_, next_;
-  std::int64_t count_ = 1;
+  double count_ = 1.0;  // of intervals up to the next moment
 };
 
 template <int Dim>

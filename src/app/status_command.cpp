@@ -22,13 +22,13 @@ namespace fs = std::filesystem;
 namespace {
 
 struct RunStatus {
-  std::string state;  // running, killed, done, stopped, failed
+  std::string state;  // running, killed, done, stopped, failed; unknown: running or killed, without locks to tell by
   std::string message;
-  std::string process;                              // that is at work; empty: none
-  double time = 0.0;                                // simulated [s]
-  std::optional<double> end;                        // [s]; nothing where the case cannot be read
-  std::string case_error;                           // why not
-  std::optional<double> checkpoint_age, time_left;  // wall-clock [s]
+  std::string process;                                              // that is at work; empty: none
+  double time = 0.0;                                                // simulated [s]
+  std::optional<double> end;                                        // [s]; nothing where the case cannot be read
+  std::string case_error;                                           // why not
+  std::optional<double> checkpoint_age, last_write_age, time_left;  // wall-clock [s]
 };
 
 // Of a time as run.json has it, in UTC [s].
@@ -56,31 +56,49 @@ void add_end(const fs::path& folder, RunStatus& status) {
   }
 }
 
+// Of the file of the run that was written last.
+std::optional<double> last_write_age(const fs::path& folder) {
+  std::optional<double> least;
+  for (const fs::path& place : {folder, folder / "snapshots"}) {
+    std::error_code error;
+    for (fs::directory_iterator entry(place, error), end; !error && entry != end; entry.increment(error)) {
+      const std::optional<double> age = fs::is_regular_file(entry->path()) ? age_of(entry->path()) : std::nullopt;
+      least = age && least ? std::min(*age, *least) : age ? age : least;
+    }
+  }
+  return least;
+}
+
 RunStatus status_of(const fs::path& folder) {
-  const std::optional<std::string> process = io::process_at_work(folder);
+  const io::AtWork at_work = io::process_at_work(folder);
   if (!fs::exists(folder / "run.json")) {
-    if (process) {
+    if (!at_work.process.empty()) {
       RunStatus status;
       status.state = "running";
-      status.process = *process;
+      status.process = at_work.process;
       status.case_error = "the run is setting up and has not written run.json yet";
       return status;
     }
     throw UserError(
         fmt::format("{} holds no run: there is no run.json, which a run writes when it begins.", folder.string()));
   }
+  const bool is_at_work = !at_work.process.empty();
   const io::Provenance facts = io::read_provenance(folder);
   RunStatus status;
-  status.process = process.value_or("");
-  status.state = process ? "running" : facts.status == "running" ? "killed" : facts.status;
-  status.message = process ? "" : facts.message;
+  status.process = at_work.process;
+  status.state = is_at_work                  ? "running"
+                 : facts.status != "running" ? facts.status
+                 : at_work.is_known          ? "killed"
+                                             : "unknown";
+  status.message = is_at_work ? "" : facts.message;
   status.time = std::max(facts.simulated_time, io::last_time_in_history(folder / "history.csv").value_or(0.0));
+  status.last_write_age = last_write_age(folder);
   add_end(folder, status);
   status.checkpoint_age = age_of(folder / io::checkpoint_name);
   const io::RunPart& part = facts.parts.back();
   const std::optional<double> elapsed = seconds_since(part.started);
   const bool is_known = elapsed && *elapsed >= 1.0 && status.time > part.from_time;  // run.json tells whole seconds
-  if (process && is_known && status.end) {
+  if (is_at_work && is_known && status.end) {
     status.time_left = *elapsed * std::max(0.0, *status.end - status.time) / (status.time - part.from_time);
   }
   return status;
@@ -96,6 +114,7 @@ std::string json_text(const RunStatus& status) {
   json["process"] = status.process;
   json["simulated_time_s"] = status.time;
   json["end_s"] = number(status.end);
+  json["last_write_age_s"] = number(status.last_write_age);
   json["checkpoint_age_s"] = number(status.checkpoint_age);
   json["time_left_s"] = number(status.time_left);
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -107,6 +126,12 @@ std::string words_for(const RunStatus& status) {
   }
   if (status.state == "killed") {
     return "its process is gone without a word: it was killed, or the machine went down";
+  }
+  if (status.state == "unknown") {
+    return fmt::format(
+        "whether it runs cannot be told, as its file system has no locks; its last file was written {} "
+        "ago",
+        duration_text(status.last_write_age.value_or(0.0)));
   }
   const std::string words = status.state == "failed" ? "the run went bad" : status.state;
   return status.message.empty() ? words : words + ": " + status.message;
@@ -129,6 +154,8 @@ void print_status(const fs::path& folder, const RunStatus& status) {
                            : "no checkpoint yet");
   if (status.state == "killed" || status.state == "stopped") {
     fmt::print("  to go on: thawslide resume {}\n", folder.string());
+  } else if (status.state == "unknown") {
+    fmt::print("  if nothing writes there any more: thawslide resume {}\n", folder.string());
   } else if (status.state == "failed") {
     fmt::print("  the message above says what to change; then run the case anew\n");
   }

@@ -83,9 +83,9 @@ void require_usable(const fs::path& folder, bool overwrite) {
       throw UserError(
           fmt::format("the output folder {} holds other files and no run. Give another --output.", folder.string()));
     }
-    if (const auto process = process_at_work(folder); process && !overwrite) {
-      throw UserError(fmt::format("the output folder {} is being written by {}. Give another --output.",
-                                  folder.string(), *process));
+    if (const std::string process = process_at_work(folder).process; !process.empty() && !overwrite) {
+      throw UserError(
+          fmt::format("the output folder {} is being written by {}. Give another --output.", folder.string(), process));
     }
     if (!overwrite) {
       throw UserError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import json
+import os
 import re
 import signal
 import socket
@@ -14,6 +15,7 @@ from pathlib import Path
 
 import pytest
 from conftest import LAMPLUGH, LIMIT, Program, run_facts, sets
+from faults import FAILING_WRITES
 
 LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
 
@@ -98,6 +100,32 @@ def test_a_second_signal_stops_at_once(
         assert json.loads(thawslide("status", tmp_path / "run", "--json").stdout)["state"] == "killed"
 
 
+def test_where_there_are_no_locks_it_cannot_be_told_whether_a_run_lives(
+    thawslide: Program, plain_environment: dict[str, str], small_case: Path, tmp_path: Path
+) -> None:
+    if not FAILING_WRITES.exists():
+        pytest.skip(f"there is no {FAILING_WRITES}: build it")
+    without = plain_environment | {"LD_PRELOAD": str(FAILING_WRITES), "FAULT_LOCKS": "absent"}
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run, environment=without).returncode == 0
+    facts = run_facts(run) | {"status": "running"}
+    (run / "run.json").write_text(json.dumps(facts))
+    (run / "run.lock").touch()
+    long_ago = time.time() - 300
+    for file in run.rglob("*"):
+        os.utime(file, (long_ago, long_ago))
+    said = thawslide("status", run, environment=without).stdout
+    assert re.match(
+        re.escape(f"{run}: whether it runs cannot be told, as its file system has no locks; its last file was written ")
+        + r"5 min 0\d s ago\n",
+        said,
+    ), said
+    assert said.endswith(f"  if nothing writes there any more: thawslide resume {run}\n")
+    told = json.loads(thawslide("status", run, "--json", environment=without).stdout)
+    assert told["state"] == "unknown" and told["last_write_age_s"] == pytest.approx(300, abs=60)
+    assert json.loads(thawslide("status", run, "--json").stdout)["state"] == "killed"
+
+
 def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
@@ -109,6 +137,7 @@ def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Pa
         "process": "",
         "simulated_time_s": pytest.approx(0.2),
         "end_s": 0.2,
+        "last_write_age_s": pytest.approx(30, abs=30),
         "checkpoint_age_s": pytest.approx(30, abs=30),
         "time_left_s": None,
     }
