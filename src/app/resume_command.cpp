@@ -132,10 +132,10 @@ template <int Dim>
 int start_anew(const fs::path& folder, const Continuation& next) {
   Notes notes;
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
-  notes.add(config::notices(next.parameters));
   say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   take_changes(folder, next);
+  notes.add(config::notices(next.parameters));
   return start_and_run<Dim>(simulation, output, folder);
 }
 
@@ -164,10 +164,10 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, const C
   if (!checkpoint.note.empty()) {
     say("note: {}; going on from the checkpoint before\n", checkpoint.note);
   }
-  notes.add(config::notices(next.parameters));
   say("going on from t = {:g} s\n", simulation.time());
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
   take_changes(folder, next);
+  notes.add(config::notices(next.parameters));
   return run_to_end<Dim>(simulation, output, folder);
 }
 
