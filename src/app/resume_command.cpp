@@ -223,10 +223,10 @@ template <int Dim>
 int start_anew(const fs::path& folder, const Continuation& next) {
   Notes notes;
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
-  notes.add(config::notices(next.parameters));
   say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   take_changes(folder, next);
+  notes.add(config::notices(next.parameters));
   return start_and_run<Dim>(simulation, output, folder);
 }
 
@@ -262,7 +262,6 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
         fmt::format("{}; it is kept as {}, and the run goes on from the checkpoint before", checkpoint.note,
                     aside.filename().string()));
   }
-  notes.add(config::notices(next.parameters));
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
   say("going on from t = {:g} s{}\n", simulation.time(),
       had_come_to > simulation.time()
@@ -270,6 +269,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
                         simulation.time())
           : "");
   take_changes(folder, next);
+  notes.add(config::notices(next.parameters));
   return run_to_end<Dim>(simulation, output, folder);
 }
 
