@@ -102,20 +102,23 @@ def found_for(run: Run, target: Target) -> str:
         return f"at {shown(start, 's')}" if np.isfinite(start) else "never"
     if not quantity_of(target.quantity).is_compared:
         return "not compared"
+    if quantity_of(target.quantity).column in run.history:
+        time, first, last = own_time(run, target), *(float(run.history["time_s"][end]) for end in (0, -1))
+        if time < first or time > last:
+            return f"not compared: the run is of {first:g} to {last:g} s"
     value = _found(run, target)
     return "" if value is None else shown(target.in_its_unit(value), target.unit_words)
 
 
 def _found(run: Run, target: Target) -> float | None:
-    """Return what a run has for a reported value, in the first unit of its quantity; None for nothing to compare."""
+    """Return what a run has for a reported value within its times, in the first unit of its quantity.
+
+    None for nothing to compare.
+    """
     history, quantity = run.history, quantity_of(target.quantity)
     if quantity.column in history:
         time = own_time(run, target)
-        return (
-            float(np.interp(time, history["time_s"], history[quantity.column]))
-            if time <= history["time_s"][-1]
-            else None
-        )
+        return None if np.isnan(time) else float(np.interp(time, history["time_s"], history[quantity.column]))
     if quantity.fact:
         fact = run.facts.get(quantity.fact)
         return None if fact is None else float(fact)

@@ -18,7 +18,7 @@ from thawslide.figures.animation import Film
 from thawslide.key_numbers import boiling_note, found_for, key_numbers, shown
 from thawslide.maps import Maps, on_map
 from thawslide.run import Run
-from thawslide.run_facts import Ending
+from thawslide.run_facts import Ending, last_write_age
 from thawslide.whole_file import written_whole
 
 
@@ -91,7 +91,7 @@ def figures_of(run: Run) -> list[str]:
 def _page(run: Run, report: Report) -> str:
     title = html.escape(run.title)
     damage = f"Could not be drawn: {', '.join(report.faults)}. Why stands under Left out." if report.faults else ""
-    notes = [note for note in (ending_note(run), damage, boiling_note(run), *run.warnings) if note]
+    notes = [note for note in (ending_note(run), damage, boiling_note(run), *resume_notes(run), *run.warnings) if note]
     parts = [
         f"<h1>{title}</h1>",
         f'<p class="where">Run folder: {html.escape(run.folder.resolve().name)}</p>',
@@ -171,10 +171,30 @@ def ending_note(run: Run) -> str:
             "This run stopped without a word: run.json says that it runs, but no process holds run.lock. It was "
             f"killed, or its machine went down. {go_on} The figures show what it has written."
         )
+    if run.ending is Ending.UNTOLD:
+        return (
+            "run.json says that this run is running; whether it is cannot be told, as its file system has no locks. "
+            f"Its last file was written {_age(last_write_age(run.folder))} before this page. If nothing writes there "
+            f"any more, {go_on} The figures show what it has written."
+        )
     message = f": {told}" if told else ""
     words = "was still running when this was written" if run.ending is Ending.RUNNING else run.ending.value
     note = f"This run did not come to its end ({words}){message}. The figures show what it has written."
     return f"{note} {go_on}" if run.ending is Ending.STOPPED else note
+
+
+def resume_notes(run: Run) -> list[str]:
+    """Return what the parts of a run found damaged when they went on with it, such as rows that are lost."""
+    parts = run.facts.get("parts")
+    told = [part.get("notes") for part in parts if isinstance(part, dict)] if isinstance(parts, list) else []
+    return [str(note)[:1000] for notes in told if isinstance(notes, list) for note in notes[:100]]
+
+
+def _age(seconds: float) -> str:
+    for unit, length in (("days", 86400.0), ("hours", 3600.0), ("minutes", 60.0)):
+        if seconds >= 2.0 * length:
+            return f"{seconds / length:.0f} {unit}"
+    return f"{seconds:.0f} s"
 
 
 def _table(rows: Any, style: str, head: Sequence[str] = ()) -> str:

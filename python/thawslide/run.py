@@ -23,6 +23,7 @@ __all__ = ["History", "Numbers", "Run", "Snapshot", "Target"]
 _HOW = {
     Ending.RUNNING: ("still running", "was still running"),
     Ending.KILLED: ("killed?", "stopped without a word"),
+    Ending.UNTOLD: ("running or killed", "was running or killed"),
     Ending.STOPPED: ("stopped", "was stopped"),
     Ending.FAILED: ("failed", "went bad"),
 }  # in brackets behind a time, and as a verb
@@ -147,7 +148,7 @@ class Run:
     def last_time(self) -> float:
         """The time [s] that the run has come to."""
         told = self.facts.get("simulated_time_s")
-        of_its_start = self.ending in (Ending.RUNNING, Ending.KILLED)  # run.json is
+        of_its_start = self.ending in (Ending.RUNNING, Ending.KILLED, Ending.UNTOLD)  # run.json is
         return float(self.history["time_s"][-1] if told is None or of_its_start else told)
 
     @property

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import fcntl
+import math
 import os
+import time
+from contextlib import suppress
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -31,6 +34,7 @@ class Ending(Enum):
     FAILED = "failed"
     RUNNING = "running"
     KILLED = "killed"  # run.json says running, and no process holds the lock
+    UNTOLD = "running or killed"  # run.json says running, and the file system has no locks to tell by
     UNKNOWN = "unknown"  # there is no run.json
 
 
@@ -50,16 +54,29 @@ def read_facts(path: Path) -> dict[str, Any]:
 
 def ending_of(folder: Path, facts: dict[str, Any]) -> Ending:
     """Return how a run ended. While a process holds its lock it runs, whatever run.json says: it may have resumed."""
-    if is_held(folder / LOCK):
+    held = is_held(folder / LOCK)
+    if held:
         return Ending.RUNNING
     if not facts:
         return Ending.UNKNOWN
     ending = Ending(facts["status"])
-    return Ending.KILLED if ending is Ending.RUNNING else ending
+    if ending is not Ending.RUNNING:
+        return ending
+    return Ending.UNTOLD if held is None else Ending.KILLED
 
 
-def is_held(lock: Path) -> bool:
-    """Return whether a process holds a lock file. One that cannot be asked, as on some network disks, counts as held.
+def last_write_age(folder: Path) -> float:
+    """Return how long ago [s] the file of a run was written that was written last; nan where there is none."""
+    ages = []
+    for file in (*folder.glob("*"), *folder.glob("snapshots/*")):
+        with suppress(OSError):  # a run that lives renames its files
+            if file.is_file():
+                ages.append(time.time() - file.stat().st_mtime)
+    return min(ages, default=math.nan)
+
+
+def is_held(lock: Path) -> bool | None:
+    """Return whether a process holds a lock file; None where the file system has no locks, as some network disks.
 
     A shared lock is asked for, so that several can ask at once.
     """
@@ -70,8 +87,10 @@ def is_held(lock: Path) -> bool:
         return False
     try:
         fcntl.flock(handle, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    except OSError:
+    except BlockingIOError:
         return True
+    except OSError:
+        return None
     finally:
         os.close(handle)  # which lets go of the lock
     return False

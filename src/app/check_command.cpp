@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/commands.hpp"
+#include "app/input_guard.hpp"
 #include "app/map_files.hpp"
 #include "app/notes_of_setup.hpp"
 #include "app/run_loop.hpp"
@@ -94,13 +95,20 @@ int check_case(const CheckOptions& options) {
     SetupFacts facts = facts_of<Dim>(simulation, records);
     add_notes_of_setup(simulation, facts.bodies, facts.disk, facts.disk_folder, notes);
     facts.notes = notes.all();
-    const auto setup = options.draws ? setup_json<Dim>(simulation) : nlohmann::ordered_json();
-    facts.seconds = measured_step_seconds<Dim>(simulation) * facts.steps;
     if (options.draws) {
       facts.picture = options.picture.empty() ? picture_beside(parameters.file) : options.picture;
-      draw_setup(setup, facts.picture);
+      require_no_input_at(facts.picture, "--picture", parameters);
+      draw_setup(setup_json<Dim>(simulation), facts.picture);
     }
-    fmt::print("{}", options.json ? json_of(facts) : text_of(facts));
+    const auto tell = [&] { fmt::print("{}", options.json ? json_of(facts) : text_of(facts)); };
+    try {
+      facts.seconds = measured_step_seconds<Dim>(simulation) * facts.steps;
+    } catch (const RunError& error) {  // what was known before holds all the same
+      facts.error = error.what();
+      tell();
+      throw;
+    }
+    tell();
     return static_cast<int>(ExitCode::done);
   });
 }

@@ -25,6 +25,7 @@ struct ResumeOptions {
   std::string folder;
   int threads = 0;
   std::vector<std::string> sets;  // what changes of the case
+  std::string end;                // a new time.end [s]; empty: as it is
 };
 int resume_run(const ResumeOptions& options);
 

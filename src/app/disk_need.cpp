@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/map_output.hpp"
@@ -25,8 +26,12 @@ constexpr double bytes_beside_points = 1e4;  // of a snapshot
 constexpr double most_of_free = 0.9;         // what a run may take of the free disk without a word
 constexpr double gigabyte = 1e9;
 
-// Whole intervals until the end, and the start.
-double count_of(double end, double interval) { return std::ceil(end / interval * (1.0 - 1e-12)) + 1.0; }
+// Whole intervals until the end, and the start; where steps are fixed, no more than they are. Adaptive ones are cut to
+// the intervals.
+double count_of(const config::Time& time, double interval, double steps) {
+  const double intervals = std::ceil(time.end / interval * (1.0 - 1e-12));
+  return (time.stepping == config::Stepping::fixed ? std::min(intervals, steps) : intervals) + 1.0;
+}
 
 double bytes_of_files(const config::Case& parameters) {
   double bytes = 0.0;
@@ -46,14 +51,14 @@ DiskNeed disk_need(const sim::Simulation<Dim, double>& simulation, const sim::Fl
   const config::Time& time = parameters.time;
   const auto particles = static_cast<double>(simulation.particles().size());
   DiskNeed need;
-  need.snapshots = count_of(time.end, time.output_interval);
+  need.snapshots = count_of(time, time.output_interval, steps);
   need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_beside_points;
   need.checkpoints = generations;
   need.checkpoint = particles * static_cast<double>(io::checkpoint_bytes_of_particle<Dim>());
   if (simulation.bed() != nullptr) {
     need.checkpoint += static_cast<double>(simulation.bed()->state().size() * sizeof(double));
   }
-  need.history_rows = time.history_interval > 0.0 ? count_of(time.end, time.history_interval) : steps + 1.0;
+  need.history_rows = time.history_interval > 0.0 ? count_of(time, time.history_interval, steps) : steps + 1.0;
   const double columns = static_cast<double>(sim::history_row(simulation).size()) +
                          columns_of_probe * static_cast<double>(parameters.probes.size());
   need.history = need.history_rows * columns * bytes_of_number;
@@ -86,7 +91,7 @@ std::string doubt_of_disk(const config::Case& parameters, const DiskNeed& need, 
   const double interval = is_history ? parameters.time.history_interval : parameters.time.output_interval;
   const std::string what =
       is_history ? fmt::format("{:.3g} rows of history.csv, {:.3g} GB", need.history_rows, need.history / gigabyte)
-                 : fmt::format("{:.0f} snapshots of {:.3g} MB, {:.3g} GB", need.snapshots, need.snapshot / 1e6,
+                 : fmt::format("{:.6g} snapshots of {:.3g} MB, {:.3g} GB", need.snapshots, need.snapshot / 1e6,
                                of_snapshots / gigabyte);
   return fmt::format(
       "{}: {} is {:g} s: that is {}; with all else {:.3g} GB, and {:.3g} GB are free where {} is. Make it larger, or "

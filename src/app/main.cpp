@@ -103,14 +103,8 @@ int run_program(int count, char** arguments) {
           "Change a key from here on, which is recorded: --set time.output_interval=5 (may be given many times)")
       ->take_all()
       ->allow_extra_args(false);
-  std::string new_end;
-  resume->add_option("--end", new_end, "Short for --set time.end=END [s]")->check(above_zero());
-  resume->callback([&] {
-    if (!new_end.empty()) {
-      resume_options.sets.push_back("time.end=" + new_end);
-    }
-    exit_code = resume_run(resume_options);
-  });
+  resume->add_option("--end", resume_options.end, "Short for --set time.end=END [s]")->check(above_zero());
+  resume->callback([&] { exit_code = resume_run(resume_options); });
 
   StatusOptions status_options;
   CLI::App* status = program.add_subcommand("status", "Say whether a run is alive, how far it is, and how to go on");
@@ -215,6 +209,9 @@ int main(int count, char** arguments) {
   thawslide::let_threads_wait_passively(arguments);
   try {
     return run_program(count, arguments);
+  } catch (const thawslide::WriteError& error) {
+    fmt::print(stderr, "error: {}\n", printable(error.what()));
+    return static_cast<int>(ExitCode::not_written);
   } catch (const thawslide::UserError& error) {
     fmt::print(stderr, "error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::user_mistake);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "config/notices.hpp"
+#include "config/reported_values.hpp"
 #include "sim/doubts_of_bodies.hpp"
 #include "sim/map_grid.hpp"
 
@@ -14,6 +15,7 @@ void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const st
   const config::Case& parameters = simulation.parameters();
   notes.add(sim::note_on_map_cell(parameters, simulation.site()));
   notes.add(config::notices(parameters));
+  notes.add(config::note_on_late_values(parameters));
   notes.add(sim::doubts_of_bodies(parameters, bodies));
   notes.add(doubt_of_disk(parameters, disk, free_on_disk(folder), folder));
 }

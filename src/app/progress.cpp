@@ -24,6 +24,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 std::string duration_text(double seconds) {
+  constexpr double year = 365.25 * 86400.0, most_years_in_hours = 10.0;
+  if (!(seconds < most_years_in_hours * year)) {
+    return fmt::format("{:.3g} years", seconds / year);
+  }
   const auto whole = static_cast<long>(std::lround(seconds));
   if (whole >= 3600) {
     return fmt::format("{} h {:02d} min", whole / 3600, whole % 3600 / 60);

@@ -1,4 +1,6 @@
 // thawslide resume.
+#include <algorithm>
+
 #include "app/commands.hpp"
 #include "app/map_files.hpp"
 #include "app/run_loop.hpp"
@@ -9,9 +11,11 @@
 #include "base/state_numbers.hpp"
 #include "config/case_changes.hpp"
 #include "config/describe.hpp"
+#include "config/notices.hpp"
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/history_writer.hpp"
 #include "io/run_lock.hpp"
 #include "io/sha256.hpp"
 
@@ -60,7 +64,40 @@ void tell_changed_originals(const std::vector<io::InputFile>& inputs) {
   }
 }
 
-// case.toml must be what the run's checkpoint was written with, or what a resume that was cut off has put there.
+std::string sha256_of_text(const std::string& text) { return io::sha256_hex(text.data(), text.size()); }
+
+// What changes of the case, with --end among it.
+std::vector<std::string> sets_of(const ResumeOptions& options) {
+  std::vector<std::string> sets = options.sets;
+  if (!options.end.empty()) {
+    if (config::keys_of(sets).count("time.end") > 0) {
+      throw UserError("--end is short for --set time.end: give one of the two.");
+    }
+    sets.push_back("time.end=" + options.end);
+  }
+  return sets;
+}
+
+// What to do about changes of case.toml; otherwise: than for a later end.
+std::string advice_on(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& changes,
+                      const std::string& otherwise) {
+  const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
+  if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
+    return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.", folder.string(),
+                       config::read_case(folder).time.end);
+  }
+  return otherwise;
+}
+
+[[noreturn]] void ask_again(const fs::path& folder, const std::vector<std::string>& changes) {
+  throw UserError(
+      fmt::format("the last resume was cut off before its change took hold. Give it again: thawslide resume {} --set "
+                  "{}",
+                  folder.string(), joined(changes, " --set ")));
+}
+
+// case.toml must be what the run's checkpoint was written with, or what a resume that was cut off has put there; what
+// `sets` replaces may be anything.
 void require_same_case(const fs::path& folder, const io::Provenance& facts, const std::string& before,
                        const std::vector<std::string>& sets) {
   const fs::path file = folder / "case.toml";
@@ -70,22 +107,69 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
   }
   const std::string now = io::read_file(file);
   const io::RunPart& last = facts.parts.back();
-  if (io::sha256_hex(now.data(), now.size()) == last.case_sha256) {
+  if (sha256_of_text(now) == last.case_sha256) {
     return;
   }
-  const std::vector<std::string> changes = config::differences(now, before);
+  const std::vector<std::string> changes = config::differences(now, before, config::keys_of(sets));
   if (!changes.empty()) {
-    throw UserError(fmt::format(
-        "{} has changed since the run wrote its checkpoint: {}. Put that back, or remove the file, which then "
-        "is written anew; what should change is told on the command line: thawslide resume {} --set "
-        "KEY=VALUE, or --end T.",
-        file.string(), joined(changes, "; "), folder.string()));
+    const std::string usual = fmt::format(
+        "Put that back, or remove the file, which then is written anew; what should change is told on the command "
+        "line: thawslide resume {} --set KEY=VALUE, or --end T.",
+        folder.string());
+    throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
+                                joined(changes, "; "), advice_on(folder, facts, changes, usual)));
   }
   if (!last.changes.empty() && sets.empty()) {
-    throw UserError(fmt::format(
-        "the last resume was cut off before its change took hold. Give it again: thawslide resume {} --set {}",
-        folder.string(), joined(last.changes, " --set ")));
+    ask_again(folder, last.changes);
   }
+}
+
+// The same before the first checkpoint, when nothing but its SHA-256 tells what the case was.
+void require_case_of_start(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& sets) {
+  const fs::path file = folder / "case.toml";
+  const char* lost = fs::exists(file) ? "has changed since the run began (run.json has its SHA-256)" : "is missing";
+  const std::string now = fs::exists(file) ? io::sha256_of_file(file) : "";
+  const io::RunPart& last = facts.parts.back();
+  if (now == last.case_sha256) {
+    return;
+  }
+  if (!last.changes.empty() && facts.parts.size() > 1 && now == facts.parts[facts.parts.size() - 2].case_sha256) {
+    if (sets.empty()) {
+      ask_again(folder, last.changes);
+    }
+    return;
+  }
+  throw UserError(fmt::format(
+      "{} {}, and there is no checkpoint to tell what it was. Put back what was there, or run the case anew.",
+      file.string(), lost));
+}
+
+// A run at its end stays as it is, and in a folder that cannot be written too.
+int leave_finished(const fs::path& folder, const io::Provenance& facts) {
+  const fs::path file = folder / "case.toml";
+  const bool is_known = io::has_checkpoint(folder);
+  if (fs::exists(file) && io::sha256_of_file(file) != facts.parts.back().case_sha256) {
+    const std::vector<std::string> changes =
+        is_known ? config::differences(io::read_file(file), io::case_of(io::newest_checkpoint(folder)))
+                 : std::vector<std::string>{"its SHA-256 is not that of run.json"};
+    if (!changes.empty()) {
+      throw UserError(fmt::format("{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(),
+                                  facts.simulated_time, file.string(), joined(changes, "; "),
+                                  is_known ? advice_on(folder, facts, changes, "Put that back, or run the case anew.")
+                                           : "There is no checkpoint to go on from: run the case anew."));
+    }
+  }
+  say("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
+      facts.message.empty() ? "" : ": " + facts.message);
+  for (const char* name : {"case.toml", "history.csv"}) {
+    if (!fs::exists(folder / name)) {
+      say("note: {} is missing\n", (folder / name).string());
+    }
+  }
+  if (!is_known) {
+    say("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
+  }
+  return static_cast<int>(ExitCode::done);
 }
 
 // What the run goes on with.
@@ -93,17 +177,25 @@ struct Continuation {
   config::Case parameters;
   std::string case_text;   // for case.toml
   io::Provenance earlier;  // what run.json tells, with the part that begins
+  bool ends_earlier = false;
 };
 
 Continuation continuation_of(const fs::path& folder, const std::vector<std::string>& sets, io::Provenance facts) {
   config::require_changeable(sets);
   Continuation next{config::read_case(folder, sets), io::read_file(folder / "case.toml"), std::move(facts)};
   if (!sets.empty()) {
+    const config::Case before = config::read_case(folder);
+    if (config::guards_remove(before) != config::guards_remove(next.parameters)) {
+      throw UserError(
+          "history.csv has a column removed_mass_kg where [guards] may remove particles, and none where they may not: "
+          "a run that goes on cannot change that. Run the case anew.");
+    }
+    next.ends_earlier = next.parameters.time.end < before.time.end;
     next.case_text = config::resolved_toml(next.parameters, "inputs");
   }
   io::RunPart part = io::part_of_this_process();
   part.changes = sets;
-  part.case_sha256 = io::sha256_hex(next.case_text.data(), next.case_text.size());
+  part.case_sha256 = sha256_of_text(next.case_text);
   next.earlier.parts.push_back(std::move(part));
   return next;
 }
@@ -134,11 +226,12 @@ int start_anew(const fs::path& folder, const Continuation& next) {
   say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   take_changes(folder, next);
+  notes.add(config::notices(next.parameters));
   return start_and_run<Dim>(simulation, output, folder);
 }
 
 template <int Dim>
-int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, const Continuation& next) {
+int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
   Notes notes;
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
   std::vector<double> scalars;
@@ -149,22 +242,34 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, const C
     throw UserError(fmt::format("{}: {}", checkpoint.file.string(), error.what()));
   }
   const double end = next.parameters.time.end, half_a_step = 0.5 * simulation.last_step();
-  const bool is_at_end = simulation.time() >= end - half_a_step;
-  if (is_at_end && simulation.time() > end + half_a_step) {
-    throw UserError(fmt::format("the end of {:g} s has passed: the run's checkpoint is of {:g} s. Give a later one.",
-                                end, simulation.time()));
+  const double had_come_to = std::max(next.earlier.simulated_time,
+                                      io::last_time_in_history(folder / "history.csv").value_or(simulation.time()));
+  if (next.ends_earlier && end < had_come_to - half_a_step) {
+    throw UserError(
+        fmt::format("the end of {:g} s has passed: the run had come to {:g} s. Give a later one.", end, had_come_to));
   }
+  const bool is_at_end = simulation.time() >= end - half_a_step;
   if ((is_at_end || simulation.is_at_rest()) && next.earlier.status == "done") {
     say("{} has {} at {:g} s; nothing to do\n", folder.string(), is_at_end ? "reached its end" : "come to rest",
         simulation.time());
     return static_cast<int>(ExitCode::done);
   }
   if (!checkpoint.note.empty()) {
-    say("note: {}; going on from the checkpoint before\n", checkpoint.note);
+    // The next checkpoint must not push the good one out and keep the damaged one.
+    const fs::path damaged = folder / io::checkpoint_name, aside = io::name_for_damaged(damaged);
+    fs::rename(damaged, aside);
+    next.earlier.parts.back().notes.push_back(
+        fmt::format("{}; it is kept as {}, and the run goes on from the checkpoint before", checkpoint.note,
+                    aside.filename().string()));
   }
-  say("going on from t = {:g} s\n", simulation.time());
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
+  say("going on from t = {:g} s{}\n", simulation.time(),
+      had_come_to > simulation.time()
+          ? fmt::format("; it had come to {:g} s: rows and snapshots after {:g} s are written anew", had_come_to,
+                        simulation.time())
+          : "");
   take_changes(folder, next);
+  notes.add(config::notices(next.parameters));
   return run_to_end<Dim>(simulation, output, folder);
 }
 
@@ -180,23 +285,27 @@ int resume_run(const ResumeOptions& options) {
                     "Run the case again.",
                     folder.string()));
   }
+  const std::vector<std::string> sets = sets_of(options);
+  if (sets.empty() && io::process_at_work(folder).process.empty()) {
+    const io::Provenance facts = io::read_provenance(folder);
+    if (facts.status == "done") {
+      return leave_finished(folder, facts);
+    }
+  }
   const io::RunLock lock(folder);
   const io::Provenance facts = io::read_provenance(folder);
-  if (facts.status == "done" && options.sets.empty()) {
-    say("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
-        facts.message.empty() ? "" : ": " + facts.message);
-    return static_cast<int>(ExitCode::done);
-  }
   io::WholeCheckpoint checkpoint;
   const bool has_checkpoint = io::has_checkpoint(folder);
   if (has_checkpoint) {
     checkpoint = io::newest_checkpoint(folder);
-    require_same_case(folder, facts, io::case_of(checkpoint), options.sets);
+    require_same_case(folder, facts, io::case_of(checkpoint), sets);
+  } else {
+    require_case_of_start(folder, facts, sets);
   }
   for (const char* place : {".", "inputs", "snapshots", "maps"}) {
     io::remove_unfinished_files(folder / place);
   }
-  const Continuation next = continuation_of(folder, options.sets, facts);
+  const Continuation next = continuation_of(folder, sets, facts);
   require_same_inputs(folder, facts.inputs, next.parameters.report.targets);
   tell_changed_originals(facts.inputs);
   return with_dimension(next.parameters.general.dimension,

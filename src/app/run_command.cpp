@@ -1,5 +1,6 @@
 // thawslide run.
 #include "app/commands.hpp"
+#include "app/input_guard.hpp"
 #include "app/map_files.hpp"
 #include "app/notes_of_setup.hpp"
 #include "app/run_loop.hpp"
@@ -7,7 +8,6 @@
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "config/input_files.hpp"
 #include "config/input_limits.hpp"
 #include "config/read_case.hpp"
 #include "io/run_folder.hpp"
@@ -16,36 +16,23 @@ namespace thawslide::app {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// A run that replaces another must not take its own inputs away.
-void require_no_input_in(const fs::path& folder, const config::Case& parameters) {
-  const fs::path runs_folder = fs::weakly_canonical(folder);
-  for (const fs::path& input : config::input_files(parameters)) {
-    const fs::path relative = fs::weakly_canonical(input).lexically_relative(runs_folder);
-    if (!relative.empty() && *relative.begin() != "..") {
-      throw UserError(fmt::format("{} lies in the output folder {}. Give another --output{}.", input.string(),
-                                  folder.string(),
-                                  fs::exists(folder / "run.json") ? ", or go on with that run: thawslide resume" : ""));
-    }
-  }
-}
-
-}  // namespace
-
 int run_case(const RunOptions& options) {
   survive_failing_writes();
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   const fs::path folder = options.output.empty() ? usual_run_folder(parameters) : fs::path(options.output);
+  require_readable_inputs(parameters);
   require_no_input_in(folder, parameters);
   io::require_usable(folder, options.overwrite);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     Notes notes;
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, notes));
-    const sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written
-    add_notes_of_setup(simulation, sim::body_figures(simulation),
-                       disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, notes);
+    {
+      sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written, or removed
+      records.start(simulation);
+      add_notes_of_setup(simulation, sim::body_figures(simulation),
+                         disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, notes);
+    }
     const io::RunLock lock = io::make_run_folder(folder, options.overwrite);
     RunOutput<Dim> output(folder, simulation);
     say("{}: {} particles, {:g} s to simulate, on {} thread{}\n",

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/thread_choice.hpp"
+#include "io/checkpoint.hpp"
 #include "sim/history.hpp"
 #include "sim/slide_left.hpp"
 
@@ -56,15 +57,16 @@ class RemovalWatch {
   bool told_;
 };
 
-// Settles a case that asks for it; a body that goes bad on the way leaves its files as any other run does.
+// Settles a case that asks for it; a body that goes bad on the way leaves its files as any other run does. Returns
+// whether a signal left it time to settle.
 template <int Dim>
-void settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
+bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
   if (!simulation.needs_settling()) {
-    return;
+    return true;
   }
   say("settling under gravity for {:g} s\n", simulation.parameters().mechanics.settle_time);
   try {
-    simulation.settle();
+    return simulation.settle([] { return caught_signal() == 0; });
   } catch (const RunError& error) {
     output.write_first_state(simulation);
     output.write_index();
@@ -81,10 +83,9 @@ int end_unwritten(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>
     output.write_provenance(simulation, "stopped", error.what(), output.wall_seconds());
   } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): it is told below what could not be written first
   }
-  say_error(
-      "error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` goes on from the last "
-      "checkpoint\n",
-      error.what(), simulation.time(), folder.string());
+  say_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
+            simulation.time(), folder.string(),
+            io::has_checkpoint(folder) ? "goes on from the last checkpoint" : "starts it again");
   return static_cast<int>(ExitCode::not_written);
 }
 
@@ -155,6 +156,7 @@ class Loop {
     seconds_in_steps_ += output_.wall_seconds() - before;
     set_thread_count(threads_.after_step(seconds_in_steps_));
     tell(removal_.note(simulation_));
+    tell_of_energy();
     output_.after_step(simulation_);
   }
 
@@ -173,6 +175,15 @@ class Loop {
       output_.write_checkpoint(simulation_);
       wall_of_checkpoint_ = output_.wall_seconds();
       output_.write_provenance(simulation_, "running", "", wall_of_checkpoint_);
+    }
+  }
+
+  // Once.
+  void tell_of_energy() {
+    if (!told_of_energy_) {
+      const std::string note = simulation_.energy_note();
+      told_of_energy_ = !note.empty();
+      tell(note);
     }
   }
 
@@ -234,6 +245,7 @@ class Loop {
   int most_threads_;
   ThreadChoice threads_;
   double seconds_in_steps_ = 0.0, wall_of_checkpoint_ = 0.0;
+  bool told_of_energy_ = false;
 };
 
 }  // namespace
@@ -248,8 +260,14 @@ template <int Dim>
 int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
                   const std::filesystem::path& folder) {
   output.start_clock();
+  catch_signals();
   try {
-    settle<Dim>(simulation, output);
+    if (!settle<Dim>(simulation, output)) {
+      output.write_provenance(simulation, "stopped", fmt::format("signal {}", caught_signal()), 0.0);
+      say_error("stopped by signal {} while it settled; `thawslide resume {}` begins anew\n", caught_signal(),
+                folder.string());
+      return static_cast<int>(ExitCode::stopped_by_signal);
+    }
     output.begin(simulation);
   } catch (const WriteError& error) {
     return end_unwritten<Dim>(simulation, output, error, folder);

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "app/resolved_case.hpp"
+#include "app/say.hpp"
 #include "base/parallel.hpp"
+#include "base/state_numbers.hpp"
 #include "config/describe.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
@@ -22,9 +24,17 @@ Schedule::Schedule(double interval, double begin, double last_step, double end)
 }
 
 void Schedule::pass(double time, double step) {
-  while (next_ < end_ && next_ <= time + 0.5 * step) {
-    next_ = std::min(static_cast<double>(++count_) * interval_, end_);
+  if (interval_ <= 0.0) {
+    return;
   }
+  // The first multiple beyond the time, computed: to count up to it would take for ever where the interval is tiny. The
+  // quotient is rounded, so that the floor may be two short.
+  const double beyond = time + 0.5 * step;
+  count_ = std::max(count_, std::floor(beyond / interval_));
+  for (int k = 0; k < 2 && count_ * interval_ <= beyond; ++k) {
+    ++count_;
+  }
+  next_ = std::min(count_ * interval_, end_);
 }
 
 bool Schedule::reached(double time, double step) {
@@ -102,16 +112,41 @@ std::vector<FrontAt> fronts_of(const std::vector<double>& numbers) {
 }
 
 constexpr const char* fronts_block = "fronts";
+constexpr const char* files_block = "files";  // what of them stood at the checkpoint
+
+// What the files that grow held at a checkpoint.
+struct FilesThen {
+  std::size_t snapshots = 0;
+  io::HistoryExtent history, probes;
+};
+
+std::vector<double> numbers_of(const FilesThen& files) {
+  std::vector<double> numbers{static_cast<double>(files.snapshots)};
+  for (const io::HistoryExtent& each : {files.history, files.probes}) {
+    numbers.insert(numbers.end(), {static_cast<double>(each.rows), static_cast<double>(each.bytes), each.last_time});
+  }
+  return numbers;
+}
+
+FilesThen files_of(const std::vector<double>& numbers) {
+  StateNumbers state(numbers, "files");
+  FilesThen files;
+  files.snapshots = static_cast<std::size_t>(state.whole(largest_whole));
+  for (io::HistoryExtent* each : {&files.history, &files.probes}) {
+    each->rows = static_cast<std::size_t>(state.whole(largest_whole));
+    each->bytes = static_cast<std::size_t>(state.whole(largest_whole));
+    each->last_time = state.next_finite();
+  }
+  state.expect_end();
+  return files;
+}
 
 }  // namespace
 
 template <int Dim>
-RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation, io::HistoryWriter history,
+RunOutput<Dim>::RunOutput(const fs::path& folder, sim::RunRecords<Dim> records, io::HistoryWriter history,
                           io::SnapshotSeries snapshots)
-    : folder_(folder),
-      history_(std::move(history)),
-      snapshots_(std::move(snapshots)),
-      records_(simulation, simulation.site()) {}
+    : folder_(folder), history_(std::move(history)), snapshots_(std::move(snapshots)), records_(std::move(records)) {}
 
 template <int Dim>
 RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation)
@@ -121,7 +156,8 @@ RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation)
 template <int Dim>
 RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation, io::Provenance earlier,
                           std::string case_text)
-    : RunOutput(folder, simulation, io::HistoryWriter(folder / "history.csv"), io::SnapshotSeries(folder)) {
+    : RunOutput(folder, sim::RunRecords<Dim>(simulation, simulation.site()), io::HistoryWriter(folder / "history.csv"),
+                io::SnapshotSeries(folder)) {
   provenance_ = std::move(earlier);
   case_text_ = std::move(case_text);
   complete(provenance_, simulation);
@@ -150,17 +186,27 @@ void RunOutput<Dim>::begin(const Simulation& simulation) {
 template <int Dim>
 RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& simulation, const NamedNumbers& blocks,
                                       io::Provenance earlier, std::string case_text) {
-  RunOutput output(folder, simulation, io::HistoryWriter::continue_after(folder / "history.csv", simulation.time()),
-                   io::SnapshotSeries::continue_after(folder, simulation.time()));
+  sim::RunRecords<Dim> records(simulation, simulation.site());
+  records.restore(blocks);
+  const FilesThen then = files_of(block_of(blocks, files_block));
+  std::vector<std::string>& notes = earlier.parts.back().notes;
+  const auto go_on_with = [&](const char* name, const io::HistoryWriter::Row& row, const io::HistoryExtent& extent) {
+    return io::HistoryWriter::continue_after(folder / name, io::header_of(row), extent, notes);
+  };
+  io::HistoryWriter history = go_on_with("history.csv", records.history_row(simulation), then.history);
+  io::SnapshotSeries snapshots = io::SnapshotSeries::continue_after(folder, then.snapshots, notes);
+  RunOutput output(folder, std::move(records), std::move(history), std::move(snapshots));
+  if (output.records_.has_probes()) {
+    output.probes_.emplace(go_on_with("probes.csv", output.records_.probe_row(simulation), then.probes));
+  }
+  for (const std::string& note : notes) {
+    say("note: {}\n", note);
+  }
   output.provenance_ = std::move(earlier);
   output.case_text_ = std::move(case_text);
   complete(output.provenance_, simulation);
-  output.records_.restore(blocks);
   if (const auto fronts = blocks.find(fronts_block); fronts != blocks.end()) {
     output.fronts_ = fronts_of(fronts->second);
-  }
-  if (output.records_.has_probes()) {
-    output.probes_.emplace(io::HistoryWriter::continue_after(folder / "probes.csv", simulation.time()));
   }
   output.history_step_ = output.snapshot_step_ = output.checkpoint_step_ = simulation.step_number();
   output.write_provenance(simulation, "running", "", 0.0);
@@ -263,6 +309,8 @@ void RunOutput<Dim>::write_state(const Simulation& simulation) {
       probes_->synchronise();
     }
     NamedNumbers blocks = records_.state();
+    blocks[files_block] =
+        numbers_of({snapshots_.size(), history_.extent(), probes_ ? probes_->extent() : io::HistoryExtent()});
     if constexpr (Dim == 3) {
       blocks[fronts_block] = numbers_of(fronts_);
     }

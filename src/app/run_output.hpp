@@ -31,7 +31,7 @@ class Schedule {
   void pass(double time, double step);
 
   double interval_, end_, next_;
-  std::int64_t count_ = 1;
+  double count_ = 1.0;  // of intervals up to the next moment
 };
 
 template <int Dim>
@@ -50,7 +50,7 @@ class RunOutput {
   // The checkpoint before the first step; from here on time counts.
   void begin(const Simulation& simulation);
   // Goes on with a run at the simulation's time; blocks: what its checkpoint holds beside the particles; the others as
-  // above.
+  // above. Tells what it finds damaged, as run.json does.
   static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation, const NamedNumbers& blocks,
                           io::Provenance earlier, std::string case_text);
 
@@ -94,7 +94,7 @@ class RunOutput {
   [[nodiscard]] Stopwatch::Seconds seconds_per_stage(const Simulation& simulation) const;
 
  private:
-  RunOutput(const std::filesystem::path& folder, const Simulation& simulation, io::HistoryWriter history,
+  RunOutput(const std::filesystem::path& folder, sim::RunRecords<Dim> records, io::HistoryWriter history,
             io::SnapshotSeries snapshots);
   void add_figures(const Simulation& simulation);
   void write_state(const Simulation& simulation);

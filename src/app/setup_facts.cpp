@@ -50,11 +50,13 @@ std::string text_of(const DiskNeed& need, double free) {
                                                 need.map / megabyte, need.ground_maps, need.ground_map / megabyte);
     of_maps = fmt::format(", {:.0f} maps {} before they are compressed", need.maps + need.ground_maps, sizes);
   }
+  const double history = need.history / megabyte;
+  const std::string history_text = history < 1e6 ? fmt::format("{:.1f} MB", history) : size_text(need.history);
   return fmt::format(
-      "  disk        {} {}: {:.0f} snapshots of {:.1f} MB, {:.0f} checkpoints of {:.1f} MB, history {:.1f} MB, inputs "
-      "{:.1f} MB{}; {} are free\n",
+      "  disk        {} {}: {:.6g} snapshots of {:.1f} MB, {:.0f} checkpoints of {:.1f} MB, history {}, inputs {:.1f} "
+      "MB{}; {} are free\n",
       of_maps.empty() ? "about" : "at most", size_text(need.total()), need.snapshots, need.snapshot / megabyte,
-      need.checkpoints, need.checkpoint / megabyte, need.history / megabyte, need.inputs / megabyte, of_maps,
+      need.checkpoints, need.checkpoint / megabyte, history_text, need.inputs / megabyte, of_maps,
       std::isfinite(free) ? size_text(free) : "unknown amounts");
 }
 
@@ -131,7 +133,8 @@ Json list_of(const std::vector<Facts>& all) {
 }  // namespace
 
 std::string text_of(const SetupFacts& facts) {
-  std::string text = fmt::format("{}: the case is sound\n", facts.file);
+  std::string text = fmt::format("{}: {}\n", facts.file,
+                                 facts.error.empty() ? "the case is sound" : "the run goes bad in its first steps");
   for (const sim::BodyFigures& body : facts.bodies) {
     text += text_of(body, facts.dimension);
   }
@@ -143,7 +146,7 @@ std::string text_of(const SetupFacts& facts) {
                       facts.nodes_of_block, facts.blocks);
   text += fmt::format("  step        {:g} s{}; the limit is {:.4g} s, set by {}\n", facts.step,
                       facts.is_adaptive ? " at the start (adaptive)" : "", facts.limit.step, facts.limit.what);
-  text += fmt::format("  steps       {:.0f}\n", facts.steps);
+  text += fmt::format("  steps       {:.7g}\n", facts.steps);
   text += fmt::format("  memory      about {}; {} {}\n", size_text(facts.memory.total()),
                       size_text(facts.available.bytes), facts.available.bound);
   for (const MapFacts& maps : facts.maps) {
@@ -153,8 +156,10 @@ std::string text_of(const SetupFacts& facts) {
         maps.bytes_at_most / megabyte);
   }
   text += text_of(facts.disk, facts.free_disk);
-  text += fmt::format("  time        about {} on {} thread{} (measured on the first steps)\n",
-                      duration_text(facts.seconds), facts.threads, facts.threads == 1 ? "" : "s");
+  if (facts.error.empty()) {
+    text += fmt::format("  time        about {} on {} thread{} (measured on the first steps)\n",
+                        duration_text(facts.seconds), facts.threads, facts.threads == 1 ? "" : "s");
+  }
   if (!facts.picture.empty()) {
     text += fmt::format("  picture     {}\n", facts.picture);
   }
@@ -180,9 +185,10 @@ std::string json_of(const SetupFacts& facts) {
   json["memory"] = json_of(facts.memory, facts.available);
   json["maps"] = facts.maps.empty() ? Json() : json_of(facts.maps.front());
   json["disk"] = json_of(facts.disk, facts.free_disk, facts.disk_folder);
-  json["wall_s"] = facts.seconds;
+  json["wall_s"] = std::isfinite(facts.seconds) ? Json(facts.seconds) : Json();
   json["threads"] = facts.threads;
   json["picture"] = facts.picture.empty() ? Json() : Json(facts.picture);
+  json["error"] = facts.error.empty() ? Json() : Json(facts.error);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

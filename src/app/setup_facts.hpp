@@ -1,6 +1,7 @@
 // What `thawslide check` finds out of a case, and how it tells it: as text and as JSON, the same of both.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,10 +39,11 @@ struct SetupFacts {
   AvailableMemory available;
   std::vector<MapFacts> maps;  // one in space, none in the plane
   DiskNeed disk;
-  double free_disk = 0.0;   // [bytes]
-  std::string disk_folder;  // where the run would go
-  double seconds = 0.0;     // of wall time, from the first steps
+  double free_disk = 0.0;                                     // [bytes]
+  std::string disk_folder;                                    // where the run would go
+  double seconds = std::numeric_limits<double>::quiet_NaN();  // of wall time, from the first steps
   int threads = 1;
+  std::string error;    // what the first steps ended with; empty: nothing
   std::string picture;  // its file; empty: none
 };
 

@@ -11,10 +11,17 @@ volatile std::sig_atomic_t signal_number = 0;
 
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
 
+// One that whoever started the program has it ignore, as nohup does, stays ignored.
+void answer(int number, void (*handler)(int)) {
+  if (std::signal(number, handler) == SIG_IGN) {
+    std::signal(number, SIG_IGN);
+  }
+}
+
 void remember(int number) {
   signal_number = number;
   for (const int each : signals) {
-    std::signal(each, SIG_DFL);
+    answer(each, SIG_DFL);
   }
 }
 
@@ -22,7 +29,7 @@ void remember(int number) {
 
 void catch_signals() {
   for (const int number : signals) {
-    std::signal(number, remember);
+    answer(number, remember);
   }
 }
 

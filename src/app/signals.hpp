@@ -3,8 +3,8 @@
 
 namespace thawslide::app {
 
-// From now on SIGINT, SIGTERM and SIGHUP only set a mark; a second one, of any of them, ends the
-// program at once.
+// From now on SIGINT, SIGTERM and SIGHUP only set a mark; a second one, of any of them, ends the program at once. One
+// that is ignored already, as nohup has it, stays ignored.
 void catch_signals();
 
 // From now on a pipe that nobody reads and a file above its size limit are errors of the call that writes, which by

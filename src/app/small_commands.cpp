@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "app/commands.hpp"
+#include "app/input_guard.hpp"
 #include "app/map_files.hpp"
 #include "base/error.hpp"
 #include "config/describe.hpp"
@@ -87,6 +88,9 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, No
 
 int run_block_model(const BlockOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
+  if (!options.output.empty()) {
+    require_no_input_at(options.output, "--output", parameters);
+  }
   Notes notes;
   notes.add(config::notices(parameters));
   const auto start = std::chrono::steady_clock::now();

@@ -1,6 +1,5 @@
 // thawslide status.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/history_writer.hpp"
 #include "io/provenance.hpp"
 #include "io/run_lock.hpp"
 
@@ -22,33 +22,14 @@ namespace fs = std::filesystem;
 namespace {
 
 struct RunStatus {
-  std::string state;  // running, killed, done, stopped, failed
+  std::string state;  // running, killed, done, stopped, failed; unknown: running or killed, without locks to tell by
   std::string message;
-  std::string process;                              // that is at work; empty: none
-  double time = 0.0;                                // simulated [s]
-  double end = 0.0;                                 // [s]
-  std::optional<double> checkpoint_age, time_left;  // wall-clock [s]
+  std::string process;                                              // that is at work; empty: none
+  double time = 0.0;                                                // simulated [s]
+  std::optional<double> end;                                        // [s]; nothing where the case cannot be read
+  std::string case_error;                                           // why not
+  std::optional<double> checkpoint_age, last_write_age, time_left;  // wall-clock [s]
 };
-
-// The first number of the last whole row of a run's history; nothing before there is one.
-std::optional<double> last_time_in_history(const fs::path& folder) {
-  const fs::path file = folder / "history.csv";
-  if (!fs::exists(file)) {
-    return std::nullopt;
-  }
-  const std::string text = io::read_file(file);
-  const std::size_t end = text.rfind('\n');
-  if (end == std::string::npos || end == 0) {
-    return std::nullopt;
-  }
-  const std::size_t before = text.rfind('\n', end - 1);
-  if (before == std::string::npos) {
-    return std::nullopt;  // the header alone
-  }
-  double time = 0.0;
-  const auto parsed = std::from_chars(text.data() + before + 1, text.data() + end, time);
-  return parsed.ec == std::errc() ? std::optional(time) : std::nullopt;
-}
 
 // Of a time as run.json has it, in UTC [s].
 std::optional<double> seconds_since(const std::string& utc) {
@@ -66,25 +47,59 @@ std::optional<double> age_of(const fs::path& file) {
                : std::optional(std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count());
 }
 
+// Whether a run is alive is to be known whatever has become of its case.
+void add_end(const fs::path& folder, RunStatus& status) {
+  try {
+    status.end = config::read_case(folder).time.end;
+  } catch (const UserError& error) {
+    status.case_error = error.what();
+  }
+}
+
+// Of the file of the run that was written last.
+std::optional<double> last_write_age(const fs::path& folder) {
+  std::optional<double> least;
+  for (const fs::path& place : {folder, folder / "snapshots"}) {
+    std::error_code error;
+    for (fs::directory_iterator entry(place, error), end; !error && entry != end; entry.increment(error)) {
+      const std::optional<double> age = fs::is_regular_file(entry->path()) ? age_of(entry->path()) : std::nullopt;
+      least = age && least ? std::min(*age, *least) : age ? age : least;
+    }
+  }
+  return least;
+}
+
 RunStatus status_of(const fs::path& folder) {
+  const io::AtWork at_work = io::process_at_work(folder);
   if (!fs::exists(folder / "run.json")) {
+    if (!at_work.process.empty()) {
+      RunStatus status;
+      status.state = "running";
+      status.process = at_work.process;
+      status.case_error = "the run is setting up and has not written run.json yet";
+      return status;
+    }
     throw UserError(
         fmt::format("{} holds no run: there is no run.json, which a run writes when it begins.", folder.string()));
   }
-  const std::optional<std::string> process = io::process_at_work(folder);
+  const bool is_at_work = !at_work.process.empty();
   const io::Provenance facts = io::read_provenance(folder);
   RunStatus status;
-  status.process = process.value_or("");
-  status.state = process ? "running" : facts.status == "running" ? "killed" : facts.status;
-  status.message = process ? "" : facts.message;
-  status.time = std::max(facts.simulated_time, last_time_in_history(folder).value_or(0.0));
-  status.end = config::read_case(folder).time.end;
+  status.process = at_work.process;
+  status.state = is_at_work                  ? "running"
+                 : facts.status != "running" ? facts.status
+                 : at_work.is_known          ? "killed"
+                                             : "unknown";
+  status.message = is_at_work ? "" : facts.message;
+  status.time = std::max(facts.simulated_time, io::last_time_in_history(folder / "history.csv").value_or(0.0));
+  status.last_write_age = last_write_age(folder);
+  add_end(folder, status);
   status.checkpoint_age = age_of(folder / io::checkpoint_name);
   const io::RunPart& part = facts.parts.back();
   const std::optional<double> elapsed = seconds_since(part.started);
   const bool is_known = elapsed && *elapsed >= 1.0 && status.time > part.from_time;  // run.json tells whole seconds
-  if (process && is_known) {
-    status.time_left = *elapsed * std::max(0.0, status.end - status.time) / (status.time - part.from_time);
+  if (is_at_work && is_known && status.end) {
+    status.time_left = *elapsed * std::max(0.0, *status.end - status.time) / (status.time - part.from_time);
   }
   return status;
 }
@@ -98,7 +113,8 @@ std::string json_text(const RunStatus& status) {
   json["message"] = status.message;
   json["process"] = status.process;
   json["simulated_time_s"] = status.time;
-  json["end_s"] = status.end;
+  json["end_s"] = number(status.end);
+  json["last_write_age_s"] = number(status.last_write_age);
   json["checkpoint_age_s"] = number(status.checkpoint_age);
   json["time_left_s"] = number(status.time_left);
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -111,15 +127,25 @@ std::string words_for(const RunStatus& status) {
   if (status.state == "killed") {
     return "its process is gone without a word: it was killed, or the machine went down";
   }
+  if (status.state == "unknown") {
+    return fmt::format(
+        "whether it runs cannot be told, as its file system has no locks; its last file was written {} "
+        "ago",
+        duration_text(status.last_write_age.value_or(0.0)));
+  }
   const std::string words = status.state == "failed" ? "the run went bad" : status.state;
   return status.message.empty() ? words : words + ": " + status.message;
 }
 
 void print_status(const fs::path& folder, const RunStatus& status) {
   fmt::print("{}: {}\n", folder.string(), words_for(status));
-  fmt::print("  {:g} of {:g} s simulated ({:.0f} %){}\n", status.time, status.end,
-             std::floor(100.0 * std::min(1.0, status.time / status.end)),
-             status.time_left ? fmt::format(", about {} left", duration_text(*status.time_left)) : "");
+  if (status.end) {
+    fmt::print("  {:g} of {:g} s simulated ({:.0f} %){}\n", status.time, *status.end,
+               std::floor(100.0 * std::min(1.0, status.time / *status.end)),
+               status.time_left ? fmt::format(", about {} left", duration_text(*status.time_left)) : "");
+  } else {
+    fmt::print("  {:g} s simulated; its end is not known: {}\n", status.time, status.case_error);
+  }
   if (status.state == "done") {
     return;
   }
@@ -128,6 +154,8 @@ void print_status(const fs::path& folder, const RunStatus& status) {
                            : "no checkpoint yet");
   if (status.state == "killed" || status.state == "stopped") {
     fmt::print("  to go on: thawslide resume {}\n", folder.string());
+  } else if (status.state == "unknown") {
+    fmt::print("  if nothing writes there any more: thawslide resume {}\n", folder.string());
   } else if (status.state == "failed") {
     fmt::print("  the message above says what to change; then run the case anew\n");
   }

@@ -2,6 +2,7 @@
 
 #include "band/averages_kernel.hpp"
 #include "band/heat_nodes.hpp"
+#include "band/nodal_seepage.hpp"
 #include "band/seeping_tiles.hpp"
 #include "base/instances.hpp"
 #include "mpm/particle_pass.hpp"
@@ -46,10 +47,7 @@ void average_seeping_water(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
       },
       [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) {
         if (blocks[at.block] != 0) {
-          const auto& water = nodes.seeping_water(at);
-          const Real volume = water[mpm::SeepingWater::volume];
-          nodes.state(at)[mpm::NodalState::pore_pressure] =
-              volume > Real(0) ? water[mpm::SeepingWater::pore_pressure] / volume : Real(0);
+          nodes.state(at)[mpm::NodalState::pore_pressure] = seeping_pressure<Real>(nodes.seeping_water(at));
         }
       });
 }

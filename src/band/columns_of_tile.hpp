@@ -4,17 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "band/columns.hpp"
 #include "base/error.hpp"
-#include "base/select.hpp"
 #include "mpm/body_sizes.hpp"
-#include "mpm/tile.hpp"
 
 namespace thawslide::band {
-
-// A tile's particles reach from the cell below its first node to that above its last one; a box that ends there looks
-// for its share of 0 in one more.
-template <int Dim>
-inline constexpr int columns_per_axis = mpm::Tile<Dim>::edge + 2;
 
 // What boxes cover of the two cells, `lower` and the next one, that they may overlap along one horizontal axis.
 template <class Value>
@@ -81,12 +75,45 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>
   });
 }
 
-// What the particles of one tile see of the grid's columns, by place in the tile.
+// What a particle's box covers of one of these columns. lane: of the particle.
+template <int Dim, class Value, class Side>
+THAWSLIDE_HD auto extent_in_column(const Overlaps<Dim, Value>& along, const Side& side, std::size_t lane) {
+  Extent<Dim, typename NumberOf<Value>::Type> own;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    own.from[a] = in_lane(along[a].from[side[a]], lane);
+    own.to[a] = in_lane(along[a].to[side[a]], lane);
+  }
+  return own;
+}
+
+// A number of each column that a tile sees, by place.
 template <int Dim, class Real>
-class ColumnsOfTile {
- public:
-  static constexpr int per_axis = columns_per_axis<Dim>;
-  static constexpr auto count = static_cast<std::size_t>(mpm::power(per_axis, Dim - 1));
+struct NumbersOfTile {
+  std::array<Real, columns_per_tile<Dim>> numbers;
+
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value at(const Value& place) const {
+    return look_up(numbers.data(), place);
+  }
+};
+// The same, found among those of all columns.
+template <class Real>
+struct NumbersOfColumns {
+  const Real* numbers;
+  const std::int32_t* column;  // by place
+
+  [[nodiscard]] THAWSLIDE_HD Real at(const Real& place) const {
+    return numbers[column[static_cast<std::size_t>(place)]];
+  }
+};
+
+// What the particles of one tile see of the grid's columns. Numbers: of each column, by place in the tile.
+template <int Dim, class Real, class Numbers = NumbersOfTile<Dim, Real>>
+struct ColumnsOfTile {
+  std::array<int, Dim - 1> first_cell;  // number along each horizontal axis
+  Real cell, inverse_cell;              // [m], [1/m]
+  mpm::SizesOfBodies<Real> sizes;       // of particles [m]
+  Numbers thickness, top, cosine;
 
   // H [m]: the columns' thickness in the band, elsewhere the depth below their tops; each column by the share of the
   // box in it.
@@ -97,16 +124,16 @@ class ColumnsOfTile {
     const auto in_band = particles.in_band.template load_whole<Real>(at) > Real(0);
     const bool any_in_band = any(in_band);
     Value depth = Real(0);
-    for_columns<Dim>(overlaps<Dim>(first_cell_, cell_, inverse_cell_, sizes_, particles, at),
+    for_columns<Dim>(overlaps<Dim>(first_cell, cell, inverse_cell, sizes, particles, at),
                      [&](const auto& /*side*/, Value place, Value share) THAWSLIDE_INLINE_LAMBDA {
                        if (!any(share > Real(0))) {
                          return;
                        }
-                       Value here = max(look_up(top_.data(), place) - height, Value(Real(0)));
+                       Value here = max(top.at(place) - height, Value(Real(0)));
                        if (any_in_band) {
-                         here = select(in_band, look_up(thickness_.data(), place), here);
+                         here = select(in_band, thickness.at(place), here);
                        }
-                       depth += share * look_up(cosine_.data(), place) * here;
+                       depth += share * cosine.at(place) * here;
                      });
     return depth;
   }
@@ -117,20 +144,11 @@ class ColumnsOfTile {
     using std::floor;
     Value place = Real(0);
     for (std::size_t a = Dim - 1; a-- > 0;) {
-      const Value number = floor(particles.position.load(at, static_cast<int>(a)) * inverse_cell_);
-      place = place * Real(per_axis) + (number - static_cast<Real>(first_cell_[a]));
+      const Value number = floor(particles.position.load(at, static_cast<int>(a)) * inverse_cell);
+      place = place * Real(columns_per_axis<Dim>) + (number - static_cast<Real>(first_cell[a]));
     }
-    return look_up(top_.data(), place) - particles.position.load(at, Dim - 1);
+    return top.at(place) - particles.position.load(at, Dim - 1);
   }
-
- private:
-  template <int, class>
-  friend class FlowDepth;
-
-  std::array<int, Dim - 1> first_cell_;  // number along each horizontal axis
-  Real cell_, inverse_cell_;             // [m], [1/m]
-  mpm::SizesOfBodies<Real> sizes_;       // of particles [m]
-  std::array<Real, count> thickness_, top_, cosine_;
 };
 
 }  // namespace thawslide::band

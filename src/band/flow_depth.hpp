@@ -2,13 +2,11 @@
 #pragma once
 
 #include <array>
-#include <functional>
-#include <limits>
 #include <vector>
 
+#include "band/at_columns.hpp"
 #include "band/columns_of_tile.hpp"
 #include "band/model.hpp"
-#include "base/key_index.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/sparse_grid.hpp"
 
@@ -23,10 +21,10 @@ template <int Dim, class Real>
 class FlowDepth {
  public:
   // Of the terrain at a horizontal place [m].
-  using SlopeCosine = std::function<Real(const Vector<Real, Dim - 1>&)>;
+  using SlopeCosine = OfPlace<Dim, Real>;
   // What of gravity presses a column of mass over footprint on its ground at a horizontal place [m/s2]: the part into
   // the ground, g.n, times the slope's cosine, since the ground below is larger than the footprint by that.
-  using NormalGravity = std::function<Real(const Vector<Real, Dim - 1>&)>;
+  using NormalGravity = OfPlace<Dim, Real>;
 
   // The columns from positions and volumes. slope_cosine may be empty: level ground; it must be the same in every call.
   void update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
@@ -44,37 +42,21 @@ class FlowDepth {
 
  private:
   using OfTile = ColumnsOfTile<Dim, Real>;
+  static constexpr std::size_t places = columns_per_tile<Dim>;
 
-  // What boxes cover of a column along each horizontal axis.
-  struct Extent {
-    std::array<Real, Dim - 1> from, to;
-
-    Extent();
-    void add(const Extent& part);
-  };
   struct Column {
-    Real volume = 0;
-    Real top = std::numeric_limits<Real>::lowest();
-    Extent extent;  // of a column at the body's edge
+    Pile<Real> pile;
+    Extent<Dim, Real> extent;  // of a column at the body's edge
     bool at_edge = false;
-    Real footprint = 0;                                // [m2], per metre of width in 2D
-    Real cosine = 1;                                   // of the terrain's slope
-    std::array<std::int32_t, 2 * (Dim - 1)> beside{};  // the next columns along each axis, or KeyIndex::absent
+    Real footprint = 0;
+    Real cosine = 1;                                       // of the terrain's slope
+    std::array<std::int32_t, column_sides<Dim>> beside{};  // the next columns, or KeyIndex::absent
   };
   // What one tile's particles are to the columns they see, by place.
   struct TilePart {
-    std::array<Real, OfTile::count> volume, top;
-    std::array<Extent, OfTile::count> extent;  // where one of the columns is at the edge
-    std::array<std::int32_t, OfTile::count> number;
-  };
-
-  // What a function has at columns, remembered: tiles change in nearly every step.
-  struct AtColumns {
-    KeyIndex index;  // column key -> place in values
-    std::vector<Real> values;
-
-    [[nodiscard]] Real at(std::uint64_t key, Real cell, const std::function<Real(const Vector<Real, Dim - 1>&)>& of);
-    void forget_if_many(std::size_t columns);
+    std::array<Pile<Real>, places> pile;
+    std::array<Extent<Dim, Real>, places> extent;  // where one of the columns is at the edge
+    std::array<std::int32_t, places> number;
   };
 
   void number_columns(const mpm::SparseGrid<Dim, Real>& grid, const SlopeCosine& slope_cosine);
@@ -84,21 +66,22 @@ class FlowDepth {
   void find_edge();
   void set_footprints(Real cell);
   void sum_masses(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles);
-  static std::uint64_t column_key(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, std::size_t place);
-  // Key of the neighbour column `cells` further along a horizontal axis.
-  static std::uint64_t neighbour(std::uint64_t key, std::size_t axis, int cells);
+  // Whether the slide stands in a column that may be absent.
+  [[nodiscard]] bool is_filled(std::int32_t column) const {
+    return column != KeyIndex::absent && columns_[static_cast<std::size_t>(column)].pile.is_there();
+  }
 
   std::vector<std::uint64_t> numbered_;  // the tiles that columns, their numbers and sizes_ are of
   KeyIndex column_index_;
   std::vector<std::uint64_t> column_keys_;
-  AtColumns cosines_, normal_gravities_;
+  AtColumns<Dim, Real> cosines_, normal_gravities_;
   std::vector<Column> columns_;
   std::vector<TilePart> tiles_;
   std::vector<std::size_t> edge_tiles_;
   mpm::BodySizes<Real> sizes_;  // of particles [m]
   // Where the load is asked for: the mass of tiles' columns by place and of columns [kg], and their load per depth
   // [Pa/m].
-  std::vector<std::array<Real, OfTile::count>> tile_masses_;
+  std::vector<std::array<Real, places>> tile_masses_;
   std::vector<Real> masses_, load_per_depth_;
 };
 

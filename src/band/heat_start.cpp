@@ -1,7 +1,7 @@
 // What heat starts from: the content at t = 0, and the scaling by the band that is in force.
 #include "band/heat.hpp"
 #include "band/heat_kernels.hpp"
-#include "band/pore_pressure.hpp"
+#include "band/rescaling.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 
@@ -22,28 +22,6 @@ void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Rea
   });
 }
 
-namespace {
-
-// Matter as it was at t = 0 joins a particle's part of the band, at its own heat and with its own water; `kept`: share
-// of the band's matter in the mixture. The porosity follows the temperature as in a step.
-template <int Dim, class Real>
-void mix_in(const BandModel<Dim, Real>& model, Real kept, std::uint32_t p, mpm::Particles<Dim, Real>& particles) {
-  const mpm::One<Real> one{{p}};
-  const Real before = particles.temperature(p);
-  Real joining = 0;
-  with_particle_heat(model, [&](const auto& law) {
-    joining = law.temperature(particles, one, particles.initial_heat_content(p), before);
-    particles.heat_content(p) = physics::mixed(particles.heat_content(p), particles.initial_heat_content(p), kept);
-    particles.temperature(p) = law.temperature(particles, one, particles.heat_content(p), before);
-    follow_temperature(model.phases, law, particles, one, true, before);
-  });
-  if (model.pressure) {
-    mix_water(model, kept, before, joining, p, particles);
-  }
-}
-
-}  // namespace
-
 template <int Dim, class Real>
 Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
                   const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
@@ -58,19 +36,14 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
                     : of_a_cell;
   };
   const auto rescale_tile = [&](std::size_t t, Real& added) {
-    for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
-      const std::uint32_t p = grid.order()[k];
-      const Real scaling = scaling_at(p), old = particles.thermal_scaling(p);
-      if (p >= first && scaling != old) {
-        const bool mixes = model.rescaling_mixes && scaling < old;
-        const Real heat = mixes ? particles.initial_heat_content(p) : particles.heat_content(p);
-        added += particles.initial_volume(p) * heat * (Real(1) / scaling - Real(1) / old);
-        particles.thermal_scaling(p) = scaling;
-        if (mixes) {
-          mix_in(model, scaling / old, p, particles);
+    with_particle_heat(model, [&](const auto& law) {
+      for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
+        const std::uint32_t p = grid.order()[k];
+        if (p >= first) {
+          rescale_particle<Real>(model, law, model.pressure, scaling_at(p), p, particles, added);
         }
       }
-    }
+    });
   };
   if (!by_place) {
     return parallel_sum<Real>(grid.tiles().size(), rescale_tile);

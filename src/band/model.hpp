@@ -1,7 +1,6 @@
 // What heat and pore pressure need to know, the same for every step.
 #pragma once
 
-#include <algorithm>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -48,11 +47,7 @@ struct BandModel : BandPhysics<Real> {
     return {hydraulic_conductivity.data(), hydraulic_conductivity.size() == 1};
   }
 
-  [[nodiscard]] bool lets_water_seep() const {
-    return pressure && this->seepage && this->thermal_pressurization &&
-           std::any_of(hydraulic_conductivity.begin(), hydraulic_conductivity.end(),
-                       [](Real k) { return k > Real(0); });
-  }
+  [[nodiscard]] bool lets_water_seep() const { return pressure && water_may_seep(*this, hydraulic_conductivity); }
 
   // Calls work(content) with the heat content law of the run.
   template <class Work>

@@ -1,8 +1,10 @@
 // What a particle's heat and pore pressure depend on, in plain numbers: all that kernels need to know of the run.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "base/portability.hpp"
 #include "physics/mixture.hpp"
@@ -47,6 +49,13 @@ struct BandPhysics {
   // Where the normal load N on particles is asked for.
   [[nodiscard]] bool needs_normal_load() const { return !ice_presses || skeleton_compressibility > Real(0); }
 };
+
+// Whether water may seep anywhere. hydraulic_conductivity: by material [m/s].
+template <class Real>
+bool water_may_seep(const BandPhysics<Real>& model, const std::vector<Real>& hydraulic_conductivity) {
+  return model.seepage && model.thermal_pressurization &&
+         std::any_of(hydraulic_conductivity.begin(), hydraulic_conductivity.end(), [](Real k) { return k > Real(0); });
+}
 
 // Hydraulic conductivities [m/s] of particles, by their material.
 template <class Real>

@@ -16,27 +16,12 @@ struct WaterLoss {
   Real vented = 0;
 };
 
-// The void that the water of a particle leaves when all of it is melted, at t = 0 (physics/pore_water.hpp).
-template <class Real, class Particles>
-Real void_at_start(const BandPhysics<Real>& model, const Particles& particles, std::size_t p) {
-  return model.melt_contracts ? physics::melting_void(model.phases, particles.initial_porosity(p),
-                                                      Real(1) - particles.initial_saturation(p))
-                              : Real(0);
-}
-
 // Flow depth and pore pressure of all particles after dt; to follow conduct_heat in a step, and average_on_grid at its
 // start.
 template <int Dim, class Real>
 WaterLoss<Real> drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                                     const FlowDepth<Dim, Real>& depth, Real dt, mpm::Nodes<Dim, Real>& nodes,
                                     mpm::Particles<Dim, Real>& particles);
-
-// What mixing makes of the water of a particle's part of the band, of which `kept` is the share that was there before
-// matter as it was at t = 0 joined; its temperature [C] before and that of what joins. What is melted swells or
-// contracts on the way to the mixture's temperature.
-template <int Dim, class Real>
-void mix_water(const BandModel<Dim, Real>& model, Real kept, Real before, Real joining, std::uint32_t p,
-               mpm::Particles<Dim, Real>& particles);
 
 // Pressures of particles that begin, from temperature and flow depth; of those that stand in memory from `first` on. A
 // melted particle starts from P_L = P_I / r.

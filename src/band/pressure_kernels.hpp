@@ -17,6 +17,15 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto melted_before(const BandPhysics<Real>&
   return particles.previous_temperature.load(at) >= model.reference_temperature;
 }
 
+// Whether water seeps from or to any of some particles: it was melted and lets water through.
+template <class Real, class Particles, class At>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool any_seeped(const BandPhysics<Real>& model,
+                                                     const HydraulicConductivity<Real>& hydraulic,
+                                                     const Particles& particles, const At& at) {
+  const auto melted = melted_before(model, particles, at);
+  return any(melted) && any(melted & (hydraulic(particles, at) > Real(0)));
+}
+
 // Pressures of liquid and pore [Pa].
 template <class Value>
 struct Pressures {
@@ -45,6 +54,14 @@ THAWSLIDE_HD typename At::Value thawing_pressure(const BandPhysics<Real>& model,
     return melting_pressure(model, particles.ice_pressure.load(at));
   }
   return physics::thawing_pressure(particles.normal_load.load(at), typename At::Value(model.residual_stress));
+}
+
+// The void that the water of a particle leaves when all of it is melted, at t = 0 (physics/pore_water.hpp).
+template <class Real, class Particles>
+THAWSLIDE_HD Real void_at_start(const BandPhysics<Real>& model, const Particles& particles, std::size_t p) {
+  return model.melt_contracts ? physics::melting_void(model.phases, particles.initial_porosity(p),
+                                                      Real(1) - particles.initial_saturation(p))
+                              : Real(0);
 }
 
 // Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or whole as printed); frozen particles

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -325,6 +326,7 @@ struct Case {
   std::string file;  // absolute path of the case file
   std::map<std::string, std::string>
       places;                           // of each given table and key by dotted name: "case.toml:12:7", "--set ..."
+  std::set<std::string> not_given;      // of these the ones that a run has written, at their defaults
   std::vector<std::string> case_files;  // that and the files it is based on, absolute
   General general;
   Time time;
@@ -361,6 +363,11 @@ inline bool water_seeps(const Case& parameters) {
   const auto conducts = [](const auto& each) { return each.second.hydraulic_conductivity > 0.0; };
   return has_pore_water(parameters) && parameters.pressure.seepage &&
          std::any_of(parameters.materials.begin(), parameters.materials.end(), conducts);
+}
+
+// Whether the user has written a key; the case of a run's folder tells it of the case that the run began with.
+inline bool was_given(const Case& parameters, const std::string& dotted) {
+  return parameters.places.count(dotted) > 0 && parameters.not_given.count(dotted) == 0;
 }
 
 // Where a key was written, for messages; the case file where it was not.

@@ -74,7 +74,8 @@ void gather(const toml::table& table, const std::string& prefix, std::map<std::s
 
 }  // namespace
 
-std::vector<std::string> differences(const std::string& now, const std::string& before) {
+std::vector<std::string> differences(const std::string& now, const std::string& before,
+                                     const std::set<std::string>& apart_from) {
   std::map<std::string, std::string> present, past;
   try {
     gather(toml::parse(now), "", present);
@@ -82,6 +83,10 @@ std::vector<std::string> differences(const std::string& now, const std::string& 
     return {fmt::format("line {} is not TOML: {}", error.source().begin.line, error.description())};
   }
   gather(toml::parse(before), "", past);
+  for (const std::string& key : apart_from) {
+    present.erase(key);
+    past.erase(key);
+  }
   std::vector<std::string> found;
   for (const auto& [key, value] : past) {
     const auto other = present.find(key);
@@ -97,6 +102,14 @@ std::vector<std::string> differences(const std::string& now, const std::string& 
     }
   }
   return found;
+}
+
+std::set<std::string> keys_of(const std::vector<std::string>& sets) {
+  std::set<std::string> keys;
+  for (const std::string& set : sets) {
+    keys.insert(parse_override(set).key);
+  }
+  return keys;
 }
 
 std::string changeable_keys() {

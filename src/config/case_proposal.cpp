@@ -135,6 +135,29 @@ double round_down(double x) {
   return best;
 }
 
+// A cell of at most so much, of which a domain of these lengths has a whole number along each axis, as it has of
+// `cell`.
+double fitting_cell(double most, double cell, const std::vector<double>& lengths) {
+  if (lengths.empty()) {
+    return round_down(most);
+  }
+  long common = 0;
+  for (const double length : lengths) {
+    common = std::gcd(common, std::lround(length / cell));
+  }
+  // All lengths are whole multiples of this, and of a whole part of it.
+  const double largest = cell * static_cast<double>(common);
+  const double fewest = std::ceil(largest / most * (1.0 - 1e-9));
+  constexpr double leeway = 1.5;  // to come by a cell of few digits
+  for (double parts = fewest; parts <= leeway * fewest; ++parts) {
+    const double found = largest / parts, of_few_digits = std::stod(fmt::format("{:.2g}", found));
+    if (std::abs(found - of_few_digits) < 1e-9 * found) {
+      return of_few_digits;
+    }
+  }
+  return largest / fewest;
+}
+
 double median_thickness(const Raster& thickness) {
   std::vector<double> known;
   std::copy_if(thickness.values.begin(), thickness.values.end(), std::back_inserter(known),
@@ -142,16 +165,17 @@ double median_thickness(const Raster& thickness) {
   return median_of(std::move(known));
 }
 
-std::string resolution_note(const std::string& body, double thickness, double cell, int particles_per_axis) {
+std::string resolution_note(const std::string& body, double thickness, double cell, int particles_per_axis,
+                            const std::vector<double>& lengths) {
   const double across = thickness * particles_per_axis / cell;
   if (across >= fewest_across * (1.0 - 1e-9)) {
     return "";
   }
   return fmt::format(
       "the body {} has {:.2g} particles across its median thickness of {:.3g} m; fewer than {:g} do not tell how it "
-      "shears and thins. A cell of {:g} m has {:g} and more",
-      body, across, thickness, fewest_across, round_down(thickness * particles_per_axis / particles_across),
-      particles_across);
+      "shears and thins. A cell of {:.9g} m has {:g} and more",
+      body, across, thickness, fewest_across,
+      fitting_cell(thickness * particles_per_axis / particles_across, cell, lengths), particles_across);
 }
 
 Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell) {

@@ -62,9 +62,10 @@ void propose_times(Proposal& proposal, double farthest);
 [[nodiscard]] double median_thickness(const Raster& thickness);
 
 // What the user should know of cells that put too few particles across the median thickness of a body [m]; empty where
-// they are enough.
+// they are enough. The cell that it names fits a domain of these `lengths` [m], a whole number of cells each; empty:
+// any does, as the domain follows from it.
 [[nodiscard]] std::string resolution_note(const std::string& body, double thickness, double cell,
-                                          int particles_per_axis);
+                                          int particles_per_axis, const std::vector<double>& lengths = {});
 
 // How many particles the cell puts across the thickness, for the comment at grid.cell.
 [[nodiscard]] std::string cell_comment(const Proposal& proposal);

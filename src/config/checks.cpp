@@ -5,16 +5,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "base/error.hpp"
-#include "config/input_limits.hpp"
 
 namespace thawslide::config {
 
 namespace {
 
-constexpr double fewest_cells = 2.0;  // of the domain along each axis
-constexpr double most_cells = 5e5;    // what the numbers of the sparse grid's tiles can hold
+constexpr double fewest_cells = 2.0;    // of the domain along each axis
+constexpr double most_intervals = 1e9;  // within the run: more cannot be meant, and nothing could write them
+constexpr double most_cells = 5e5;      // what the numbers of the sparse grid's tiles can hold
 const char* const axis_names[] = {"x", "y", "z"};
 const std::array side_names{"heat.boundary.x_min", "heat.boundary.x_max", "heat.boundary.y_min",
                             "heat.boundary.y_max", "heat.boundary.z_min", "heat.boundary.z_max"};
@@ -277,6 +278,21 @@ void check_times(const Case& checked, Reading& reading) {
                     "most that. Make the step smaller, or the run longer.",
                     time.step, time.end));
   }
+  const std::initializer_list<std::tuple<std::string, double, const char*>> intervals{
+      {"time.output_interval", time.output_interval, ""},
+      {"time.history_interval", time.history_interval, "; 0: a row every step"},
+      {"checkpoint.interval", checked.checkpoint.interval, "; 0: none by simulated time"}};
+  for (const auto& [key, interval, or_none] : intervals) {
+    if (reading.sound({key}) && interval > 0.0 && interval < time.end / most_intervals) {
+      const bool is_given = reading.given(key);
+      reading.report_misfit(
+          {is_given ? key : "time.end", is_given ? "time.end" : key},
+          fmt::format("{} is {} s, and the run of {} s has {:.4g} times as much; allowed: {:.4g} s and more, {:g} of "
+                      "them in the run{}. Make it longer, or the run shorter.",
+                      key, interval, time.end, time.end / interval, time.end / most_intervals, most_intervals,
+                      or_none));
+    }
+  }
 }
 
 // Columns of the profile against the domain; empty where there is none, or it has a problem of its own.
@@ -335,9 +351,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_filter(checked, reading);
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
-  if (reading.sound({"report.targets"}) && !checked.report.targets.empty()) {
-    require_size(checked.report.targets, largest_table_file, "Is it the file of report.targets?");
-  }
+  check_files(checked, reading);
 }
 
 }  // namespace thawslide::config

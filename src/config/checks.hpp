@@ -26,4 +26,7 @@ void check_bed(const Case& checked, Reading& reading);
 // known here.
 void check_maps(const Case& checked, Reading& reading);
 
+// The part on the names of input files, and on reported values.
+void check_files(const Case& checked, Reading& reading);
+
 }  // namespace thawslide::config

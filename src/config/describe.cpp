@@ -172,7 +172,7 @@ std::string resolved_toml(const Case& parameters, const std::filesystem::path& i
   WriteContext context;
   context.dimension = parameters.general.dimension;
   context.input_folder = input_folder;
-  std::string out = "# The case of this run, every default written out.\n";
+  std::string out = "# The case of this run, every default written out: what the case did not give is marked so.\n";
   for (const auto& table : tables()) {
     table->write(parameters, context, out);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <utility>
 
 namespace thawslide::config {
 
@@ -30,55 +31,69 @@ std::vector<fs::path> companions(const fs::path& map) {
 }
 
 // The DEM, and what bodies, maps and probes are read from; may hold empty names.
-std::vector<std::string> map_files(const Case& parameters) {
-  std::vector<std::string> files{parameters.maps.path};
+std::vector<InputFile> map_files(const Case& parameters) {
+  std::vector<InputFile> files{{"maps.path", parameters.maps.path}};
   if (parameters.terrain.kind == TerrainKind::dem) {
-    files.push_back(parameters.terrain.file);
+    files.push_back({"terrain.file", parameters.terrain.file});
   }
   for (const auto& [name, body] : parameters.bodies) {
-    files.push_back(body.release);
+    const std::string table = "body." + name + ".";
+    files.push_back({table + "release", body.release});
     if (body.thickness.from == MapValue::From::raster || body.thickness.from == MapValue::From::surface) {
-      files.push_back(body.thickness.source);
+      files.push_back({table + "thickness", body.thickness.source});
     }
-    for (const InitialField* field : {&body.temperature, &body.saturation, &body.porosity, &body.ice_content}) {
+    for (const auto& [key, field] :
+         {std::pair("temperature", &body.temperature), std::pair("saturation", &body.saturation),
+          std::pair("porosity", &body.porosity), std::pair("ice_content", &body.ice_content)}) {
       if (field->over == InitialField::Over::raster) {
-        files.push_back(field->source);
+        files.push_back({table + key, field->source});
       }
     }
   }
   for (const auto& [name, substrate] : parameters.substrates) {
-    files.insert(files.end(), {substrate.outline, substrate.raster});
+    const std::string table = "substrate." + name + ".";
+    files.push_back({table + "outline", substrate.outline});
+    files.push_back({table + "raster", substrate.raster});
   }
   if (parameters.bed.depth.over == InitialField::Over::raster) {
-    files.push_back(parameters.bed.depth.source);
+    files.push_back({"bed.depth", parameters.bed.depth.source});
   }
   for (const auto& [name, probe] : parameters.probes) {
-    files.push_back(probe.line);
+    files.push_back({"probe." + name + ".line", probe.line});
   }
   return files;
 }
 
 }  // namespace
 
-std::vector<fs::path> input_files(const Case& parameters) {
-  std::vector<fs::path> files;
-  const auto add = [&files](const fs::path& file) {
-    if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end()) {
-      files.push_back(file);
+std::vector<InputFile> input_files_by_key(const Case& parameters) {
+  std::vector<InputFile> files;
+  const auto add = [&files](const std::string& key, const fs::path& file) {
+    const auto is_it = [&file](const InputFile& other) { return other.file == file; };
+    if (!file.empty() && std::none_of(files.begin(), files.end(), is_it)) {
+      files.push_back({key, file});
     }
   };
   for (const std::string& file : parameters.case_files) {
-    add(file);
+    add(files.empty() ? "" : "case.based_on", file);
   }
-  add(parameters.terrain.file);
-  add(parameters.report.targets);
-  for (const std::string& file : map_files(parameters)) {
-    add(file);
-    if (!file.empty()) {
-      for (const fs::path& companion : companions(file)) {
-        add(companion);
+  add("terrain.file", parameters.terrain.file);
+  add("report.targets", parameters.report.targets);
+  for (const InputFile& map : map_files(parameters)) {
+    add(map.key, map.file);
+    if (!map.file.empty()) {
+      for (const fs::path& companion : companions(map.file)) {
+        add(map.key, companion);
       }
     }
+  }
+  return files;
+}
+
+std::vector<fs::path> input_files(const Case& parameters) {
+  std::vector<fs::path> files;
+  for (InputFile& input : input_files_by_key(parameters)) {
+    files.push_back(std::move(input.file));
   }
   return files;
 }

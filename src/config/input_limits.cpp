@@ -24,6 +24,23 @@ std::string shown(const std::string& text) {
   return plain.size() < text.size() ? plain + "..." : plain;
 }
 
+std::string what_stands_at(const fs::path& path) {
+  std::error_code unknown;
+  switch (fs::status(path, unknown).type()) {
+    case fs::file_type::directory:
+      return "a folder";
+    case fs::file_type::fifo:
+      return "a pipe";
+    case fs::file_type::socket:
+      return "a socket";
+    case fs::file_type::block:
+    case fs::file_type::character:
+      return "a device";
+    default:
+      return "";
+  }
+}
+
 bool lies_within(const fs::path& path, const fs::path& folder) {
   std::error_code error;
   const fs::path inside = fs::weakly_canonical(path, error).lexically_relative(fs::weakly_canonical(folder, error));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "physics/basal/shared_parameters.hpp"
 
@@ -10,10 +11,27 @@ namespace thawslide::config {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double stiffest = 1e11;       // [Pa]; fresh rock has some 5e10
 constexpr double smallest_angle = 3.0;  // [degrees]; tan 3 is 0.05, the least that is said of ice on ice
 constexpr double warm = 0.0;            // [C]
 constexpr double most_snapshots = 10000.0;
+constexpr double most_steps = 1e9;
+constexpr double least_on_earth = 9.5, most_on_earth = 10.1;         // [m/s2]; 9.81 and what is rounded from it
+constexpr double lightest_in_grams = 0.5, heaviest_in_grams = 10.0;  // [g/cm3]
+constexpr double grams = 1000.0;                                     // [kg/m3] of 1 g/cm3
+
+// What a phase of a slide weighs, generously [kg/m3].
+struct UsualDensity {
+  const char* key;
+  double Phases::*density;
+  double low, high;
+  const char* of;
+};
+constexpr UsualDensity usual_densities[] = {
+    {"phases.rock_density", &Phases::rock_density, 2000.0, 3600.0, "the grains of rock have"},
+    {"phases.ice_density", &Phases::ice_density, 800.0, 950.0, "ice has"},
+    {"phases.water_density", &Phases::water_density, 950.0, 1300.0, "water has"}};
 
 class Doubts {
  public:
@@ -34,7 +52,22 @@ class Doubts {
   std::vector<std::string> found_;
 };
 
-bool is_given(const Case& parameters, const std::string& key) { return parameters.places.count(key) > 0; }
+void doubt_phases(const Case& parameters, Doubts& doubts) {
+  for (const auto& [key, member, low, high, of] : usual_densities) {
+    const double density = parameters.phases.*member;
+    if (density >= low && density <= high) {
+      continue;
+    }
+    const bool is_in_grams = density >= lightest_in_grams && density <= heaviest_in_grams;
+    doubts.add(key, density, " kg/m3",
+               is_in_grams ? fmt::format("if it is in g/cm3, it is {:g} kg/m3.", density * grams)
+                           : fmt::format("{} {:g} to {:g} kg/m3.", of, low, high));
+  }
+  const double gravity = parameters.general.gravity;
+  if (gravity != 0.0 && (gravity < least_on_earth || gravity > most_on_earth)) {
+    doubts.add("case.gravity", gravity, " m/s2", "on Earth it is 9.81 m/s2.");
+  }
+}
 
 void doubt_materials(const Case& parameters, Doubts& doubts) {
   const bool deforms = parameters.mechanics.enabled && parameters.mechanisms.deformation;
@@ -57,7 +90,7 @@ void doubt_materials(const Case& parameters, Doubts& doubts) {
                  "was a coefficient meant? Angles are in degrees; 35 is a coefficient of 0.7.");
     }
     const std::string conductivity = table + "hydraulic_conductivity";
-    if (is_pressed && material.hydraulic_conductivity == 0.0 && !is_given(parameters, conductivity)) {
+    if (is_pressed && material.hydraulic_conductivity == 0.0 && !was_given(parameters, conductivity)) {
       doubts.add(conductivity, material.hydraulic_conductivity, " m/s, its default",
                  "pore water never drains, and what is under pressure may never stop. Of the base of a slide 1e-8 to "
                  "1e-5 m/s is said. Give it, and if 0 is meant 0, and this note goes.");
@@ -96,7 +129,7 @@ void doubt_bed(const Case& parameters, Doubts& doubts) {
     doubts.add("bed.friction_angle", bed.friction_angle, " degrees",
                "was a coefficient meant? Angles are in degrees; 6 is a coefficient of 0.1.");
   }
-  if (parameters.heat.enabled && bed.temperature > parameters.freezing.reference_temperature) {
+  if (bed.temperature > parameters.freezing.reference_temperature) {
     doubts.add("bed.temperature", bed.temperature, " C",
                "the bed's pores hold water, no ice. Was a temperature below 0 meant?");
   }
@@ -106,7 +139,7 @@ void doubt_bodies(const Case& parameters, Doubts& doubts) {
   for (const auto& [name, body] : parameters.bodies) {
     const auto& temperatures = body.temperature.table.value;
     const double warmest = temperatures.empty() ? warm : *std::max_element(temperatures.begin(), temperatures.end());
-    if (parameters.heat.enabled && parameters.terrain.kind != TerrainKind::none && !body.saturation.is_given() &&
+    if (parameters.terrain.kind != TerrainKind::none && !body.saturation.is_given() &&
         warmest > parameters.freezing.reference_temperature) {
       doubts.add("body." + name + ".temperature", warmest, " C",
                  "its pores hold water from the start, no ice. Was a temperature below 0 meant?");
@@ -114,17 +147,37 @@ void doubt_bodies(const Case& parameters, Doubts& doubts) {
   }
 }
 
+void doubt_step(const Case& parameters, Doubts& doubts) {
+  const Time& time = parameters.time;
+  const double steps = time.end / time.step;
+  if (time.stepping == Stepping::fixed && steps > most_steps) {
+    doubts.add("time.step", time.step, " s",
+               fmt::format("that is {:.4g} steps, months of computing. `thawslide check` tells the limit, which a step "
+                           "may come close to.",
+                           steps));
+  }
+}
+
 void doubt_output(const Case& parameters, Doubts& doubts) {
   const Time& time = parameters.time;
+  const bool is_fixed = time.stepping == Stepping::fixed;
+  // Nothing is written more than once a step, and adaptive steps are cut to what is to be written.
+  const double snapshots = std::min(time.end / time.output_interval, is_fixed ? time.end / time.step : infinity);
   if (time.output_interval > time.end) {
     doubts.add(
         "time.output_interval", time.output_interval, " s",
         fmt::format("longer than the run of {} s, which leaves a snapshot of its start and one of its end.", time.end));
   }
-  if (time.end / time.output_interval > most_snapshots) {
-    doubts.add("time.output_interval", time.output_interval, " s",
-               fmt::format("that is {:.0f} snapshots, each a file, more than a folder or a film is good for.",
-                           time.end / time.output_interval));
+  if (snapshots > most_snapshots) {
+    doubts.add(
+        "time.output_interval", time.output_interval, " s",
+        fmt::format("that is {:.6g} snapshots, each a file, more than a folder or a film is good for.", snapshots));
+  }
+  if (const double interval = parameters.checkpoint.interval; is_fixed && interval > 0.0 && interval < time.step) {
+    doubts.add("checkpoint.interval", interval, " s",
+               fmt::format("shorter than the step of {} s: a checkpoint every step takes longer than the step. "
+                           "checkpoint.wall_interval writes them by the clock.",
+                           time.step));
   }
   if (time.history_interval > time.end) {
     doubts.add(
@@ -137,6 +190,7 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
 
 std::vector<std::string> implausible(const Case& parameters) {
   Doubts doubts(parameters);
+  doubt_phases(parameters, doubts);
   doubt_materials(parameters, doubts);
   doubt_band(parameters, doubts);
   doubt_ground("basal", parameters.basal, doubts);
@@ -145,6 +199,7 @@ std::vector<std::string> implausible(const Case& parameters) {
   }
   doubt_bed(parameters, doubts);
   doubt_bodies(parameters, doubts);
+  doubt_step(parameters, doubts);
   doubt_output(parameters, doubts);
   return doubts.take();
 }

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "config/checks.hpp"
 #include "config/declaration.hpp"
+#include "config/input_limits.hpp"
 #include "config/overrides.hpp"
 #include "config/variants.hpp"
 
@@ -38,6 +39,9 @@ fs::path find_case_file(const fs::path& given) {
   if (fs::is_regular_file(given, error)) {
     return given;
   }
+  if (const std::string found = what_stands_at(given); !found.empty() && !fs::is_directory(given, error)) {
+    throw UserError(fmt::format("{} is {}. Give a case file, or a folder with a case.toml.", given.string(), found));
+  }
   if (!fs::is_directory(given, error)) {
     const fs::path normal = given.has_filename() ? given : given.parent_path();
     throw UserError(fmt::format(
@@ -47,6 +51,9 @@ fs::path find_case_file(const fs::path& given) {
         }()));
   }
   const fs::path file = given / "case.toml";
+  if (const std::string found = what_stands_at(file); !found.empty()) {
+    throw UserError(fmt::format("{} is {}. Give a case file, or a folder with a case.toml.", file.string(), found));
+  }
   if (!fs::is_regular_file(file, error)) {
     const std::vector<std::string> others = names_in(given, ".toml");
     throw UserError(fmt::format("{}: the folder has no case.toml. {}", given.string(),
@@ -125,6 +132,10 @@ Case read_case(const fs::path& case_file_or_folder, const std::vector<std::strin
   read_tables(layered.root, result, reading);
   for (const auto& [key, place] : reading.places) {
     result.places[key] = place.text();
+    const auto marked = layered.lines_not_given.find(place.source);
+    if (marked != layered.lines_not_given.end() && marked->second.count(place.line) > 0) {
+      result.not_given.insert(key);
+    }
   }
   // What was read is whole: nothing is left of the base but its file.
   result.general.based_on.clear();

@@ -193,6 +193,9 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
                               path, key, form));
     }
   }
+  if (const std::string found = what_stands_at(whole); !found.empty()) {
+    return fail(node, fmt::format("is \"{}\", {}; allowed: a file", path, found));
+  }
   if (!fs::is_regular_file(whole, error)) {
     const std::string hint = similar_file(whole);
     return fail(node, fmt::format("is \"{}\": no such file ({}){} {}: {}", path, whole.parent_path().string(),

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "config/variants.hpp"
+
 namespace thawslide::config {
 
 namespace {
@@ -147,8 +149,12 @@ bool check_dimension(const toml::node& node, const std::string& dotted, const Ru
   return false;
 }
 
-std::string value_line(const Rule& rule, const std::string& value) {
-  return fmt::format("{} = {}{}{}\n", rule.key, value, rule.unit.empty() ? "" : "  # ", rule.unit);
+std::string value_line(const Rule& rule, const std::string& value, bool was_given) {
+  std::string comment = rule.unit;
+  if (!was_given) {
+    comment += (comment.empty() ? "" : ", ") + std::string(not_given_mark);
+  }
+  return fmt::format("{} = {}{}{}\n", rule.key, value, comment.empty() ? "" : "  # ", comment);
 }
 
 }  // namespace thawslide::config

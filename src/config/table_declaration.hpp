@@ -30,7 +30,8 @@ void report_missing(const std::string& table, const Rule& rule, const std::strin
 void report_without_meaning(const std::string& table, const Rule& rule, const Meaning& meaning, Reading& reading);
 bool check_dimension(const toml::node& node, const std::string& dotted, const Rule& rule, Reading& reading);
 // One line "key = value  # unit".
-std::string value_line(const Rule& rule, const std::string& value);
+// A line of the resolved case: `KEY = VALUE  # UNIT, not given`.
+std::string value_line(const Rule& rule, const std::string& value, bool was_given);
 
 // The parameters of one section, whatever table they stand in.
 template <class Section>
@@ -92,7 +93,8 @@ class SectionParameters {
     }
   }
 
-  void write(const Case& whole, const Section& section, const WriteContext& context, std::string& out) const {
+  void write(const std::string& dotted, const Case& whole, const Section& section, const WriteContext& context,
+             std::string& out) const {
     const Section defaults{};
     for (const auto& p : parameters_) {
       if (p.has_meaning && !p.has_meaning(whole, section)) {
@@ -104,7 +106,7 @@ class SectionParameters {
                              value == p.write(defaults, p.rule, context);
       const bool elsewhere = p.rule.dimension != 0 && p.rule.dimension != context.dimension;
       if (!is_absent && !elsewhere) {
-        out += value_line(p.rule, value);
+        out += value_line(p.rule, value, was_given(whole, join(dotted, p.rule.key)));
       }
     }
   }
@@ -165,7 +167,7 @@ class SingleTable : public TableDeclaration {
   }
   void write(const Case& source, const WriteContext& context, std::string& out) const override {
     std::string lines;
-    section_.write(source, source.*member_, context, lines);
+    section_.write(name, source, source.*member_, context, lines);
     out += lines.empty() ? "" : "\n[" + name + "]\n" + lines;
   }
   void find_unusual(const Case& source, std::vector<Unusual>& found) const override {
@@ -209,8 +211,9 @@ class NamedTable : public TableDeclaration {
   }
   void write(const Case& source, const WriteContext& context, std::string& out) const override {
     for (const auto& [own_name, section] : source.*member_) {
-      out += "\n[" + join(name, own_name) + "]\n";
-      section_.write(source, section, context, out);
+      const std::string dotted = join(name, own_name);
+      out += "\n[" + dotted + "]\n";
+      section_.write(dotted, source, section, context, out);
     }
   }
   void find_unusual(const Case& source, std::vector<Unusual>& found) const override {

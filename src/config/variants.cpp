@@ -149,14 +149,31 @@ void lay_over(toml::table& under, toml::table&& over, const std::string& dotted)
   }
 }
 
-toml::table read_chain(const fs::path& file, std::vector<fs::path>& chain) {
-  chain.push_back(file);
-  toml::table root = parse(read_text(file), file.string());
-  const std::optional<fs::path> base = base_of(root, file, chain);
+std::set<std::uint32_t> lines_not_given(std::string_view text) {
+  std::set<std::uint32_t> lines;
+  std::uint32_t line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view words = text.substr(begin, end - begin), mark = not_given_mark;
+    if (words.size() > mark.size() && words.substr(words.size() - mark.size()) == mark &&
+        words.find('#') != std::string_view::npos) {
+      lines.insert(line);
+    }
+    begin = end + 1;
+  }
+  return lines;
+}
+
+toml::table read_chain(const fs::path& file, LayeredCase& found) {
+  found.files.push_back(file);
+  const std::string text = read_text(file);
+  toml::table root = parse(text, file.string());
+  found.lines_not_given[file.string()] = lines_not_given(text);
+  const std::optional<fs::path> base = base_of(root, file, found.files);
   if (!base) {
     return root;
   }
-  toml::table under = read_chain(*base, chain);
+  toml::table under = read_chain(*base, found);
   lay_over(under, std::move(root), "");
   return under;
 }
@@ -165,7 +182,7 @@ toml::table read_chain(const fs::path& file, std::vector<fs::path>& chain) {
 
 LayeredCase read_with_bases(const fs::path& file) {
   LayeredCase result;
-  result.root = read_chain(file, result.files);
+  result.root = read_chain(file, result);
   return result;
 }
 

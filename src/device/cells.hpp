@@ -4,6 +4,7 @@
 
 #include "device/array.hpp"
 #include "device/cell_works.hpp"
+#include "device/first_of_keys.hpp"
 #include "device/tile_tables.hpp"
 
 namespace thawslide::device {
@@ -38,7 +39,7 @@ class Cells {
     order_.swap(order_in_id_);
     backend_.sort(keys_.data(), order_.data(), count);
     former_tile_keys_.swap(tile_keys_);
-    take_first(keys_, T::node_bits, tile_keys_, &first_of_tile_);
+    first_.find(keys_, T::node_bits, tile_keys_, &first_of_tile_);
     if (tiles_changed()) {
       list_blocks();
       blocks_changed_ = true;
@@ -75,23 +76,6 @@ class Cells {
     backend_.for_each(numbers.size(), Fill<Number>{numbers.data(), number});
   }
 
-  // The different numbers of an ascending list, bits below `shift` left out, and the places at which they begin.
-  void take_first(const Array<std::uint64_t, Backend>& keys, int shift, Array<std::uint64_t, Backend>& found,
-                  Array<std::uint32_t, Backend>* places) {
-    const std::size_t count = keys.size();
-    is_first_.resize(count);
-    number_.resize(count);
-    backend_.for_each(count, MarkFirst{keys.data(), shift, is_first_.data()});
-    backend_.sum_before(is_first_.data(), number_.data(), count);
-    const std::size_t different = count > 0 ? number_.get(count - 1) + is_first_.get(count - 1) : 0;
-    found.resize(different);
-    if (places != nullptr) {
-      places->resize(different);
-    }
-    backend_.for_each(count, TakeFirst{keys.data(), shift, is_first_.data(), number_.data(), found.data(),
-                                       places != nullptr ? places->data() : nullptr});
-  }
-
   bool tiles_changed() {
     if (former_tile_keys_.size() != tile_keys_.size()) {
       return true;
@@ -107,7 +91,7 @@ class Cells {
     unused_.resize(tiles * stencil);
     backend_.for_each(tiles * stencil, ListNeighbours<Dim>{tile_keys_.data(), neighbour_keys_.data()});
     backend_.sort(neighbour_keys_.data(), unused_.data(), tiles * stencil);
-    take_first(neighbour_keys_, 0, block_keys_, nullptr);
+    first_.find(neighbour_keys_, 0, block_keys_, nullptr);
     find_neighbours(tile_keys_, block_keys_, blocks_about_tile_);
     find_neighbours(block_keys_, tile_keys_, tiles_about_block_);
     find_neighbours(block_keys_, block_keys_, blocks_about_block_);
@@ -128,7 +112,8 @@ class Cells {
   Array<std::uint32_t, Backend> first_of_tile_{backend_}, first_of_cell_{backend_};
   Array<std::int32_t, Backend> blocks_about_tile_{backend_}, tiles_about_block_{backend_};
   Array<std::int32_t, Backend> blocks_about_block_{backend_};
-  Array<std::uint32_t, Backend> is_first_{backend_}, number_{backend_}, unused_{backend_};
+  Array<std::uint32_t, Backend> unused_{backend_};
+  FirstOfKeys<Backend> first_{backend_};
   bool blocks_changed_ = true;
 };
 

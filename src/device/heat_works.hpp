@@ -1,34 +1,34 @@
-// What particles, nodes and tiles do to conduct heat on a device: the kernels of band/heat_kernels.hpp with what they
+// What particles and nodes do to conduct heat on a device: the kernels of band/heat_kernels.hpp with what they
 // refer to by value, and the functions of band/nodal_heat.hpp.
 #pragma once
 
 #include "band/heat_kernels.hpp"
 #include "band/nodal_heat.hpp"
+#include "band/rescaling.hpp"
 #include "device/node_works.hpp"
-#include "device/tile_tables.hpp"
 
 namespace thawslide::device {
 
 // Scaling of a particle in the band, or of all; sums the heat that another scaling adds.
-template <int Dim, class Real>
+template <int Dim, class Real, class Content>
 struct RescaleBand {
+  using Law = band::ParticleHeat<Content, band::InitialMasses>;
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = Real;
 
+  Content content;
+  band::BandPhysics<Real> physics;
+  bool has_water, scales_all;
   Real in_band;
-  bool scales_all;
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
                                Real& added_heat) const {
     const std::uint32_t p = at.particle[0];
+    const Law law{content};
     const Real scaling = scales_all || particles.in_band(p) != 0 ? in_band : Real(1);
-    const Real old = particles.thermal_scaling(p);
-    if (scaling != old) {
-      added_heat += particles.initial_volume(p) * particles.heat_content(p) * (Real(1) / scaling - Real(1) / old);
-      particles.thermal_scaling(p) = scaling;
-    }
+    band::rescale_particle(physics, law, has_water, scaling, p, particles, added_heat);
   }
 };
 
@@ -129,37 +129,7 @@ struct SolveRates {
   }
 };
 
-// Marks the tiles whose nodes, or whose particles, meet a condition. A group of threads a tile. Asks: of_node(number
-// among those of all blocks), of_particle(particle).
-template <class Asks, int Dim>
-struct MarkTiles {
-  using T = mpm::Tile<Dim>;
-  TileTables<Dim> tables;
-  Asks asks;
-  std::uint8_t* marks;
-
-  template <class Group>
-  THAWSLIDE_HD void operator()(Group& group, std::size_t tile) const {
-    constexpr auto nodes = static_cast<std::size_t>(T::nodes), stencil = static_cast<std::size_t>(T::stencil);
-    const std::size_t first = tables.first_of_cell[tile * nodes], last = tables.first_of_cell[(tile + 1) * nodes];
-    group.each(1, [this, tile](std::size_t /*k*/) { marks[tile] = 0; });
-    group.barrier();
-    group.each(static_cast<std::size_t>(T::patch_nodes), [this, tile](std::size_t k) {
-      const PlaceInBlock<Dim> place = place_in_block<Dim>(k);
-      const std::int32_t block = tables.blocks_about_tile[tile * stencil + place.direction];
-      if (asks.of_node(static_cast<std::size_t>(block) * nodes + place.node)) {
-        marks[tile] = 1;  // all who write it write the same
-      }
-    });
-    group.each(last - first, [this, tile, first](std::size_t k) {
-      if (asks.of_particle(tables.order[first + k])) {
-        marks[tile] = 1;
-      }
-    });
-  }
-};
-
-// Where a temperature may change by more than is negligible.
+// For marks of tiles (device/marks.hpp). Where a temperature may change by more than is negligible.
 template <int Dim, class Real, class Content>
 struct MayChange {
   NodeViews<Dim, Real> nodes;
@@ -184,32 +154,6 @@ struct HoldsHeat {
     return orphan_heat[node * mpm::record_size(mpm::OrphanHeat::size<Dim>)] != Real(0);
   }
   [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t /*particle*/) const { return false; }
-};
-
-// Blocks whose nodes particles of marked tiles may see.
-template <int Dim>
-struct MarkBlocks {
-  TileTables<Dim> tables;
-  const std::uint8_t* tiles;
-  std::uint8_t* blocks;
-
-  THAWSLIDE_HD void operator()(std::size_t block) const {
-    constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
-    std::uint8_t any = 0;
-    for (std::size_t d = 0; d < stencil; ++d) {
-      const std::int32_t tile = tables.tiles_about_block[block * stencil + d];
-      any = tile != absent && tiles[tile] != 0 ? 1 : any;
-    }
-    blocks[block] = any;
-  }
-};
-
-// Of a pass over marked tiles.
-struct MarkedTiles {
-  const std::uint8_t* marks;
-
-  THAWSLIDE_HD bool operator()(std::size_t tile) const { return marks[tile] != 0; }
-  THAWSLIDE_HD bool operator()(std::size_t /*tile*/, std::size_t /*cell*/) const { return true; }
 };
 
 }  // namespace thawslide::device

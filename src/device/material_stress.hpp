@@ -25,6 +25,21 @@ struct DeformMaterial {
   std::int32_t material;
   bool is_only_one;  // all particles are of it
 
+  // Of material m of a model of the step.
+  template <class Model>
+  static DeformMaterial of(const Law& law, const Model& model, std::size_t m, Real dt) {
+    const auto& material = model.materials[m];
+    return {law,
+            material.elastic,
+            model.phases,
+            material.gaps_close_first,
+            material.viscosity_time,
+            model.effective_stress,
+            dt,
+            static_cast<std::int32_t>(m),
+            model.materials.size() == 1};
+  }
+
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
                                Account& account) const {

@@ -30,6 +30,14 @@ class PassMemory {
   Array<std::byte, Backend> sums_;
 };
 
+// The records of nodes, one after another, by name.
+template <class Backend, class Real, class... Names>
+struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...> {
+  explicit NodeArrays(Backend& backend)
+      : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...>{
+            mpm::Named<Names, Array<Real, Backend>>{Array<Real, Backend>(backend)}...} {}
+};
+
 // As mpm::particle_pass, with kernels that hold what they need by value. What they add stands in the patches of
 // `memory` then; returns where in the device's memory their sums over particles stand until the next pass. records: of
 // what is read, by name.

@@ -1,18 +1,22 @@
-// A step on a device: momentum to the grid, contact, motion, stress and heat (simulation.cpp has the same stages for
-// the processor). Pore pressures rest.
+// A step on a device: momentum to the grid, contact, motion, stress, heat and pore pressure (simulation.cpp has the
+// same stages for the processor).
 #pragma once
 
 #include <variant>
 
 #include "band/averages_kernel.hpp"
 #include "device/block_pass.hpp"
+#include "device/body_sizes.hpp"
 #include "device/cells.hpp"
+#include "device/columns.hpp"
 #include "device/ground.hpp"
 #include "device/heat_works.hpp"
+#include "device/marks.hpp"
 #include "device/material_stress.hpp"
 #include "device/node_works.hpp"
 #include "device/particles.hpp"
 #include "device/passes.hpp"
+#include "device/pressure_works.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/position_kernel.hpp"
 #include "terrain/band_marks_kernel.hpp"
@@ -23,29 +27,20 @@ namespace thawslide::device {
 template <class Backend, class Shape, int Dim, class Real>
 class Step {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
-  template <class Name>
-  using Numbers = mpm::Named<Name, Array<Real, Backend>>;
   using Sums = StepSums<Dim, Real>;
 
  public:
-  // So many particles of the processor's memory, copied. ask_ground: none where there is no ground.
+  // So many particles of the processor's memory, copied.
   Step(Backend& backend, const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles,
-       std::size_t count, AskGround<Dim, Real> ask_ground)
+       std::size_t count, const AskTerrain<Dim, Real>& ask)
       : backend_(backend),
         model_(model),
         particles_(backend, particles, count),
         cells_(backend, model.cell),
-        ground_(backend, std::move(ask_ground)) {
-    std::vector<Real> inverse;
-    for (const Real half : model.half_sizes) {
-      inverse.push_back(Real(1) / half);
-    }
-    if (model.heat) {
-      hydraulic_.set(model.heat->hydraulic_conductivity);
-      first_step_ = model.heat->starts;
-    }
-    half_sizes_.set(model.half_sizes);
-    inverse_sizes_.set(inverse);
+        ground_(backend, ask.ground),
+        sizes_(backend, model.half_sizes, Real(1)),
+        columns_(backend, model.cell, model.half_sizes, ask.slope_cosine, ask.normal_gravity) {
+    hydraulic_.set(model.hydraulic_conductivity);
     sums_.set(std::vector<Sums>(1));
   }
 
@@ -63,7 +58,10 @@ class Step {
   Sums step(Real time, Real dt) {
     find_cells();
     backend_.end_stage("find_cells");
-    if (ground_.exists() || model_.heat) {
+    if (model_.band.rescaling_mixes) {
+      rescale_band(time);  // which changes temperatures
+    }
+    if (ground_.exists() || model_.has_band()) {
       average();
       backend_.end_stage("average_band_on_grid");
     }
@@ -75,9 +73,13 @@ class Step {
     backend_.end_stage("move_particles");
     update_stress(dt);
     backend_.end_stage("update_stress_and_porosity");
-    if (model_.heat) {
-      conduct_heat(dt);
+    if (model_.has_band()) {
+      conduct_heat(time, dt);
       backend_.end_stage("conduct_heat");
+    }
+    if (model_.pressure_changes) {
+      drain_pore_pressure(dt);
+      backend_.end_stage("drain_pore_pressure");
     }
     take_positions();
     backend_.end_stage("take_new_positions");
@@ -96,11 +98,14 @@ class Step {
     const std::size_t nodes = cells_.tables().blocks * block_nodes;
     make_room<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion, mpm::Velocity>(
         nodes);
+    marks_.resize(cells_.tables());
     if (model_.heat) {
       make_room<mpm::HeatRates, mpm::OrphanHeat>(nodes);
       secant_rates_.resize(of<mpm::HeatRates>().size());
-      changing_tiles_.resize(cells_.tables().tiles);
-      changing_blocks_.resize(cells_.tables().blocks);
+    }
+    if (model_.pressure_changes) {
+      make_room<mpm::Seepage, mpm::SeepingWater>(nodes);
+      columns_.update(cells_.tables());
     }
     if (ground_.exists()) {
       ground_.update(cells_.tables(), cells_.block_keys());
@@ -122,7 +127,7 @@ class Step {
 
   void add_momentum() {
     run(over(weights(), EveryTile{}),
-        mpm::AddMomentum<Dim, Real>{model_.gravity, model_.effective_stress, is_viscous()});
+        mpm::AddMomentum<Dim, Real>{model_.gravity, model_.effective_stress, model_.is_viscous()});
     sum<mpm::Momentum, void>(EveryTile{});
   }
 
@@ -187,50 +192,57 @@ class Step {
   void update_stress(Real dt) {
     backend_.for_each(1, Fill<mpm::Deformed<Real>>{&sums_.data()->deformed, {}});
     for (std::size_t m = 0; m < model_.materials.size(); ++m) {
-      const mpm::MaterialModel<Real>& material = model_.materials[m];
       std::visit(
           [&]<class Law>(const Law& law) {
             using Kernel = DeformMaterial<Dim, Real, Law>;
-            const Kernel kernel{law,
-                                material.elastic,
-                                model_.phases,
-                                material.gaps_close_first,
-                                material.viscosity_time,
-                                model_.effective_stress,
-                                dt,
-                                static_cast<std::int32_t>(m),
-                                model_.materials.size() == 1};
-            const auto* all = run(over(weights(), EveryTile{}), kernel);
+            const auto* all = run(over(weights(), EveryTile{}), Kernel::of(law, model_, m, dt));
             backend_.for_each(1, Add<mpm::Deformed<Real>>{&all->template of<Kernel>(), &sums_.data()->deformed});
           },
-          material.law);
+          model_.materials[m].law);
     }
   }
 
-  void conduct_heat(Real dt) {
-    using Rescale = RescaleBand<Dim, Real>;
-    const Rescale rescale{model_.heat->scaling_in_band, model_.heat->scales_all};
-    keep(&run(over(LinearWeights{}, EveryTile{}), rescale)->template of<Rescale>(), &sums_.data()->band_rescale);
-    std::visit([&](const auto& content) { conduct_heat_by(content, dt); }, model_.heat->content);
-    first_step_ = false;
+  void rescale_band(Real time) {
+    const Real scaling = model_.scaling_in_band(time);
+    backend_.for_each(1, Fill<Real>{&sums_.data()->band_rescale, Real(0)});
+    if (model_.scales_all && scaling == scaling_in_force_) {
+      return;
+    }
+    scaling_in_force_ = scaling;
+    std::visit(
+        [&]<class Content>(const Content& content) {
+          using Kernel = RescaleBand<Dim, Real, Content>;
+          const Kernel kernel{content, model_.band, model_.pressure_changes, model_.scales_all, scaling};
+          keep(&run(over(LinearWeights{}, EveryTile{}), kernel)->template of<Kernel>(), &sums_.data()->band_rescale);
+        },
+        model_.heat_content);
+  }
+
+  void conduct_heat(Real time, Real dt) {
+    if (!model_.band.rescaling_mixes) {
+      rescale_band(time);
+    }
+    average_seeping_water();
+    if (model_.heat) {
+      std::visit([&](const auto& content) { conduct_heat_by(content, dt); }, model_.heat_content);
+      model_.starts = false;
+    }
   }
   template <class Content>
   void conduct_heat_by(const Content& content, Real dt) {
-    const TileTables<Dim> tables = cells_.tables();
-    const band::HydraulicConductivity<Real> hydraulic{hydraulic_.data(), hydraulic_.size() == 1};
-    run(over(LinearWeights{}, EveryTile{}), HeatFlows<Dim, Real, Content>{content, model_.heat->physics, hydraulic, dt,
-                                                                          Real(1) / model_.cell, !first_step_});
+    run(over(LinearWeights{}, EveryTile{}),
+        HeatFlows<Dim, Real, Content>{content, model_.band, hydraulic(), dt, Real(1) / model_.cell, !model_.starts});
     sum<mpm::HeatRates, void>(EveryTile{});
     solve_rates(nullptr, dt);
-    mark_tiles(MayChange<Dim, Real, Content>{views(), particles_.view(), content, dt});
-    backend_.for_each(tables.blocks, MarkBlocks<Dim>{tables, changing_tiles_.data(), changing_blocks_.data()});
-    run(over(LinearWeights{}, MarkedTiles{changing_tiles_.data()}), SecantCapacity<Dim, Real, Content>{content, dt});
+    marks_.mark_tiles(cells_.tables(), MayChange<Dim, Real, Content>{views(), particles_.view(), content, dt});
+    marks_.mark_blocks(cells_.tables());
+    run(over(LinearWeights{}, marks_.tiles()), SecantCapacity<Dim, Real, Content>{content, dt});
     backend_.for_each(secant_rates_.size(), SumPatches<mpm::HeatRates, void, EveryTile, Dim, Real>{
-                                                tables, {}, memory_.patches(0), secant_rates_.data()});
-    keep(&solve_rates(changing_blocks_.data(), dt)->gain, &sums_.data()->heat);
-    mark_tiles(HoldsHeat<Dim, Real>{of<mpm::OrphanHeat>().data()});
-    run(over(weights(), MarkedTiles{changing_tiles_.data()}), band::TakeOrphanHeat<Dim, Real>{dt});
-    run(over(LinearWeights{}, EveryTile{}), TakeHeat<Dim, Real, Content>{content, model_.heat->physics, dt});
+                                                cells_.tables(), {}, memory_.patches(0), secant_rates_.data()});
+    keep(&solve_rates(marks_.blocks(), dt)->gain, &sums_.data()->heat);
+    marks_.mark_tiles(cells_.tables(), HoldsHeat<Dim, Real>{of<mpm::OrphanHeat>().data()});
+    run(over(weights(), marks_.tiles()), band::TakeOrphanHeat<Dim, Real>{dt});
+    run(over(LinearWeights{}, EveryTile{}), TakeHeat<Dim, Real, Content>{content, model_.band, dt});
   }
   const band::NodalHeat<Real>* solve_rates(const std::uint8_t* changing_blocks, Real dt) {
     const std::size_t blocks = cells_.tables().blocks;
@@ -238,11 +250,64 @@ class Step {
                                       changing_blocks, of<mpm::OrphanHeat>().data(), dt};
     return block_pass<Dim>(backend_, blocks, solve, memory_.template sums<band::NodalHeat<Real>>(blocks + 1));
   }
+
+  // Marks the blocks that water seeps to, and the tiles about them; false if there are none.
   template <class Asks>
-  void mark_tiles(const Asks& asks) {
-    constexpr std::size_t threads = 128;
-    backend_.for_groups(cells_.tables().tiles, threads, 0,
-                        MarkTiles<Asks, Dim>{cells_.tables(), asks, changing_tiles_.data()});
+  bool find_seepage(const Asks& asks) {
+    if (!model_.lets_water_seep()) {
+      return false;
+    }
+    marks_.mark_tiles(cells_.tables(), asks);
+    marks_.mark_blocks(cells_.tables());
+    return marks_.mark_tiles_about(cells_.tables());
+  }
+
+  void average_seeping_water() {
+    if (model_.band.frozen_rows == band::FrozenRows::draining ||
+        !find_seepage(SeepingNow<Dim, Real>{particles_.view(), model_.band, hydraulic()})) {
+      return;
+    }
+    run(over(LinearWeights{}, marks_.tiles()), AddSeepingWater<Dim, Real>{model_.band, hydraulic()});
+    sum<mpm::SeepingWater, void>(marks_.tiles());
+    backend_.for_each(cells_.tables().blocks * block_nodes,
+                      SetSeepingPressure<Dim, Real>{views(), of<mpm::SeepingWater>().data(), marks_.blocks()});
+  }
+
+  void drain_pore_pressure(Real dt) {
+    columns_.sum(cells_.tables(), particles_.view());
+    if (model_.band.needs_normal_load()) {
+      run(over(LinearWeights{}, EveryTile{}), TakeLoad<Dim, Real>{columns_.loading(cells_.tables())});
+    }
+    if (find_seepage(SeepingBefore<Dim, Real>{{particles_.view(), model_.band, hydraulic()}})) {
+      seep(dt);
+      update_pressure<true>();
+    } else {
+      backend_.for_each(1, Fill<Real>{&sums_.data()->vented, Real(0)});
+      update_pressure<false>();
+    }
+  }
+  void seep(Real dt) {
+    run(over(LinearWeights{}, marks_.tiles()),
+        SeepageFlows<Dim, Real>{model_.band, hydraulic(), dt, Real(1) / model_.cell});
+    sum<mpm::Seepage, void>(marks_.tiles());
+    const std::size_t blocks = cells_.tables().blocks;
+    const Real* taken =
+        block_pass<Dim>(backend_, blocks, SolveSeepage<Dim, Real>{views(), of<mpm::Seepage>().data(), dt},
+                        memory_.template sums<Real>(blocks + 1));
+    backend_.for_each(1, KeepVented<Real>{taken, model_.band.phases, &sums_.data()->vented});
+  }
+  template <bool Seeps>
+  void update_pressure() {
+    if (model_.band.balances_water()) {
+      update_pressure_by<UpdatePorePressure<Dim, Real, Seeps, true>>();
+    } else {
+      update_pressure_by<UpdatePorePressure<Dim, Real, Seeps, false>>();
+    }
+  }
+  template <class Kernel>
+  void update_pressure_by() {
+    const Kernel kernel{model_.band, hydraulic(), columns_.seen(cells_.tables())};
+    keep(&run(over(LinearWeights{}, EveryTile{}), kernel)->template of<Kernel>(), &sums_.data()->drained);
   }
 
   void take_positions() {
@@ -251,15 +316,12 @@ class Step {
          &sums_.data()->bad);
   }
 
-  [[nodiscard]] bool is_viscous() const {
-    return std::any_of(model_.materials.begin(), model_.materials.end(),
-                       [](const auto& material) { return material.viscosity_time > Real(0); });
+  [[nodiscard]] band::HydraulicConductivity<Real> hydraulic() const {
+    return {hydraulic_.data(), hydraulic_.size() == 1};
   }
 
   // What passes are given.
-  [[nodiscard]] MomentumWeights<Shape, Dim, Real> weights() const {
-    return {{half_sizes_.data(), inverse_sizes_.data(), half_sizes_.size() == 1}, model_.sides};
-  }
+  [[nodiscard]] MomentumWeights<Shape, Dim, Real> weights() const { return {sizes_.view(), model_.sides}; }
   template <class Weights, class Takes>
   [[nodiscard]] PassOver<Weights, Takes, Dim, Real> over(const Weights& weights, const Takes& takes) const {
     return {cells_.tables(), particles_.view(), weights, takes, model_.cell};
@@ -306,19 +368,18 @@ class Step {
   Particles<Backend, Dim, Real> particles_;
   Cells<Backend, Dim, Real> cells_;
   Ground<Backend, Dim, Real> ground_;
+  BodySizes<Backend, Real> sizes_;  // of particles, in cells
+  Columns<Backend, Dim, Real> columns_;
   PassMemory<Backend, Real> memory_{backend_};
-  Array<Real, Backend> half_sizes_{backend_}, inverse_sizes_{backend_}, base_{backend_};
+  Array<Real, Backend> base_{backend_};
   Array<BaseOfNode<Real>, Backend> bases_{backend_};
   Array<Real, Backend> secant_rates_{backend_}, hydraulic_{backend_};
-  Array<std::uint8_t, Backend> changing_tiles_{backend_}, changing_blocks_{backend_};
-  bool first_step_ = true;
+  Marks<Backend, Dim> marks_{backend_};
+  Real scaling_in_force_ = 0;
   Array<Sums, Backend> sums_{backend_, 1};
-  mpm::ByName<Numbers<mpm::Averages>, Numbers<mpm::NodalState>, Numbers<mpm::Momentum>, Numbers<mpm::NearGround>,
-              Numbers<mpm::Contact>, Numbers<mpm::Motion>, Numbers<mpm::Velocity>, Numbers<mpm::HeatRates>,
-              Numbers<mpm::OrphanHeat>>
-      records_{{Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)},
-               {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)},
-               {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)}, {Array<Real, Backend>(backend_)}};
+  NodeArrays<Backend, Real, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
+             mpm::Velocity, mpm::HeatRates, mpm::OrphanHeat, mpm::Seepage, mpm::SeepingWater>
+      records_{backend_};
 
  public:
   // The records that a pass reads (device/passes.hpp).

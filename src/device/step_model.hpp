@@ -1,14 +1,16 @@
 // What the step on a device needs to know of the run, and what it tells of a step, in plain numbers.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "band/any_heat_content.hpp"
+#include "band/at_columns.hpp"
 #include "band/nodal_heat.hpp"
 #include "band/physics.hpp"
+#include "band/pressure_kernels.hpp"
 #include "mpm/accounts.hpp"
 #include "mpm/domain_faces.hpp"
 #include "mpm/material.hpp"
@@ -20,17 +22,6 @@
 #include "terrain/surface.hpp"
 
 namespace thawslide::device {
-
-// Heat of particles, by masses of t = 0 and the secant to their heat content; no conditions at the domain's faces.
-template <class Real>
-struct HeatModel {
-  band::BandPhysics<Real> physics;
-  band::AnyHeatContent<Real> content;
-  std::vector<Real> hydraulic_conductivity;  // by material [m/s]
-  Real scaling_in_band = 1;                  // xi
-  bool starts = true;                        // the first step is that of t = 0
-  bool scales_all = true;                    // and elsewhere too
-};
 
 template <int Dim, class Real>
 struct StepModel {
@@ -47,15 +38,40 @@ struct StepModel {
   mpm::DomainFaces<Dim, Real> faces;
   Vector<Real, Dim> lower, upper;  // particles may be between these [m]
   terrain::BasalLaw<Real> base;
-  bool base_holds = false;              // no slip at all
-  bool pore_pressure = true;            // off: P = 0 at contact nodes
-  std::optional<HeatModel<Real>> heat;  // none: temperatures rest
-  bool distance_check = false;          // a node may close its clearance before contact acts
+  bool base_holds = false;        // no slip at all
+  bool pore_pressure = true;      // off: P = 0 at contact nodes
+  bool distance_check = false;    // a node may close its clearance before contact acts
+  bool pressure_changes = false;  // off: pore pressures rest
+  // Heat of particles, by masses of t = 0 and the secant to their heat content; no conditions at the domain's faces.
+  bool heat = false;   // off: temperatures rest
+  bool starts = true;  // the first step is that of t = 0
+  band::AnyHeatContent<Real> heat_content;
+  band::BandPhysics<Real> band;
+  std::vector<Real> hydraulic_conductivity;        // by material [m/s]
+  std::function<Real(Real time)> scaling_in_band;  // xi
+  bool scales_all = true;                          // and elsewhere too
+
+  [[nodiscard]] bool has_band() const { return heat || pressure_changes; }
+  [[nodiscard]] bool lets_water_seep() const {
+    return pressure_changes && band::water_may_seep(band, hydraulic_conductivity);
+  }
+  [[nodiscard]] bool is_viscous() const {
+    return std::any_of(materials.begin(), materials.end(),
+                       [](const auto& material) { return material.viscosity_time > Real(0); });
+  }
 };
 
 // Tells what the nodes of a block know of the ground: of all nodes, x fastest. Empty where there is no ground.
 template <int Dim, class Real>
 using AskGround = std::function<void(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
+
+template <int Dim, class Real>
+struct AskTerrain {
+  AskGround<Dim, Real> ground;
+  // As band/flow_depth.hpp asks. Without the slope's cosine thickness is vertical; the gravity is needed for loads
+  // only.
+  band::OfPlace<Dim, Real> slope_cosine, normal_gravity;
+};
 
 // Sums over particles and nodes of one step; energies [J].
 template <int Dim, class Real>
@@ -66,7 +82,9 @@ struct StepSums {
   mpm::Deformed<Real> deformed;
   Real band_rescale = 0;  // heat by another scaling
   band::HeatGain<Real> heat;
-  mpm::BadParticle bad;  // after the particles have moved
+  band::DrainedWater<Real> drained;  // at the surface
+  Real vented = 0;                   // water lost to frozen pores [kg]
+  mpm::BadParticle bad;              // after the particles have moved
 };
 
 }  // namespace thawslide::device

@@ -1,6 +1,8 @@
 #include "io/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <linux/fs.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -78,22 +80,50 @@ void make_folder(const fs::path& folder) {
 
 bool is_unfinished(const fs::path& file) {
   // Files of maps keep their own ending, by which they are told: NAME.123.part.tif.
-  return file.extension() == unfinished || file.stem().extension() == unfinished;
+  const fs::path part = file.extension() == unfinished ? file.stem() : file.stem().stem();
+  const bool is_part = file.extension() == unfinished || file.stem().extension() == unfinished;
+  const std::string process = part.extension().string();
+  return is_part && process.size() > 1 && process.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
+fs::path name_for_damaged(const fs::path& file) {
+  const std::string stem = (file.parent_path() / file.stem()).string(), extension = file.extension().string();
+  fs::path free = stem + ".damaged" + extension;
+  for (int number = 2; fs::exists(free); ++number) {
+    free = fmt::format("{}.damaged.{}{}", stem, number, extension);
+  }
+  return free;
 }
 
 void remove_unfinished_files(const fs::path& folder) {
-  if (!fs::is_directory(folder)) {
+  if (fs::is_symlink(folder) || !fs::is_directory(folder)) {
     return;
   }
   std::vector<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (is_unfinished(entry.path())) {
+    if (is_unfinished(entry.path()) && entry.symlink_status().type() == fs::file_type::regular) {
       found.push_back(entry.path());
     }
   }
   for (const fs::path& file : found) {
     fs::remove(file);
   }
+}
+
+void copy_file_atomically(const fs::path& file, const fs::path& copy, std::string_view content) {
+  const fs::path temporary = copy.string() + fmt::format(".{}{}", getpid(), unfinished);
+  const int from = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const int to = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+  bool is_cloned = from >= 0 && to >= 0 && ioctl(to, FICLONE, from) == 0 && fsync(to) == 0;
+  for (const int descriptor : {from, to}) {
+    is_cloned = (descriptor < 0 || close(descriptor) == 0) && is_cloned;
+  }
+  if (is_cloned && rename(temporary.c_str(), copy.c_str()) == 0 && synchronise_folder(copy.parent_path())) {
+    return;
+  }
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  write_file_atomically(copy, content);
 }
 
 std::string read_file(const fs::path& file) {

@@ -17,10 +17,19 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view t
 // Makes a folder where there is none. Throws WriteError with the path and the system's reason.
 void make_folder(const std::filesystem::path& folder);
 
-// Whether the name is that of a file beside its place, as a process writes it.
+// A copy of a file, whose content is given; where the file system can share it until one of them changes, it takes no
+// room. Throws as write_file_atomically.
+void copy_file_atomically(const std::filesystem::path& file, const std::filesystem::path& copy,
+                          std::string_view content);
+
+// Whether the name is that of a file beside its place, as a process writes it: with the number of that process.
 [[nodiscard]] bool is_unfinished(const std::filesystem::path& file);
 
-// Removes what a process that was killed while it wrote has left beside its files; nothing where there is no folder.
+// A name beside a damaged file that is free to keep it under: NAME.damaged.EXTENSION, or with a number.
+[[nodiscard]] std::filesystem::path name_for_damaged(const std::filesystem::path& file);
+
+// Removes what a process that was killed while it wrote has left beside its files; nothing where there is no
+// folder, or a link to one: what is there is not of this run.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
 // A whole file. Throws UserError if it cannot be read.

@@ -33,6 +33,22 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
+// While it lives, the library does not print what goes wrong: of a file that may be damaged the caller tells.
+class Silence {
+ public:
+  Silence() {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+  ~Silence() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+
+ private:
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
 using Shape = std::vector<hsize_t>;
 
 // A file in memory.

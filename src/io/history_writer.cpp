@@ -3,10 +3,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
@@ -23,6 +26,98 @@ int open_or_throw(const std::filesystem::path& file, int flags) {
   return descriptor;
 }
 
+// The first number of a row that has as many as there are columns; nothing of a damaged one.
+std::optional<double> time_of(std::string_view row, std::size_t columns) {
+  std::optional<double> time;
+  for (std::size_t k = 0; k < columns; ++k) {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), number);
+    const bool is_last = k + 1 == columns;
+    if (error != std::errc() || (end == row.data() + row.size()) != is_last || (!is_last && *end != ',')) {
+      return std::nullopt;
+    }
+    time = time.value_or(number);
+    row.remove_prefix(is_last ? row.size() : static_cast<std::size_t>(end - row.data()) + 1);
+  }
+  return time;
+}
+
+// The whole rows of a file up to a time, in ascending order, and where others are not there.
+class KeptRows {
+ public:
+  KeptRows(std::string_view file, const std::string& header, double last_time)
+      : text_(header + "\n"), has_header_(file.substr(0, text_.size()) == text_) {
+    const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
+    bool is_broken = false;
+    for (std::size_t line = has_header_ ? text_.size() : file.find('\n') + 1; line < file.size();) {
+      const std::size_t end = std::min(file.find('\n', line), file.size());
+      const std::optional<double> time = time_of(file.substr(line, end - line), columns);
+      if (time && end < file.size() && *time <= last_time && (times_.empty() || *time > times_.back())) {
+        if (is_broken) {
+          gaps_.emplace_back(times_.empty() ? 0.0 : times_.back(), *time);
+        }
+        is_broken = false;
+        times_.push_back(*time);
+        text_ += file.substr(line, end + 1 - line);
+      } else {
+        is_broken = true;
+      }
+      line = end + 1;
+    }
+    if (times_.empty() || times_.back() < last_time) {
+      gaps_.emplace_back(times_.empty() ? 0.0 : times_.back(), last_time);
+    }
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] HistoryExtent extent() const {
+    return {times_.size(), text_.size(), times_.empty() ? 0.0 : times_.back()};
+  }
+  [[nodiscard]] bool lacks_any(const HistoryExtent& then) const { return times_.size() < then.rows; }
+  // What is to be told of the file where it is not what the run wrote; empty: it is.
+  [[nodiscard]] std::string note(const std::filesystem::path& file, bool is_there, const HistoryExtent& then) const {
+    const std::string name = file.filename().string();
+    if (!is_there) {
+      return fmt::format("{} was missing: it begins anew, without the {} rows up to t = {:g} s", name, then.rows,
+                         then.last_time);
+    }
+    if (lacks_any(then)) {
+      return fmt::format("{} lacks {} of the {} rows up to t = {:g} s, which are missing or damaged{}", name,
+                         then.rows - times_.size(), then.rows, then.last_time, spans());
+    }
+    return has_header_ && times_.size() == then.rows && text_.size() == then.bytes
+               ? ""
+               : fmt::format("{} is not as the run wrote it; its rows are whole and stay", name);
+  }
+
+ private:
+  // ": between t = 1 and 2 s, 4 and 5 s". Of whole lines that somebody took out only the wider step of time tells.
+  [[nodiscard]] std::string spans() const {
+    auto gaps = gaps_;
+    if (gaps.empty() && times_.size() > 2) {
+      std::vector<double> steps(times_.size());
+      std::adjacent_difference(times_.begin(), times_.end(), steps.begin());
+      std::vector<double> sorted(steps.begin() + 1, steps.end());
+      std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+      for (std::size_t k = 1; k < times_.size(); ++k) {
+        if (steps[k] > 1.5 * sorted[sorted.size() / 2]) {
+          gaps.emplace_back(times_[k - 1], times_[k]);
+        }
+      }
+    }
+    constexpr std::size_t most_named = 20;
+    std::string words;
+    for (std::size_t k = 0; k < std::min(gaps.size(), most_named); ++k) {
+      words += fmt::format("{}{:g} and {:g} s", k == 0 ? ": between t = " : ", ", gaps[k].first, gaps[k].second);
+    }
+    return gaps.size() > most_named ? fmt::format("{} and {} more", words, gaps.size() - most_named) : words;
+  }
+
+  std::string text_;  // with the header
+  bool has_header_;
+  std::vector<double> times_;
+  std::vector<std::pair<double, double>> gaps_;  // from the last whole row to the next, or to the end
+};
+
 }  // namespace
 
 std::string shortest(double value) {
@@ -35,36 +130,62 @@ std::string shortest(double value) {
   return {buffer, end};
 }
 
+std::string header_of(const HistoryWriter::Row& row) {
+  std::string header;
+  for (const auto& [name, value] : row) {
+    header += (header.empty() ? "" : ",") + name;
+  }
+  return header;
+}
+
+std::optional<double> last_time_in_history(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) {
+    return std::nullopt;
+  }
+  const std::string text = read_file(file);
+  const std::size_t end = text.rfind('\n');
+  if (end == std::string::npos || end == 0) {
+    return std::nullopt;
+  }
+  const std::size_t before = text.rfind('\n', end - 1);
+  if (before == std::string::npos) {
+    return std::nullopt;  // the header alone
+  }
+  double time = 0.0;
+  const auto parsed = std::from_chars(text.data() + before + 1, text.data() + end, time);
+  return parsed.ec == std::errc() ? std::optional(time) : std::nullopt;
+}
+
 HistoryWriter::HistoryWriter(const std::filesystem::path& file, int descriptor, std::string header)
     : file_(file), descriptor_(descriptor), header_(std::move(header)) {}
 
 HistoryWriter::HistoryWriter(const std::filesystem::path& file)
     : HistoryWriter(file, open_or_throw(file, O_CREAT | O_TRUNC), "") {}
 
-HistoryWriter HistoryWriter::continue_after(const std::filesystem::path& file, double time) {
-  const std::string text = read_file(file);
-  const std::size_t header_end = text.find('\n');
-  if (header_end == std::string::npos) {
-    throw UserError(fmt::format("{} has no header line; the run cannot be continued", file.string()));
-  }
-  std::size_t kept = header_end + 1;
-  for (std::size_t line = kept; line < text.size();) {
-    const std::size_t end = text.find('\n', line);
-    double at = 0.0;
-    const auto parsed = std::from_chars(text.data() + line, text.data() + text.size(), at);
-    if (end == std::string::npos || parsed.ec != std::errc() || at > time * (1.0 + 1e-12)) {
-      break;
+HistoryWriter HistoryWriter::continue_after(const std::filesystem::path& file, const std::string& header,
+                                            const HistoryExtent& then, std::vector<std::string>& notes) {
+  const bool is_there = std::filesystem::exists(file);
+  const std::string text = is_there ? read_file(file) : "";
+  const KeptRows kept(text, header, then.last_time);
+  if (std::string note = kept.note(file, is_there, then); !note.empty()) {
+    if (is_there && kept.lacks_any(then)) {
+      const std::filesystem::path aside = name_for_damaged(file);
+      write_file_atomically(aside, text);
+      note += fmt::format("; what there was is kept as {}", aside.filename().string());
     }
-    kept = line = end + 1;
+    notes.push_back(std::move(note));
   }
-  write_file_atomically(file, std::string_view(text).substr(0, kept));
-  return {file, open_or_throw(file, 0), text.substr(0, header_end)};
+  write_file_atomically(file, kept.text());
+  HistoryWriter writer(file, open_or_throw(file, 0), header);
+  writer.extent_ = kept.extent();
+  return writer;
 }
 
 HistoryWriter::HistoryWriter(HistoryWriter&& other) noexcept
     : file_(std::move(other.file_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      header_(std::move(other.header_)) {}
+      header_(std::move(other.header_)),
+      extent_(other.extent_) {}
 
 HistoryWriter::~HistoryWriter() {
   if (descriptor_ >= 0) {
@@ -73,10 +194,9 @@ HistoryWriter::~HistoryWriter() {
 }
 
 void HistoryWriter::add(const Row& row) {
-  std::string header;
+  const std::string header = header_of(row);
   std::string line;
   for (const auto& [name, value] : row) {
-    header += (header.empty() ? "" : ",") + name;
     line += (line.empty() ? "" : ",") + shortest(value);
   }
   if (header_.empty()) {
@@ -85,6 +205,8 @@ void HistoryWriter::add(const Row& row) {
   }
   THAWSLIDE_ASSERT(header == header_, "columns changed from {} to {}", header_, header);
   append(line + "\n");
+  ++extent_.rows;
+  extent_.last_time = row.front().second;
 }
 
 void HistoryWriter::synchronise() const {
@@ -99,6 +221,7 @@ void HistoryWriter::append(const std::string& text) {
     throw WriteError(fmt::format("cannot write {}: {}. The disk may be full.", file_.string(),
                                  written < 0 ? std::strerror(errno) : "only part of a row was written"));
   }
+  extent_.bytes += text.size();
 }
 
 }  // namespace thawslide::io

@@ -1,12 +1,20 @@
 // history.csv: one row a moment, appended with one write each, so that a killed run keeps whole rows.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace thawslide::io {
+
+// How much a history held at a moment.
+struct HistoryExtent {
+  std::size_t rows = 0, bytes = 0;  // bytes: with the header
+  double last_time = 0.0;           // of its last row [s]
+};
 
 class HistoryWriter {
  public:
@@ -14,8 +22,10 @@ class HistoryWriter {
 
   // Starts the file anew. Throws WriteError if it cannot be written.
   explicit HistoryWriter(const std::filesystem::path& file);
-  // Goes on with a file: keeps its rows up to `time` (its first column) and appends.
-  static HistoryWriter continue_after(const std::filesystem::path& file, double time);
+  // Goes on with a file that once held `then`, with these columns: keeps whole rows up to there and appends. Where some
+  // of them are not there any more the file is kept beside, and a note says which.
+  static HistoryWriter continue_after(const std::filesystem::path& file, const std::string& header,
+                                      const HistoryExtent& then, std::vector<std::string>& notes);
 
   HistoryWriter(HistoryWriter&& other) noexcept;
   HistoryWriter& operator=(HistoryWriter&&) = delete;
@@ -25,6 +35,7 @@ class HistoryWriter {
   void add(const Row& row);
   // Returns when all rows are on the disk. Throws WriteError.
   void synchronise() const;
+  [[nodiscard]] const HistoryExtent& extent() const { return extent_; }
 
  private:
   HistoryWriter(const std::filesystem::path& file, int descriptor, std::string header);
@@ -33,7 +44,14 @@ class HistoryWriter {
   std::filesystem::path file_;
   int descriptor_;
   std::string header_;
+  HistoryExtent extent_;
 };
+
+// Its columns, as the first line of the file names them.
+std::string header_of(const HistoryWriter::Row& row);
+
+// The time of the last whole row of a file; nothing before there is one.
+std::optional<double> last_time_in_history(const std::filesystem::path& file);
 
 // The shortest decimal text that reads back as the same number.
 std::string shortest(double value);

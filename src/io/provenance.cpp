@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::uintmax_t linked_from = 50'000'000;  // bytes
+constexpr std::uintmax_t cloned_from = 1'000'000;  // bytes, below which sharing saves nothing
 
 std::string host_name() {
   char name[256] = "";
@@ -67,6 +67,7 @@ Json json_of(const RunPart& part) {
   json["started"] = part.started;
   json["from_s"] = part.from_time;
   json["changes"] = part.changes;
+  json["notes"] = part.notes;
   json["case_sha256"] = part.case_sha256;
   json["wall_s"] = part.wall_seconds;
   json["particle_steps"] = part.particle_steps;
@@ -84,10 +85,18 @@ RunPart part_of(const Json& json) {
   part.started = json.at("started");
   part.from_time = json.at("from_s");
   part.changes = json.at("changes").get<std::vector<std::string>>();
+  part.notes = json.value("notes", std::vector<std::string>{});
   part.case_sha256 = json.at("case_sha256");
   part.wall_seconds = json.at("wall_s");
   part.particle_steps = json.at("particle_steps");
   return part;
+}
+
+[[noreturn]] void fail_as_damaged(const fs::path& file, const std::string& what) {
+  throw UserError(
+      fmt::format("{} is damaged: {}. Without it a run cannot go on: put back a copy of it, or run the case anew into "
+                  "another folder: thawslide run {} --output OTHER.",
+                  file.string(), what, file.parent_path().string()));
 }
 
 }  // namespace
@@ -162,12 +171,9 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
     }
     const std::string content = read_file(file);
     const fs::path copy = folder / "inputs" / name;
-    // A large file is linked, which takes no room, where the file system can: the run goes on from it all the same.
-    std::error_code not_linked;
-    if (content.size() > linked_from) {
-      fs::create_hard_link(fs::canonical(file), copy, not_linked);  // of the file, where its name is a link
-    }
-    if (content.size() <= linked_from || not_linked) {
+    if (content.size() > cloned_from) {
+      copy_file_atomically(file, copy, content);
+    } else {
       write_file_atomically(copy, content);
     }
     inputs.push_back({file.string(), "inputs/" + name, sha256_hex(content.data(), content.size()), content.size()});
@@ -178,8 +184,9 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
 Provenance read_provenance(const fs::path& folder) {
   Provenance provenance;
   const fs::path file = folder / "run.json";
+  const std::string text = read_file(file);
   try {
-    const Json facts = Json::parse(read_file(file));
+    const Json facts = Json::parse(text);
     for (const Json& part : facts.at("parts")) {
       provenance.parts.push_back(part_of(part));
     }
@@ -190,11 +197,14 @@ Provenance read_provenance(const fs::path& folder) {
     provenance.message = facts.at("message");
     provenance.simulated_time = facts.at("simulated_time_s");
     provenance.steps = facts.at("steps");
+  } catch (const Json::parse_error& error) {
+    fail_as_damaged(file, text.empty() ? "it is empty" : fmt::format("it is no JSON from byte {} on", error.byte));
   } catch (const Json::exception& error) {
-    throw UserError(fmt::format("{} cannot be understood: {}", file.string(), error.what()));
+    const std::string told = error.what();
+    fail_as_damaged(file, told.substr(std::min(told.size(), told.find("] ") + 2)));  // without the library's number
   }
   if (provenance.parts.empty()) {
-    throw UserError(fmt::format("{} cannot be understood: it lists no parts of the run", file.string()));
+    fail_as_damaged(file, "it lists no parts of the run");
   }
   return provenance;
 }

@@ -25,6 +25,7 @@ struct RunPart {
   int threads = 1;
   double from_time = 0.0;            // simulated time it began at [s]
   std::vector<std::string> changes;  // of the case, as --set texts
+  std::vector<std::string> notes;    // of what it found damaged when it began, and did about it
   std::string case_sha256;           // of the resolved case that it ran
   double wall_seconds = 0.0;
   double particle_steps = 0.0;  // particles that were there, summed over its steps
@@ -50,8 +51,8 @@ RunPart part_of_this_process();
 
 void write_provenance(const std::filesystem::path& file, const Provenance& provenance);
 
-// Copies inputs into folder/inputs, one of each name; files above 50 MB become hard links where the file system can.
-// Throws UserError for two files of one name, or what cannot be read.
+// Copies inputs into folder/inputs, one of each name. Throws UserError for two files of one name, or what cannot be
+// read.
 std::vector<InputFile> copy_inputs(const std::filesystem::path& folder,
                                    const std::vector<std::filesystem::path>& files);
 

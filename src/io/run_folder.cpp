@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <vector>
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
@@ -21,6 +22,13 @@ constexpr std::string_view files_of_a_run[] = {"run.json",      "history.csv", "
                                                checkpoint_name, "report.html", previous_checkpoint_name,
                                                "snapshots",     "inputs",      "figures",
                                                "maps"};
+
+// What a resume keeps beside a file that it found damaged, by name_for_damaged.
+bool is_damaged_one(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.rfind("history.damaged.", 0) == 0 || name.rfind("probes.damaged.", 0) == 0 ||
+         name.rfind("checkpoint.damaged.", 0) == 0;
+}
 
 bool holds_a_run(const fs::path& folder) {
   return fs::exists(folder / "run.json") || fs::exists(folder / "history.csv") || fs::exists(folder / "snapshots");
@@ -75,6 +83,10 @@ void require_usable(const fs::path& folder, bool overwrite) {
       throw UserError(
           fmt::format("the output folder {} holds other files and no run. Give another --output.", folder.string()));
     }
+    if (const std::string process = process_at_work(folder).process; !process.empty() && !overwrite) {
+      throw UserError(
+          fmt::format("the output folder {} is being written by {}. Give another --output.", folder.string(), process));
+    }
     if (!overwrite) {
       throw UserError(
           fmt::format("the output folder {} holds another run. Give another --output, or --overwrite to replace "
@@ -89,8 +101,8 @@ RunLock make_run_folder(const fs::path& folder, bool overwrite) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    throw UserError(fmt::format("the output folder {} cannot be made: {}. Give another --output.", folder.string(),
-                                error.message()));
+    throw WriteError(fmt::format("the output folder {} cannot be made: {}. Give another --output.", folder.string(),
+                                 error.message()));
   }
   RunLock lock(folder);
   require_usable(folder, overwrite);
@@ -99,6 +111,11 @@ RunLock make_run_folder(const fs::path& folder, bool overwrite) {
     if (error) {
       throw UserError(fmt::format("cannot remove {}: {}", (folder / name).string(), error.message()));
     }
+  }
+  std::vector<fs::path> damaged;
+  std::copy_if(fs::directory_iterator(folder), fs::directory_iterator(), std::back_inserter(damaged), is_damaged_one);
+  for (const fs::path& file : damaged) {
+    fs::remove(file);
   }
   remove_unfinished_files(folder);
   return lock;

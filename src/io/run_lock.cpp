@@ -17,16 +17,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether another process holds the file. A file system without locks has none to refuse: runs go on there all the
-// same.
-bool is_held(int descriptor, int kind) { return flock(descriptor, kind | LOCK_NB) != 0 && errno == EWOULDBLOCK; }
+enum class Lock { ours, of_another, unknown };
 
-// Who only asks holds the lock for a moment, so one refusal tells nothing.
+// A file system may have no locks.
+Lock ask(int descriptor, int kind) {
+  if (flock(descriptor, kind | LOCK_NB) == 0) {
+    return Lock::ours;
+  }
+  return errno == EWOULDBLOCK ? Lock::of_another : Lock::unknown;
+}
+
+// Who only asks holds the lock for a moment, so one refusal tells nothing. Where there are no locks nobody is refused.
 bool take(int descriptor) {
   constexpr int attempts = 20;
   constexpr useconds_t pause = 5000;  // microseconds
   for (int k = 0; k < attempts; ++k) {
-    if (!is_held(descriptor, LOCK_EX)) {
+    if (ask(descriptor, LOCK_EX) != Lock::of_another) {
       return true;
     }
     usleep(pause);
@@ -98,16 +104,16 @@ RunLock::~RunLock() {
   }
 }
 
-std::optional<std::string> process_at_work(const fs::path& folder) {
+AtWork process_at_work(const fs::path& folder) {
   const fs::path file = folder / lock_name;
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) {
-    return std::nullopt;
+    return {};
   }
-  const std::optional<std::string> holder =
-      is_held(descriptor, LOCK_SH) ? std::optional(holder_of(descriptor)) : std::nullopt;
+  const Lock lock = ask(descriptor, LOCK_SH);
+  const AtWork found{lock != Lock::unknown, lock == Lock::of_another ? holder_of(descriptor) : ""};
   close(descriptor);
-  return holder;
+  return found;
 }
 
 }  // namespace thawslide::io

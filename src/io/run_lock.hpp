@@ -1,9 +1,8 @@
 // Who writes a run's folder: a process holds the lock as long as it lives, however it ends. On a file system without
-// locks nobody is known to be at work.
+// locks a run goes on all the same, and whether one is at work cannot be told.
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 namespace thawslide::io {
@@ -25,7 +24,10 @@ class RunLock {
   int descriptor_;
 };
 
-// "process 123 on HOST" where one is at work in the folder, nothing else.
-[[nodiscard]] std::optional<std::string> process_at_work(const std::filesystem::path& folder);
+struct AtWork {
+  bool is_known = true;  // false: there is a lock file, and its file system has no locks
+  std::string process;   // "process 123 on HOST" that is at work in the folder; empty: none is known to be
+};
+[[nodiscard]] AtWork process_at_work(const std::filesystem::path& folder);
 
 }  // namespace thawslide::io

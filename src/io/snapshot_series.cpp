@@ -1,6 +1,8 @@
 #include "io/snapshot_series.hpp"
 
+#include <charconv>
 #include <ctime>
+#include <map>
 
 #include "io/atomic_file.hpp"
 #include "io/vtkhdf.hpp"
@@ -30,47 +32,93 @@ std::string read_unit(hid_t dataset) {
   return text;
 }
 
+// Files NNNNNN.vtkhdf by their number.
+std::map<std::size_t, fs::path> numbered_files(const fs::path& folder) {
+  std::map<std::size_t, fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+    if (error == std::errc() && end == stem.data() + stem.size() &&
+        entry.path().filename() == fs::path(file_name(number)).filename()) {
+      files.emplace(number, entry.path());
+    }
+  }
+  return files;
+}
+
+void remove_or_throw(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) {
+    throw WriteError(fmt::format("cannot remove {}: {}", file.string(), error.message()));
+  }
+}
+
 }  // namespace
 
 SnapshotSeries::SnapshotSeries(const fs::path& folder) : folder_(folder), indexed_() {
   make_folder(folder / "snapshots");
 }
 
-SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, double time) {
+SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_t count,
+                                              std::vector<std::string>& notes) {
   SnapshotSeries series(folder);
-  for (std::size_t k = 0; fs::exists(folder / file_name(k)); ++k) {
-    const fs::path file = folder / file_name(k);
-    bool later = false;
-    {
-      const hdf5::Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, file.c_str());
-      const hdf5::Handle root(H5Gopen2(opened, "VTKHDF", H5P_DEFAULT), H5Gclose, "VTKHDF");
-      const double at = read_number(root, "time");
-      later = at > time * (1.0 + 1e-12);
-      if (!later) {
-        const hdf5::Handle data(H5Gopen2(root, "PointData", H5P_DEFAULT), H5Gclose, "PointData");
-        H5G_info_t info{};
-        H5Gget_info(data, &info);
-        series.columns_.clear();
-        std::size_t particles = 0;
-        for (hsize_t field = 0; field < info.nlinks; ++field) {
-          char name[256];
-          H5Lget_name_by_idx(data, ".", H5_INDEX_NAME, H5_ITER_INC, field, name, sizeof name, H5P_DEFAULT);
-          const hdf5::Handle dataset(H5Dopen2(data, name, H5P_DEFAULT), H5Dclose, name);
-          const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "space");
-          const hdf5::Handle type(H5Dget_type(dataset), H5Tclose, "type");
-          hsize_t shape[2] = {0, 1};
-          H5Sget_simple_extent_dims(space, shape, nullptr);
-          particles = shape[0];
-          series.columns_.push_back({name, read_unit(dataset), shape[1], H5Tget_class(type) == H5T_INTEGER});
-        }
-        series.entries_.push_back({at, particles});
-      }
+  series.next_ = count;
+  std::string lost;
+  std::size_t expected = 0;
+  const auto note_lost_before = [&](std::size_t number) {
+    if (expected < number) {
+      lost += fmt::format("{}{:06d}", lost.empty() ? "" : ", ", expected);
+      lost += number - expected > 1 ? fmt::format(" to {:06d}", number - 1) : "";
     }
-    if (later) {
-      fs::remove(file);
+  };
+  for (const auto& [number, file] : numbered_files(folder / "snapshots")) {
+    if (number >= count) {
+      remove_or_throw(file);
+    } else if (series.take(number, file)) {
+      note_lost_before(number);
+      expected = number + 1;
     }
   }
+  note_lost_before(count);
+  if (!lost.empty()) {
+    notes.push_back(fmt::format(
+        "of the {} snapshots up to here these are missing or cannot be read: {}; particles.vtkhdf leaves them out",
+        count, lost));
+  }
   return series;
+}
+
+// Returns whether the file could be read.
+bool SnapshotSeries::take(std::size_t number, const fs::path& file) {
+  const hdf5::Silence silence;
+  try {
+    const hdf5::Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, file.c_str());
+    const hdf5::Handle root(H5Gopen2(opened, "VTKHDF", H5P_DEFAULT), H5Gclose, "VTKHDF");
+    Entry entry{number, read_number(root, "time"), 0};
+    const hdf5::Handle data(H5Gopen2(root, "PointData", H5P_DEFAULT), H5Gclose, "PointData");
+    H5G_info_t info{};
+    THAWSLIDE_ASSERT(H5Gget_info(data, &info) >= 0, "PointData cannot be read");
+    std::vector<Column> columns;
+    for (hsize_t field = 0; field < info.nlinks; ++field) {
+      char name[256];
+      H5Lget_name_by_idx(data, ".", H5_INDEX_NAME, H5_ITER_INC, field, name, sizeof name, H5P_DEFAULT);
+      const hdf5::Handle dataset(H5Dopen2(data, name, H5P_DEFAULT), H5Dclose, name);
+      const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "space");
+      const hdf5::Handle type(H5Dget_type(dataset), H5Tclose, "type");
+      hsize_t shape[2] = {0, 1};
+      THAWSLIDE_ASSERT(H5Sget_simple_extent_ndims(space) <= 2, "{} has more than two dimensions", name);
+      H5Sget_simple_extent_dims(space, shape, nullptr);
+      entry.particles = shape[0];
+      columns.push_back({name, read_unit(dataset), shape[1], H5Tget_class(type) == H5T_INTEGER});
+    }
+    entries_.push_back(entry);
+    columns_ = std::move(columns);
+  } catch (const InternalError&) {  // what no run has written
+    return false;
+  }
+  return true;
 }
 
 void SnapshotSeries::finish_writing() {
@@ -85,8 +133,8 @@ void SnapshotSeries::add(Snapshot snapshot) {
   if (!entries_.empty() && std::chrono::duration<double>(now - indexed_).count() > seconds_between_indices) {
     write_index();
   }
-  const fs::path file = folder_ / file_name(entries_.size());
-  const Entry entry{snapshot.time, snapshot.particles()};
+  const fs::path file = folder_ / file_name(next_);
+  const Entry entry{next_++, snapshot.time, snapshot.particles()};
   columns_.clear();
   for (const SnapshotField& field : snapshot.fields) {
     columns_.push_back({field.name, field.unit, field.components, field.integer});
@@ -118,7 +166,7 @@ void SnapshotSeries::write_virtual(std::int64_t parent, const std::string& name,
     const hsize_t part[2] = {entries_[k].particles + extra_rows, components};
     const hdf5::Handle from(H5Screate_simple(rank, part, nullptr), H5Sclose, "a space");
     H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, part, nullptr);
-    THAWSLIDE_ASSERT(H5Pset_virtual(creation, space, file_name(k).c_str(), source.c_str(), from) >= 0,
+    THAWSLIDE_ASSERT(H5Pset_virtual(creation, space, file_name(entries_[k].number).c_str(), source.c_str(), from) >= 0,
                      "virtual dataset {} of snapshot {}", name, k);
     start[0] += part[0];
   }
@@ -176,6 +224,10 @@ void SnapshotSeries::write_steps(std::int64_t root) const {
 
 void SnapshotSeries::write_index() {
   finish_writing();
+  if (entries_.empty()) {
+    remove_or_throw(folder_ / "particles.vtkhdf");
+    return;
+  }
   const hdf5::MemoryFile file;
   const hdf5::Handle root = vtkhdf::make_root(file.root());
   std::vector<std::int64_t> counts;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <future>
+#include <string>
 #include <vector>
 
 #include "io/snapshot.hpp"
@@ -14,8 +15,10 @@ class SnapshotSeries {
  public:
   // Starts with no snapshots; makes folder/snapshots.
   explicit SnapshotSeries(const std::filesystem::path& folder);
-  // Goes on with the series: snapshots later than `time` are removed.
-  static SnapshotSeries continue_after(const std::filesystem::path& folder, double time);
+  // Goes on with the series after its first `count` snapshots: later ones are removed. A note says which of the earlier
+  // ones are missing or cannot be read; the index leaves these out.
+  static SnapshotSeries continue_after(const std::filesystem::path& folder, std::size_t count,
+                                       std::vector<std::string>& notes);
 
   // Writes folder/snapshots/NNNNNN.vtkhdf while the caller goes on, and before that, when it was not written for some
   // seconds, the index of the snapshots so far. Throws WriteError if this snapshot or the one before it could not be
@@ -23,15 +26,17 @@ class SnapshotSeries {
   void add(Snapshot snapshot);
   // Waits until the last snapshot is on the disk; throws as add does.
   void finish_writing();
-  // Writes folder/particles.vtkhdf: virtual datasets over all snapshots so far, with their times.
+  // Writes folder/particles.vtkhdf: virtual datasets over all snapshots so far, with their times. None: there is none.
   void write_index();
 
-  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  // How many were written, whatever has become of them.
+  [[nodiscard]] std::size_t size() const { return next_; }
   // Processor time that snapshots took while the caller went on [s], but for the last one if it is still being written.
   [[nodiscard]] double seconds_beside() const { return seconds_beside_; }
 
  private:
   struct Entry {
+    std::size_t number;
     double time;
     std::size_t particles;
   };
@@ -40,13 +45,15 @@ class SnapshotSeries {
     std::size_t components;
     bool integer;
   };
+  bool take(std::size_t number, const std::filesystem::path& file);
   void write_cells(std::int64_t root, const std::vector<std::int64_t>& counts) const;
   void write_steps(std::int64_t root) const;
   void write_virtual(std::int64_t parent, const std::string& name, const std::string& source, std::size_t components,
                      std::size_t extra_rows, bool integer) const;
 
   std::filesystem::path folder_;
-  std::vector<Entry> entries_;
+  std::vector<Entry> entries_;  // of those that can be read
+  std::size_t next_ = 0;        // number of the next one
   std::vector<Column> columns_;
   std::chrono::steady_clock::time_point indexed_;
   std::future<double> writing_;  // the last snapshot; HDF5 is in one thread's hands at a time

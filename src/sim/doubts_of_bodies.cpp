@@ -78,7 +78,7 @@ std::string doubt_of_band(const config::Case& parameters, const BodyFigures& bod
 std::string doubt_of_warmth(const config::Case& parameters, const BodyFigures& body) {
   const InitialField& temperature = parameters.bodies.at(body.name).temperature;
   const bool is_map = temperature.is_map() && !parameters.bodies.at(body.name).saturation.is_given();
-  if (!is_map || !parameters.heat.enabled || !(body.warmest > parameters.freezing.reference_temperature)) {
+  if (!is_map || !(body.warmest > parameters.freezing.reference_temperature)) {
     return "";
   }
   const std::string key = "body." + body.name + ".temperature";
@@ -86,6 +86,14 @@ std::string doubt_of_warmth(const config::Case& parameters, const BodyFigures& b
       "{}: {} is up to {:.{}g} C in '{}': there pores hold water from the start, no ice. Were "
       "temperatures below 0 meant?",
       config::place_of(parameters, key), key, body.warmest, digits_of_places, temperature.source);
+}
+
+std::vector<double> lengths_of_domain(const config::Case& parameters) {
+  std::vector<double> lengths;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(parameters.general.dimension); ++a) {
+    lengths.push_back(parameters.grid.max[a] - parameters.grid.min[a]);
+  }
+  return lengths;
 }
 
 }  // namespace
@@ -103,8 +111,10 @@ std::vector<std::string> doubts_of_bodies(const config::Case& parameters, const 
     add(doubt_of_band(parameters, body));
     add(doubt_of_warmth(parameters, body));
     if (parameters.mechanics.enabled) {
-      add(config::resolution_note(body.name, body.median_thickness, parameters.grid.cell,
-                                  parameters.bodies.at(body.name).particles_per_axis));
+      const std::string note =
+          config::resolution_note(body.name, body.median_thickness, parameters.grid.cell,
+                                  parameters.bodies.at(body.name).particles_per_axis, lengths_of_domain(parameters));
+      add(note.empty() ? "" : config::place_of(parameters, "grid.cell") + ": " + note);
     }
   }
   return found;

@@ -1,8 +1,7 @@
 // The normal load N on particles: what the column above presses on the ground with.
-#include <algorithm>
-
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"
+#include "sim/terrain_at_columns.hpp"
 
 namespace thawslide::sim {
 
@@ -12,15 +11,7 @@ void Simulation<Dim, Real>::update_normal_load(std::size_t first) {
   if (!model_.band.pressure || !model_.band.needs_normal_load()) {
     return;
   }
-  const Vector<double, Dim> gravity = model_.motion.gravity.template cast<double>();
-  const auto normal_gravity = [&](const Vector<Real, Dim - 1>& place) {
-    if (!model_.ground) {
-      return static_cast<Real>(-gravity[Dim - 1]);
-    }
-    const auto normal = model_.ground->normal_below(place.template cast<double>(), parameters_.grid.cell);
-    return static_cast<Real>(std::max(0.0, gravity.dot(normal)) * -normal[Dim - 1]);
-  };
-  flow_depth_.load_to_particles(grid_, normal_gravity, particles_, first);
+  flow_depth_.load_to_particles(grid_, normal_gravity_of(model_, parameters_.grid.cell), particles_, first);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real) template void Simulation<Dim, Real>::update_normal_load(std::size_t);

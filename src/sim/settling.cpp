@@ -14,9 +14,9 @@ bool Simulation<Dim, Real>::needs_settling() const {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::settle() {
+bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   if (!needs_settling()) {
-    return;
+    return true;
   }
   THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
                    static_cast<std::size_t>(next_id_) - particles_at_start_);
@@ -35,6 +35,11 @@ void Simulation<Dim, Real>::settle() {
                                                                          : parameters_.time.safety * step_limit().step;
   const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
   for (std::int64_t k = 0; k < steps; ++k) {
+    if (!goes_on()) {
+      time_ = 0.0;  // of the run nothing has been simulated
+      step_number_ = 0;
+      return false;
+    }
     step(dt);
   }
   parameters_.grid.leaving = leaving;
@@ -52,11 +57,12 @@ void Simulation<Dim, Real>::settle() {
     }
   }
   begin();
+  return true;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                       \
   template bool Simulation<Dim, Real>::needs_settling() const; \
-  template void Simulation<Dim, Real>::settle();
+  template bool Simulation<Dim, Real>::settle(const std::function<bool()>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,6 +1,7 @@
 // A run in memory: particles, grid and the step of Section 2.3.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,12 +41,16 @@ class Simulation {
   // Particles at t = 0, not yet settled. site: what the map files of the case hold, needed where the terrain is a DEM.
   // Throws UserError for a fixed step above a limit, and for what does not fit into memory, before any of it is made.
   explicit Simulation(const config::Case& parameters, const config::Site& site = {});
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   // Whether the case asks for gravity to be switched on before t = 0, with damping and on a base that holds.
   [[nodiscard]] bool needs_settling() const;
   // Does that; then everything but the stress is as at the start. Nothing happens in a case that does not ask for it.
-  // Throws RunError when a particle goes bad on the way.
-  void settle();
+  // goes_on: asked before each step; once it says no, false is returned, and there is no run to go on with. Throws
+  // RunError when a particle goes bad on the way.
+  bool settle(const std::function<bool()>& goes_on = [] { return true; });
 
   // One time step of dt [s]. Throws RunError when a particle goes bad; the state then is that of the failed step.
   void step(double dt);
@@ -63,6 +68,9 @@ class Simulation {
   // Whether the slide has come to rest, as time.stop_at_rest has it; and since when, in words.
   [[nodiscard]] bool is_at_rest() const;
   [[nodiscard]] std::string rest_text() const;
+  // What is to be said of energy that came slowly and without a cause, by more than guards.energy_growth; empty:
+  // nothing.
+  [[nodiscard]] std::string energy_note() const;
   [[nodiscard]] const Removed& removed() const { return removed_; }
 
   [[nodiscard]] const config::Case& parameters() const { return parameters_; }

@@ -24,6 +24,9 @@ constexpr double noticed_fall = 1.0;
 // again on the ground, is none: the level that energy rises from follows it by this share each time it is looked at.
 constexpr double forgotten_share = 0.02;
 
+// Watch::has_moved of a run that was not asked to stop at rest.
+constexpr double not_looked_at = -1.0;
+
 // Energy that is there or went where the accounts say, less what came in [J]: what the transfers and the time steps
 // made, or lost. It is mechanical_residual_J and numerical_J of the history together, which in a stable run keep each
 // other's balance.
@@ -40,6 +43,17 @@ template <int Dim, class Real>
 double energy_so_far(const Ledger<Dim, Real>& ledger, const WatchedSums<Real>& seen, double held_at_start) {
   return held_at_start + static_cast<double>(seen.kinetic + std::abs(ledger.stress_work) + ledger.viscous +
                                              ledger.damping + ledger.friction_work + ledger.contact_loss);
+}
+
+// Whether more than the stray share has gone further than a way [m].
+template <int Dim, class Real>
+bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
+  Real mass = 0, far_mass = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    mass += particles.mass(p);
+    far_mass += particles.path_length(p) > way ? particles.mass(p) : Real(0);
+  }
+  return far_mass > static_cast<Real>(stray_share) * mass;
 }
 
 }  // namespace
@@ -110,6 +124,7 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>& seen) 
   const double weight = static_cast<double>(seen.mass * model_.motion.gravity.norm());
   const double energy = std::max(watch_.largest_energy, weight * noticed_fall * parameters_.grid.cell);
   const double round_off_of_sums = round_off * static_cast<double>(std::abs(seen.potential));
+  watch_.made_share = made > round_off_of_sums ? made / energy : 0.0;
   if (growth > parameters_.guards.energy_growth * energy + round_off_of_sums) {
     stop_for_energy(growth, growth / energy);
   }
@@ -118,7 +133,11 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>& seen) 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::note_rest(const WatchedSums<Real>& seen) {
   if (parameters_.time.stop_at_rest == 0.0) {
+    watch_.has_moved = not_looked_at;
     return;
+  }
+  if (watch_.has_moved == not_looked_at) {
+    watch_.has_moved = has_gone_further(particles_, static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
   }
   if (seen.fast_mass > static_cast<Real>(stray_share) * seen.mass) {
     watch_.has_moved = 1.0;
@@ -136,6 +155,18 @@ bool Simulation<Dim, Real>::is_at_rest() const {
 }
 
 template <int Dim, class Real>
+std::string Simulation<Dim, Real>::energy_note() const {
+  if (watch_.made_share <= parameters_.guards.energy_growth) {
+    return "";
+  }
+  return fmt::format(
+      "note: by t = {:.6g} s the steps have made {:.3g} % of all energy, little by little and without a cause: do not "
+      "trust what the slide does from here on. A body without viscosity flutters: give its material a viscosity_time "
+      "(0.001 to 0.02 s), or take smaller steps",
+      time_, 100.0 * watch_.made_share);
+}
+
+template <int Dim, class Real>
 std::string Simulation<Dim, Real>::rest_text() const {
   return fmt::format(
       "the slide is at rest: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s "
@@ -150,6 +181,7 @@ std::string Simulation<Dim, Real>::rest_text() const {
   template void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>&); \
   template void Simulation<Dim, Real>::note_rest(const WatchedSums<Real>&);            \
   template bool Simulation<Dim, Real>::is_at_rest() const;                             \
+  template std::string Simulation<Dim, Real>::energy_note() const;                     \
   template std::string Simulation<Dim, Real>::rest_text() const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

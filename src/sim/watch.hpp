@@ -23,9 +23,11 @@ struct Watch {
   double lowest_made = 0.0;     // lowest of late of the energy that nothing accounts for [J]
   double first_step = 0.0;      // the adaptive one at t = 0 [s]
   double rest_since = -1.0;     // [s]; negative: it moves
-  double has_moved = 0.0;       // 1: more than the stray share has been faster than time.stop_at_rest
+  double has_moved = 0.0;       // 1: more than the stray share has been faster than time.stop_at_rest; -1: not looked
+  // At the last look: energy that nothing accounts for since t = 0, as a share of all so far. In no checkpoint.
+  double made_share = 0.0;
 
-  // Calls visit(number) with each, in order.
+  // Calls visit(number) with each that a checkpoint keeps, in order.
   template <class Visit>
   void for_each(const Visit& visit) {
     for (double* number : {&held_at_start, &largest_energy, &lowest_made, &first_step, &rest_since, &has_moved}) {

@@ -62,6 +62,13 @@ def digest(run: Path) -> dict[str, str]:
     }
 
 
+def as_killed(run: Path) -> None:
+    """Make run.json that of a run whose process is gone."""
+    text = (run / "run.json").read_text()
+    assert text.count('"status": "done"') == 1
+    (run / "run.json").write_text(text.replace('"status": "done"', '"status": "running"'))
+
+
 def command_of(program: Path, subject: Subject, run: Path) -> list[str]:
     """Return the words that run the subject into a folder."""
     return [str(program), "run", str(subject.case), "--output", str(run), "--threads", "1", *subject.words]

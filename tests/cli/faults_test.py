@@ -6,10 +6,11 @@ A sample; all of them are in scripts/reliability.
 from __future__ import annotations
 
 import random
+import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import LAMPLUGH, sets
+from conftest import LAMPLUGH, Program, sets
 from faults import FAILING_WRITES, Subject, calls_that_write, failing, killed, limited, on_small_disk, undisturbed
 
 SHORT = tuple(sets(time__end=0.3, time__history_interval=0.07, time__output_interval=0.05, checkpoint__interval=0.04))
@@ -65,4 +66,22 @@ def test_a_folder_that_is_read_only_is_told_before_anything_is_computed(
     subject = Subject("small", small_case)
     expected, _ = undisturbed(binary, subject, tmp_path / "whole")
     trial = failing(binary, subject, tmp_path / "run", expected, 1, "onwards", "denied")
-    assert trial.code == 2 and "Permission denied" in trial.told and trial.sound, trial
+    assert trial.code == 5 and "Permission denied" in trial.told and trial.sound, trial
+
+
+@pytest.mark.parametrize("size", [8, 60])
+def test_a_disk_that_is_full_from_the_start(thawslide: Program, small_case: Path, tmp_path: Path, size: int) -> None:
+    """The code is that of files; what is told to go on from is there."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    made = ["mount", "-t", "tmpfs", "-o", f"size={size}k", "tmpfs", str(disk)]
+    if subprocess.run(made, capture_output=True, check=False).returncode != 0:
+        pytest.skip("no disk of a chosen size can be made here: mount is not allowed")
+    try:
+        outcome = thawslide("run", small_case, "--output", disk / "run")
+        assert outcome.returncode == 5
+        assert "goes on from the last checkpoint" not in outcome.stderr
+        assert not (disk / "run" / "checkpoint.bin").exists()
+        assert ("starts it again" in outcome.stderr) == (disk / "run" / "run.json").exists()
+    finally:
+        subprocess.run(["umount", str(disk)], check=True)

@@ -106,15 +106,21 @@ def test_links_to_inputs_lead_nowhere_else(thawslide: Program, small_case: Path)
     assert thawslide("check", small_case, "--set", f"terrain.file={profile}").returncode == 0
 
 
-def test_the_copy_of_a_large_input_is_of_what_its_link_leads_to(thawslide: Program, small_case: Path) -> None:
-    """Above 50 MB it is a hard link, and of the file."""
+def test_the_copy_of_a_large_input_is_a_copy(thawslide: Program, small_case: Path) -> None:
+    """What becomes of the original is nothing to the run, which goes on with what it began with."""
     profile = with_profile(small_case, PROFILE + ("#" * 99 + "\n") * 510_000)
-    profile.rename(small_case / "real.csv")
+    original = profile.rename(small_case / "real.csv")
     profile.symlink_to("real.csv")
     run = small_case.parent / "run"
     assert thawslide("run", small_case, "--output", run, *sets(time__end=0.01)).returncode == 0
     copy = run / "inputs" / "profile.csv"
-    assert not copy.is_symlink() and copy.samefile(small_case / "real.csv")
+    assert not copy.is_symlink() and not copy.samefile(original)
+    assert copy.read_bytes() == original.read_bytes()
+    with original.open("a") as file:
+        file.write("# a remark\n")
+    outcome = thawslide("resume", run, "--end", 0.02)
+    assert outcome.returncode == 0, outcome.stderr
+    assert f"note: {profile} has changed since the run began" in outcome.stdout
 
 
 def test_links_to_case_files(thawslide: Program, small_case: Path) -> None:

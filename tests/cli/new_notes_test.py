@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import rasterio
@@ -18,8 +19,8 @@ from slope_files import (
 )
 
 ACROSS = (
-    "note: the body slide has 1.6 particles across its median thickness of 24 m; fewer than 4 do not tell how it "
-    "shears and thins. A cell of 8 m has 6 and more\n"
+    "the body slide has 1.6 particles across its median thickness of 24 m; fewer than 4 do not tell how it shears and "
+    "thins. A cell of "
 )
 
 
@@ -44,9 +45,13 @@ def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slop
         "--cell",
         30,
     )
-    assert ACROSS in coarse.stdout, coarse.stderr
+    assert f"note: {ACROSS}8 m has 6 and more\n" in coarse.stdout, coarse.stderr
     told = thawslide("check", tmp_path / "coarse").stdout
-    assert ACROSS in told and "; 1.6 across in the median and 1.6 at most; " in told
+    assert "; 1.6 across in the median and 1.6 at most; " in told
+    fitting = re.search(rf"/coarse/case\.toml:\d+:\d+: {re.escape(ACROSS)}(\S+) m has 6 and more\n", told)
+    assert fitting and 4.0 < float(fitting[1]) <= 8.0, told
+    finer = thawslide("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[1]}")
+    assert finer.returncode == 0 and ACROSS[-20:] not in finer.stdout, finer.stderr
 
 
 def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

@@ -31,7 +31,8 @@ def said(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> tuple[
 def test_opening_line(said: tuple[list[str], Path]) -> None:
     lines, run = said
     particles = run_facts(run)["particles"]
-    assert lines[0] == f"Lamplugh rock-ice avalanche, 2016: {particles} particles, 2 s to simulate, on 1 thread"
+    assert "note: " in lines[0] and "lamplugh_targets.csv: 7 of its values are later than the run" in lines[0]
+    assert lines[1] == f"Lamplugh rock-ice avalanche, 2016: {particles} particles, 2 s to simulate, on 1 thread"
 
 
 def test_plain_lines_tell_share_speed_time_left_and_front(said: tuple[list[str], Path]) -> None:

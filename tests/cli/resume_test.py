@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+import shutil
 import signal
 import subprocess
 from pathlib import Path
 
 import pytest
 from conftest import LAMPLUGH, LIMIT, Interrupted, Program, assert_same_bits, history, run_facts, sets, snapshot_files
-from faults import digest
+from faults import as_killed, digest
 
 # Neither rows nor snapshots nor checkpoints fall together.
 WORDS = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.4)
@@ -72,8 +73,11 @@ def test_a_killed_run_goes_on_from_its_last_checkpoint(
     rows = history(run)["time_s"]
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
-    told = re.match(r"going on from t = (\S+) s\n", outcome.stdout)
-    assert told
+    told = re.match(
+        r"going on from t = (\S+) s; it had come to (\S+) s: rows and snapshots after (\S+) s are written anew\n",
+        outcome.stdout,
+    )
+    assert told and told[1] == told[3] and float(told[2]) == pytest.approx(rows[-1], rel=1e-5)
     checkpoint = float(told[1])
     assert 0.8 <= checkpoint <= rows[-1] + 0.07 and checkpoint / 0.4 == pytest.approx(round(checkpoint / 0.4))
     assert_same_bits(whole, run)
@@ -143,13 +147,6 @@ def test_resume_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> Non
     assert list(tmp_path.iterdir()) == []
 
 
-def as_killed(run: Path) -> None:
-    """Make run.json that of a run whose process is gone."""
-    text = (run / "run.json").read_text()
-    assert text.count('"status": "done"') == 1
-    (run / "run.json").write_text(text.replace('"status": "done"', '"status": "running"'))
-
-
 def damaged(content: bytes, damage: str) -> bytes:
     if damage == "a lost end":
         return content[: len(content) // 2]
@@ -169,12 +166,17 @@ def test_a_damaged_checkpoint_gives_way_to_the_one_before(
     file = run / "checkpoint.bin"
     file.write_bytes(damaged(file.read_bytes(), damage))
     size = file.stat().st_size
+    before = shutil.copy(run / "checkpoint.previous.bin", tmp_path / "before.bin")
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(
-        f"note: {file} is damaged: its checksum does not fit its {size} bytes; going on from the checkpoint before\n"
-        "going on from t = 0.15 s\n"
+        f"note: {file} is damaged: its checksum does not fit its {size} bytes; it is kept as checkpoint.damaged.bin, "
+        "and the run goes on from the checkpoint before\n"
+        "going on from t = 0.15 s; it had come to 0.2 s: rows and snapshots after 0.15 s are written anew\n"
     )
+    # The good one is still there, and the damaged one beside.
+    assert (run / "checkpoint.previous.bin").read_bytes() == before.read_bytes()
+    assert run_facts(run)["parts"][1]["notes"] == [outcome.stdout.splitlines()[0].removeprefix("note: ")]
     assert_same_bits(whole, run)
     assert file.read_bytes() == (whole / "checkpoint.bin").read_bytes()
 
@@ -209,7 +211,7 @@ def test_a_run_killed_before_its_first_checkpoint_is_due_starts_again(
     torn.write_bytes(b"half a file")
     outcome = thawslide("resume", run, "--threads", 1)
     assert outcome.returncode == 0, outcome.stderr
-    assert outcome.stdout.startswith("going on from t = 0 s\n")
+    assert outcome.stdout.startswith("going on from t = 0 s")
     assert not torn.exists()
     twin = tmp_path / "twin"
     assert thawslide("run", LAMPLUGH, "--output", twin, *words).returncode == 0
@@ -338,7 +340,8 @@ def test_a_changed_input_is_refused_and_a_changed_original_told(
             "a run that goes on cannot change grid.cell, body.block.porosity: what it has computed so far was for the "
             "case it has. Allowed: [time], [checkpoint], [guards], grid.leaving, ",
         ),
-        (["--end", "0.1"], "the end of 0.1 s has passed: the run's checkpoint is of 0.2 s. Give a later one."),
+        (["--end", "0.1"], "the end of 0.1 s has passed: the run had come to 0.2 s. Give a later one."),
+        (["--end", "2", "--set", "time.end=3"], "--end is short for --set time.end: give one of the two."),
         (["--end", "-1"], "-1 found; allowed: above 0"),
         (["--set", "time.ende=3"], "--set time.ende=3: key 'time.ende' is not known in [time]; did you mean 'end'?"),
     ],

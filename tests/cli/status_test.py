@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
+import os
 import re
 import signal
 import socket
@@ -13,6 +15,7 @@ from pathlib import Path
 
 import pytest
 from conftest import LAMPLUGH, LIMIT, Program, run_facts, sets
+from faults import FAILING_WRITES
 
 LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
 
@@ -70,6 +73,9 @@ def test_one_process_at_a_time(thawslide: Program, at_work: subprocess.Popen[str
         outcome = thawslide(*words)
         assert outcome.returncode == 2
         assert outcome.stderr == message
+    outcome = thawslide("run", LAMPLUGH, "--output", run)
+    assert outcome.returncode == 2
+    assert f"{run} is being written by process {at_work.pid} on {socket.gethostname()}. Give another" in outcome.stderr
     assert at_work.poll() is None and (run / "history.csv").exists()
 
 
@@ -94,6 +100,32 @@ def test_a_second_signal_stops_at_once(
         assert json.loads(thawslide("status", tmp_path / "run", "--json").stdout)["state"] == "killed"
 
 
+def test_where_there_are_no_locks_it_cannot_be_told_whether_a_run_lives(
+    thawslide: Program, plain_environment: dict[str, str], small_case: Path, tmp_path: Path
+) -> None:
+    if not FAILING_WRITES.exists():
+        pytest.skip(f"there is no {FAILING_WRITES}: build it")
+    without = plain_environment | {"LD_PRELOAD": str(FAILING_WRITES), "FAULT_LOCKS": "absent"}
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run, environment=without).returncode == 0
+    facts = run_facts(run) | {"status": "running"}
+    (run / "run.json").write_text(json.dumps(facts))
+    (run / "run.lock").touch()
+    long_ago = time.time() - 300
+    for file in run.rglob("*"):
+        os.utime(file, (long_ago, long_ago))
+    said = thawslide("status", run, environment=without).stdout
+    assert re.match(
+        re.escape(f"{run}: whether it runs cannot be told, as its file system has no locks; its last file was written ")
+        + r"5 min 0\d s ago\n",
+        said,
+    ), said
+    assert said.endswith(f"  if nothing writes there any more: thawslide resume {run}\n")
+    told = json.loads(thawslide("status", run, "--json", environment=without).stdout)
+    assert told["state"] == "unknown" and told["last_write_age_s"] == pytest.approx(300, abs=60)
+    assert json.loads(thawslide("status", run, "--json").stdout)["state"] == "killed"
+
+
 def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
@@ -105,9 +137,36 @@ def test_runs_that_have_ended(thawslide: Program, small_case: Path, tmp_path: Pa
         "process": "",
         "simulated_time_s": pytest.approx(0.2),
         "end_s": 0.2,
+        "last_write_age_s": pytest.approx(30, abs=30),
         "checkpoint_age_s": pytest.approx(30, abs=30),
         "time_left_s": None,
     }
+
+
+def test_a_broken_case_hides_nobody(thawslide: Program, at_work: subprocess.Popen[str], tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    (run / "case.toml").write_text("[time\n")
+    process = f"process {at_work.pid} on {socket.gethostname()}"
+    outcome = thawslide("status", run)
+    assert outcome.returncode == 0, outcome.stderr
+    first, second, *_ = outcome.stdout.splitlines()
+    assert first == f"{run}: running, by {process}"
+    assert re.match(rf"  \S+ s simulated; its end is not known: {re.escape(str(run / 'case.toml'))}:1:", second), second
+    facts = json.loads(thawslide("status", run, "--json").stdout)
+    assert (facts["state"], facts["process"], facts["end_s"]) == ("running", process, None)
+    at_work.kill()
+    at_work.communicate(timeout=LIMIT)
+    assert json.loads(thawslide("status", run, "--json").stdout)["state"] == "killed"
+
+
+def test_a_run_that_sets_up_is_alive(thawslide: Program, tmp_path: Path) -> None:
+    (tmp_path / "run.lock").write_text("process 7 on here\n")
+    with (tmp_path / "run.lock").open() as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        outcome = thawslide("status", tmp_path)
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith(f"{tmp_path}: running, by process 7 on here\n")
+    assert thawslide("status", tmp_path).returncode == 2
 
 
 def test_status_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> None:

@@ -252,6 +252,29 @@ __global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim,
                     Pressure<Dim, Balances>{model, hydraulic, Real(0.5) * tile.cell, *columns});
 }
 
+// The columns of the slide: what a box overlaps, a column at the body's edge, and the load of a particle below one.
+template <int Dim>
+__global__ void box_in_columns(std::uint64_t tile_key, TileOnDevice<Dim> tile, band::Overlaps<Dim, Real>* overlaps) {
+  const mpm::One<Real> at{{tile.particle[threadIdx.x]}};
+  overlaps[threadIdx.x] = band::overlaps<Dim>(band::first_cell_of<Dim>(tile_key), tile.cell, tile.inverse_cell,
+                                              tile.sizes, tile.particles, at);
+}
+template <int Dim>
+__global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, const band::Pile<Real>* piles,
+                       const band::Extent<Dim, Real>* extents, std::uint64_t* keys, Real* thickness, Real* load) {
+  const std::size_t k = threadIdx.x;
+  const auto is_filled = [&](std::size_t side) { return filled[k * band::column_sides<Dim> + side]; };
+  const bool at_edge = band::lacks_neighbour<Dim>(is_filled);
+  keys[k] = band::column_beside(band::column_key<Dim>(tile_key, k), k % 2);
+  thickness[k] = band::thickness_of(piles[k], band::footprint_of<Dim>(cell, at_edge, extents[k], is_filled));
+  load[k] = band::load_per_depth(piles[k], load[k], Real(10));
+}
+template <int Dim>
+__global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, Real, band::NumbersOfColumns<Real>> columns) {
+  const mpm::One<Real> at{{tile.particle[threadIdx.x]}};
+  band::take_load(tile.particles, at.particle[0], columns.flow_depth(tile.particles, at));
+}
+
 template <int Dim>
 __global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::TakePosition<Dim, Real>> to,
                               mpm::TakePosition<Dim, Real> kernel) {
@@ -306,6 +329,9 @@ void instantiate() {
   orphan_heat<Dim><<<1, 128>>>(tile, {}, 0);
   seepage<Dim><<<1, 128>>>(tile, {}, {}, {}, 0);
   seeping_water<Dim><<<1, 128>>>(tile, {}, {}, {});
+  box_in_columns<Dim><<<1, 128>>>(0, tile, nullptr);
+  column<Dim><<<1, 128>>>(0, 0, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
+  load<Dim><<<1, 128>>>(tile, {});
   pore_pressure<Dim, false><<<1, 128>>>(tile, {}, {}, {}, nullptr);
   pore_pressure<Dim, true><<<1, 128>>>(tile, {}, {}, {}, nullptr);
   sum_in_cell<mpm::Momentum, Dim><<<1, 128>>>(nullptr, nullptr, 0, 0, nullptr);

@@ -6,9 +6,11 @@
 //   FAULT_KIND    once (that call alone, the default), onwards (all from there on), short (half of what is written
 //                 arrives, later ones fail)
 //   FAULT_REASON  full (no space left, the default), io (input/output error), denied (permission denied)
+//   FAULT_LOCKS   absent: there are no locks, as on some network disks, whatever the folder
 //   FAULT_COUNT   file, outside of the folder, that the number of calls is written to at the end
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <sys/uio.h>
@@ -195,6 +197,15 @@ int ftruncate(int descriptor, off_t size) {
 
 int rename(const char* from, const char* to) {
   return fate_of_call(to) != Fate::goes_on ? failed(-1) : real<int(const char*, const char*)>("rename")(from, to);
+}
+
+int flock(int descriptor, int kind) {
+  const char* locks = std::getenv("FAULT_LOCKS");
+  if (locks != nullptr && std::strcmp(locks, "absent") == 0) {
+    errno = ENOLCK;
+    return -1;
+  }
+  return real<int(int, int)>("flock")(descriptor, kind);
 }
 
 int mkdir(const char* path, mode_t mode) {

@@ -261,7 +261,7 @@ def test_test_refuses_options_it_does_not_know() -> None:
     assert "--full" in refused.stderr
 
 
-@pytest.mark.parametrize("script", ["run", "test", "scripts/setup", "scripts/fuzz-python", ".ci/run"])
+@pytest.mark.parametrize("script", ["run", "test", "scripts/setup", ".ci/run"])
 def test_script_can_be_started_and_parses(script: str) -> None:
     path = ROOT / script
     assert path.stat().st_mode & 0o111

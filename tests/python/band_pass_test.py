@@ -104,7 +104,9 @@ def test_report_has_the_runs_own_value_beside_each_reported_one(make_run: MakeRu
     assert found["Largest seismic force"] == shown(float(np.nanmax(seismic_force(run)[1])), "N") != largest
     assert found_for(run, target("mean_velocity", 5.0, 11.0, "m/s")) == "12 m/s"
     assert found_for(run, target("band_SL", 5.0, 0.4, "-")) == "0.5"
-    assert found_for(run, target("mean_velocity", 11.0, 11.0, "m/s")) == "", "after the end"
+    outside = "not compared: the run is of 0 to 10 s"
+    assert found_for(run, target("mean_velocity", 11.0, 11.0, "m/s")) == outside, "after the end"
+    assert found_for(run, target("mean_velocity", -100.0, 11.0, "m/s")) == outside, "not with the nearest, at 0 s"
     assert found_for(run, target("source_volume", 0.0, 1.0, "m3")) == "800 m3", "80 particles of 1 m2 on 10 m of width"
     page = make_report(run, names=["force"], dpi=50).page.read_text(encoding="utf-8")
     cells = re.escape(f"max seismic force 2 8 s</th><td>5 s</td><td>1.1e+11 N</td><td>{largest}</td><td>waves</td>")

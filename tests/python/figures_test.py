@@ -217,6 +217,16 @@ def test_reported_values_after_the_end_are_counted_not_drawn(make_run: MakeRun) 
     ]
 
 
+def test_reported_values_before_the_start_are_counted_not_drawn(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "inputs" / "targets.csv").write_text(
+        "quantity,time_s,value,unit\nmean_velocity,-100,9,m/s\nmean_velocity,99,9,m/s\n"
+    )
+    (speed, _) = FIGURES["motion"].draw(Run(folder)).axes
+    assert not [drawn for drawn in speed.lines if str(drawn.get_label()).startswith("reported")]
+    assert texts(speed) == ["1 reported before the start of the run, 1 reported after the end of the run"]
+
+
 def test_motion_without_targets(make_run: MakeRun) -> None:
     figure = FIGURES["motion"].draw(Run(make_run(targets=False)))
     labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import json
 import os
+import time
 from pathlib import Path
 
 import pytest
@@ -63,6 +65,31 @@ def test_a_run_whose_lock_is_held_is_running(map_run: Path) -> None:
     assert Run(map_run).ending is Ending.KILLED, "the file is there, but nobody holds it"
 
 
+def test_where_there_are_no_locks_it_cannot_be_told_whether_a_run_lives(
+    map_run: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", refuse)
+    (map_run / LOCK).touch()
+    (map_run / "run.json").write_text(json.dumps({"status": "running", "simulated_time_s": 0.0}))
+    long_ago = time.time() - 3 * 3600
+    for file in map_run.rglob("*"):
+        os.utime(file, (long_ago, long_ago))
+    assert is_held(map_run / LOCK) is None
+    run = Run(map_run)
+    assert run.ending is Ending.UNTOLD
+    assert run.end_note == "The run was running or killed at 10 s. "
+    assert ending_note(run) == (
+        "run.json says that this run is running; whether it is cannot be told, as its file system has no locks. Its "
+        "last file was written 3 hours before this page. If nothing writes there any more, `thawslide resume "
+        f"{map_run}` goes on from its last checkpoint. The figures show what it has written."
+    )
+    (map_run / "run.json").write_text(json.dumps({"status": "done"}))
+    assert Run(map_run).ending is Ending.DONE
+
+
 def test_several_can_ask_for_the_lock_at_once_and_none_keeps_it(tmp_path: Path) -> None:
     lock = tmp_path / LOCK
     lock.touch()
@@ -98,6 +125,13 @@ def test_the_page_of_a_killed_run_says_how_to_go_on(map_run: Path) -> None:
     page = make_report(Run(map_run), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
     assert "This run stopped without a word: run.json says that it runs, but no process holds run.lock." in page
     assert f"`thawslide resume {map_run}` goes on from its last checkpoint." in page
+
+
+def test_the_page_of_a_run_that_had_lost_rows_says_so(map_run: Path) -> None:
+    parts = [{"notes": []}, {}, {"notes": ["history.csv lacks 2 of the 16 rows"]}, {"notes": 3}, 4]
+    (map_run / "run.json").write_text(json.dumps({"status": "done", "parts": parts}))
+    page = make_report(Run(map_run), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    assert '<p class="note">history.csv lacks 2 of the 16 rows</p>' in page
 
 
 def test_the_page_of_a_run_without_run_json_says_so(map_run: Path) -> None:

@@ -18,16 +18,18 @@ def draw_targets(
 ) -> int:
     """Mark the reported values within the run's time, one marker a source; return how many there were.
 
-    A note says how many lie after the end of the run.
+    A note says how many lie outside of it.
     """
-    end = float(run.history["time_s"][-1])
+    begin, end = (float(run.history["time_s"][row]) for row in (0, -1))
     asked = [target for target in run.targets if target.quantity in quantities]
     times = {target: own_time(run, target) for target in asked}
-    found = [target for target in asked if times[target] <= end]
+    found = [target for target in asked if begin <= times[target] <= end]
     if len(found) < len(asked):
         # One line of note for each call on the same panel.
         height = 0.02 + 0.06 * len(axes.texts)
-        note = f"{len(asked) - len(found)} reported{words} after the end of the run"
+        early = sum(times[target] < begin for target in asked)
+        counts = {"before the start": early, "after the end": len(asked) - len(found) - early}
+        note = ", ".join(f"{count} reported{words} {when} of the run" for when, count in counts.items() if count)
         axes.text(0.98, height, note, transform=axes.transAxes, ha="right", size=7.5, color=NOTE)
     sources = list(dict.fromkeys(target.source for target in found))
     for number, source in enumerate(sources):

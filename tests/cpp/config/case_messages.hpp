@@ -86,6 +86,16 @@ inline void write_beside_the_case(const std::string& name, const std::string& te
   std::ofstream(file, std::ios::binary) << text;
 }
 
+// The values of a resolved case, without the marks of what was not given.
+inline std::string without_marks(std::string resolved) {
+  for (const std::string mark : {"  # not given", ", not given"}) {
+    for (std::size_t at = resolved.find(mark); at != std::string::npos; at = resolved.find(mark)) {
+      resolved.erase(at, mark.size());
+    }
+  }
+  return resolved;
+}
+
 // Maps are opened when a run begins: to the case file it is enough that they are there.
 inline void write_map_files() {
   for (const char* name : {"dem.tif", "release.geojson", "map.tif", "line.geojson"}) {

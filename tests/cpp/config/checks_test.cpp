@@ -54,6 +54,28 @@ TEST(Domain, IsAWholeNumberOfCellsAndWhatSetChangedIsNamed) {
       << "the cell that is proposed fits";
 }
 
+// A schedule of more moments than a run can have cannot be meant.
+TEST(Intervals, AreNoBillionthOfTheRun) {
+  const auto said = [](const std::string& set, const std::string& key, const std::string& or_none) {
+    return "--set " + set + ": " + key +
+           " is 1e-12 s, and the run of 2 s has 2e+12 times as much; allowed: 2e-09 s and more, 1e+09 of them in the "
+           "run" +
+           or_none + ". Make it longer, or the run shorter.";
+  };
+  const std::string rows = "; 0: a row every step", none = "; 0: none by simulated time";
+  for (const auto& [key, or_none] :
+       {std::pair(std::string("time.output_interval"), std::string()),
+        std::pair(std::string("time.history_interval"), rows), std::pair(std::string("checkpoint.interval"), none)}) {
+    const std::string set = key + "=1e-12";
+    EXPECT_EQ(error_of_text(sound, {set}), said(set, key, or_none));
+    EXPECT_EQ(error_of_text(sound, {key + "=2e-9"}), "no error");
+  }
+  EXPECT_EQ(error_of_text(sound, {"time.history_interval=0", "checkpoint.interval=0"}), "no error");
+  EXPECT_NE(error_of_text(sound, {"time.end=1e300"}).find("--set time.end=1e300: time.output_interval is "),
+            std::string::npos)
+      << "the key that was given is named";
+}
+
 TEST(Domain, HasAnExtent) {
   EXPECT_EQ(
       error_of_changed({{"max = [100.0, 50.0]", "max = [100.0, -10.0]"}}),

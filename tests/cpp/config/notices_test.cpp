@@ -5,6 +5,7 @@
 
 #include "case_messages.hpp"
 #include "config/declaration.hpp"
+#include "config/describe.hpp"
 #include "config/moved_defaults.hpp"
 #include "config/strips.hpp"
 
@@ -113,8 +114,17 @@ TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
        "5 C: its pores hold water from the start, no ice. Was a temperature below 0 meant?"},
       {"time.output_interval", "1000",
        "1000 s: longer than the run of 1 s, which leaves a snapshot of its start and one of its end."},
-      {"time.output_interval", "1e-5",
-       "1e-05 s: that is 100000 snapshots, each a file, more than a folder or a film is good for."},
+      {"phases.rock_density", "2.7", "2.7 kg/m3: if it is in g/cm3, it is 2700 kg/m3."},
+      {"phases.rock_density", "27000", "27000 kg/m3: the grains of rock have 2000 to 3600 kg/m3."},
+      {"phases.ice_density", "0.9", "0.9 kg/m3: if it is in g/cm3, it is 900 kg/m3."},
+      {"phases.water_density", "100", "100 kg/m3: water has 950 to 1300 kg/m3."},
+      {"case.gravity", "98.1", "98.1 m/s2: on Earth it is 9.81 m/s2."},
+      {"time.step", "1e-12",
+       "1e-12 s: that is 1e+12 steps, months of computing. `thawslide check` tells the limit, which a step may come "
+       "close to."},
+      {"checkpoint.interval", "1e-8",
+       "1e-08 s: shorter than the step of 0.001 s: a checkpoint every step takes longer than the step. "
+       "checkpoint.wall_interval writes them by the clock."},
       {"time.history_interval", "2",
        "2 s: longer than the run of 1 s: history.csv gets a row of its start and one of its end."}};
   const std::string known = "pressure.frozen=none", text = changed(with_columns);
@@ -141,6 +151,46 @@ TEST(Notices, DoubtADefaultWithoutDrainage) {
   EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "material.rock.hydraulic_conductivity=0"})), none);
   EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "mechanisms.pressurization=false"})), none)
       << "nothing is under pressure";
+}
+
+// Nothing is written more than once a step.
+TEST(Notices, CountSnapshotsByTheStepsThereAre) {
+  const std::string text = changed(with_columns);
+  const std::vector<std::string> sets{"pressure.frozen=none", "time.end=1", "time.output_interval=1e-6"};
+  const std::vector<std::string> none;
+  EXPECT_EQ(notices(testing_support::case_from_text(text, sets)), none) << "1001 steps";
+  std::vector<std::string> finer = sets;
+  finer.emplace_back("time.step=5e-5");
+  EXPECT_EQ(notices(testing_support::case_from_text(text, finer)),
+            std::vector<std::string>{"--set time.output_interval=1e-6: time.output_interval is 1e-06 s: that is 20000 "
+                                     "snapshots, each a file, more than a folder or a film is good for."});
+}
+
+TEST(Notices, DoubtWaterInTheGroundOfACaseWithoutHeatToo) {
+  const std::string text = changed(with_columns);
+  EXPECT_EQ(notices(testing_support::case_from_text(
+                text, {"heat.enabled=false", "band.model=scaled", "body.block.temperature=5"})),
+            std::vector<std::string>{"--set body.block.temperature=5: body.block.temperature is 5 C: its pores hold "
+                                     "water from the start, no ice. Was a temperature below 0 meant?"});
+}
+
+// The case of a run's folder has every default written out, and says which were given.
+TEST(Notices, DoubtADefaultOfAResolvedCaseToo) {
+  const std::string known = "pressure.frozen=none";
+  const std::string text =
+      changed({with_columns[1], {"law = \"elastic\"", "law = \"elastic\"\ngaps_close_first = true"}});
+  for (const std::string given : {"", "hydraulic_conductivity = 0.0\n"}) {
+    const std::string first = changed({{"gaps_close_first", given + "gaps_close_first"}}, text);
+    const std::string resolved = resolved_toml(testing_support::case_from_text(first, {known}), "inputs");
+    const Case again = testing_support::case_from_text(resolved);
+    EXPECT_EQ(resolved_toml(again, "inputs"), resolved);
+    const std::vector<std::string> found = notices(again);
+    ASSERT_EQ(found.size(), given.empty() ? 1U : 0U);
+    if (given.empty()) {
+      EXPECT_NE(found[0].find("material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains"),
+                std::string::npos);
+    }
+  }
 }
 
 TEST(Notices, DoubtABaseWithoutABand) {

@@ -80,8 +80,10 @@ TEST(Resolved, WritesDefaultsUnitsAndNoKeyWithoutMeaning) {
   EXPECT_EQ(lines.at("grid.boundary").count("z_min"), 0U);       // in 3D only
   EXPECT_EQ(lines.at("basal").count("cohesion_loss_time"), 0U);  // not needed, and no default
   EXPECT_EQ(text.find("\nthickness ="), std::string::npos);      // no band
-  EXPECT_NE(text.find("\nlatent_heat = 333500.0  # J/kg\n"), std::string::npos);
-  EXPECT_NE(text.find("\ngravity_tilt = 0.0  # degrees\n"), std::string::npos);
+  EXPECT_NE(text.find("\nlatent_heat = 333500.0  # J/kg, not given\n"), std::string::npos);
+  EXPECT_NE(text.find("\ngravity_tilt = 0.0  # degrees, not given\n"), std::string::npos);
+  EXPECT_NE(text.find("\nextend = false  # not given\n"), std::string::npos);
+  EXPECT_NE(text.find("\nend = 2.0  # s\n"), std::string::npos) << "it was";
 }
 
 TEST(Resolved, LamplughReadsBackToItself) {

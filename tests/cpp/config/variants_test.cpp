@@ -1,6 +1,8 @@
 // Case files based on others: what holds, where mistakes are told, what is refused.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "case_messages.hpp"
 #include "config/describe.hpp"
 #include "physics/basal/laws.hpp"

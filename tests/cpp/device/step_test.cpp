@@ -6,13 +6,17 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <map>
 #include <set>
 #include <vector>
 
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
+#include "band/heat_nodes.hpp"
 #include "device/host_backend.hpp"
 #include "sim/simulation.hpp"
+#include "sim/terrain_at_columns.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -43,39 +47,45 @@ device::StepModel<Dim, double> step_model_of(const Simulation<Dim, double>& simu
   model.base_holds = from.contact.base_holds;
   model.pore_pressure = from.contact.pore_pressure;
   model.distance_check = from.contact.distance_check;
-  if (from.band.heat) {
-    EXPECT_TRUE(from.band.secant_capacity && !from.band.current_masses && !from.band.rescaling_mixes);
-    const double thickness = simulation.parameters().band.thickness.at(0.0);
-    model.heat = device::HeatModel<double>{.physics = from.band,
-                                           .content = from.band.heat_content,
-                                           .hydraulic_conductivity = from.band.hydraulic_conductivity,
-                                           .scaling_in_band = model.cell / thickness,
-                                           .scales_all = from.band.region == band::ScaledRegion::all};
-  }
+  model.band = from.band;
+  model.hydraulic_conductivity = from.band.hydraulic_conductivity;
+  // What steps on a device know of heat.
+  EXPECT_TRUE(from.band.secant_capacity && !from.band.current_masses && !any_face_condition(from.band) &&
+              !from.layer_thickness && !from.contact.band_columns);
+  model.scaling_in_band = [thickness = simulation.parameters().band.thickness, cell = model.cell](double time) {
+    return cell / thickness.at(time);
+  };
+  model.scales_all = from.band.region == band::ScaledRegion::all;
+  model.heat = from.band.heat;
+  model.heat_content = from.band.heat_content;
+  model.pressure_changes = from.band.pressure;
   return model;
 }
 
 template <int Dim>
-device::AskGround<Dim, double> ground_of(const Simulation<Dim, double>& simulation) {
-  return [ground = simulation.model().ground, cell = simulation.grid().cell()](
-             std::uint64_t block, terrain::GroundAtNode<Dim, double>* nodes) {
+device::AskTerrain<Dim, double> terrain_of(const Simulation<Dim, double>& simulation) {
+  const Model<Dim, double>& model = simulation.model();
+  const double cell = simulation.grid().cell();
+  const auto ground = [ground = model.ground, cell](std::uint64_t block, terrain::GroundAtNode<Dim, double>* nodes) {
     auto first = mpm::Tile<Dim>::index(block);
     for (int& along : first) {
       along *= mpm::Tile<Dim>::edge;
     }
     ground->at_block(first, cell, mpm::Tile<Dim>::edge, nodes);
   };
+  EXPECT_TRUE(model.band.normal_thickness);
+  return {ground, slope_cosine_of(model, cell), normal_gravity_of(model, cell)};
 }
 
-// Fields that a step without heat has no part in.
-const std::set<std::string> of_heat{"thermal_scaling"};
+// Fields that a step without heat and pore pressure has no part in.
+const std::set<std::string> of_band{"thermal_scaling"};
 
 template <int Dim>
 void expect_the_same_particles(const mpm::Particles<Dim, double>& expected, const mpm::Particles<Dim, double>& found,
-                               bool heat, const std::string& when) {
+                               bool band, const std::string& when) {
   const auto numbers = fields_by_id(found);
   for (const auto& [name, of_processor] : fields_by_id(expected)) {
-    if (heat || of_heat.count(name) == 0) {
+    if (band || of_band.count(name) == 0) {
       EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
           << name << ", " << when;
     }
@@ -96,6 +106,75 @@ void expect_the_same_contact(const terrain::ContactWork<Dim, double>& expected,
   EXPECT_EQ(found.constraint_impulse, expected.constraint_impulse) << when;
 }
 
+// What steps brought, as the ledger has it.
+struct Brought {
+  double friction_heat = 0, advection = 0, band_rescale = 0, drained_water = 0, drained_heat = 0, vented_water = 0;
+
+  template <int Dim>
+  void add(const device::StepSums<Dim, double>& sums) {
+    friction_heat += sums.heat.friction;
+    advection += sums.heat.advection;
+    band_rescale += sums.band_rescale;
+    drained_water += sums.drained.mass;
+    drained_heat += sums.drained.heat;
+    vented_water += sums.vented;
+  }
+};
+template <int Dim>
+void expect_the_same_ledger(const Simulation<Dim, double>& simulation, const Brought& found, const std::string& when) {
+  const Ledger<Dim, double>& expected = simulation.ledger();
+  if (simulation.model().band.heat) {
+    EXPECT_EQ(found.friction_heat, expected.friction_heat) << when;
+    EXPECT_EQ(found.advection, expected.advection) << when;
+    EXPECT_EQ(found.band_rescale, expected.band_rescale) << when;
+  }
+  EXPECT_EQ(found.drained_water, expected.drained_water) << when;
+  EXPECT_EQ(found.drained_heat, expected.drained_heat) << when;
+  EXPECT_EQ(found.vented_water, expected.vented_water) << when;
+}
+
+using Fields = std::map<std::string, std::vector<double>>;
+
+// How many particles were at first, and then are, as is asked for.
+template <class AtFirst, class Then>
+std::ptrdiff_t count(const std::vector<double>& first, const AtFirst& at_first, const std::vector<double>& now,
+                     const Then& then) {
+  std::ptrdiff_t found = 0;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    found += at_first(first[k]) && then(now[k]) ? 1 : 0;
+  }
+  return found;
+}
+
+// That the slide does what the comparison is of.
+template <int Dim>
+void expect_water_to_work(const Simulation<Dim, double>& simulation, const Fields& first) {
+  const band::BandModel<Dim, double>& band = simulation.model().band;
+  const Fields now = fields_by_id(simulation.particles());
+  const auto melted = [&](double temperature) { return temperature >= band.reference_temperature; };
+  const auto frozen = std::not_fn(melted);
+  const auto any = [](double /*number*/) { return true; };
+  const auto some = [](double number) { return number != 0.0; };
+  const auto count_now = [&](const std::string& name, const auto& then) {
+    return count(now.at(name), any, now.at(name), then);
+  };
+  EXPECT_GT(count(first.at("temperature"), frozen, now.at("temperature"), frozen), 0);
+  EXPECT_EQ(count(first.at("temperature"), frozen, now.at("temperature"), melted) > 0, band.heat);
+  EXPECT_GT(count(first.at("temperature"), melted, now.at("temperature"), melted), 0);
+  EXPECT_NE(now.at("flow_depth"), first.at("flow_depth"));
+  EXPECT_GT(count_now("pore_pressure", some), 0);
+  const bool seeps = band.lets_water_seep();
+  EXPECT_EQ(seeps, count_now("seepage_in_cell", some) > 0);
+  EXPECT_EQ(seeps, simulation.ledger().drained_water > 0.0);
+  EXPECT_EQ(seeps && band.frozen_rows != band::FrozenRows::sealed, simulation.ledger().vented_water != 0.0);
+  EXPECT_EQ(seeps && band.conservative_advection, simulation.ledger().drained_heat > 0.0);
+  if (band.needs_normal_load()) {
+    EXPECT_NE(now.at("normal_load"), first.at("normal_load"));
+    EXPECT_GT(count_now("load_change", some), 0);
+    EXPECT_GT(count_now("pore_void", some), 0);
+  }
+}
+
 // So many steps; particles are sorted in memory before number `sorted_before`.
 template <int Dim>
 void expect_the_steps_of_the_processor(const config::Case& parameters, int steps, int sorted_before, const Host& with) {
@@ -105,9 +184,10 @@ void expect_the_steps_of_the_processor(const config::Case& parameters, int steps
   Host host = with;
   device::Step<Host, mpm::Ugimp<double>, Dim, double> mechanics(host, step_model_of(simulation),
                                                                 mpm::view_of(simulation.particles()),
-                                                                simulation.particles().size(), ground_of(simulation));
-  const bool heat = simulation.model().band.heat;
-  double friction_heat = 0, advection = 0, band_rescale = 0;
+                                                                simulation.particles().size(), terrain_of(simulation));
+  const bool heat = simulation.model().band.heat, pressure = simulation.model().band.pressure;
+  const Fields first = fields_by_id(simulation.particles());
+  Brought brought;
   const std::vector<std::uint64_t> blocks = simulation.grid().blocks();
   for (int k = 0; k < steps; ++k) {
     if (k == sorted_before) {
@@ -119,11 +199,8 @@ void expect_the_steps_of_the_processor(const config::Case& parameters, int steps
     const std::string when = fmt::format("step {}", k);
     expect_the_same_contact(simulation.contact(), sums.contact, when);
     EXPECT_EQ(sums.bad.id, -1) << when;
-    if (heat) {
-      EXPECT_EQ(friction_heat += sums.heat.friction, simulation.ledger().friction_heat) << when;
-      EXPECT_EQ(advection += sums.heat.advection, simulation.ledger().advection) << when;
-      EXPECT_EQ(band_rescale += sums.band_rescale, simulation.ledger().band_rescale) << when;
-    }
+    brought.add(sums);
+    expect_the_same_ledger(simulation, brought, when);
     if (::testing::Test::HasFailure()) {
       return;
     }
@@ -135,26 +212,83 @@ void expect_the_steps_of_the_processor(const config::Case& parameters, int steps
   mpm::Particles<Dim, double> found;
   found.resize(simulation.particles().size());
   mechanics.particles().copy_to(mpm::view_of(found));
-  expect_the_same_particles(simulation.particles(), found, heat, "at the end");
-  EXPECT_EQ(heat, friction_heat > 0.0);
+  expect_the_same_particles(simulation.particles(), found, heat || pressure, "at the end");
+  EXPECT_EQ(heat, brought.friction_heat > 0.0);
+  EXPECT_EQ(brought.band_rescale != 0.0, parameters.band.thickness.value.size() > 1);
+  if (pressure) {
+    expect_water_to_work(simulation, first);
+  }
 }
 
 template <int Dim>
-config::Case sliding_bodies(const std::string& heat) {
-  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, "type = \"flat\"\nelevation = 0.0",
-                         {"heat.enabled=" + heat, "pressure.enabled=false"});
+config::Case sliding_bodies(const std::vector<std::string>& sets) {
+  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, "type = \"flat\"\nelevation = 0.0", sets);
+}
+
+template <int Dim>
+config::Case without_pressure(const std::string& heat) {
+  return sliding_bodies<Dim>({"heat.enabled=" + heat, "pressure.enabled=false"});
+}
+
+// The frozen body is about to melt.
+template <int Dim>
+config::Case with_pressure(std::vector<std::string> sets = {}) {
+  sets.push_back("body.left.temperature=-1e-4");
+  return sliding_bodies<Dim>(sets);
+}
+
+// Pores by the balance of their water.
+std::vector<std::string> balanced(const std::string& frozen_rows) {
+  return {"pressure.frozen=\"none\"",
+          "pressure.frozen_rows=\"" + frozen_rows + "\"",
+          "pressure.melt_contraction=true",
+          "pressure.skeleton_compressibility=2e-9",
+          "pressure.volumetric_term=true",
+          "phases.water_expansion_law=\"by_temperature\"",
+          "heat.advection_form=\"conservative\""};
 }
 
 TEST(DeviceStep, HasTheBitsOfTheProcessorInThePlane) {
   for (const std::string heat : {"false", "true"}) {
-    expect_the_steps_of_the_processor<2>(sliding_bodies<2>(heat), 150, -1, Host(ThreadOrder::forward));
-    expect_the_steps_of_the_processor<2>(sliding_bodies<2>(heat), 150, 60, Host(ThreadOrder::backward, 7));
-    expect_the_steps_of_the_processor<2>(sliding_bodies<2>(heat), 150, 60, Host(ThreadOrder::shuffled, 32));
+    expect_the_steps_of_the_processor<2>(without_pressure<2>(heat), 150, -1, Host(ThreadOrder::forward));
+    expect_the_steps_of_the_processor<2>(without_pressure<2>(heat), 150, 60, Host(ThreadOrder::backward, 7));
+    expect_the_steps_of_the_processor<2>(without_pressure<2>(heat), 150, 60, Host(ThreadOrder::shuffled, 32));
   }
 }
 
 TEST(DeviceStep, HasThemInSpace) {
-  expect_the_steps_of_the_processor<3>(sliding_bodies<3>("true"), 100, 50, Host(ThreadOrder::shuffled, 96));
+  expect_the_steps_of_the_processor<3>(without_pressure<3>("true"), 100, 50, Host(ThreadOrder::shuffled, 96));
+}
+
+TEST(DeviceStep, HasTheBitsOfTheProcessorWithPorePressureInThePlane) {
+  expect_the_steps_of_the_processor<2>(with_pressure<2>(), 150, -1, Host(ThreadOrder::forward));
+  expect_the_steps_of_the_processor<2>(with_pressure<2>(), 150, 60, Host(ThreadOrder::shuffled, 32));
+  expect_the_steps_of_the_processor<2>(with_pressure<2>({"pressure.seepage=false"}), 150, 60,
+                                       Host(ThreadOrder::backward, 7));
+  expect_the_steps_of_the_processor<2>(with_pressure<2>({"heat.enabled=false"}), 150, 60,
+                                       Host(ThreadOrder::shuffled, 7));
+  expect_the_steps_of_the_processor<2>(with_pressure<2>({"mechanics.effective_stress=true"}), 150, -1,
+                                       Host(ThreadOrder::backward, 32));
+}
+
+TEST(DeviceStep, HasThemWithTheBalanceOfWater) {
+  expect_the_steps_of_the_processor<2>(with_pressure<2>(balanced("sealed")), 150, 60, Host(ThreadOrder::forward));
+  expect_the_steps_of_the_processor<2>(with_pressure<2>(balanced("vented")), 150, 60, Host(ThreadOrder::shuffled, 7));
+}
+
+// It takes in matter, and does not.
+TEST(DeviceStep, HasThemInABandThatThickens) {
+  const std::string thickness = "band.thickness={time=[0.0, 0.3], value=[0.1, 0.2]}";
+  std::vector<std::string> conserving = balanced("vented");
+  conserving.insert(conserving.end(), {"band.thickness_change=\"conserving\"", thickness});
+  expect_the_steps_of_the_processor<2>(with_pressure<2>(conserving), 150, 60, Host(ThreadOrder::shuffled, 7));
+  expect_the_steps_of_the_processor<2>(with_pressure<2>({"band.region=\"first_layer\"", thickness}), 150, 60,
+                                       Host(ThreadOrder::backward, 32));
+}
+
+TEST(DeviceStep, HasThemWithPorePressureInSpace) {
+  expect_the_steps_of_the_processor<3>(with_pressure<3>(), 100, 50, Host(ThreadOrder::shuffled, 96));
+  expect_the_steps_of_the_processor<3>(with_pressure<3>(balanced("vented")), 100, 50, Host(ThreadOrder::backward, 7));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <ogrsf_frmts.h>
 
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 #include "gis/geopackage.hpp"

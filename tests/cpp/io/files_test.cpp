@@ -91,15 +91,20 @@ TEST_F(Files, NumbersReadBackBitForBit) {
 
 TEST_F(Files, HistoryGoesOnAfterATime) {
   const fs::path file = folder_ / "history.csv";
+  HistoryExtent then;
   {
     HistoryWriter writer(file);
     for (int k = 0; k < 5; ++k) {
       writer.add({{"time_s", 0.5 * k}, {"speed", k * k}});
+      then = k == 2 ? writer.extent() : then;
     }
   }
   std::ofstream(file, std::ios::app) << "2.5,3";  // a row cut short
   {
-    HistoryWriter writer = HistoryWriter::continue_after(file, 1.0);
+    std::vector<std::string> notes;
+    HistoryWriter writer = HistoryWriter::continue_after(file, "time_s,speed", then, notes);
+    EXPECT_TRUE(notes.empty());
+    EXPECT_EQ(writer.extent().bytes, then.bytes);
     writer.add({{"time_s", 1.5}, {"speed", 7.0}});
   }
   EXPECT_EQ(read_file(file), "time_s,speed\n0,0\n0.5,1\n1,4\n1.5,7\n");

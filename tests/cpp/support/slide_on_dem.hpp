@@ -1,6 +1,7 @@
 // A slide on a terrain model, both made in memory.
 #pragma once
 
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <string>

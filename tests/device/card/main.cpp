@@ -79,10 +79,13 @@ bool tell(const char* what, const Comparison& found, bool bits_are_asked_for) {
 // Whether the slide does what it is there for.
 template <int Dim>
 bool tell_work(const device::StepSums<Dim, Real>& sums) {
-  const bool works = sums.contact.friction_work > 0 && sums.deformed.work.plastic > 0 && sums.heat.friction > 0;
-  std::printf("%s: friction work %.4g J, plastic work %.4g J, friction heat %.4g J in the last step: %s\n",
-              Dim == 2 ? "2D" : "3D", sums.contact.friction_work, sums.deformed.work.plastic, sums.heat.friction,
-              works ? "well" : "WRONG");
+  const bool works = sums.contact.friction_work > 0 && sums.deformed.work.plastic > 0 && sums.heat.friction > 0 &&
+                     sums.drained.mass > 0 && sums.drained.heat > 0 && sums.vented != 0;
+  std::printf(
+      "%s: friction work %.4g J, plastic work %.4g J, friction heat %.4g J, water drained %.4g kg and vented %.4g kg "
+      "in the last step: %s\n",
+      Dim == 2 ? "2D" : "3D", sums.contact.friction_work, sums.deformed.work.plastic, sums.heat.friction,
+      sums.drained.mass, sums.vented, works ? "well" : "WRONG");
   return works;
 }
 

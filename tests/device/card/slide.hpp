@@ -1,5 +1,5 @@
-// A block of frictional matter that slides down a plane, seeded without any other part of the program: for steps on a
-// card and on the processor, compared.
+// A block of frictional matter that slides down a plane, its front half melted and the rest about to melt, seeded
+// without any other part of the program: for steps on a card and on the processor, compared.
 #pragma once
 
 #include <array>
@@ -108,11 +108,13 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
     for (int c = 0; c < 3; ++c) {
       p.stress(k, c) = -0.5 * density * 9.81 * depth;
     }
-    p.temperature(k) = p.previous_temperature(k) = -0.5 + 0.1 * std::sin(static_cast<Real>(k % 17));
+    const bool melted = 2 * place[0] >= count[0];
+    p.temperature(k) = p.previous_temperature(k) = (melted ? 1.0 : -2e-4) + 1e-4 * std::sin(static_cast<Real>(k % 17));
     p.porosity(k) = p.initial_porosity(k) = 0.3;
     p.heat_content(k) = heat_content().content(p.temperature(k), p.porosity(k));
     p.liquid_saturation(k) = p.initial_saturation(k) = heat_content().curve.saturation(p.temperature(k));
-    p.pore_pressure(k) = 1e3;
+    p.liquid_pressure(k) = p.pore_pressure(k) = melted ? 1e4 : 0.0;
+    p.pore_void(k) = 1e-4;
     p.contact_offset(k) = 0.5 * spacing;
     p.thermal_scaling(k) = 1.0;
   }
@@ -138,12 +140,20 @@ device::StepModel<Dim, Real> model_of_slide() {
                                                                      .residual_friction_angle = friction_angle});
   model.materials = {material};
   model.phases = phases();
-  model.heat = device::HeatModel<Real>{.physics = {},
-                                       .content = heat_content(),
-                                       .hydraulic_conductivity = {1e-9},
-                                       .scaling_in_band = 10.0,
-                                       .scales_all = false};
-  model.heat->physics.phases = model.phases;
+  model.heat = true;
+  model.heat_content = heat_content();
+  model.pressure_changes = true;
+  model.band.phases = model.phases;
+  model.band.gravity = 9.81;
+  model.band.frozen_rows = band::FrozenRows::vented;
+  model.band.ice_presses = false;
+  model.band.melt_contracts = true;
+  model.band.skeleton_compressibility = 2e-9;
+  model.band.water.law = physics::WaterExpansionLaw::by_temperature;
+  model.band.conservative_advection = true;
+  model.hydraulic_conductivity = {1e-9};
+  model.scaling_in_band = [](Real /*time*/) { return 10.0; };
+  model.scales_all = false;
   model.faces.extent.setConstant(1e5);
   model.lower.setZero();
   model.upper = model.faces.extent;
@@ -153,7 +163,7 @@ device::StepModel<Dim, Real> model_of_slide() {
   return model;
 }
 
-// A plane along the grid.
+// Of a plane along the grid.
 template <int Dim>
 void ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
   using T = mpm::Tile<Dim>;
@@ -169,6 +179,13 @@ void ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
     node.space = above == 0 ? 0.5 * face * cell : above > 0 ? face * cell : 0.0;
     nodes[k] = node;
   }
+}
+
+template <int Dim>
+device::AskTerrain<Dim, Real> terrain_of_slide() {
+  using Place = Vector<Real, Dim - 1>;
+  return {ask_ground<Dim>, [](const Place& /*place*/) { return 1.0; },
+          [](const Place& /*place*/) { return 9.81 * std::cos(slope * pi<Real> / 180.0); }};
 }
 
 // Steps on some backend.

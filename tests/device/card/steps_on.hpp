@@ -12,7 +12,7 @@ template <class Backend, int Dim>
 class StepsOn final : public Steps<Dim> {
  public:
   explicit StepsOn(const ParticleMemory<Dim>& particles)
-      : mechanics_(backend_, model_of_slide<Dim>(), particles.view(), particles.size(), ask_ground<Dim>) {}
+      : mechanics_(backend_, model_of_slide<Dim>(), particles.view(), particles.size(), terrain_of_slide<Dim>()) {}
 
   device::StepSums<Dim, Real> step(Real time, Real dt) override { return mechanics_.step(time, dt); }
   void sort_in_memory() override { mechanics_.sort_in_memory(); }

@@ -1,0 +1,141 @@
+// The columns of cells that the slide stands in (band/flow_depth.hpp): their keys, what particles bring to one, and
+// what follows from that. For host and device.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "base/linear.hpp"
+#include "base/select.hpp"
+#include "mpm/tile.hpp"
+
+namespace thawslide::band {
+
+// A tile's particles reach from the cell below its first node to that above its last one; a box that ends there looks
+// for its share of 0 in one more.
+template <int Dim>
+inline constexpr int columns_per_axis = mpm::Tile<Dim>::edge + 2;
+template <int Dim>
+inline constexpr auto columns_per_tile = static_cast<std::size_t>(mpm::power(columns_per_axis<Dim>, Dim - 1));
+
+// Column numbers count from here, so that a step to a neighbour never carries from one axis into the next.
+inline constexpr std::int64_t column_origin = std::int64_t{1} << 31;
+
+// Along each horizontal axis the number of the first cell that particles of a tile may overlap.
+template <int Dim>
+THAWSLIDE_HD std::array<int, Dim - 1> first_cell_of(std::uint64_t tile_key) {
+  const auto tile = mpm::Tile<Dim>::index(tile_key);
+  std::array<int, Dim - 1> first{};
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    first[a] = tile[a] * mpm::Tile<Dim>::edge - 1;
+  }
+  return first;
+}
+
+// The column at a place in a tile.
+template <int Dim>
+THAWSLIDE_HD std::uint64_t column_key(std::uint64_t tile_key, std::size_t place) {
+  const auto first = first_cell_of<Dim>(tile_key);
+  std::uint64_t key = 0;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    const int along = first[a] + static_cast<int>(place % static_cast<std::size_t>(columns_per_axis<Dim>));
+    place /= static_cast<std::size_t>(columns_per_axis<Dim>);
+    key |= static_cast<std::uint64_t>(column_origin + along) << (32 * a);
+  }
+  return key;
+}
+
+// The next column on a side; each axis has two, the lower one first.
+template <int Dim>
+inline constexpr std::size_t column_sides = 2 * (static_cast<std::size_t>(Dim) - 1);
+THAWSLIDE_HD inline std::uint64_t column_beside(std::uint64_t key, std::size_t side) {
+  const std::uint64_t step = std::uint64_t{1} << (32 * (side / 2));
+  return side % 2 == 0 ? key - step : key + step;
+}
+
+template <int Dim, class Real>
+Vector<Real, Dim - 1> middle_of_column(std::uint64_t key, Real cell) {
+  Vector<Real, Dim - 1> middle;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    const auto number = static_cast<std::int64_t>(key >> (32 * a) & 0xffffffffu) - column_origin;
+    middle[a] = (static_cast<Real>(number) + Real(0.5)) * cell;
+  }
+  return middle;
+}
+
+// What boxes cover of a column along each horizontal axis [m].
+template <int Dim, class Real>
+struct Extent {
+  std::array<Real, Dim - 1> from, to;
+
+  THAWSLIDE_HD Extent() {
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      from[a] = std::numeric_limits<Real>::max();
+      to[a] = std::numeric_limits<Real>::lowest();
+    }
+  }
+  THAWSLIDE_HD Extent& operator+=(const Extent& part) {
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      from[a] = min(from[a], part.from[a]);
+      to[a] = max(to[a], part.to[a]);
+    }
+    return *this;
+  }
+};
+
+// What stands in a column: volume [m3], and the upper end of its highest box [m].
+template <class Real>
+struct Pile {
+  Real volume = 0;
+  Real top = std::numeric_limits<Real>::lowest();
+
+  [[nodiscard]] THAWSLIDE_HD bool is_there() const { return volume > Real(0); }
+  THAWSLIDE_HD Pile& operator+=(const Pile& part) {
+    volume += part.volume;
+    top = max(top, part.top);
+    return *this;
+  }
+};
+
+// Whether a column lacks a neighbour. filled(side): whether the slide stands in the next one.
+template <int Dim, class Filled>
+THAWSLIDE_HD bool lacks_neighbour(const Filled& filled) {
+  for (std::size_t side = 0; side < column_sides<Dim>; ++side) {
+    if (!filled(side)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The footprint [m2], per metre of width in 2D: the cell's, or at the body's edge what boxes cover of it.
+template <int Dim, class Real, class Filled>
+THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim, Real>& extent, const Filled& filled) {
+  Real footprint = 1;
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    const bool inside = !at_edge || (filled(2 * a) && filled(2 * a + 1));
+    footprint *= inside ? cell : min(cell, extent.to[a] - extent.from[a]);
+  }
+  return footprint;
+}
+
+template <class Real>
+THAWSLIDE_HD Real thickness_of(const Pile<Real>& pile, Real footprint) {
+  return pile.is_there() ? pile.volume / footprint : Real(0);
+}
+
+// What a metre of the column presses on the ground with [Pa/m]. normal_gravity: of the column [m/s2].
+template <class Real>
+THAWSLIDE_HD Real load_per_depth(const Pile<Real>& pile, Real mass, Real normal_gravity) {
+  return mass / pile.volume * normal_gravity;
+}
+
+template <class Particles, class Real>
+THAWSLIDE_HD void take_load(Particles& particles, std::uint32_t particle, Real load) {
+  particles.load_change(particle) = load - particles.normal_load(particle);
+  particles.normal_load(particle) = load;
+}
+
+}  // namespace thawslide::band

@@ -1,0 +1,77 @@
+// What another scaling of the band makes of a particle. For host and device.
+#pragma once
+
+#include "band/heat_kernels.hpp"
+#include "band/pressure_kernels.hpp"
+
+namespace thawslide::band {
+
+// What mixing makes of the water of a particle's part of the band, of which `kept` is the share that was there before
+// matter as it was at t = 0 joined; its temperature [C] before and that of what joins. What is melted swells or
+// contracts on the way to the mixture's temperature.
+template <class Real, class Particles>
+THAWSLIDE_HD void mix_water(const BandPhysics<Real>& model, Real kept, Real before, Real joining, std::uint32_t p,
+                            Particles& particles) {
+  const Real tref = model.reference_temperature, porosity = particles.porosity(p);
+  const Real to = max(particles.temperature(p), tref);
+  const bool was_melted = before >= tref, is_melted = particles.temperature(p) >= tref;
+  const Real start = thawing_pressure(model, particles, mpm::One<Real>{{p}});
+  const Real pressure = was_melted ? particles.liquid_pressure(p) : start;
+  Real mixed = start;
+  if (model.balances_water()) {
+    const Real storage = physics::pore_storage(model.phases, porosity, model.skeleton_compressibility);
+    const auto surplus = [&](Real held, Real gas_void, Real from) {
+      return physics::pore_surplus<Real>({held, gas_void, Real(0)}, storage) +
+             physics::melted_swelling(model.phases, model.water, porosity, max(from, tref), to);
+    };
+    const Real own = surplus(pressure, particles.pore_void(p), before);
+    const Real own_void = was_melted ? max(-own, Real(0)) : particles.pore_void(p);
+    const Real new_void = void_at_start(model, particles, p);
+    const auto filling = physics::pore_filling(physics::mixed(own, surplus(start, new_void, joining), kept), storage);
+    particles.pore_void(p) = is_melted ? filling.gas_void : physics::mixed(own_void, new_void, kept);
+    mixed = model.thermal_pressurization ? filling.pressure : start;
+  } else if (model.thermal_pressurization) {
+    const Real coefficient = physics::undrained_pressure_coefficient(model.phases, porosity, Real(1));
+    mixed = physics::mixed(pressure + coefficient * (to - max(before, tref)),
+                           start + coefficient * (to - max(joining, tref)), kept);
+  }
+  if (is_melted) {
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = mixed;
+  }
+}
+
+// Matter as it was at t = 0 joins a particle's part of the band, at its own heat and with its own water; `kept`: share
+// of the band's matter in the mixture. The porosity follows the temperature as in a step. has_water: pore pressures
+// change.
+template <class Real, class Law, class Particles>
+THAWSLIDE_HD void mix_in(const BandPhysics<Real>& model, const Law& law, bool has_water, Real kept, std::uint32_t p,
+                         Particles& particles) {
+  const mpm::One<Real> one{{p}};
+  const Real before = particles.temperature(p);
+  const Real joining = law.temperature(particles, one, particles.initial_heat_content(p), before);
+  particles.heat_content(p) = physics::mixed(particles.heat_content(p), particles.initial_heat_content(p), kept);
+  particles.temperature(p) = law.temperature(particles, one, particles.heat_content(p), before);
+  follow_temperature(model.phases, law, particles, one, true, before);
+  if (has_water) {
+    mix_water(model, kept, before, joining, p, particles);
+  }
+}
+
+// The particle gets a scaling; sums the heat [J] that this adds at constant temperature and pressure.
+template <class Real, class Law, class Particles>
+THAWSLIDE_HD void rescale_particle(const BandPhysics<Real>& model, const Law& law, bool has_water, Real scaling,
+                                   std::uint32_t p, Particles& particles, Real& added) {
+  const Real old = particles.thermal_scaling(p);
+  if (scaling == old) {
+    return;
+  }
+  const bool mixes = model.rescaling_mixes && scaling < old;
+  const Real heat = mixes ? particles.initial_heat_content(p) : particles.heat_content(p);
+  added += particles.initial_volume(p) * heat * (Real(1) / scaling - Real(1) / old);
+  particles.thermal_scaling(p) = scaling;
+  if (mixes) {
+    mix_in(model, law, has_water, scaling / old, p, particles);
+  }
+}
+
+}  // namespace thawslide::band

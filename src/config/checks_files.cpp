@@ -1,0 +1,49 @@
+// Checks of the files that a case names beside its maps: names that a run can keep side by side, reported values.
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "config/checks.hpp"
+#include "config/input_files.hpp"
+#include "config/reported_values.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+// A run keeps copies of all inputs in one folder.
+void check_names(const Case& checked, Reading& reading) {
+  const std::vector<InputFile> files = input_files_by_key(checked);
+  for (std::size_t later = 1; later < files.size(); ++later) {
+    for (std::size_t earlier = 0; earlier < later; ++earlier) {
+      const auto& [key, file] = files[later];
+      const auto& [other_key, other] = files[earlier];
+      if (file.filename() == other.filename() && reading.sound({key, other_key})) {
+        reading.report_misfit(
+            {key, other_key.empty() ? key : other_key},
+            fmt::format("{} leads to {}, and {} {}; allowed: names of their own, since a run keeps copies of all its "
+                        "inputs in one folder. Rename one.",
+                        key, file.string(), other_key.empty() ? "the case file is" : other_key + " to",
+                        other.string()));
+      }
+    }
+  }
+}
+
+void check_targets(const Case& checked, Reading& reading) {
+  const std::string& file = checked.report.targets;
+  if (file.empty() || !reading.sound({"report.targets"})) {
+    return;
+  }
+  for (const std::string& mistake : read_reported_values(file).mistakes) {
+    reading.report("report.targets", "report.targets: " + mistake);
+  }
+}
+
+}  // namespace
+
+void check_files(const Case& checked, Reading& reading) {
+  check_names(checked, reading);
+  check_targets(checked, reading);
+}
+
+}  // namespace thawslide::config

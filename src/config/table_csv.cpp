@@ -1,0 +1,180 @@
+#include "config/table_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "config/input_limits.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_columns_told = 12;
+
+std::string quoted(const std::string& text) { return "'" + shown(text) + "'"; }
+
+std::string trimmed(std::string_view text) {
+  constexpr const char* blanks = " \t\v\f";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string_view::npos ? ""
+                                         : std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
+}
+
+// Bytes of the UTF-8 sign that begins the text; 0: none does.
+std::size_t length_of_sign(std::string_view text) {
+  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+  const unsigned first = byte(0), second = byte(1);
+  const std::size_t length = first < 0x80                     ? 1
+                             : first >= 0xC2 && first <= 0xDF ? 2
+                             : first >= 0xE0 && first <= 0xEF ? 3
+                             : first >= 0xF0 && first <= 0xF4 ? 4
+                                                              : 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if (byte(k) < 0x80 || byte(k) > 0xBF) {
+      return 0;
+    }
+  }
+  // Longer than needed, half of a pair, or beyond the last sign.
+  const bool is_wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+                        (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
+  return is_wrong ? 0 : length;
+}
+
+long line_of(std::string_view text, std::size_t place) {
+  return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n');
+}
+
+std::string with_plain_line_ends(std::string_view text) {
+  std::string plain;
+  for (std::size_t place = 0; place < text.size(); ++place) {
+    if (text[place] == '\r') {
+      plain += '\n';
+      place += text.substr(place, 2) == "\r\n" ? 1U : 0U;
+    } else {
+      plain += text[place];
+    }
+  }
+  return plain;
+}
+
+std::string read_text(const std::string& file, double most_bytes) {
+  require_size(file, most_bytes, "Is it the right file?");
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) {
+    throw UserError(fmt::format("{}: cannot be read", file));
+  }
+  const auto begins_with = [&](std::string_view mark) { return text.compare(0, mark.size(), mark) == 0; };
+  using namespace std::string_view_literals;
+  if (begins_with("\xFF\xFE\0\0"sv) || begins_with("\0\0\xFE\xFF"sv)) {
+    throw UserError(fmt::format("{}: encoded as UTF-32; save it as UTF-8", file));
+  }
+  if (begins_with("\xFF\xFE") || begins_with("\xFE\xFF")) {
+    throw UserError(fmt::format("{}: encoded as UTF-16; save it as UTF-8", file));
+  }
+  if (begins_with("\xEF\xBB\xBF")) {
+    text.erase(0, 3);
+  }
+  for (std::size_t place = 0; place < text.size();) {
+    const std::size_t length = length_of_sign(std::string_view(text).substr(place, 4));
+    if (length == 0) {
+      throw UserError(fmt::format("{}:{}: byte 0x{:02x} is not UTF-8; save the file as UTF-8", file,
+                                  line_of(text, place), static_cast<unsigned char>(text[place])));
+    }
+    place += length;
+  }
+  const std::string plain = with_plain_line_ends(text);
+  if (const std::size_t zero = plain.find('\0'); zero != std::string::npos) {
+    throw UserError(
+        fmt::format("{}:{}: a zero byte; this is not a text file, or it is damaged", file, line_of(plain, zero)));
+  }
+  return plain;
+}
+
+// A cell may stand in quotes, as one with a comma must; a quote in it is written twice.
+std::vector<std::string> cells_of(std::string_view line, const std::string& where) {
+  const auto fail = [&](const char* why) {
+    throw UserError(fmt::format("{}: not a row of comma-separated cells: {}", where, why));
+  };
+  std::vector<std::string> cells;
+  for (std::size_t place = 0; place <= line.size(); ++place) {
+    std::string cell;
+    if (place < line.size() && line[place] == '"') {
+      for (++place; place < line.size() && (line[place] != '"' || line.substr(place, 2) == "\"\""); ++place) {
+        place += line[place] == '"' ? 1U : 0U;
+        cell += line[place];
+      }
+      if (place == line.size()) {
+        fail("a quote that does not end");
+      }
+      ++place;
+      if (place < line.size() && line[place] != ',') {
+        fail("a comma is expected after a quote that ends");
+      }
+    } else {
+      const std::size_t end = std::min(line.find(',', place), line.size());
+      cell = line.substr(place, end - place);
+      place = end;
+    }
+    cells.push_back(trimmed(cell));
+  }
+  return cells;
+}
+
+void require_columns(const TableCsv& table, const std::string& where, const std::vector<std::string>& needed) {
+  for (const std::string& name : needed) {
+    if (std::find(table.columns.begin(), table.columns.end(), name) == table.columns.end()) {
+      std::vector<std::string> found;
+      std::transform(
+          table.columns.begin(),
+          table.columns.begin() + static_cast<std::ptrdiff_t>(std::min(table.columns.size(), most_columns_told)),
+          std::back_inserter(found), quoted);
+      throw UserError(fmt::format("{}: no column {}; found {}{}", where, name, fmt::join(found, ", "),
+                                  found.size() < table.columns.size() ? ", ..." : ""));
+    }
+  }
+  for (auto name = table.columns.begin(); name != table.columns.end(); ++name) {
+    if (std::find(table.columns.begin(), name, *name) != name) {
+      throw UserError(fmt::format("{}: two columns {}", where, quoted(*name)));
+    }
+  }
+}
+
+}  // namespace
+
+TableCsv read_table_csv(const fs::path& file, const std::vector<std::string>& needed, double most_bytes) {
+  const std::string name = file.string(), text = read_text(name, most_bytes);
+  TableCsv table;
+  int number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    begin = end + 1;
+    ++number;
+    if (trimmed(line).empty() || line.front() == '#') {
+      continue;
+    }
+    const std::string where = fmt::format("{}:{}", name, number);
+    std::vector<std::string> cells = cells_of(line, where);
+    if (table.line > 0) {
+      table.rows.push_back({number, std::move(cells)});
+      continue;
+    }
+    table.columns = std::move(cells);
+    table.line = number;
+    require_columns(table, where, needed);
+  }
+  if (table.line == 0) {
+    throw UserError(fmt::format("{}: empty; expected the columns {}", name, fmt::join(needed, ", ")));
+  }
+  return table;
+}
+
+}  // namespace thawslide::config

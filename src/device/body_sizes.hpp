@@ -1,0 +1,31 @@
+// Half sizes of particles, by body, in a device's memory.
+#pragma once
+
+#include <vector>
+
+#include "device/array.hpp"
+#include "mpm/body_sizes.hpp"
+
+namespace thawslide::device {
+
+template <class Backend, class Real>
+class BodySizes {
+ public:
+  // unit: what the half sizes are given in.
+  BodySizes(Backend& backend, const std::vector<Real>& half_sizes, Real unit) : half_(backend), inverse_(backend) {
+    std::vector<Real> half, inverse;
+    for (const Real number : half_sizes) {
+      half.push_back(unit * number);
+      inverse.push_back(Real(1) / half.back());
+    }
+    half_.set(half);
+    inverse_.set(inverse);
+  }
+
+  [[nodiscard]] mpm::SizesOfBodies<Real> view() const { return {half_.data(), inverse_.data(), half_.size() == 1}; }
+
+ private:
+  Array<Real, Backend> half_, inverse_;
+};
+
+}  // namespace thawslide::device

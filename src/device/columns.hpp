@@ -1,0 +1,111 @@
+// The columns of the slide in a device's memory: what band/flow_depth.hpp has. They are numbered whenever tiles change,
+// by sorting the keys of what each tile sees: 6 a tile in the plane, 36 in space, where a full tile has some 500
+// particles, whose keys are sorted more often. The processor then copies the keys of the columns, and asks of the
+// terrain at those that the slide comes to.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "band/at_columns.hpp"
+#include "device/array.hpp"
+#include "device/body_sizes.hpp"
+#include "device/column_works.hpp"
+#include "device/first_of_keys.hpp"
+
+namespace thawslide::device {
+
+template <class Backend, int Dim, class Real>
+class Columns {
+  using Part = ColumnPart<Dim, Real>;
+
+ public:
+  // half_sizes: of particles, by body, in cells. Where there is no slope_cosine, the ground is level; without
+  // normal_gravity there are no loads.
+  Columns(Backend& backend, Real cell, const std::vector<Real>& half_sizes, band::OfPlace<Dim, Real> slope_cosine,
+          band::OfPlace<Dim, Real> normal_gravity)
+      : backend_(backend),
+        cell_(cell),
+        slope_cosine_{std::move(slope_cosine), {}, Array<Real, Backend>(backend)},
+        normal_gravity_{std::move(normal_gravity), {}, Array<Real, Backend>(backend)},
+        sizes_(backend, half_sizes, cell) {}
+
+  // To be called after tiles changed.
+  void update(const TileTables<Dim>& tables) {
+    keys_of_seen_.resize(tables.tiles * band::columns_per_tile<Dim>);
+    seen_.resize(keys_of_seen_.size());
+    column_.resize(keys_of_seen_.size());
+    parts_.resize(keys_of_seen_.size());
+    backend_.for_each(seen_.size(), ListColumns<Dim>{tables.tile_keys, keys_of_seen_.data(), seen_.data()});
+    backend_.sort(keys_of_seen_.data(), seen_.data(), seen_.size());
+    first_.find(keys_of_seen_, 0, keys_, &first_seen_);
+    backend_.for_each(seen_.size(), NumberColumns{seen_.data(), first_.is_first(), first_.number(), column_.data()});
+    beside_.resize(keys_.size() * band::column_sides<Dim>);
+    backend_.for_each(beside_.size(), FindColumnsBeside<Dim>{keys_.data(), keys_.size(), beside_.data()});
+    sums_.resize(keys_.size());
+    for (Array<Real, Backend>* numbers : {&thickness_, &top_, &load_per_depth_}) {
+      numbers->resize(keys_.size());
+    }
+    ask_terrain();
+  }
+
+  // The columns from positions, volumes and masses.
+  void sum(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles) {
+    using InTile = SumInTile<Dim, Real>;
+    backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
+                        InTile{tables, particles, sizes_.view(), cell_, parts_.data()});
+    backend_.for_each(keys_.size(), SumColumns<Dim, Real>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
+                                                          parts_.data(), sums_.data()});
+    backend_.for_each(keys_.size(),
+                      FinishColumns<Dim, Real>{sums_.data(), beside_.data(),
+                                               normal_gravity_.ask ? normal_gravity_.values.data() : nullptr, cell_,
+                                               thickness_.data(), top_.data(), load_per_depth_.data()});
+  }
+
+  [[nodiscard]] ColumnsByTile<Dim, Real> seen(const TileTables<Dim>& tables) const {
+    return seen_with(tables, slope_cosine_.values);
+  }
+  // With the load per depth [Pa/m] in the place of the slope's cosine, so that a particle's flow depth is its load.
+  [[nodiscard]] ColumnsByTile<Dim, Real> loading(const TileTables<Dim>& tables) const {
+    return seen_with(tables, load_per_depth_);
+  }
+
+ private:
+  // What the processor asks of the terrain at columns, and the answers.
+  struct Asked {
+    band::OfPlace<Dim, Real> ask;
+    band::AtColumns<Dim, Real> known;
+    Array<Real, Backend> values;
+  };
+
+  void ask_terrain() {
+    const std::vector<std::uint64_t> keys = keys_.get();
+    for (Asked* asked : {&slope_cosine_, &normal_gravity_}) {
+      std::vector<Real> values(keys.size(), Real(1));
+      asked->known.forget_if_many(keys.size());
+      if (asked->ask) {
+        std::transform(keys.begin(), keys.end(), values.begin(),
+                       [&](std::uint64_t key) { return asked->known.at(key, cell_, asked->ask); });
+      }
+      asked->values.set(values);
+    }
+  }
+
+  [[nodiscard]] ColumnsByTile<Dim, Real> seen_with(const TileTables<Dim>& tables,
+                                                   const Array<Real, Backend>& cosine) const {
+    return {tables.tile_keys, column_.data(), sizes_.view(), cell_, thickness_.data(), top_.data(), cosine.data()};
+  }
+
+  Backend& backend_;
+  Real cell_;
+  Asked slope_cosine_, normal_gravity_;
+  BodySizes<Backend, Real> sizes_;  // of particles [m]
+  FirstOfKeys<Backend> first_{backend_};
+  Array<std::uint64_t, Backend> keys_of_seen_{backend_}, keys_{backend_};
+  Array<std::uint32_t, Backend> seen_{backend_}, first_seen_{backend_};
+  Array<std::int32_t, Backend> column_{backend_}, beside_{backend_};
+  Array<Part, Backend> parts_{backend_}, sums_{backend_};
+  Array<Real, Backend> thickness_{backend_}, top_{backend_}, load_per_depth_{backend_};
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,145 @@
+// What particles and nodes do to drain pore pressure on a device: the kernels of band/pressure_kernels.hpp and
+// band/averages_kernel.hpp with what they refer to by value, and the functions of band/nodal_seepage.hpp.
+#pragma once
+
+#include "band/averages_kernel.hpp"
+#include "band/nodal_seepage.hpp"
+#include "band/pressure_kernels.hpp"
+#include "device/column_works.hpp"
+#include "device/node_works.hpp"
+
+namespace thawslide::device {
+
+// For marks of tiles (device/marks.hpp). Where water seeps from and to particles: as they are now, and as they were
+// before heat changed them.
+template <int Dim, class Real>
+struct SeepingNow {
+  mpm::ParticleView<Dim, Real> particles;
+  band::BandPhysics<Real> physics;
+  band::HydraulicConductivity<Real> hydraulic;
+
+  [[nodiscard]] THAWSLIDE_HD bool of_node(std::size_t /*node*/) const { return false; }
+  [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t particle) const {
+    return band::seeps(physics, hydraulic, particles, mpm::One<Real>{{particle}});
+  }
+};
+template <int Dim, class Real>
+struct SeepingBefore : SeepingNow<Dim, Real> {
+  [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t particle) const {
+    return band::any_seeped(this->physics, this->hydraulic, this->particles, mpm::One<Real>{{particle}});
+  }
+};
+
+// The pore pressure of the nodes of marked blocks is that of the water that seeps.
+template <int Dim, class Real>
+struct SetSeepingPressure {
+  NodeViews<Dim, Real> nodes;
+  const Real* seeping_water;
+  const std::uint8_t* blocks;
+
+  THAWSLIDE_HD void operator()(std::size_t node) const {
+    if (blocks[node / static_cast<std::size_t>(mpm::Tile<Dim>::nodes)] != 0) {
+      nodes.state_at(node)[mpm::NodalState::pore_pressure] = band::seeping_pressure<Real>(
+          seeping_water + node * mpm::record_size(mpm::components_of<mpm::SeepingWater, Dim>));
+    }
+  }
+};
+
+// The pressure that seepage brings to nodes; sums what frozen pores take. Where no particle that sees a node seeps, no
+// tile of the pass has brought anything but pore space, and nothing changes.
+template <int Dim, class Real>
+struct SolveSeepage {
+  using Part = Real;
+  using Sum = Real;
+
+  NodeViews<Dim, Real> nodes;
+  const Real* seepage;
+  Real dt;
+
+  THAWSLIDE_HD void visit(std::size_t node, Real& taken) const {
+    const Real* sums = seepage + node * mpm::record_size(mpm::components_of<mpm::Seepage, Dim>);
+    const Real change = band::pressure_change(sums, dt);
+    nodes.state_at(node)[mpm::NodalState::pressure_change] = change;
+    taken = band::taken_by_frozen(sums, change);
+  }
+  THAWSLIDE_HD void add(const Real* parts, std::size_t count, Real& sum) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      sum += parts[k];
+    }
+  }
+};
+template <class Real>
+struct KeepVented {
+  const Real* taken;
+  physics::Phases<Real> phases;
+  Real* vented;
+
+  THAWSLIDE_HD void operator()(std::size_t /*k*/) const { *vented = band::mass_of_taken(phases, *taken); }
+};
+
+// Kernels that refer to what these hold.
+template <int Dim, class Real>
+struct AddSeepingWater {
+  using Kernel = band::AddSeepingWater<Dim, Real>;
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Account = typename Kernel::Account;
+
+  band::BandPhysics<Real> physics;
+  band::HydraulicConductivity<Real> hydraulic;
+
+  [[nodiscard]] THAWSLIDE_HD Kernel kernel() const { return {physics, hydraulic}; }
+};
+template <int Dim, class Real>
+struct SeepageFlows {
+  using Kernel = band::SeepageFlows<Dim, Real>;
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Account = typename Kernel::Account;
+
+  band::BandPhysics<Real> physics;
+  band::HydraulicConductivity<Real> hydraulic;
+  Real dt, inverse_cell;
+
+  [[nodiscard]] THAWSLIDE_HD Kernel kernel() const { return {physics, hydraulic, dt, inverse_cell}; }
+};
+
+// The normal load of a particle, from columns in whose loads per depth stand for the cosine.
+template <int Dim, class Real>
+struct TakeLoad {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Account = mpm::NoAccount;
+
+  struct InTile {
+    typename ColumnsByTile<Dim, Real>::OfTile columns;
+
+    template <class Particles, class At, class Seen, class Added>
+    THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+                                 Account& /*account*/) const {
+      band::take_load(particles, at.particle[0], columns.flow_depth(particles, at));
+    }
+  };
+
+  ColumnsByTile<Dim, Real> columns;
+
+  [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const { return {columns.of_tile(tile)}; }
+};
+
+template <int Dim, class Real, bool Seeps, bool Balances>
+struct UpdatePorePressure {
+  using InTile = band::PorePressure<Real, typename ColumnsByTile<Dim, Real>::OfTile, Seeps, Balances>;
+  using Reads = typename InTile::Reads;
+  using Adds = typename InTile::Adds;
+  using Account = typename InTile::Account;
+
+  band::BandPhysics<Real> physics;
+  band::HydraulicConductivity<Real> hydraulic;
+  ColumnsByTile<Dim, Real> columns;
+
+  [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const {
+    return {physics, hydraulic, Real(0.5) * columns.cell, columns.of_tile(tile)};
+  }
+};
+
+}  // namespace thawslide::device

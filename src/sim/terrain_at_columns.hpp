@@ -1,0 +1,34 @@
+// What the columns of the slide (band/flow_depth.hpp) ask of a run's terrain. The functions refer to the model.
+#pragma once
+
+#include <algorithm>
+
+#include "band/at_columns.hpp"
+#include "sim/model.hpp"
+
+namespace thawslide::sim {
+
+// Empty where there is no ground. cell: mesh size [m].
+template <int Dim, class Real>
+band::OfPlace<Dim, Real> slope_cosine_of(const Model<Dim, Real>& model, double cell) {
+  if (!model.ground) {
+    return {};
+  }
+  return [&model, cell](const Vector<Real, Dim - 1>& place) {
+    return static_cast<Real>(model.ground->slope_cosine(place.template cast<double>(), cell));
+  };
+}
+
+template <int Dim, class Real>
+band::OfPlace<Dim, Real> normal_gravity_of(const Model<Dim, Real>& model, double cell) {
+  return [&model, cell](const Vector<Real, Dim - 1>& place) {
+    const Vector<double, Dim> gravity = model.motion.gravity.template cast<double>();
+    if (!model.ground) {
+      return static_cast<Real>(-gravity[Dim - 1]);
+    }
+    const auto normal = model.ground->normal_below(place.template cast<double>(), cell);
+    return static_cast<Real>(std::max(0.0, gravity.dot(normal)) * -normal[Dim - 1]);
+  };
+}
+
+}  // namespace thawslide::sim

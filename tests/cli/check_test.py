@@ -1,0 +1,164 @@
+"""What `check` and `run` find before anything is computed: in files, in intervals, in the first steps."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+from conftest import Program, run_facts, sets, snapshot_files
+
+PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
+COLUMNS = "quantity,time_s,value,unit,source\n"
+
+
+def with_two_files_of_one_name(case: Path) -> str:
+    """Give a case a profile and targets of one name; return what it is told."""
+    (case / "data.csv").write_text(PROFILE)
+    (case / "reports").mkdir()
+    (case / "reports" / "data.csv").write_text(COLUMNS)
+    file = case / "case.toml"
+    text = file.read_text().replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "data.csv"')
+    file.write_text(text + '\n[report]\ntargets = "reports/data.csv"\n')
+    line = file.read_text().splitlines().index('targets = "reports/data.csv"') + 1
+    return (
+        f"error: {file}:{line}:11: report.targets leads to {case}/reports/data.csv, and terrain.file to {case}/data.csv"
+        "; allowed: names of their own, since a run keeps copies of all its inputs in one folder. Rename one.\n"
+    )
+
+
+def test_a_run_that_is_to_be_replaced_stays_until_the_new_case_is_accepted(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    before = {file: file.read_bytes() for file in run.rglob("*") if file.is_file()}
+    said = with_two_files_of_one_name(small_case)
+    for words in (["check", small_case], ["run", small_case, "--output", run, "--overwrite"]):
+        outcome = thawslide(*words)
+        assert (outcome.returncode, outcome.stdout, outcome.stderr) == (2, "", said)
+    assert {file: file.read_bytes() for file in run.rglob("*") if file.is_file()} == before
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
+def test_an_input_that_cannot_be_read_leaves_the_run_that_was_to_be_replaced(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    (small_case / "base.toml").write_text((small_case / "case.toml").read_text())
+    (small_case / "base.toml").chmod(0)
+    (small_case / "case.toml").write_text('[case]\nbased_on = "base.toml"\n')
+    assert thawslide("run", small_case, "--output", run, "--overwrite").returncode == 2
+    assert (run / "history.csv").exists() and snapshot_files(run)
+
+
+@pytest.mark.parametrize("key", ["time.history_interval", "time.output_interval", "checkpoint.interval"])
+def test_an_interval_that_would_hang_the_run_is_refused(thawslide: Program, small_case: Path, key: str) -> None:
+    for command in ("check", "run"):
+        outcome = thawslide(command, small_case, "--set", f"{key}=1e-300", folder=small_case)
+        assert outcome.returncode == 2 and outcome.stdout == ""
+        assert outcome.stderr.startswith(
+            f"error: --set {key}=1e-300: {key} is 1e-300 s, and the run of 0.2 s has 2e+299 times as much; allowed: "
+            "2e-10 s and more, 1e+09 of them in the run"
+        )
+    assert not (small_case / "runs").exists()
+
+
+def test_what_is_written_is_counted_by_the_steps_there_are(thawslide: Program, small_case: Path) -> None:
+    words = sets(time__end=0.02, time__output_interval=1e-7, time__history_interval=1e-9, checkpoint__interval=1e-10)
+    disk = json.loads(thawslide("check", small_case, "--json", *words).stdout)["disk"]
+    assert (disk["snapshots"], disk["history_rows"]) == (21, 21)
+    run = small_case.parent / "run"
+    assert thawslide("run", small_case, "--output", run, *words).returncode == 0
+    assert len(snapshot_files(run)) == 21
+    assert len((run / "history.csv").read_text().splitlines()) == 1 + 21
+    assert run_facts(run)["steps"] == 20
+
+
+def test_numbers_of_steps_stay_short(thawslide: Program, small_case: Path) -> None:
+    words = sets(time__end=1e300, time__output_interval=1e299, time__history_interval=1e299)
+    said = thawslide("check", small_case, *words).stdout
+    assert "  steps       1e+303\n" in said and " years on " in said
+    assert "time.step is 0.001 s: that is 1e+303 steps" in said
+    assert max(map(len, said.splitlines())) < 400
+
+
+@pytest.mark.parametrize("kind", ["a folder", "a pipe"])
+def test_what_is_no_file_is_called_what_it_is(thawslide: Program, small_case: Path, kind: str) -> None:
+    place = small_case / "prof.csv"
+    place.mkdir() if kind == "a folder" else os.mkfifo(place)
+    words = sets(terrain__type="profile", terrain__file=place)
+    outcome = thawslide("check", small_case, *words)
+    assert outcome.returncode == 2
+    assert f'terrain.file is "{place}", {kind}; allowed: a file' in outcome.stderr
+    (small_case / "case.toml").unlink()
+    place.rename(small_case / "case.toml")
+    outcome = thawslide("check", small_case)
+    assert outcome.stderr == (
+        f"error: {small_case / 'case.toml'} is {kind}. Give a case file, or a folder with a case.toml.\n"
+    )
+
+
+def test_no_output_goes_over_an_input(thawslide: Program, small_case: Path) -> None:
+    file = small_case / "case.toml"
+    profile = small_case / "profile.csv"
+    profile.write_text(PROFILE)
+    text = file.read_text().replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "profile.csv"')
+    file.write_text(text)
+    for place in (file, profile):
+        before = place.read_bytes()
+        for words in (["block", small_case, "--output", place], ["check", small_case, "--picture", place]):
+            outcome = thawslide(*words)
+            assert outcome.returncode == 2
+            assert outcome.stderr == (
+                f"error: {words[-2]} {place} is an input of the case, which it would replace. Give another file.\n"
+            )
+        assert place.read_bytes() == before
+    assert thawslide("block", small_case, "--output", small_case / "rows.csv").returncode == 0
+
+
+def test_facts_are_told_of_a_case_that_goes_bad_in_its_first_steps(thawslide: Program, small_case: Path) -> None:
+    words = [
+        *sets(time__step=0.004, case__gravity=1e5, mechanics__initial_stress='"none"'),
+        *sets(body__block__min="[10,4]", body__block__max="[14,8]"),
+    ]
+    told = thawslide("check", small_case, "--json", *words)
+    assert told.returncode == 3
+    facts = json.loads(told.stdout)
+    assert facts["particles"] == 64 and facts["wall_s"] is None and len(facts["notes"]) > 1
+    assert told.stderr == f"error: {facts['error']}\n" and "the run went bad at t = " in facts["error"]
+    said = thawslide("check", small_case, *words)
+    assert said.returncode == 3
+    assert "case.toml: the run goes bad in its first steps\n" in said.stdout and "  particles   64\n" in said.stdout
+    assert json.loads(thawslide("check", small_case, "--json").stdout)["error"] is None
+
+
+def test_drainage_is_doubted_in_the_folder_of_a_run_too(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    """Its case has every default written out; what is at its default there was not meant."""
+    file, run = small_case / "case.toml", tmp_path / "run"
+    file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
+    note = "material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains"
+    assert note in thawslide("run", small_case, "--output", run, *sets(time__end=0.01)).stdout
+    assert note in thawslide("check", run).stdout
+    assert note in thawslide("run", run, "--output", tmp_path / "again").stdout
+    assert (run / "case.toml").read_text() == (tmp_path / "again" / "case.toml").read_text()
+    assert note in thawslide("resume", run, "--end", 0.02).stdout
+    assert note not in thawslide("check", run, *sets(material__rock__hydraulic_conductivity=0)).stdout
+    shutil.rmtree(run)
+    meant = sets(time__end=0.01, material__rock__hydraulic_conductivity=0)
+    assert thawslide("run", small_case, "--output", run, *meant).returncode == 0
+    assert note not in thawslide("check", run).stdout
+
+
+def test_a_cell_that_is_proposed_fits_the_domain(thawslide: Program, small_case: Path) -> None:
+    words = sets(body__block__max="[14.0,0.9]", time__step=0.0001)
+    said = thawslide("check", small_case, *words).stdout
+    line = (small_case / "case.toml").read_text().splitlines().index("cell = 1.0") + 1
+    place = f"note: {small_case / 'case.toml'}:{line}:8: the body block has "
+    (note,) = (each for each in said.splitlines() if each.startswith(place))
+    assert note.endswith("A cell of 0.25 m has 6 and more")
+    finer = thawslide("check", small_case, *words, *sets(grid__cell=0.25))
+    assert finer.returncode == 0 and "particles across its median" not in finer.stdout

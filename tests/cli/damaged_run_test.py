@@ -1,0 +1,200 @@
+"""Files of a run that were damaged or lost: what `resume` does about them, and that it says so."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import pytest
+from conftest import Program, assert_same_bits, history, run_facts, sets, snapshot_files
+from faults import as_killed
+
+WORDS = sets(checkpoint__interval=0.15)  # checkpoints at 0, 0.15 and 0.2 s; rows each 0.01 s, snapshots each 0.05 s
+GOES_ON = "going on from t = 0.15 s; it had come to "
+
+
+@pytest.fixture
+def whole(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
+    """Return the folder of the run that nothing disturbed."""
+    run = tmp_path / "whole"
+    assert thawslide("run", small_case, "--output", run, *WORDS).returncode == 0
+    return run
+
+
+@pytest.fixture
+def killed(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
+    """Return the folder of a run that was killed after its checkpoint at 0.15 s and before the one at its end."""
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run, *WORDS).returncode == 0
+    as_killed(run)
+    (run / "checkpoint.previous.bin").rename(run / "checkpoint.bin")
+    return run
+
+
+def resumed(thawslide: Program, run: Path) -> list[str]:
+    """Go on with a run to its end; return its notes, which run.json has too."""
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stderr == ""
+    lines = outcome.stdout.splitlines()
+    notes = [line.removeprefix("note: ") for line in lines if line.startswith("note: ")]
+    assert lines[len(notes)].startswith("going on from t = 0.15 s")
+    assert run_facts(run)["status"] == "done" and run_facts(run)["parts"][-1]["notes"] == notes
+    return notes
+
+
+def hundredths(run: Path) -> list[int]:
+    return [round(100 * time) for time in history(run)["time_s"]]
+
+
+def cut(rows: list[str]) -> list[str]:
+    return rows[:6]
+
+
+def garble(rows: list[str]) -> list[str]:
+    return [*rows[:7], "0.0x" + rows[7], *rows[8:]]
+
+
+def take_out(rows: list[str]) -> list[str]:
+    return rows[:7] + rows[9:]
+
+
+def lose_the_header(rows: list[str]) -> list[str]:
+    return ["\0" * 20 + "\n", *rows[1:]]
+
+
+@pytest.mark.parametrize(
+    ("damage", "left", "told"),
+    [
+        (cut, [*range(5), *range(16, 21)], "lacks 11 of the 16 rows {upto}: between t = 0.04 and 0.15 s; {kept}"),
+        (garble, [*range(6), *range(7, 21)], "lacks 1 of the 16 rows {upto}: between t = 0.05 and 0.07 s; {kept}"),
+        (take_out, [*range(6), *range(8, 21)], "lacks 2 of the 16 rows {upto}: between t = 0.05 and 0.08 s; {kept}"),
+        (lose_the_header, list(range(21)), "is not as the run wrote it; its rows are whole and stay"),
+    ],
+)
+def test_rows_that_are_lost_are_told(
+    thawslide: Program,
+    whole: Path,
+    killed: Path,
+    damage: Callable[[list[str]], list[str]],
+    left: list[int],
+    told: str,
+) -> None:
+    file, kept = killed / "history.csv", killed / "history.damaged.csv"
+    file.write_text("".join(damage(file.read_text().splitlines(keepends=True))))
+    found = file.read_bytes()
+    words = told.format(
+        upto="up to t = 0.15 s, which are missing or damaged", kept="what there was is kept as history.damaged.csv"
+    )
+    assert resumed(thawslide, killed) == [f"history.csv {words}"]
+    assert hundredths(killed) == [round(100 * k / 100) for k in left]
+    assert kept.exists() == ("kept as" in words) and (not kept.exists() or kept.read_bytes() == found)
+    rows = (whole / "history.csv").read_text().splitlines()
+    assert (killed / "history.csv").read_text().splitlines() == [rows[0], *(rows[1 + k] for k in left)]
+    # Once it has been told the run goes on as any other.
+    as_killed(killed)
+    outcome = thawslide("resume", killed)
+    assert outcome.returncode == 0 and "note: " not in outcome.stdout
+
+
+def test_a_lost_history_begins_anew(thawslide: Program, killed: Path) -> None:
+    (killed / "history.csv").unlink()
+    assert resumed(thawslide, killed) == [
+        "history.csv was missing: it begins anew, without the 16 rows up to t = 0.15 s"
+    ]
+    assert hundredths(killed) == list(range(16, 21))
+
+
+def test_what_was_damaged_goes_with_the_run(thawslide: Program, small_case: Path, killed: Path) -> None:
+    (killed / "history.damaged.csv").write_text("an earlier one\n")
+    (killed / "history.csv").write_text("")
+    resumed(thawslide, killed)
+    assert (killed / "history.damaged.csv").read_text() == "an earlier one\n"
+    assert (killed / "history.damaged.2.csv").read_text() == ""
+    assert thawslide("run", small_case, "--output", killed, "--overwrite").returncode == 0
+    assert not list(killed.glob("*.damaged*"))
+
+
+def index_times(run: Path) -> list[float]:
+    with h5py.File(run / "particles.vtkhdf") as file:
+        return [round(float(time), 9) for time in file["VTKHDF/Steps/Values"][()]]
+
+
+def test_a_snapshot_after_the_checkpoint_is_written_anew(thawslide: Program, whole: Path, killed: Path) -> None:
+    last = snapshot_files(killed)[-1]
+    last.write_bytes(b"")
+    assert resumed(thawslide, killed) == []
+    assert_same_bits(whole, killed)
+    assert index_times(killed) == [0, 0.05, 0.1, 0.15, 0.2]
+
+
+@pytest.mark.parametrize(
+    ("numbers", "words", "times"),
+    [
+        ([1], "000001", [0, 0.1, 0.15, 0.2]),
+        ([0, 2, 3], "000000, 000002 to 000003", [0.05, 0.2]),
+        ([0, 1, 2, 3], "000000 to 000003", [0.2]),
+    ],
+)
+@pytest.mark.parametrize("is_there", [True, False])
+def test_earlier_snapshots_that_are_lost_are_told(
+    thawslide: Program, whole: Path, killed: Path, numbers: list[int], words: str, times: list[float], is_there: bool
+) -> None:
+    for number in numbers:
+        file = killed / "snapshots" / f"{number:06d}.vtkhdf"
+        if is_there:
+            file.write_bytes(file.read_bytes()[:3000])
+        else:
+            file.unlink()
+    assert resumed(thawslide, killed) == [
+        f"of the 4 snapshots up to here these are missing or cannot be read: {words}; particles.vtkhdf leaves them out"
+    ]
+    assert index_times(killed) == times
+    names = [f"{number:06d}.vtkhdf" for number in range(5) if is_there or number not in numbers]
+    assert [file.name for file in snapshot_files(killed)] == names
+    assert (killed / "history.csv").read_bytes() == (whole / "history.csv").read_bytes()
+
+
+def test_a_run_that_has_lost_all_snapshots_at_its_end_is_closed(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    as_killed(run)
+    for file in snapshot_files(run):
+        file.unlink()
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert not (run / "particles.vtkhdf").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [("", "it is empty"), ("{\n", "it is no JSON from byte 3 on"), ("{}", "key 'parts' not found")],
+)
+def test_a_damaged_run_json_is_told_with_what_to_do(thawslide: Program, killed: Path, text: str, found: str) -> None:
+    (killed / "run.json").write_text(text)
+    for command in ("resume", "status"):
+        outcome = thawslide(command, killed)
+        assert outcome.returncode == 2
+        assert outcome.stderr == (
+            f"error: {killed / 'run.json'} is damaged: {found}. Without it a run cannot go on: put back a copy of it, "
+            f"or run the case anew into another folder: thawslide run {killed} --output OTHER.\n"
+        )
+
+
+def test_resume_removes_what_a_run_left_half_written_and_nothing_else(
+    thawslide: Program, killed: Path, tmp_path: Path
+) -> None:
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    foreign = elsewhere / "data.12.part"
+    own = [killed / "notes.part", killed / "inputs" / "a.b.part", killed / "inputs" / "dem.part.tif"]
+    torn = [killed / "history.csv.17.part", killed / "inputs" / "dem.17.part.tif", killed / "inputs" / "a.csv.9.part"]
+    (killed / "maps").symlink_to(elsewhere)
+    for file in (foreign, *own, *torn):
+        file.write_text("half")
+    resumed(thawslide, killed)
+    assert foreign.exists() and all(file.exists() for file in own)
+    assert not any(file.exists() for file in torn)

@@ -1,0 +1,121 @@
+"""Reported values are read before a run as the report reads them after it: by the same quantities, units and ranges."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from conftest import Program, sets
+
+from thawslide import ReportError
+from thawslide.targets import QUANTITIES, read_targets
+
+HEADER = "quantity,time_s,value,unit,source\n"
+
+
+@pytest.fixture
+def case(small_case: Path) -> Path:
+    """Return a case with a file of reported values."""
+    file = small_case / "case.toml"
+    file.write_text(file.read_text() + '\n[report]\ntargets = "targets.csv"\n')
+    return small_case
+
+
+def refusals(thawslide: Program, case: Path, text: str) -> list[str]:
+    """Return what `check` finds wrong with reported values, each behind its line."""
+    file = case / "targets.csv"
+    file.write_text(text)
+    told = thawslide("check", case)
+    assert told.returncode == (2 if told.stderr else 0)
+    return re.findall(rf"report\.targets: {re.escape(str(file))}:(\d+: .*)$", told.stderr, re.MULTILINE)
+
+
+def test_both_know_the_same_quantities(thawslide: Program, case: Path) -> None:
+    (told,) = refusals(thawslide, case, HEADER + "qqq,0,1,m,x\n")
+    with pytest.raises(ReportError) as error:
+        read_targets(case / "targets.csv")
+    assert str(error.value) == f"{case / 'targets.csv'}:{told}"
+    assert told.split("There are: ")[1].split(";")[0].split(", ") == list(QUANTITIES)
+
+
+def test_both_know_the_same_units(thawslide: Program, case: Path) -> None:
+    rows = [f"{name},0,0.5,{unit},x{k}" for name, each in QUANTITIES.items() for k, unit in enumerate(each.units)]
+    rows = [row for row in rows if not row.startswith("start_velocity") or row.endswith("x0")]  # one sets the clock
+    assert refusals(thawslide, case, HEADER + "\n".join(rows) + "\n") == []
+    assert len(read_targets(case / "targets.csv")) == len(rows)
+    for told, name in zip(
+        refusals(thawslide, case, HEADER + "".join(f"{name},0,1,qq,x\n" for name in QUANTITIES)),
+        QUANTITIES,
+        strict=True,
+    ):
+        units = ", ".join(filter(None, QUANTITIES[name].units))
+        assert told.endswith(f": the unit 'qq' for {name}; allowed: {units}")
+
+
+def test_both_convert_and_bound_alike(thawslide: Program, case: Path) -> None:
+    """Just within and just beyond each end of each range, in each unit; what both say is the same."""
+    rows, expected = [], []
+    for name, quantity in QUANTITIES.items():
+        for unit, (factor, offset) in quantity.units.items():
+            for end, out in ((quantity.low, -1.0), (quantity.high, 1.0)):
+                if abs(end) == float("inf"):
+                    continue
+                rows.append(f"{name},0,{(end - offset + 1e-3 * out) / factor!r},{unit},x{len(rows)}")
+                (case / "one.csv").write_text(HEADER + rows[-1] + "\n")
+                with pytest.raises(ReportError) as error:
+                    read_targets(case / "one.csv")
+                expected.append(str(error.value).split("one.csv:2: ")[1])
+                inside = f"{name},0,{(end - offset - 1e-3 * out) / factor!r},{unit},x{len(rows)}"
+                assert refusals(thawslide, case, HEADER + inside + "\n") == []
+    found: list[str] = []
+    for start in range(0, len(rows), 40):  # no more are told at once than 50
+        found += refusals(thawslide, case, HEADER + "\n".join(rows[start : start + 40]) + "\n")
+    assert [told.split(": ", 1)[1] for told in found] == expected
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "quantity,time_s,value\na,1,2\n",
+        "quantity,value,unit\nmean_velocity,1,m/s\n",
+        "quantity,time_s,time_h,value,unit\n",
+        "quantity,time_s,value,unit,sorce\n",
+        "quantity,time_s,value,unit,unit\n",
+        HEADER + "mean_velocty,4,8,m/s,x\n",
+        HEADER + "max_seismic_force_35_s,4,8,N,x\n",
+        HEADER + "max_seismic_force_350_15_s,4,8,N,x\n",
+        "# x\n" + HEADER + "mean_displacement,4,8,ft,x\n",
+        HEADER + "mean_displacement,4,8,,x\n",
+        HEADER + "mean_velocity,4,nan,m/s,x\n",
+        HEADER + "mean_velocity,inf,1,m/s,x\n",
+        HEADER + "mean_velocity,4,fast,m/s,x\n",
+        HEADER + 'mean_velocity,4,"0,6",m/s,x\n',
+        HEADER + "mean_velocity,4,1_0,m/s,x\n",
+        HEADER + "mean_displacement,4,1e308,km,x\n",
+        HEADER + "mean_velocity,4,8,m/s,x\nmean_velocity,4,9,m/s,x\n",
+        HEADER + "start_velocity,4,8,m/s,x\nstart_velocity,5,8,m/s,y\n",
+        HEADER + "mean_velocity,4,8\n",
+    ],
+)
+def test_both_say_the_same(thawslide: Program, case: Path, text: str) -> None:
+    (told,) = refusals(thawslide, case, text)
+    with pytest.raises(ReportError) as error:
+        read_targets(case / "targets.csv")
+    assert str(error.value) == f"{case / 'targets.csv'}:{told}"
+
+
+def test_values_beyond_the_run_are_told_before_it(thawslide: Program, case: Path) -> None:
+    assert refusals(thawslide, case, HEADER + "mean_velocity,-100,8,m/s,x\n") == [
+        "2: mean_velocity is of -100 s, before the run; allowed: 0 s and later, or a row start_velocity that sets "
+        "their clock"
+    ]
+    assert refusals(thawslide, case, HEADER + "mean_velocity,0.1,8,m/s,x\nmean_velocity,1e9,8,m/s,x\n") == []
+    note = (
+        "report.targets is targets.csv: 1 of its values is later than the run, which ends at 0.2 s, as mean_velocity "
+        "of 1000000000 s in line 3; nothing of the run is compared with it.\n"
+    )
+    run = case.parent / "run"
+    assert note in thawslide("check", case).stdout
+    assert note in thawslide("run", case, "--output", run).stdout
+    assert note not in thawslide("check", case, *sets(time__end=2e9, time__output_interval=1e9)).stdout

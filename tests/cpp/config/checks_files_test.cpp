@@ -1,0 +1,129 @@
+// The files that a case names beside its maps: names that would meet in a run's folder, reported values.
+#include "case_messages.hpp"
+#include "config/reported_values.hpp"
+
+namespace thawslide::config {
+namespace {
+
+using namespace case_messages;
+
+const Change profile{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"data.csv\""};
+const Change targets{"[basal]", "[report]\ntargets = \"targets.csv\"\n[basal]"};
+const std::string heights = "distance_m,terrain_elevation_m\n0,0\n100,0\n";
+const std::string columns = "quantity,time_s,value,unit,source\n";
+
+TEST(InputFiles, OfOneNameAreRefusedAtTheLaterKey) {
+  write_beside_the_case("data.csv", heights);
+  write_beside_the_case("reports/data.csv", columns);
+  EXPECT_EQ(error_of_changed({profile, {"[basal]", "[report]\ntargets = \"reports/data.csv\"\n[basal]"}}),
+            "FOLDER/case.toml:21:11: report.targets leads to FOLDER/reports/data.csv, and terrain.file to "
+            "FOLDER/data.csv; allowed: names of their own, since a run keeps copies of all its inputs in one folder. "
+            "Rename one.");
+  EXPECT_EQ(error_of_changed({profile}), "no error");
+}
+
+TEST(InputFiles, OfAMapAreToldOnceWithAllThatLiesBesideIt) {
+  for (const std::string folder : {"west", "east"}) {
+    for (const std::string ending : {".shp", ".shx", ".dbf"}) {
+      write_beside_the_case(folder + "/area" + ending, "");
+    }
+  }
+  write_map_files();
+  const std::string text = changed(
+      {{"release.geojson", "west/area.shp"}, {"[basal]", "[maps]\npath = \"east/area.shp\"\n[basal]"}}, sound_on_dem);
+  EXPECT_EQ(error_of_text(text),
+            "FOLDER/case.toml:20:11: body.slide.release leads to FOLDER/west/area.shp, and maps.path to "
+            "FOLDER/east/area.shp; allowed: names of their own, since a run keeps copies of all its inputs in one "
+            "folder. Rename one.");
+}
+
+TEST(InputFiles, ThatAreNoFilesAreCalledWhatTheyAre) {
+  std::filesystem::create_directories(folder_of_this_test() / "data.csv");
+  EXPECT_EQ(error_of_changed({profile}),
+            "FOLDER/case.toml:10:8: terrain.file is \"data.csv\", a folder; allowed: a file.");
+}
+
+// The words are those of the report, which reads the file again (tests/cli/targets_test.py).
+TEST(ReportedValues, AreReadWithTheCaseAndEachMistakeIsTold) {
+  write_beside_the_case("targets.csv", "# told by others\n" + columns +
+                                           "mean_velocty,1,8,m/s,x\n"
+                                           "mean_velocity,1,8,knots,x\n"
+                                           "mean_velocity,1,fast,m/s,x\n"
+                                           "mean_velocity,-100,8,m/s,x\n"
+                                           "mean_velocity,1,-8,m/s,x\n"
+                                           "band_SL,1,30,-,x\n"
+                                           "max_seismic_force_150_35_s,1,2,N,x\n"
+                                           "mean_displacement,1,2,m\n"
+                                           "source_volume,-5,2,million m3,\"x, and others\"\n"
+                                           "mean_displacement,1,2,m,x\n"
+                                           "mean_displacement,1,3,m,x\n");
+  const std::string place = "FOLDER/case.toml:21:11: report.targets: FOLDER/targets.csv:";
+  EXPECT_EQ(error_of_changed({targets}),
+            place +
+                "3: no quantity is called 'mean_velocty'; did you mean mean_velocity? There are: start_velocity, "
+                "mean_velocity, mean_displacement, front_distance, band_SL, band_saturation, band_temperature, "
+                "band_pore_pressure, band_friction_coefficient, max_seismic_force, source_volume, "
+                "source_mean_thickness, deposit_volume, deposit_area, travel_distance, drop_height, "
+                "angle_of_reach; and max_seismic_force_35_150_s for a force between periods of 35 and 150 s\n" +
+                place + "4: the unit 'knots' for mean_velocity; allowed: m/s, km/h\n" +  //
+                place + "5: expected a number, found 'fast'\n" +                         //
+                place + "7: mean_velocity is -8 m/s; allowed: at least 0 m/s\n" +        //
+                place + "8: band_SL is 30; allowed: at least 0, at most 1\n" +           //
+                place +
+                "9: max_seismic_force_150_35_s: give the shorter period first, both from 0.001 to 100000 s\n" +  //
+                place + "10: 4 values for 5 columns\n" +                                                         //
+                place +
+                "13: mean_displacement at this time from this source is in line 12 already; keep one of the "
+                "two, or tell their sources apart\n" +
+                place +
+                "6: mean_velocity is of -100 s, before the run; allowed: 0 s and later, or a row "
+                "start_velocity that sets their clock");
+}
+
+TEST(ReportedValues, OnAClockOfTheirOwnMayBeEarlier) {
+  write_beside_the_case("targets.csv", columns + "start_velocity,-50,8,m/s,x\nmean_velocity,-40,8,m/s,x\n");
+  EXPECT_EQ(error_of_changed({targets}), "no error");
+}
+
+TEST(ReportedValues, AfterTheEndAreNoted) {
+  const std::string rows = "mean_velocity,1,8,m/s,x\nmean_velocity,75,8,m/s,x\ndeposit_volume,900,1,m3,x\n";
+  write_beside_the_case("targets.csv", columns + rows + "mean_displacement,80,8,m,x\n");
+  const std::string note = note_on_late_values(testing_support::case_from_text(changed({targets})));
+  EXPECT_NE(note.find("/case.toml:21:11: report.targets is targets.csv: 2 of its values are later than the run, which "
+                      "ends at 2 s, as mean_velocity of 75 s in line 3; nothing of the run is compared with them."),
+            std::string::npos)
+      << note;
+  write_beside_the_case("targets.csv", columns + "start_velocity,40,8,m/s,x\n" + rows);
+  EXPECT_EQ(note_on_late_values(testing_support::case_from_text(changed({targets}))), "") << "on a clock of their own";
+}
+
+TEST(ReportedValues, AreTextInUtf8) {
+  const auto error_of_file = [](const std::string& bytes) {
+    write_beside_the_case("targets.csv", bytes);
+    const std::string found = error_of_changed({targets}), place = "FOLDER/case.toml:21:11: report.targets: FOLDER/";
+    return found.compare(0, place.size(), place) == 0 ? found.substr(place.size()) : found;
+  };
+  const std::string row = "mean_displacement,1,0.6,km,M\xC3\xBCller\n";
+  EXPECT_EQ(error_of_file("\xEF\xBB\xBF" + columns + row), "no error");
+  EXPECT_EQ(error_of_file("quantity,time_s,value,unit,source\r" + row + "\r\n\r\n"), "no error");
+  EXPECT_EQ(error_of_file(columns + "mean_velocity,1,8,m/s,M\xFCller\n"),
+            "targets.csv:2: byte 0xfc is not UTF-8; save the file as UTF-8");
+  EXPECT_EQ(error_of_file("\xFF\xFEq"), "targets.csv: encoded as UTF-16; save it as UTF-8");
+  EXPECT_EQ(error_of_file(columns + std::string("a\0b\n", 4)),
+            "targets.csv:2: a zero byte; this is not a text file, or it is damaged");
+  EXPECT_EQ(error_of_file(columns + "mean_velocity,4,8,m/s,\"x\n"),
+            "targets.csv:2: not a row of comma-separated cells: a quote that does not end");
+  EXPECT_EQ(error_of_file(""), "targets.csv: empty; expected the columns quantity, value, unit");
+  EXPECT_EQ(error_of_file("quantity,time_s,value\n"),
+            "targets.csv:1: no column unit; found 'quantity', 'time_s', 'value'");
+  EXPECT_EQ(error_of_file("quantity,value,unit\n"),
+            "targets.csv:1: give one column of times, time_s, time_min, time_h; found none");
+  EXPECT_EQ(error_of_file("quantity,time_s,value,unit,sorce\n"),
+            "targets.csv:1: no column is called 'sorce'; did you mean source? allowed are quantity, value, unit, "
+            "time_s, time_min, time_h, source");
+  EXPECT_EQ(error_of_file(std::string(1100000, '#')),
+            "targets.csv: the file has 1.1 MB; allowed: 1 MB. Is it the right file?");
+}
+
+}  // namespace
+}  // namespace thawslide::config
