@@ -14,8 +14,8 @@ class StepOn final : public AnyStep<Dim, Real> {
   // backend: what Backend is made of.
   template <class... Words>
   StepOn(const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
-         AskGround<Dim, Real> ask_ground, Words&&... backend)
-      : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask_ground)) {}
+         AskTerrain<Dim, Real> ask_terrain, Words&&... backend)
+      : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask_terrain)) {}
 
   StepSums<Dim, Real> step(Real time, Real dt) override { return step_.step(time, dt); }
   void sort_in_memory() override { step_.sort_in_memory(); }

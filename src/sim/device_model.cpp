@@ -1,23 +1,11 @@
 #include "sim/device_model.hpp"
 
+#include "band/heat_nodes.hpp"
 #include "base/instances.hpp"
+#include "sim/terrain_at_columns.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::sim {
-
-namespace {
-
-template <int Dim, class Real>
-bool has_heat_at_faces(const band::BandModel<Dim, Real>& band) {
-  for (const band::HeatFace<Real>& face : band.faces) {
-    if (face.kind != band::FaceHeat::insulated) {
-      return true;
-    }
-  }
-  return false;
-}
-
-}  // namespace
 
 template <int Dim, class Real>
 std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real>& model) {
@@ -33,13 +21,10 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real
       {parameters.terrain.form == config::TerrainForm::rigid_points, "terrain.form = \"rigid_points\""},
       {model.contact.band_columns, "band.model = \"columns\""},
       {model.bed_density > Real(0), "[bed]"},
-      {model.band.pressure, "pressure.enabled = true"},
-      {model.band.heat && has_heat_at_faces(model.band), "heat.boundary"},
+      {model.band.heat && band::any_face_condition(model.band), "heat.boundary"},
       {model.band.heat && !model.band.secant_capacity, "heat.update = \"printed\""},
       {model.band.current_masses, "heat.masses = \"current\""},
-      {model.band.rescaling_mixes, "band.thickness_change = \"conserving\""},
       {static_cast<bool>(model.layer_thickness), "band.cut_cells = \"equal_thickness\""},
-      {parameters.band.thickness.value.size() > 1, "band.thickness as a table"},
   };
   for (const auto& option : options) {
     if (option.is_asked) {
@@ -51,7 +36,7 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real
 
 template <int Dim, class Real>
 device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, const Model<Dim, Real>& model,
-                                             double thickness, bool starts) {
+                                             bool starts) {
   device::StepModel<Dim, Real> device;
   device.cell = static_cast<Real>(parameters.grid.cell);
   for (std::size_t body = 0; body < model.body_names.size(); ++body) {
@@ -75,34 +60,40 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.base_holds = model.contact.base_holds;
   device.pore_pressure = model.contact.pore_pressure;
   device.distance_check = model.contact.distance_check;
-  if (model.band.heat) {
-    device.heat = device::HeatModel<Real>{
-        .physics = model.band,
-        .content = model.band.heat_content,
-        .hydraulic_conductivity = model.band.hydraulic_conductivity,
-        .scaling_in_band = thickness > 0.0 ? device.cell / static_cast<Real>(thickness) : Real(1),
-        .starts = starts,
-        .scales_all = model.band.region == band::ScaledRegion::all};
-  }
+  device.pressure_changes = model.band.pressure;
+  device.heat = model.band.heat;
+  device.starts = starts;
+  device.heat_content = model.band.heat_content;
+  device.band = model.band;
+  device.hydraulic_conductivity = model.band.hydraulic_conductivity;
+  device.scaling_in_band = [thickness = parameters.band.thickness, cell = device.cell](Real time) {
+    const auto now = static_cast<Real>(thickness.value.empty() ? 0.0 : thickness.at(static_cast<double>(time)));
+    return now > Real(0) ? cell / now : Real(1);
+  };
+  device.scales_all = model.band.region == band::ScaledRegion::all;
   return device;
 }
 
 template <int Dim, class Real>
-device::AskGround<Dim, Real> ground_for_device(const Model<Dim, Real>& model, Real cell) {
-  if (!model.ground) {
-    return {};
+device::AskTerrain<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell) {
+  device::AskTerrain<Dim, Real> ask;
+  if (model.ground) {
+    ask.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
+      terrain::ask_ground<Dim>(*model.ground, model.substrates.get(), block, cell, nodes);
+    };
   }
-  return [ground = model.ground, substrates = model.substrates, cell](std::uint64_t block,
-                                                                      terrain::GroundAtNode<Dim, Real>* nodes) {
-    terrain::ask_ground<Dim>(*ground, substrates.get(), block, static_cast<double>(cell), nodes);
-  };
+  if (model.band.normal_thickness) {
+    ask.slope_cosine = slope_cosine_of(model, cell);
+  }
+  ask.normal_gravity = normal_gravity_of(model, cell);
+  return ask;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                         \
   template std::string not_on_devices<Dim, Real>(const config::Case&, const Model<Dim, Real>&);                  \
   template device::StepModel<Dim, Real> device_model_of<Dim, Real>(const config::Case&, const Model<Dim, Real>&, \
-                                                                   double, bool);                                \
-  template device::AskGround<Dim, Real> ground_for_device<Dim, Real>(const Model<Dim, Real>&, Real cell);
+                                                                   bool);                                        \
+  template device::AskTerrain<Dim, Real> terrain_for_device<Dim, Real>(const Model<Dim, Real>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -13,13 +13,13 @@ namespace thawslide::sim {
 template <int Dim, class Real>
 std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real>& model);
 
-// thickness: of the band [m]; starts: no step has been taken yet.
+// starts: no step has been taken yet.
 template <int Dim, class Real>
 device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, const Model<Dim, Real>& model,
-                                             double thickness, bool starts);
+                                             bool starts);
 
-// The terrain of the model at the nodes of blocks.
+// What is asked of the model's terrain, which must outlive it.
 template <int Dim, class Real>
-device::AskGround<Dim, Real> ground_for_device(const Model<Dim, Real>& model, Real cell);
+device::AskTerrain<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell);
 
 }  // namespace thawslide::sim

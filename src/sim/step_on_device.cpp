@@ -20,8 +20,8 @@ void Simulation<Dim, Real>::take_steps_on(const std::string& device, device::Mak
 template <int Dim, class Real>
 void Simulation<Dim, Real>::take_step_on_device() {
   if (!device_step_) {
-    device_step_ = make_step_(device_model_of(parameters_, model_, band_thickness(), step_number_ == 0),
-                              mpm::view_of(particles_), particles_.size(), ground_for_device(model_, grid_.cell()));
+    device_step_ = make_step_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
+                              particles_.size(), terrain_for_device(model_, parameters_.grid.cell));
   }
   if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
     device_step_->sort_in_memory();
@@ -35,6 +35,9 @@ void Simulation<Dim, Real>::take_step_on_device() {
   book_stress_work(sums.deformed.work);
   ledger_.band_rescale += sums.band_rescale;
   book_heat(sums.heat);
+  ledger_.drained_water += sums.drained.mass;
+  ledger_.drained_heat += sums.drained.heat;
+  ledger_.vented_water += sums.vented;
   bad_ += sums.deformed.bad;
   bad_ += sums.bad;
 }

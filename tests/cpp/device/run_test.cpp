@@ -21,17 +21,15 @@ using device::Host, device::ThreadOrder;
 template <int Dim>
 device::MakeStep<Dim, double> in_place_of_a_card(ThreadOrder order) {
   return [order](const auto& model, const auto& particles, std::size_t count,
-                 auto ask_ground) -> std::unique_ptr<device::AnyStep<Dim, double>> {
+                 auto ask_terrain) -> std::unique_ptr<device::AnyStep<Dim, double>> {
     return std::make_unique<device::StepOn<Host, mpm::Ugimp<double>, Dim, double>>(model, particles, count,
-                                                                                   std::move(ask_ground), order);
+                                                                                   std::move(ask_terrain), order);
   };
 }
 
 template <int Dim>
 config::Case sliding_bodies(const std::vector<std::string>& more = {}) {
-  std::vector<std::string> sets{"pressure.enabled=false"};
-  sets.insert(sets.end(), more.begin(), more.end());
-  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, "type = \"flat\"\nelevation = 0.0", sets);
+  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, "type = \"flat\"\nelevation = 0.0", more);
 }
 
 template <int Dim>

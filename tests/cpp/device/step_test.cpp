@@ -13,10 +13,9 @@
 
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
-#include "band/heat_nodes.hpp"
 #include "device/host_backend.hpp"
+#include "sim/device_model.hpp"
 #include "sim/simulation.hpp"
-#include "sim/terrain_at_columns.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -26,55 +25,8 @@ using device::Host, device::ThreadOrder;
 
 template <int Dim>
 device::StepModel<Dim, double> step_model_of(const Simulation<Dim, double>& simulation) {
-  const Model<Dim, double>& from = simulation.model();
-  device::StepModel<Dim, double> model;
-  model.cell = simulation.grid().cell();
-  for (std::size_t body = 0; body < from.body_names.size(); ++body) {
-    model.half_sizes.push_back(from.motion.sizes.half(body));
-  }
-  model.sides = from.motion.sides;
-  model.gravity = from.motion.gravity;
-  model.pic_share = from.motion.pic_share;
-  model.mass_damping = from.contact.mass_damping;
-  model.materials = from.motion.materials;
-  model.phases = from.motion.phases;
-  model.effective_stress = from.motion.effective_stress;
-  model.lubrication = from.motion.lubrication;
-  model.faces = from.constraints;
-  model.lower = Vector<double, Dim>::Zero();
-  model.upper = from.constraints.extent;
-  model.base = from.contact.law;
-  model.base_holds = from.contact.base_holds;
-  model.pore_pressure = from.contact.pore_pressure;
-  model.distance_check = from.contact.distance_check;
-  model.band = from.band;
-  model.hydraulic_conductivity = from.band.hydraulic_conductivity;
-  // What steps on a device know of heat.
-  EXPECT_TRUE(from.band.secant_capacity && !from.band.current_masses && !any_face_condition(from.band) &&
-              !from.layer_thickness && !from.contact.band_columns);
-  model.scaling_in_band = [thickness = simulation.parameters().band.thickness, cell = model.cell](double time) {
-    return cell / thickness.at(time);
-  };
-  model.scales_all = from.band.region == band::ScaledRegion::all;
-  model.heat = from.band.heat;
-  model.heat_content = from.band.heat_content;
-  model.pressure_changes = from.band.pressure;
-  return model;
-}
-
-template <int Dim>
-device::AskTerrain<Dim, double> terrain_of(const Simulation<Dim, double>& simulation) {
-  const Model<Dim, double>& model = simulation.model();
-  const double cell = simulation.grid().cell();
-  const auto ground = [ground = model.ground, cell](std::uint64_t block, terrain::GroundAtNode<Dim, double>* nodes) {
-    auto first = mpm::Tile<Dim>::index(block);
-    for (int& along : first) {
-      along *= mpm::Tile<Dim>::edge;
-    }
-    ground->at_block(first, cell, mpm::Tile<Dim>::edge, nodes);
-  };
-  EXPECT_TRUE(model.band.normal_thickness);
-  return {ground, slope_cosine_of(model, cell), normal_gravity_of(model, cell)};
+  EXPECT_EQ(not_on_devices(simulation.parameters(), simulation.model()), "");
+  return device_model_of(simulation.parameters(), simulation.model(), true);
 }
 
 // Fields that a step without heat and pore pressure has no part in.
@@ -182,9 +134,9 @@ void expect_the_steps_of_the_processor(const config::Case& parameters, int steps
   Simulation<Dim, double> simulation(parameters);
   ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeKind::ugimp);
   Host host = with;
-  device::Step<Host, mpm::Ugimp<double>, Dim, double> mechanics(host, step_model_of(simulation),
-                                                                mpm::view_of(simulation.particles()),
-                                                                simulation.particles().size(), terrain_of(simulation));
+  device::Step<Host, mpm::Ugimp<double>, Dim, double> mechanics(
+      host, step_model_of(simulation), mpm::view_of(simulation.particles()), simulation.particles().size(),
+      terrain_for_device(simulation.model(), simulation.grid().cell()));
   const bool heat = simulation.model().band.heat, pressure = simulation.model().band.pressure;
   const Fields first = fields_by_id(simulation.particles());
   Brought brought;
