@@ -24,13 +24,13 @@ class RunLockTest : public testing::Test {
 TEST_F(RunLockTest, OneAtATime) {
   {
     const RunLock lock(folder_);
-    ASSERT_FALSE(process_at_work(folder_).process.empty());
+    ASSERT_TRUE(process_at_work(folder_).is_known);
     EXPECT_EQ(process_at_work(folder_).process.find("process " + std::to_string(getpid()) + " on "), 0U);
     EXPECT_THROW(RunLock{folder_}, UserError);
   }
-  EXPECT_TRUE(process_at_work(folder_).process.empty());
+  EXPECT_EQ(process_at_work(folder_).process, "");
   const RunLock again(folder_);
-  EXPECT_FALSE(process_at_work(folder_).process.empty());
+  EXPECT_NE(process_at_work(folder_).process, "");
 }
 
 TEST_F(RunLockTest, StaysAsASignOfAStartAndGoesWithARun) {
@@ -45,9 +45,9 @@ TEST_F(RunLockTest, MovesWithItsOwner) {
   RunLock lock(folder_);
   {
     const RunLock other(std::move(lock));
-    EXPECT_FALSE(process_at_work(folder_).process.empty());
+    EXPECT_NE(process_at_work(folder_).process, "");
   }
-  EXPECT_TRUE(process_at_work(folder_).process.empty());
+  EXPECT_EQ(process_at_work(folder_).process, "");
 }
 
 TEST_F(RunLockTest, AFolderThatIsNotThereIsTold) { EXPECT_THROW(RunLock{folder_ / "none"}, WriteError); }
