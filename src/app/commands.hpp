@@ -16,6 +16,7 @@ struct CaseOptions {
 struct RunOptions {
   CaseOptions of_case;
   int threads = 0;  // 0: all available cores
+  std::string device = "cpu";
   std::string output;
   bool overwrite = false;
 };
@@ -24,6 +25,7 @@ int run_case(const RunOptions& options);
 struct ResumeOptions {
   std::string folder;
   int threads = 0;
+  std::string device = "cpu";
   std::vector<std::string> sets;  // what changes of the case
   std::string end;                // a new time.end [s]; empty: as it is
 };

@@ -30,6 +30,11 @@ void add_threads_option(CLI::App& command, int& threads) {
       ->check(CLI::Range(1, 1024));
 }
 
+void add_device_option(CLI::App& command, std::string& device) {
+  command.add_option("--device", device, "Where steps are taken: cpu (default), gpu (an NVIDIA card), or auto")
+      ->check(CLI::IsMember({"cpu", "gpu", "auto"}));
+}
+
 // CLI11's own check prints the largest number that a computer knows.
 CLI::Validator above_zero() {
   return {[](std::string& text) {
@@ -89,6 +94,7 @@ int run_program(int count, char** arguments) {
   CLI::App* run = program.add_subcommand("run", "Run a case");
   add_case_options(*run, run_options.of_case);
   add_threads_option(*run, run_options.threads);
+  add_device_option(*run, run_options.device);
   run->add_option("--output", run_options.output, "Folder of the results (default: runs/NAME)");
   run->add_flag("--overwrite", run_options.overwrite, "Replace the run the folder holds");
   run->callback([&] { exit_code = run_case(run_options); });
@@ -97,6 +103,7 @@ int run_program(int count, char** arguments) {
   CLI::App* resume = program.add_subcommand("resume", "Go on with a run from its checkpoint");
   resume->add_option("run", resume_options.folder, "Folder of the run")->required();
   add_threads_option(*resume, resume_options.threads);
+  add_device_option(*resume, resume_options.device);
   resume
       ->add_option(
           "--set", resume_options.sets,

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "app/commands.hpp"
+#include "app/device_choice.hpp"
 #include "app/map_files.hpp"
 #include "app/run_loop.hpp"
 #include "app/say.hpp"
@@ -178,6 +179,7 @@ struct Continuation {
   std::string case_text;   // for case.toml
   io::Provenance earlier;  // what run.json tells, with the part that begins
   bool ends_earlier = false;
+  std::string device = "cpu";  // --device
 };
 
 Continuation continuation_of(const fs::path& folder, const std::vector<std::string>& sets, io::Provenance facts) {
@@ -223,6 +225,7 @@ template <int Dim>
 int start_anew(const fs::path& folder, const Continuation& next) {
   Notes notes;
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
+  take_steps_on<Dim>(next.device, simulation);
   say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   take_changes(folder, next);
@@ -241,6 +244,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
   } catch (const UserError& error) {
     throw UserError(fmt::format("{}: {}", checkpoint.file.string(), error.what()));
   }
+  take_steps_on<Dim>(next.device, simulation);
   const double end = next.parameters.time.end, half_a_step = 0.5 * simulation.last_step();
   const double had_come_to = std::max(next.earlier.simulated_time,
                                       io::last_time_in_history(folder / "history.csv").value_or(simulation.time()));
@@ -305,7 +309,8 @@ int resume_run(const ResumeOptions& options) {
   for (const char* place : {".", "inputs", "snapshots", "maps"}) {
     io::remove_unfinished_files(folder / place);
   }
-  const Continuation next = continuation_of(folder, sets, facts);
+  Continuation next = continuation_of(folder, sets, facts);
+  next.device = options.device;
   require_same_inputs(folder, facts.inputs, next.parameters.report.targets);
   tell_changed_originals(facts.inputs);
   return with_dimension(next.parameters.general.dimension,

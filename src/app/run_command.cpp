@@ -1,5 +1,6 @@
 // thawslide run.
 #include "app/commands.hpp"
+#include "app/device_choice.hpp"
 #include "app/input_guard.hpp"
 #include "app/map_files.hpp"
 #include "app/notes_of_setup.hpp"
@@ -33,11 +34,13 @@ int run_case(const RunOptions& options) {
       add_notes_of_setup(simulation, sim::body_figures(simulation),
                          disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, notes);
     }
+    const std::string device = take_steps_on<Dim>(options.device, simulation);
     const io::RunLock lock = io::make_run_folder(folder, options.overwrite);
     RunOutput<Dim> output(folder, simulation);
-    say("{}: {} particles, {:g} s to simulate, on {} thread{}\n",
+    say("{}: {} particles, {:g} s to simulate, on {} thread{}{}\n",
         config::shown(parameters.general.title.empty() ? parameters.name : parameters.general.title),
-        simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s");
+        simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s",
+        device.empty() ? "" : " and " + device);
     return start_and_run<Dim>(simulation, output, folder);
   });
 }

@@ -75,10 +75,10 @@ bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
   }
 }
 
-// A file could not be written: what stands is whole, and the run can go on from its last checkpoint.
+// A file could not be written, or a card failed: what stands is whole, and the run can go on from its last checkpoint.
 template <int Dim>
-int end_unwritten(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const WriteError& error,
-                  const std::filesystem::path& folder) {
+int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::exception& error,
+                ExitCode code, const std::filesystem::path& folder) {
   try {
     output.write_provenance(simulation, "stopped", error.what(), output.wall_seconds());
   } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): it is told below what could not be written first
@@ -86,7 +86,7 @@ int end_unwritten(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>
   say_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
             simulation.time(), folder.string(),
             io::has_checkpoint(folder) ? "goes on from the last checkpoint" : "starts it again");
-  return static_cast<int>(ExitCode::not_written);
+  return static_cast<int>(code);
 }
 
 // The steps of one process, and what is written between them.
@@ -270,7 +270,7 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
     }
     output.begin(simulation);
   } catch (const WriteError& error) {
-    return end_unwritten<Dim>(simulation, output, error, folder);
+    return end_at_once<Dim>(simulation, output, error, ExitCode::not_written, folder);
   }
   return run_to_end<Dim>(simulation, output, folder);
 }
@@ -280,7 +280,9 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   try {
     return Loop<Dim>(simulation, output, folder).run();
   } catch (const WriteError& error) {
-    return end_unwritten<Dim>(simulation, output, error, folder);
+    return end_at_once<Dim>(simulation, output, error, ExitCode::not_written, folder);
+  } catch (const DeviceError& error) {
+    return end_at_once<Dim>(simulation, output, error, ExitCode::device_failed, folder);
   }
 }
 

@@ -76,6 +76,7 @@ template <int Dim>
 void complete(io::Provenance& provenance, const sim::Simulation<Dim, double>& simulation) {
   const auto& model = simulation.model();
   provenance.parts.back().threads = thread_count();
+  provenance.parts.back().device = simulation.device_name();
   provenance.parts.back().from_time = simulation.time();
   provenance.particles = simulation.particles_at_start();
   provenance.crs = simulation.site().crs_name;

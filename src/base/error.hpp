@@ -14,7 +14,14 @@
 namespace thawslide {
 
 // Exit codes of the program (ARCHITECTURE.md).
-enum class ExitCode : int { done = 0, user_mistake = 2, run_went_bad = 3, stopped_by_signal = 4, not_written = 5 };
+enum class ExitCode : int {
+  done = 0,
+  user_mistake = 2,
+  run_went_bad = 3,
+  stopped_by_signal = 4,
+  not_written = 5,
+  device_failed = 6
+};
 
 // The user's mistake: the message says what was found, what is allowed and what to do. Exit code 2.
 class UserError : public std::runtime_error {
@@ -27,6 +34,13 @@ class UserError : public std::runtime_error {
 class WriteError : public UserError {
  public:
   using UserError::UserError;
+};
+
+// A card that failed amid a run: no memory left, or worse. A run that meets it ends with exit code 6 and can be
+// resumed.
+class DeviceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 // A run that went bad (not finite, out of the domain, inverted): names particle, place, time and likely cause. Exit

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 
 #include "device/step_model.hpp"
 #include "mpm/particle_view.hpp"
@@ -25,6 +27,9 @@ class AnyStep {
   virtual void sort_in_memory() = 0;
   // To as many particles, in the order of the device's memory.
   virtual void copy_to(const mpm::ParticleView<Dim, Real>& particles) const = 0;
+  // From now on each stage is waited for and timed; seconds by stage, so far.
+  virtual void time_stages() = 0;
+  [[nodiscard]] virtual std::map<std::string, double> seconds() const = 0;
 };
 
 // Copies so many particles to a device, where steps go on from them.

@@ -20,8 +20,8 @@ class StepOn final : public AnyStep<Dim, Real> {
   StepSums<Dim, Real> step(Real time, Real dt) override { return step_.step(time, dt); }
   void sort_in_memory() override { step_.sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim, Real>& particles) const override { step_.particles().copy_to(particles); }
-
-  [[nodiscard]] Backend& backend() { return backend_; }
+  void time_stages() override { backend_.time_stages(); }
+  [[nodiscard]] std::map<std::string, double> seconds() const override { return backend_.seconds(); }
 
  private:
   Backend backend_;

@@ -64,6 +64,7 @@ Json json_of(const RunPart& part) {
   json["host"] = part.host;
   json["processor"] = part.processor;
   json["threads"] = part.threads;
+  json["device"] = part.device;
   json["started"] = part.started;
   json["from_s"] = part.from_time;
   json["changes"] = part.changes;
@@ -82,6 +83,7 @@ RunPart part_of(const Json& json) {
   part.host = json.at("host");
   part.processor = json.at("processor");
   part.threads = json.at("threads");
+  part.device = json.value("device", "");
   part.started = json.at("started");
   part.from_time = json.at("from_s");
   part.changes = json.at("changes").get<std::vector<std::string>>();

@@ -23,6 +23,7 @@ struct InputFile {
 struct RunPart {
   std::string version, commit, command, host, processor, started;  // started: UTC, ISO 8601
   int threads = 1;
+  std::string device;                // that took the steps; empty: the processor
   double from_time = 0.0;            // simulated time it began at [s]
   std::vector<std::string> changes;  // of the case, as --set texts
   std::vector<std::string> notes;    // of what it found damaged when it began, and did about it

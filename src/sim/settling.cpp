@@ -20,7 +20,8 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   }
   THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
                    static_cast<std::size_t>(next_id_) - particles_at_start_);
-  THAWSLIDE_ASSERT(!make_step_, "a run settles on the processor, before {} steps on a device", step_number_);
+  leave_device();
+  const auto make_step = std::exchange(make_step_, {});  // the processor settles
   const Model<Dim, Real> model = model_;
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
@@ -57,6 +58,7 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
     }
   }
   begin();
+  make_step_ = make_step;
   return true;
 }
 

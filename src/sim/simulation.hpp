@@ -55,7 +55,8 @@ class Simulation {
   // One time step of dt [s]. Throws RunError when a particle goes bad; the state then is that of the failed step.
   void step(double dt);
 
-  // From now on steps are taken on a device. Throws UserError, with the key, for what no device does yet.
+  // From now on steps are taken on a device, but for those in which a body settles. Throws UserError, with the key, for
+  // what no device does yet; a step throws DeviceError where the device fails.
   void take_steps_on(const std::string& device, device::MakeStep<Dim, Real> make);
 
   // Particles join between two steps, with ids that none has had. They are in no band until the next step.
@@ -72,6 +73,9 @@ class Simulation {
   // nothing.
   [[nodiscard]] std::string energy_note() const;
   [[nodiscard]] const Removed& removed() const { return removed_; }
+
+  // That takes the steps; empty: the processor.
+  [[nodiscard]] const std::string& device_name() const { return device_name_; }
 
   [[nodiscard]] const config::Case& parameters() const { return parameters_; }
   [[nodiscard]] const config::Site& site() const { return site_; }
@@ -123,6 +127,8 @@ class Simulation {
  private:
   // The step on a device (step_on_device.cpp).
   void take_step_on_device();
+  [[nodiscard]] device::StepSums<Dim, Real> step_sums_of_device();
+  [[nodiscard]] device::StepSums<Dim, Real> step_on_device();
   // Where particles stand on a device, copies them; they stay there.
   void bring_particles_back() const;
   // The same, and the next step on the device begins with those of the processor.
@@ -209,6 +215,7 @@ class Simulation {
   mpm::Nodes<Dim, Real> nodes_;
   device::MakeStep<Dim, Real> make_step_;  // empty: the processor takes the steps
   std::unique_ptr<device::AnyStep<Dim, Real>> device_step_;
+  std::string device_name_;
   band::FlowDepth<Dim, Real> flow_depth_;
   std::optional<band::BaseColumns<Dim, Real>> band_columns_;
   std::optional<terrain::Bed<Dim, Real>> bed_;

@@ -1,4 +1,6 @@
 // Steps that a device takes (src/device), and how its particles come back.
+#include <stdexcept>
+
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/device_model.hpp"
@@ -14,11 +16,24 @@ void Simulation<Dim, Real>::take_steps_on(const std::string& device, device::Mak
                                 parameters_.name, device, missing));
   }
   leave_device();
+  device_name_ = device;
   make_step_ = std::move(make);
 }
 
+// Of particles that stood on a device that failed only what was brought back last is left.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_step_on_device() {
+device::StepSums<Dim, Real> Simulation<Dim, Real>::step_sums_of_device() {
+  try {
+    return step_on_device();
+  } catch (const std::runtime_error& error) {
+    particles_are_here_ = true;
+    device_step_.reset();
+    throw DeviceError(fmt::format("{} failed in step {}: {}", device_name_, step_number_, error.what()));
+  }
+}
+
+template <int Dim, class Real>
+device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
   if (!device_step_) {
     device_step_ = make_step_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
                               particles_.size(), terrain_for_device(model_, parameters_.grid.cell));
@@ -26,8 +41,13 @@ void Simulation<Dim, Real>::take_step_on_device() {
   if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
     device_step_->sort_in_memory();
   }
-  const device::StepSums<Dim, Real> sums = device_step_->step(static_cast<Real>(time_), dt_);
   particles_are_here_ = false;
+  return device_step_->step(static_cast<Real>(time_), dt_);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::take_step_on_device() {
+  const device::StepSums<Dim, Real> sums = step_sums_of_device();
   contact_ = sums.contact;
   book_contact();
   ledger_.numerical += sums.particle_kinetic - contact_.node_kinetic;
@@ -114,6 +134,8 @@ void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>& gain) {
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                               \
   template void Simulation<Dim, Real>::take_steps_on(const std::string&, device::MakeStep<Dim, Real>); \
+  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_sums_of_device();                   \
+  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                        \
   template void Simulation<Dim, Real>::take_step_on_device();                                          \
   template bool Simulation<Dim, Real>::looks_at_particles() const;                                     \
   template void Simulation<Dim, Real>::bring_particles_back() const;                                   \

@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 PHYSICS = Path(__file__).with_name("physics_kernels.cu")
 STEP = Path(__file__).with_name("step_kernels.cu")
-CARD = Path(__file__).with_name("card") / "on_card.cu"
+CARD = ROOT / "src" / "device" / "card.cu"
 BASAL_LAWS = ROOT / "src" / "physics" / "basal" / "laws.hpp"
 OLDEST = 12  # version of nvcc: the first with C++20
 LIMIT = 600.0  # s; alone it takes about 10, and 60 for the step on a card

@@ -110,6 +110,45 @@ TEST(DeviceRun, EndsWithTheSameWords) {
   EXPECT_EQ(error_of(on_device), expected);
 }
 
+// Steps until it breaks down.
+class BreaksDown final : public device::AnyStep<2, double> {
+ public:
+  BreaksDown(std::unique_ptr<device::AnyStep<2, double>> steps, int sound) : steps_(std::move(steps)), left_(sound) {}
+
+  device::StepSums<2, double> step(double time, double dt) override {
+    if (left_-- == 0) {
+      throw std::runtime_error("asking the card for memory: out of memory");
+    }
+    return steps_->step(time, dt);
+  }
+  void sort_in_memory() override { steps_->sort_in_memory(); }
+  void copy_to(const mpm::ParticleView<2, double>& particles) const override { steps_->copy_to(particles); }
+  void time_stages() override {}
+  [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
+
+ private:
+  std::unique_ptr<device::AnyStep<2, double>> steps_;
+  int left_;
+};
+
+TEST(DeviceRun, TellsOfADeviceThatFails) {
+  Simulation<2, double> simulation(sliding_bodies<2>());
+  simulation.take_steps_on("a card", [](const auto& model, const auto& particles, std::size_t count, auto ask_terrain) {
+    return std::make_unique<BreaksDown>(
+        in_place_of_a_card<2>(ThreadOrder::forward)(model, particles, count, std::move(ask_terrain)), 3);
+  });
+  for (int k = 0; k < 3; ++k) {
+    simulation.step(0.002);
+  }
+  try {
+    simulation.step(0.002);
+    FAIL() << "the step was taken";
+  } catch (const DeviceError& error) {
+    EXPECT_STREQ(error.what(), "a card failed in step 3: asking the card for memory: out of memory");
+  }
+  EXPECT_TRUE(std::isfinite(simulation.particles().position(0, 0)));  // what came back last
+}
+
 TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
   const std::pair<const char*, const char*> options[] = {
       {"mechanics.transfer=\"apic\"", "mechanics.transfer = \"apic\""},

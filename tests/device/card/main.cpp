@@ -11,7 +11,7 @@
 #include <cstring>
 #include <string>
 
-#include "card.hpp"
+#include "device/card.hpp"
 #include "steps_on.hpp"
 
 namespace thawslide::card_test {
@@ -95,7 +95,8 @@ bool compare_slides(const Size& size) {
   seed(size, start);
   bool well = true;
   const std::string dim = Dim == 2 ? "2D, " : "3D, ";
-  const auto processor = on_processor(start), card = on_card(start), again = on_card(start);
+  const auto processor = steps_of(on_processor<Dim>(), start);
+  const auto card = steps_of(device::on_card<Dim>(), start), again = steps_of(device::on_card<Dim>(), start);
   ParticleMemory<Dim> of_processor(start.size()), of_card(start.size()), of_second(start.size());
   int done = 0;
   for (const int steps : {1, 20, 60}) {
@@ -125,7 +126,7 @@ void measure(std::size_t particles) {
   const Size size{cells(4 * height), cells(4 * height), cells(height)};
   ParticleMemory<3> start(size.particles(3));
   seed(size, start);
-  const auto card = on_card(start);
+  const auto card = steps_of(device::on_card<3>(), start);
   take_steps(*card, 0, 5);
   card->sort_in_memory();
   take_steps(*card, 5, 10);
@@ -148,7 +149,7 @@ void measure(std::size_t particles) {
 }
 
 int run(const std::string& what, std::size_t particles) {
-  const Card card = find_card();
+  const device::Card card = device::find_card();
   if (!card.is_usable) {
     std::fprintf(stderr, "nothing was run: %s\n", card.why_not.c_str());
     return no_card;

@@ -1,14 +1,19 @@
 // The backend of the processor.
 #include "device/host_backend.hpp"
+#include "device/step_on.hpp"
 #include "steps_on.hpp"
 
 namespace thawslide::card_test {
 
 template <int Dim>
-std::unique_ptr<Steps<Dim>> on_processor(const ParticleMemory<Dim>& particles) {
-  return std::make_unique<StepsOn<device::Host, Dim>>(particles);
+device::MakeStep<Dim, Real> on_processor() {
+  return
+      [](const auto& model, const auto& particles, std::size_t count, auto ask_terrain) -> std::unique_ptr<Steps<Dim>> {
+        return std::make_unique<device::StepOn<device::Host, mpm::Ugimp<Real>, Dim, Real>>(model, particles, count,
+                                                                                           std::move(ask_terrain));
+      };
 }
-template std::unique_ptr<Steps<2>> on_processor<2>(const ParticleMemory<2>&);
-template std::unique_ptr<Steps<3>> on_processor<3>(const ParticleMemory<3>&);
+template device::MakeStep<2, Real> on_processor<2>();
+template device::MakeStep<3, Real> on_processor<3>();
 
 }  // namespace thawslide::card_test

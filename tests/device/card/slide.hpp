@@ -188,21 +188,4 @@ device::AskTerrain<Dim, Real> terrain_of_slide() {
           [](const Place& /*place*/) { return 9.81 * std::cos(slope * pi<Real> / 180.0); }};
 }
 
-// Steps on some backend.
-template <int Dim>
-class Steps {
- public:
-  Steps() = default;
-  virtual ~Steps() = default;
-  Steps(const Steps&) = delete;
-  Steps& operator=(const Steps&) = delete;
-
-  virtual device::StepSums<Dim, Real> step(Real time, Real dt) = 0;
-  virtual void sort_in_memory() = 0;
-  virtual void copy_to(const mpm::ParticleView<Dim, Real>& particles) const = 0;
-  // From now on each stage is waited for and timed; seconds by stage, so far.
-  virtual void time_stages() = 0;
-  [[nodiscard]] virtual std::map<std::string, double> seconds() const = 0;
-};
-
 }  // namespace thawslide::card_test

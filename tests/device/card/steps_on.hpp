@@ -1,35 +1,22 @@
-// Steps of the block on a backend (slide.hpp).
+// Steps of the block (slide.hpp) by the processor, in a card's place.
 #pragma once
 
 #include <memory>
 
-#include "device/step.hpp"
+#include "device/any_step.hpp"
 #include "slide.hpp"
 
 namespace thawslide::card_test {
 
-template <class Backend, int Dim>
-class StepsOn final : public Steps<Dim> {
- public:
-  explicit StepsOn(const ParticleMemory<Dim>& particles)
-      : mechanics_(backend_, model_of_slide<Dim>(), particles.view(), particles.size(), terrain_of_slide<Dim>()) {}
-
-  device::StepSums<Dim, Real> step(Real time, Real dt) override { return mechanics_.step(time, dt); }
-  void sort_in_memory() override { mechanics_.sort_in_memory(); }
-  void copy_to(const mpm::ParticleView<Dim, Real>& particles) const override {
-    mechanics_.particles().copy_to(particles);
-  }
-  void time_stages() override { backend_.time_stages(); }
-  [[nodiscard]] std::map<std::string, double> seconds() const override { return backend_.seconds(); }
-
- private:
-  Backend backend_;
-  device::Step<Backend, mpm::Ugimp<Real>, Dim, Real> mechanics_;
-};
+template <int Dim>
+using Steps = device::AnyStep<Dim, Real>;
 
 template <int Dim>
-std::unique_ptr<Steps<Dim>> on_processor(const ParticleMemory<Dim>& particles);
+device::MakeStep<Dim, Real> on_processor();
+
 template <int Dim>
-std::unique_ptr<Steps<Dim>> on_card(const ParticleMemory<Dim>& particles);
+std::unique_ptr<Steps<Dim>> steps_of(const device::MakeStep<Dim, Real>& make, const ParticleMemory<Dim>& particles) {
+  return make(model_of_slide<Dim>(), particles.view(), particles.size(), terrain_of_slide<Dim>());
+}
 
 }  // namespace thawslide::card_test

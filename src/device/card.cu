@@ -1,16 +1,20 @@
 // The backend of a card, and what is known of the card.
-#include "card.hpp"
+#include "device/card.hpp"
 #include "device/cuda_backend.hpp"
-#include "steps_on.hpp"
+#include "device/step_on.hpp"
 
-namespace thawslide::card_test {
+namespace thawslide::device {
 
 template <int Dim>
-std::unique_ptr<Steps<Dim>> on_card(const ParticleMemory<Dim>& particles) {
-  return std::make_unique<StepsOn<device::Cuda, Dim>>(particles);
+MakeStep<Dim, double> on_card() {
+  return [](const StepModel<Dim, double>& model, const mpm::ParticleView<Dim, double>& particles, std::size_t count,
+            AskTerrain<Dim, double> ask_terrain) -> std::unique_ptr<AnyStep<Dim, double>> {
+    return std::make_unique<StepOn<Cuda, mpm::Ugimp<double>, Dim, double>>(model, particles, count,
+                                                                           std::move(ask_terrain));
+  };
 }
-template std::unique_ptr<Steps<2>> on_card<2>(const ParticleMemory<2>&);
-template std::unique_ptr<Steps<3>> on_card<3>(const ParticleMemory<3>&);
+template MakeStep<2, double> on_card<2>();
+template MakeStep<3, double> on_card<3>();
 
 Card find_card() {
   Card card;
@@ -36,8 +40,8 @@ Card find_card() {
   card.name = std::string(known.name) + ", compute capability " + std::to_string(known.major) + "." +
               std::to_string(known.minor) + ", " + std::to_string(known.totalGlobalMem >> 30) + " GiB";
   try {
-    const device::Cuda probe;
-  } catch (const device::CardError& error) {
+    const Cuda probe;
+  } catch (const CardError& error) {
     card.why_not = "the card (" + card.name + ") cannot run this program: " + error.what() +
                    ". Build with THAWSLIDE_CUDA_ARCHITECTURES for it";
     return card;
@@ -46,4 +50,4 @@ Card find_card() {
   return card;
 }
 
-}  // namespace thawslide::card_test
+}  // namespace thawslide::device

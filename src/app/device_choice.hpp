@@ -1,0 +1,16 @@
+// Where the steps of a run are taken: --device.
+#pragma once
+
+#include <string>
+
+#include "sim/simulation.hpp"
+
+namespace thawslide::app {
+
+// Steps on a card where that is asked for: "gpu", or "auto" where there is a card and the run needs nothing that no
+// device does yet; "cpu" changes nothing. Returns where they are taken, in words; empty: on the processor. Throws
+// UserError for a card that is not there, with the reason, and for what it does not do.
+template <int Dim>
+std::string take_steps_on(const std::string& device, sim::Simulation<Dim, double>& simulation);
+
+}  // namespace thawslide::app

@@ -1,0 +1,21 @@
+// Whether there is a card, which, and steps on it. Built where nvcc is found; THAWSLIDE_WITH_CARD is defined then.
+#pragma once
+
+#include <string>
+
+#include "device/any_step.hpp"
+
+namespace thawslide::device {
+
+struct Card {
+  bool is_usable = false;
+  std::string name, why_not;
+};
+Card find_card();
+
+// Steps on the card that find_card found, in double precision, with uGIMP shape functions. What goes wrong on the way
+// is thrown as a std::runtime_error that says what the card was doing.
+template <int Dim>
+MakeStep<Dim, double> on_card();
+
+}  // namespace thawslide::device

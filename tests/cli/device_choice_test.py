@@ -1,0 +1,36 @@
+"""Where the steps of a run are taken: --device."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from conftest import Program
+
+
+def test_no_card_is_told_before_anything_is_written(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    outcome = thawslide("run", small_case, "--output", run, "--device", "gpu")
+    if outcome.returncode == 0:
+        assert json.loads((run / "run.json").read_text())["parts"][0]["device"]
+        pytest.skip("there is a card here, and the run went on it")
+    assert outcome.returncode == 2
+    assert outcome.stderr.startswith("error: --device gpu: ")
+    assert outcome.stderr.endswith("un it on the processor: --device cpu\n")
+    assert not run.exists()
+
+
+def test_auto_takes_the_processor_where_nothing_else_is(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    for device in ("auto", "cpu"):
+        run = tmp_path / device
+        assert thawslide("run", small_case, "--output", run, "--device", device).returncode == 0
+        told = json.loads((run / "run.json").read_text())["parts"][0]["device"]
+        assert device == "auto" or told == ""
+        assert thawslide("resume", run, "--device", device).returncode == 0
+
+
+def test_another_device_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    outcome = thawslide("run", small_case, "--output", tmp_path / "run", "--device", "tpu")
+    assert outcome.returncode == 2
+    assert "--device: tpu not in {cpu,gpu,auto}" in outcome.stderr
