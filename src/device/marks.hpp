@@ -110,7 +110,7 @@ class Marks {
     return any_.get(0) != 0;
   }
 
-  [[nodiscard]] MarkedTiles tiles() const { return {tiles_.data()}; }
+  [[nodiscard]] MarkedTiles tiles() const { return MarkedTiles{tiles_.data()}; }
   [[nodiscard]] const std::uint8_t* blocks() const { return blocks_.data(); }
 
  private:
