@@ -123,7 +123,7 @@ struct TakeLoad {
 
   ColumnsByTile<Dim, Real> columns;
 
-  [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const { return {columns.of_tile(tile)}; }
+  [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const { return InTile{columns.of_tile(tile)}; }
 };
 
 template <int Dim, class Real, bool Seeps, bool Balances>

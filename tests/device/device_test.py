@@ -74,6 +74,9 @@ REGISTERS_OF_STEP = {
     "orphan_heat": (40, 40),  # 32, 32
     "seepage": (50, 46),  # 43, 40
     "seeping_water": (24, 24),  # 16, 16
+    "box_in_columns": (36, 46),  # 30, 40
+    "column": (34, 34),  # 28, 28
+    "load": (36, 42),  # 30, 36
     "pore_pressure, false": (64, 64),  # 58, 58
     "pore_pressure, true": (64, 64),  # 57, 58
     "take_position": (40, 42),  # 32, 34

@@ -114,7 +114,7 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
     p.heat_content(k) = heat_content().content(p.temperature(k), p.porosity(k));
     p.liquid_saturation(k) = p.initial_saturation(k) = heat_content().curve.saturation(p.temperature(k));
     p.liquid_pressure(k) = p.pore_pressure(k) = melted ? 1e4 : 0.0;
-    p.pore_void(k) = 1e-4;
+    p.pore_void(k) = melted ? 0.0 : 1e-5;
     p.contact_offset(k) = 0.5 * spacing;
     p.thermal_scaling(k) = 1.0;
   }
