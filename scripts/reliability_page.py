@@ -43,7 +43,10 @@ def findings_text(rows: list[dict[str, Any]]) -> str:
 def kills_text(found: dict[str, Any]) -> str:
     """Return the part on runs that were killed."""
     rows = found["rows"]
-    lines = [f"| {row['subject']} | {row['seconds']:.0f} | {row['killed']} | {row['sound']} |\n" for row in rows]
+    lines = [
+        f"| {row['subject']} | {row['seconds']:.0f} | {row['trials']} | {row['killed']} | {row['sound']} |\n"
+        for row in rows
+    ]
     trials, sound = sum(row["trials"] for row in rows), sum(row["sound"] for row in rows)
     return (
         "## Kills\n\n"
@@ -53,7 +56,8 @@ def kills_text(found: dict[str, Any]) -> str:
             "file must be that of the run that nothing disturbed: history, probes, maps and checkpoint byte for "
             "byte, snapshots and index in every number. Only `run.json`, which tells of processes, may differ."
         )
-        + "\n| case | seconds a run | runs killed | ended with the same bits |\n|---|---|---|---|\n"
+        + "\n| case | seconds a run | runs | killed before their end | ended with the same bits |\n"
+        + "|---|---|---|---|---|\n"
         + "".join(lines)
         + f"\n{sound} of {trials} ended with the same bits, without any repair by hand.\n"
         + findings_text(rows)

@@ -33,13 +33,13 @@ def killed(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
 
 
 def resumed(thawslide: Program, run: Path) -> list[str]:
-    """Go on with a run to its end; return its notes, which run.json has too."""
+    """Go on with a run to its end; return its notes of damage, which run.json has too."""
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stderr == ""
     lines = outcome.stdout.splitlines()
-    notes = [line.removeprefix("note: ") for line in lines if line.startswith("note: ")]
-    assert lines[len(notes)].startswith("going on from t = 0.15 s")
+    begins = next(k for k, line in enumerate(lines) if line.startswith("going on from t = 0.15 s"))
+    notes = [line.removeprefix("note: ") for line in lines[:begins]]  # those of the case come behind
     assert run_facts(run)["status"] == "done" and run_facts(run)["parts"][-1]["notes"] == notes
     return notes
 
@@ -95,7 +95,7 @@ def test_rows_that_are_lost_are_told(
     # Once it has been told the run goes on as any other.
     as_killed(killed)
     outcome = thawslide("resume", killed)
-    assert outcome.returncode == 0 and "note: " not in outcome.stdout
+    assert outcome.returncode == 0 and "history.csv" not in outcome.stdout
 
 
 def test_a_lost_history_begins_anew(thawslide: Program, killed: Path) -> None:
