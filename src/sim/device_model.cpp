@@ -1,5 +1,8 @@
 #include "sim/device_model.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "band/heat_nodes.hpp"
 #include "base/instances.hpp"
 #include "sim/terrain_at_columns.hpp"
@@ -79,7 +82,16 @@ device::AskTerrain<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, 
   device::AskTerrain<Dim, Real> ask;
   if (model.ground) {
     ask.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
-      terrain::ask_ground<Dim>(*model.ground, model.substrates.get(), block, cell, nodes);
+      std::array<terrain::GroundAtNode<Dim, double>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> found;
+      terrain::ask_ground<Dim>(*model.ground, model.substrates.get(), block, cell, found.data());
+      std::transform(found.begin(), found.end(), nodes, [](const auto& node) {
+        return terrain::GroundAtNode<Dim, Real>{node.candidate,
+                                                node.substrate,
+                                                node.normal.template cast<Real>(),
+                                                static_cast<Real>(node.area),
+                                                static_cast<Real>(node.space),
+                                                static_cast<Real>(node.distance)};
+      });
     };
   }
   if (model.band.normal_thickness) {
