@@ -131,7 +131,7 @@ def fuzzing_text(found: dict[str, Any]) -> str:
         for words, count in row[of].items()
     ]
     return (
-        "## Random input\n\n"
+        "## Fuzzing\n\n"
         + paragraph(
             "What reads a file is given random bytes, guided by what they reach in the code: by libFuzzer, with the "
             "sanitizers of addresses and undefined behaviour, and by atheris for what Python reads "
