@@ -120,7 +120,7 @@ def fuzzing_text(found: dict[str, Any]) -> str:
     """Return the part on random input."""
     rows = found["rows"]
     lines = [
-        f"| `{row['target']}` | {row['seconds'] / 60:.0f} | {row['executions']:,} | {row['covered']:,} |"
+        f"| `{row['target']}` | {row['seconds'] / 60:.1f} | {row['executions']:,} | {row['covered']:,} |"
         f" {len(row['ours'])} | {len(row['foreign'])} |\n"
         for row in rows
     ]
