@@ -12,20 +12,22 @@ namespace thawslide::sim {
 
 template <int Dim, class Real>
 std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real>& model) {
+  const config::Mechanics& mechanics = parameters.mechanics;
   const struct {
     bool is_asked;
     const char* what;
   } options[] = {
-      {!parameters.mechanics.enabled, "mechanics.enabled = false"},
-      {model.motion.shape != mpm::ShapeKind::ugimp, "mechanics.shape_functions other than \"ugimp\""},
-      {model.motion.transfer != mpm::TransferKind::flip_pic, "mechanics.transfer = \"apic\""},
-      {model.motion.filter_order > 0, "mechanics.fmpm_order"},
-      {!model.constraints.frames.empty(), "[frame]"},
-      {parameters.terrain.form == config::TerrainForm::rigid_points, "terrain.form = \"rigid_points\""},
+      {!mechanics.enabled, "mechanics.enabled = false"},
+      {mechanics.shape_function == config::ShapeFunction::linear, "mechanics.shape_function = \"linear\""},
+      {mechanics.shape_function == config::ShapeFunction::quadratic, "mechanics.shape_function = \"quadratic\""},
+      {mechanics.transfer == config::Transfer::apic, "mechanics.transfer = \"apic\""},
+      {mechanics.transfer == config::Transfer::fmpm, "mechanics.transfer = \"fmpm\""},
+      {!model.constraints.frames.empty(), "a [frame]"},
+      {parameters.terrain.form == config::TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},
       {model.contact.band_columns, "band.model = \"columns\""},
-      {model.bed_density > Real(0), "[bed]"},
-      {model.band.heat && band::any_face_condition(model.band), "heat.boundary"},
-      {model.band.heat && !model.band.secant_capacity, "heat.update = \"printed\""},
+      {model.bed_density > Real(0), "an erodible [bed]"},
+      {model.band.heat && band::any_face_condition(model.band), "a condition of [heat.boundary]"},
+      {model.band.heat && !model.band.secant_capacity, "heat.update = \"apparent_capacity\""},
       {model.band.current_masses, "heat.masses = \"current\""},
       {static_cast<bool>(model.layer_thickness), "band.cut_cells = \"equal_thickness\""},
   };

@@ -127,7 +127,7 @@ class Simulation {
  private:
   // The step on a device (step_on_device.cpp).
   void take_step_on_device();
-  [[nodiscard]] device::StepSums<Dim, Real> step_sums_of_device();
+  void on_device(const std::function<void()>& work) const;
   [[nodiscard]] device::StepSums<Dim, Real> step_on_device();
   // Where particles stand on a device, copies them; they stay there.
   void bring_particles_back() const;
@@ -135,7 +135,7 @@ class Simulation {
   void leave_device();
   [[nodiscard]] bool looks_at_particles() const;
 
-  // What a step did goes to the accounts.
+  // What a step did goes to the accounts (step_accounts.cpp).
   void book_contact();
   void book_stress_work(const mpm::StressWork<Real>& work);
   void book_heat(const band::HeatGain<Real>& gain);

@@ -20,15 +20,15 @@ void Simulation<Dim, Real>::take_steps_on(const std::string& device, device::Mak
   make_step_ = std::move(make);
 }
 
-// Of particles that stood on a device that failed only what was brought back last is left.
+// Work that the device does for the step. Of particles that stood on one that failed only what was brought back last is
+// left.
 template <int Dim, class Real>
-device::StepSums<Dim, Real> Simulation<Dim, Real>::step_sums_of_device() {
+void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
   try {
-    return step_on_device();
+    work();
   } catch (const std::runtime_error& error) {
     particles_are_here_ = true;
-    device_step_.reset();
-    throw DeviceError(fmt::format("{} failed in step {}: {}", device_name_, step_number_, error.what()));
+    throw DeviceError(fmt::format("{} failed at step {}: {}", device_name_, step_number_, error.what()));
   }
 }
 
@@ -47,7 +47,8 @@ device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::take_step_on_device() {
-  const device::StepSums<Dim, Real> sums = step_sums_of_device();
+  device::StepSums<Dim, Real> sums;
+  on_device([&] { sums = step_on_device(); });
   contact_ = sums.contact;
   book_contact();
   ledger_.numerical += sums.particle_kinetic - contact_.node_kinetic;
@@ -76,14 +77,14 @@ void Simulation<Dim, Real>::bring_particles_back() const {
   if (particles_are_here_) {
     return;
   }
-  particles_are_here_ = true;
   grid_.update(particles_, 0);
   update_ground();
   std::vector<std::int64_t> ids(particles_.size());
   for (std::size_t p = 0; p < ids.size(); ++p) {
     ids[p] = particles_.id(p);
   }
-  device_step_->copy_to(mpm::view_of(particles_));
+  on_device([&] { device_step_->copy_to(mpm::view_of(particles_)); });
+  particles_are_here_ = true;
   // They have come in the device's order.
   std::vector<std::uint32_t> places(static_cast<std::size_t>(next_id_)), order(ids.size());
   for (std::size_t p = 0; p < ids.size(); ++p) {
@@ -101,48 +102,14 @@ void Simulation<Dim, Real>::leave_device() {
   device_step_.reset();
 }
 
-// Contact and everything that acts on the slide as a whole.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::book_contact() {
-  ledger_.friction_work += contact_.friction_work;
-  ledger_.converted += model_.band.heat ? contact_.converted : contact_.friction_work;
-  ledger_.contact_loss += contact_.loss;
-  ledger_.frame_work += contact_.frame_work;
-  ledger_.damping += contact_.damping;
-  ledger_.gravity_impulse +=
-      dt_ * (ledger_.initial_mass + ledger_.joined_mass - ledger_.left_mass) * model_.motion.gravity;
-  ledger_.ground_impulse -= dt_ * contact_.force;
-  ledger_.constraint_impulse += contact_.constraint_impulse;
-}
-
-template <int Dim, class Real>
-void Simulation<Dim, Real>::book_stress_work(const mpm::StressWork<Real>& work) {
-  ledger_.stress_work += work.total;
-  ledger_.plastic += work.plastic;
-  ledger_.viscous += work.viscous;
-  ledger_.pore_work += model_.motion.effective_stress ? work.pore : Real(0);
-}
-
-template <int Dim, class Real>
-void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>& gain) {
-  ledger_.friction_heat += gain.friction;
-  ledger_.boundary_heat += gain.boundary;
-  ledger_.advection += gain.advection;
-  ledger_.capacity_heat += gain.capacity;
-  ledger_.porosity_heat += gain.porosity;
-}
-
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                               \
   template void Simulation<Dim, Real>::take_steps_on(const std::string&, device::MakeStep<Dim, Real>); \
-  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_sums_of_device();                   \
+  template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;                  \
   template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                        \
   template void Simulation<Dim, Real>::take_step_on_device();                                          \
   template bool Simulation<Dim, Real>::looks_at_particles() const;                                     \
   template void Simulation<Dim, Real>::bring_particles_back() const;                                   \
-  template void Simulation<Dim, Real>::leave_device();                                                 \
-  template void Simulation<Dim, Real>::book_contact();                                                 \
-  template void Simulation<Dim, Real>::book_stress_work(const mpm::StressWork<Real>&);                 \
-  template void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>&);
+  template void Simulation<Dim, Real>::leave_device();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
