@@ -167,10 +167,7 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
   std::set<std::string> names;
   for (const fs::path& file : files) {
     const std::string name = file.filename().string();
-    if (!names.insert(name).second) {
-      throw UserError(
-          fmt::format("two inputs are called {}; rename one: a run keeps copies of both in one folder", name));
-    }
+    THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which a case may not have", name);
     const std::string content = read_file(file);
     const fs::path copy = folder / "inputs" / name;
     if (content.size() > cloned_from) {
