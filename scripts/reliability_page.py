@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import textwrap
 from pathlib import Path
 from typing import Any
@@ -116,12 +117,18 @@ def mistakes_text(found: dict[str, Any]) -> str:
     )
 
 
+def commit_of(version: str) -> str:
+    """Return the commit that a version names."""
+    named = re.search(r"commit (\w+)", version)
+    return named.group(1)[:7] if named else version
+
+
 def fuzzing_text(found: dict[str, Any]) -> str:
     """Return the part on random input."""
     rows = found["rows"]
     lines = [
         f"| `{row['target']}` | {row['seconds'] / 60:.1f} | {row['executions']:,} | {row['covered']:,} |"
-        f" {len(row['ours'])} | {len(row['foreign'])} |\n"
+        f" {len(row['ours'])} | {len(row['foreign'])} | {commit_of(row.get('version', found['version']))} |\n"
         for row in rows
     ]
     told = [
@@ -138,8 +145,8 @@ def fuzzing_text(found: dict[str, Any]) -> str:
             "([what each target's bytes are](developer-guide.md#fuzzing)). It must give a value, or an error that "
             "names the file, in some seconds and within some gigabytes."
         )
-        + "\n| target | minutes of a processor | inputs tried | edges covered | findings of ours | of libraries |\n"
-        + "|---|---|---|---|---|---|\n"
+        + "\n| target | processor minutes | inputs tried | edges covered | findings of ours | of libraries | commit |\n"
+        + "|---|---|---|---|---|---|---|\n"
         + "".join(lines)
         + ("\n" + "".join(told) if told else "")
     )
