@@ -229,7 +229,7 @@ void RunOutput<Dim>::write_history(const Simulation& simulation) {
 
 template <int Dim>
 void RunOutput<Dim>::before_step(const Simulation& simulation) {
-  provenance_.parts.back().particle_steps += static_cast<double>(simulation.particles().size());
+  provenance_.parts.back().particle_steps += static_cast<double>(simulation.particle_count());
 }
 
 template <int Dim>

@@ -10,6 +10,7 @@
 
 #include "device/step_model.hpp"
 #include "mpm/particle_view.hpp"
+#include "mpm/watched_sums.hpp"
 
 namespace thawslide::device {
 
@@ -23,6 +24,10 @@ class AnyStep {
 
   // One step of dt [s] from a time [s] on.
   virtual StepSums<Dim, Real> step(Real time, Real dt) = 0;
+  // What a look at the particles after a step finds.
+  virtual mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) = 0;
+  // The same for maps, in space; look: of the last call.
+  virtual void look_at_map(const mpm::MapCells& cells, MapLook& look) = 0;
   // Particles move in memory to stand in canonical order. Results do not depend on it.
   virtual void sort_in_memory() = 0;
   // To as many particles, in the order of the device's memory.

@@ -124,16 +124,16 @@ struct SumInTile {
 };
 
 // A thread a column: what the tiles that see it bring, in their order.
-template <int Dim, class Real>
-struct SumColumns {
+template <class Part>
+struct SumParts {
   const std::uint32_t *first_seen, *seen;  // of a column, in `seen`
   std::size_t columns, all_seen;
-  const ColumnPart<Dim, Real>* parts;
-  ColumnPart<Dim, Real>* sums;
+  const Part* parts;
+  Part* sums;
 
   THAWSLIDE_HD void operator()(std::size_t column) const {
     const std::size_t last = column + 1 < columns ? first_seen[column + 1] : all_seen;
-    ColumnPart<Dim, Real> sum;
+    Part sum;
     for (std::size_t k = first_seen[column]; k < last; ++k) {
       sum += parts[seen[k]];
     }

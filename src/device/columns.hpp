@@ -54,8 +54,8 @@ class Columns {
     using InTile = SumInTile<Dim, Real>;
     backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
                         InTile{tables, particles, sizes_.view(), cell_, parts_.data()});
-    backend_.for_each(keys_.size(), SumColumns<Dim, Real>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
-                                                          parts_.data(), sums_.data()});
+    backend_.for_each(keys_.size(), SumParts<Part>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
+                                                   parts_.data(), sums_.data()});
     backend_.for_each(keys_.size(),
                       FinishColumns<Dim, Real>{sums_.data(), beside_.data(),
                                                normal_gravity_.ask ? normal_gravity_.values.data() : nullptr, cell_,

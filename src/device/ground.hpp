@@ -86,12 +86,15 @@ class Ground {
     std::vector<Real> records(known.size() * size);
     std::vector<std::uint32_t> candidates;
     std::vector<std::int32_t> number(known.size(), absent);
+    std::vector<std::uint8_t> partly_unknown(blocks.size());
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const auto [block, is_new] = known_.try_emplace(blocks[b]);
+      const auto [place, is_new] = known_.try_emplace(blocks[b]);
+      Block& block = place->second;
       if (is_new) {
-        ask_(blocks[b], block->second.data());
+        block.is_known = ask_(blocks[b], block.at.data());
       }
-      std::copy(block->second.begin(), block->second.end(), known.begin() + static_cast<std::ptrdiff_t>(b * nodes));
+      std::copy(block.at.begin(), block.at.end(), known.begin() + static_cast<std::ptrdiff_t>(b * nodes));
+      partly_unknown[b] = block.is_known ? 0 : 1;
     }
     for (std::size_t k = 0; k < known.size(); ++k) {
       Real* record = &records[k * size];
@@ -106,6 +109,7 @@ class Ground {
     records_.set(records);
     candidates_.set(candidates);
     number_.set(number);
+    partly_unknown_.set(partly_unknown);
     near_.resize(tables.tiles * nodes);
     any_near_.resize(tables.tiles);
     backend_.for_each(near_.size(), FindNear<Dim, Real>{tables, known_of_node_.data(), near_.data()});
@@ -118,17 +122,24 @@ class Ground {
   [[nodiscard]] const std::uint32_t* candidates() const { return candidates_.data(); }
   [[nodiscard]] std::size_t candidate_count() const { return candidates_.size(); }
   [[nodiscard]] const std::int32_t* number() const { return number_.data(); }
+  // By block: whether the ground below it, and a cell about it, is not known everywhere.
+  [[nodiscard]] const std::uint8_t* partly_unknown() const { return partly_unknown_.data(); }
   [[nodiscard]] SeesCandidates<Dim> sees_candidates() const { return {near_.data(), any_near_.data()}; }
 
  private:
+  struct Block {
+    std::array<AtNode, nodes> at;
+    bool is_known = true;  // everywhere
+  };
+
   Backend& backend_;
   AskGround<Dim, Real> ask_;
-  std::unordered_map<std::uint64_t, std::array<AtNode, nodes>> known_;  // by block; blocks once seen are kept
+  std::unordered_map<std::uint64_t, Block> known_;  // by key; blocks once seen are kept
   Array<AtNode, Backend> known_of_node_{backend_};
   Array<Real, Backend> records_{backend_};
   Array<std::uint32_t, Backend> candidates_{backend_};
   Array<std::int32_t, Backend> number_{backend_};
-  Array<std::uint8_t, Backend> near_{backend_}, any_near_{backend_};
+  Array<std::uint8_t, Backend> near_{backend_}, any_near_{backend_}, partly_unknown_{backend_};
 };
 
 }  // namespace thawslide::device

@@ -5,17 +5,19 @@
 #include <variant>
 
 #include "band/averages_kernel.hpp"
+#include "device/base_laws.hpp"
 #include "device/block_pass.hpp"
 #include "device/body_sizes.hpp"
 #include "device/cells.hpp"
 #include "device/columns.hpp"
 #include "device/ground.hpp"
 #include "device/heat_works.hpp"
+#include "device/looks.hpp"
+#include "device/maps.hpp"
 #include "device/marks.hpp"
 #include "device/material_stress.hpp"
-#include "device/node_works.hpp"
+#include "device/node_memory.hpp"
 #include "device/particles.hpp"
-#include "device/passes.hpp"
 #include "device/pressure_works.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/position_kernel.hpp"
@@ -39,7 +41,8 @@ class Step {
         cells_(backend, model.cell),
         ground_(backend, ask.ground),
         sizes_(backend, model.half_sizes, Real(1)),
-        columns_(backend, model.cell, model.half_sizes, ask.slope_cosine, ask.normal_gravity) {
+        columns_(backend, model.cell, model.half_sizes, ask.slope_cosine, ask.normal_gravity),
+        maps_(backend, model.cell, model.half_sizes) {
     hydraulic_.set(model.hydraulic_conductivity);
     sums_.set(std::vector<Sums>(1));
   }
@@ -83,9 +86,18 @@ class Step {
     }
     take_positions();
     backend_.end_stage("take_new_positions");
-    Sums sums;
-    backend_.copy_out(&sums, sums_.data(), 1);
-    return sums;
+    return sums_.get(0);
+  }
+
+  // Of the particles as they are after a step.
+  mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) {
+    return sum_over_particles(Watch<Dim, Real>{look}, watched_);
+  }
+  void look_at_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapLook& look) {
+    if constexpr (Dim == 3) {
+      look.moments = sum_over_particles(SumMoments{}, moments_);
+      maps_.sum(cells, cells_.tables(), particles_.view(), look);
+    }
   }
 
  private:
@@ -96,29 +108,24 @@ class Step {
       return;
     }
     const std::size_t nodes = cells_.tables().blocks * block_nodes;
-    make_room<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion, mpm::Velocity>(
-        nodes);
+    nodes_.template make_room<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
+                              mpm::Velocity>(nodes);
     marks_.resize(cells_.tables());
+    maps_.forget_tiles();
     if (model_.heat) {
-      make_room<mpm::HeatRates, mpm::OrphanHeat>(nodes);
+      nodes_.template make_room<mpm::HeatRates, mpm::OrphanHeat>(nodes);
       secant_rates_.resize(of<mpm::HeatRates>().size());
     }
     if (model_.pressure_changes) {
-      make_room<mpm::Seepage, mpm::SeepingWater>(nodes);
+      nodes_.template make_room<mpm::Seepage, mpm::SeepingWater>(nodes);
       columns_.update(cells_.tables());
     }
     if (ground_.exists()) {
       ground_.update(cells_.tables(), cells_.block_keys());
-      base_.resize(nodes * NodeViews<Dim, Real>::base_size);
-      backend_.for_each(base_.size(), Fill<Real>{base_.data(), Real(0)});
+      nodes_.clear_base(nodes);
       bases_.resize(ground_.candidate_count());
     }
   }
-  template <class... Names>
-  void make_room(std::size_t nodes) {
-    (of<Names>().resize(nodes * mpm::record_size(mpm::components_of<Names, Dim>)), ...);
-  }
-
   void average() {
     run(over(LinearWeights{}, EveryTile{}), band::AddAverages<Dim, Real>{});
     sum<mpm::Averages, void>(EveryTile{});
@@ -137,7 +144,7 @@ class Step {
       const SeesCandidates<Dim> sees = ground_.sees_candidates();
       run(over(weights(), sees), terrain::AddNearGround<Dim, Real>{model_.phases, model_.lubrication});
       sum<mpm::NearGround, mpm::Clearance>(sees);
-      ask_of_base(step);
+      ask_of_base(backend_, step, model_.base, model_.cell, ground_, bases_.data());
     }
     const std::size_t blocks = step.tables.blocks;
     keep(block_pass<Dim>(
@@ -150,31 +157,6 @@ class Step {
       backend_.for_each(particles_.size(),
                         VisitInMemory<Dim, Real, terrain::LeaveBand<Dim, Real>>{particles_.view(), {}});
       run(over(LinearWeights{}, ground_.sees_candidates()), terrain::MarkBand<Dim, Real>{dt});
-    }
-  }
-
-  // The processor chooses the laws.
-  void ask_of_base(const NodesInStep<Dim, Real>& step) {
-    const std::size_t count = ground_.candidate_count();
-    const std::uint32_t* candidates = ground_.candidates();
-    backend_.for_each(count, PressOnGround<Dim, Real>{step, candidates});
-    const Real face = Dim == 2 ? model_.cell : model_.cell * model_.cell;
-    backend_.for_each(
-        count, AskOfBase<Dim, Real>{step, candidates, static_cast<Real>(terrain::smallest_area) * face, bases_.data()});
-    for (std::size_t g = 0; g < model_.base.grounds.size(); ++g) {
-      const int substrate = static_cast<int>(g);
-      std::visit(
-          [&]<class Law>(const Law& law) {
-            backend_.for_each(count,
-                              AskFriction<Law, Dim, Real>{law, substrate, ground_.known(), candidates, bases_.data()});
-          },
-          model_.base.grounds[g].friction);
-      std::visit(
-          [&]<class Law>(const Law& law) {
-            backend_.for_each(count,
-                              AskCohesion<Law, Dim, Real>{law, substrate, ground_.known(), candidates, bases_.data()});
-          },
-          model_.base.grounds[g].cohesion);
     }
   }
 
@@ -310,10 +292,21 @@ class Step {
     keep(&run(over(LinearWeights{}, EveryTile{}), kernel)->template of<Kernel>(), &sums_.data()->drained);
   }
 
+  // And what the processor asks of the particles at their new places.
   void take_positions() {
     using Kernel = mpm::TakePosition<Dim, Real>;
-    keep(&run(over(LinearWeights{}, EveryTile{}), Kernel{model_.lower, model_.upper})->template of<Kernel>(),
-         &sums_.data()->bad);
+    using Extremes = FindExtremes<Dim, Real>;
+    using Strays = CountStrays<Dim, Real>;
+    const auto all = over(LinearWeights{}, EveryTile{});
+    keep(&run(all, Kernel{model_.lower, model_.upper})->template of<Kernel>(), &sums_.data()->bad);
+    if (model_.tells_extremes) {
+      keep(&run(all, Extremes{model_.band, hydraulic()})->template of<Extremes>(), &sums_.data()->extremes);
+    }
+    if (model_.tells_strays) {
+      const Strays strays{cells_.tables().blocks_about_tile, ground_.exists() ? ground_.partly_unknown() : nullptr,
+                          model_.faces.extent};
+      keep(&run(all, strays)->template of<Strays>(), &sums_.data()->strays);
+    }
   }
 
   [[nodiscard]] band::HydraulicConductivity<Real> hydraulic() const {
@@ -336,6 +329,11 @@ class Step {
     backend_.for_each(numbers, SumPatches<Name, Lowered, Takes, Dim, Real>{cells_.tables(), takes, memory_.patches(0),
                                                                            of<Name>().data()});
   }
+  template <class Kernel, class Sum>
+  Sum sum_over_particles(const Kernel& kernel, Array<Sum, Backend>& sum) {
+    keep(&run(over(LinearWeights{}, EveryTile{}), kernel)->template of<Kernel>(), sum.data());
+    return sum.get(0);
+  }
   // What stands in memory that the next pass needs.
   template <class Sum>
   void keep(const Sum* from, Sum* to) {
@@ -344,19 +342,9 @@ class Step {
 
   template <class Name>
   [[nodiscard]] Array<Real, Backend>& of() {
-    return records_.template of<Name>();
+    return nodes_.template of<Name>();
   }
-  [[nodiscard]] NodeViews<Dim, Real> views() {
-    return {of<mpm::Averages>().data(),
-            of<mpm::NodalState>().data(),
-            of<mpm::Momentum>().data(),
-            of<mpm::NearGround>().data(),
-            base_.data(),
-            of<mpm::Contact>().data(),
-            of<mpm::Motion>().data(),
-            of<mpm::Velocity>().data(),
-            ground_.exists() ? ground_.known() : nullptr};
-  }
+  [[nodiscard]] NodeViews<Dim, Real> views() { return nodes_.views(ground_.exists() ? ground_.known() : nullptr); }
   [[nodiscard]] NodesInStep<Dim, Real> nodes_in_step(Real time, Real dt) {
     return {cells_.tables(),     views(), model_.faces, model_.gravity,        model_.cell,
             model_.mass_damping, time,    dt,           model_.distance_check, model_.pore_pressure,
@@ -370,16 +358,16 @@ class Step {
   Ground<Backend, Dim, Real> ground_;
   BodySizes<Backend, Real> sizes_;  // of particles, in cells
   Columns<Backend, Dim, Real> columns_;
+  Maps<Backend, Real> maps_;
   PassMemory<Backend, Real> memory_{backend_};
-  Array<Real, Backend> base_{backend_};
+  NodeMemory<Backend, Dim, Real> nodes_{backend_};
   Array<BaseOfNode<Real>, Backend> bases_{backend_};
   Array<Real, Backend> secant_rates_{backend_}, hydraulic_{backend_};
   Marks<Backend, Dim> marks_{backend_};
   Real scaling_in_force_ = 0;
   Array<Sums, Backend> sums_{backend_, 1};
-  NodeArrays<Backend, Real, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
-             mpm::Velocity, mpm::HeatRates, mpm::OrphanHeat, mpm::Seepage, mpm::SeepingWater>
-      records_{backend_};
+  Array<mpm::WatchedSums<Real>, Backend> watched_{backend_, 1};
+  Array<mpm::MassMoments, Backend> moments_{backend_, 1};
 
  public:
   // The records that a pass reads (device/passes.hpp).
@@ -388,7 +376,7 @@ class Step {
     if constexpr (std::is_same_v<Name, terrain::Ground>) {
       return ground_.records();
     } else {
-      return records_.template of<Name>().data();
+      return nodes_.template of<Name>().data();
     }
   }
 };

@@ -11,8 +11,10 @@
 #include "band/nodal_heat.hpp"
 #include "band/physics.hpp"
 #include "band/pressure_kernels.hpp"
+#include "band/step_extremes.hpp"
 #include "mpm/accounts.hpp"
 #include "mpm/domain_faces.hpp"
+#include "mpm/map_sums.hpp"
 #include "mpm/material.hpp"
 #include "mpm/stress_kernel.hpp"
 #include "mpm/tile.hpp"
@@ -37,6 +39,8 @@ struct StepModel {
   bool lubrication = true;        // off: the base sees the initial porosity and saturation
   mpm::DomainFaces<Dim, Real> faces;
   Vector<Real, Dim> lower, upper;  // particles may be between these [m]
+  bool tells_extremes = false;     // StepSums::extremes is asked for
+  bool tells_strays = false;       // and StepSums::strays
   terrain::BasalLaw<Real> base;
   bool base_holds = false;        // no slip at all
   bool pore_pressure = true;      // off: P = 0 at contact nodes
@@ -61,9 +65,10 @@ struct StepModel {
   }
 };
 
-// Tells what the nodes of a block know of the ground: of all nodes, x fastest. Empty where there is no ground.
+// Tells what the nodes of a block know of the ground: of all nodes, x fastest; and returns whether the ground is known
+// everywhere below the block and a cell about it. Empty where there is no ground.
 template <int Dim, class Real>
-using AskGround = std::function<void(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
+using AskGround = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
 
 template <int Dim, class Real>
 struct AskTerrain {
@@ -71,6 +76,13 @@ struct AskTerrain {
   // As band/flow_depth.hpp asks. Without the slope's cosine thickness is vertical; the gravity is needed for loads
   // only.
   band::OfPlace<Dim, Real> slope_cosine, normal_gravity;
+};
+
+// What maps and the way of the centre of mass take after a step, in space.
+struct MapLook {
+  std::vector<std::uint64_t> keys;  // of cells that the slide may be above, ascending (mpm::map_cell_key)
+  std::vector<mpm::MapSums> sums;   // of these
+  mpm::MassMoments moments;
 };
 
 // Sums over particles and nodes of one step; energies [J].
@@ -85,6 +97,8 @@ struct StepSums {
   band::DrainedWater<Real> drained;  // at the surface
   Real vented = 0;                   // water lost to frozen pores [kg]
   mpm::BadParticle bad;              // after the particles have moved
+  band::StepExtremes extremes;
+  std::uint64_t strays = 0;  // particles beyond the domain's sides, or in a block whose ground is partly unknown
 };
 
 }  // namespace thawslide::device

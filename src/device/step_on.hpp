@@ -18,6 +18,8 @@ class StepOn final : public AnyStep<Dim, Real> {
       : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask_terrain)) {}
 
   StepSums<Dim, Real> step(Real time, Real dt) override { return step_.step(time, dt); }
+  mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) override { return step_.watch(look); }
+  void look_at_map(const mpm::MapCells& cells, MapLook& look) override { step_.look_at_map(cells, look); }
   void sort_in_memory() override { step_.sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim, Real>& particles) const override { step_.particles().copy_to(particles); }
   void time_stages() override { backend_.time_stages(); }

@@ -285,7 +285,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   mpm::Particles<2, double> particles;
   fill_bodies(parameters, site, model, particles);
   Block block(parameters, model, particles);
-  const StepLimit limit = step_limit(parameters, model, smallest_thickness(parameters), particles);
+  const StepLimit limit = step_limit(parameters, model, smallest_thickness(parameters), extremes_of(model, particles));
   double dt = parameters.time.step;
   if (parameters.time.stepping == config::Stepping::adaptive) {
     dt = std::min(dt, parameters.time.safety * limit.step);

@@ -61,6 +61,9 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
   device.lower = -beyond;
   device.upper = model.constraints.extent + beyond;
+  device.tells_extremes = parameters.time.stepping == config::Stepping::adaptive;
+  device.tells_strays =
+      parameters.grid.leaving == config::Policy::remove || parameters.terrain.kind == config::TerrainKind::dem;
   device.base = model.contact.law;
   device.base_holds = model.contact.base_holds;
   device.pore_pressure = model.contact.pore_pressure;
@@ -94,6 +97,7 @@ device::AskTerrain<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, 
                                                 static_cast<Real>(node.space),
                                                 static_cast<Real>(node.distance)};
       });
+      return terrain::is_ground_known<Dim>(*model.ground, block, cell);
     };
   }
   if (model.band.normal_thickness) {

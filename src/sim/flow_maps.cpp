@@ -19,50 +19,22 @@ std::uint64_t modulo(int number, int divisor) {
 
 }  // namespace
 
-const std::vector<MapKind>& map_kinds() {
-  static const std::vector<MapKind> kinds{
-      {"max_thickness", "m", "largest vertical thickness of the slide",
-       [](const MapCell& c) { return c.max_thickness; }},
-      {"final_thickness", "m", "vertical thickness of the slide at the end",
-       [](const MapCell& c) { return c.thickness; }},
-      {"max_speed", "m/s",
-       "largest depth-averaged speed, all three components, while the slide was thicker than maps.arrival_thickness",
-       [](const MapCell& c) { return c.max_speed; }},
-      {"max_momentum_flux", "m3/s2", "largest thickness times depth-averaged speed squared",
-       [](const MapCell& c) { return c.max_momentum_flux; }},
-      {"max_pressure", "Pa",
-       "largest density of the column times depth-averaged speed squared, while the slide was thicker than "
-       "maps.arrival_thickness",
-       [](const MapCell& c) { return c.max_pressure; }},
-      {"arrival_time", "s", "when the slide first was thicker than maps.arrival_thickness",
-       [](const MapCell& c) { return c.arrival_time; }},
-      {"elevation_change", "m",
-       "elevation of the surface at the end less that at the start: final thickness less thickness at the start. Of a "
-       "body cut out of the ground too: what it left is lower by the thickness that was cut",
-       [](const MapCell& c) { return c.thickness - c.thickness_at_start; }},
-      {"max_basal_temperature", "C",
-       "largest temperature of the band, averaged by volume of its particles, or by area of its columns",
-       [](const MapCell& c) { return c.max_basal_temperature; }},
-      {"max_melt", "m", "largest volume of liquid water in the column over the cell's area, that of the band over xi",
-       [](const MapCell& c) { return c.max_melt; }},
-      {"max_pore_pressure", "Pa",
-       "largest pore pressure of the band, averaged by volume of its particles, or by area of its columns",
-       [](const MapCell& c) { return c.max_pore_pressure; }},
-  };
-  return kinds;
-}
-
 FlowMaps::FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const std::vector<double>& half_sizes,
                    double arrival_thickness)
     : map_grid_(map_grid),
-      corner_x_(map_grid.x - 0.5 * map_grid.cell_x - origin[0]),
-      corner_y_(map_grid.y - 0.5 * map_grid.cell_y - origin[1]),
-      inverse_cell_x_(1.0 / map_grid.cell_x),
-      inverse_cell_y_(1.0 / map_grid.cell_y),
+      cells_{map_grid.x - 0.5 * map_grid.cell_x - origin[0],
+             map_grid.y - 0.5 * map_grid.cell_y - origin[1],
+             map_grid.cell_x,
+             map_grid.cell_y,
+             1.0 / map_grid.cell_x,
+             1.0 / map_grid.cell_y,
+             map_grid.columns,
+             map_grid.rows,
+             0.0},
       arrival_thickness_(arrival_thickness) {
   for (const double half : half_sizes) {
     sizes_.add(half);
-    largest_half_ = std::max(largest_half_, half);
+    cells_.largest_half = std::max(cells_.largest_half, half);
   }
 }
 
@@ -86,7 +58,8 @@ FlowMaps::MapTile& FlowMaps::touch(int tile_x, int tile_y) {
 
 // Sorts the background grid's tiles into stacks and these by colour: stacks of a colour stand so far apart that boxes
 // of different ones never share a map cell, so that their sums may be made at the same time.
-void FlowMaps::place_tiles(const Grid& grid, double reach) {
+void FlowMaps::place_tiles(const Grid& grid) {
+  const double reach = cells_.largest_half + grid.cell();  // as mpm::map_window has it
   const double tile_width = grid.cell() * mpm::Tile<3>::edge;
   const double widest_cell = std::max(map_grid_.cell_x, map_grid_.cell_y);
   const int colours = 1 + static_cast<int>(std::ceil((widest_cell + 2.0 * reach) / tile_width));  // along each axis
@@ -104,20 +77,17 @@ void FlowMaps::place_tiles(const Grid& grid, double reach) {
   });
 }
 
-void FlowMaps::set_window(const Grid& grid, double reach, Stack& stack) {
-  const auto index = mpm::Tile<3>::index(places_[stack.first].stack);
-  // The tiles of the map, first and last, along an axis; a tile's particles stand about its nodes.
+void FlowMaps::set_window(const Grid& grid, Stack& stack) {
+  using T = mpm::Tile<3>;
+  const auto index = T::index(places_[stack.first].stack);
+  // The tiles of the map, first and last, along an axis.
   const auto tiles_along = [&](std::size_t a, double corner, double inverse_cell, int cells) {
-    const double first_node = grid.cell() * mpm::Tile<3>::edge * index[a];
-    const double from = first_node - 0.5 * grid.cell() - reach - corner;
-    const double to = from + grid.cell() * mpm::Tile<3>::edge + 2.0 * reach;
-    const auto tile_at = [&](double place) {
-      return std::clamp(static_cast<int>(std::floor(place * inverse_cell)), 0, cells - 1) >> edge_bits;
-    };
-    return std::array<int, 2>{tile_at(from), tile_at(to)};
+    const mpm::MapWindow window =
+        mpm::map_window(T::edge * index[a], T::edge, grid.cell(), cells_.largest_half, corner, inverse_cell, cells);
+    return std::array<int, 2>{window.first >> edge_bits, window.last >> edge_bits};
   };
-  const auto along_x = tiles_along(0, corner_x_, inverse_cell_x_, map_grid_.columns);
-  const auto along_y = tiles_along(1, corner_y_, inverse_cell_y_, map_grid_.rows);
+  const auto along_x = tiles_along(0, cells_.corner_x, cells_.inverse_cell_x, cells_.columns);
+  const auto along_y = tiles_along(1, cells_.corner_y, cells_.inverse_cell_y, cells_.rows);
   stack.tile_x = along_x[0];
   stack.tile_y = along_y[0];
   stack.across = along_x[1] - along_x[0] + 1;
@@ -153,9 +123,7 @@ void FlowMaps::note_active() {
 }
 
 void FlowMaps::find_stacks(const Grid& grid) {
-  // Particles have moved since the tiles were found, by less than a cell: no step is as long as that.
-  const double reach = largest_half_ + grid.cell();
-  place_tiles(grid, reach);
+  place_tiles(grid);
   stacks_.clear();
   colours_.clear();
   window_tiles_.clear();
@@ -165,7 +133,7 @@ void FlowMaps::find_stacks(const Grid& grid) {
         colours_.push_back(stacks_.size());
       }
       stacks_.push_back({k, k, 0, 0, 0, 0, 0});
-      set_window(grid, reach, stacks_.back());
+      set_window(grid, stacks_.back());
     }
     stacks_.back().last = k + 1;
   }
@@ -173,15 +141,11 @@ void FlowMaps::find_stacks(const Grid& grid) {
   note_active();
 }
 
-THAWSLIDE_ALWAYS_INLINE void FlowMaps::add_box(const Particles& particles, std::size_t p, const CellRange& x,
-                                               const CellRange& y, const Stack& stack) {
-  const double volume = particles.volume(p), mass = particles.mass(p);
-  const ColumnSums sums{volume, mass, mass * particles.velocity(p, 0), mass * particles.velocity(p, 1),
-                        mass * particles.velocity(p, 2),
-                        // Cells of metres stand for a band of centimetres: its matter counts as for heat.
-                        volume * particles.porosity(p) * particles.liquid_saturation(p) / particles.thermal_scaling(p)};
+THAWSLIDE_ALWAYS_INLINE void FlowMaps::add_box(const Particles& particles, std::size_t p, const mpm::CellRange& x,
+                                               const mpm::CellRange& y, const Stack& stack) {
+  const mpm::ColumnSums sums = mpm::column_sums_of(particles, p);
   const bool in_band = band_is_of_particles_ && particles.in_band(p) != 0;
-  const BandSums band{volume, volume * particles.temperature(p), volume * particles.pore_pressure(p)};
+  const mpm::BandSums band = mpm::band_sums_of(particles, p);
   for (int row = y.first; row <= y.last; ++row) {
     const double row_share = y.share(row);
     const auto window_row = static_cast<std::size_t>(((row >> edge_bits) - stack.tile_y) * stack.across);
@@ -205,11 +169,12 @@ void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Sta
   for (std::uint32_t k = stack.first; k < stack.last; ++k) {
     for (const auto& batch : grid.batches(places_[k].tile)) {
       const auto size = sizes_.of(particles, batch);
-      const auto x =
-          cell_spans((particles.position.load(batch, 0) - corner_x_) * inverse_cell_x_, size.half * inverse_cell_x_,
-                     size.inverse * (0.5 * map_grid_.cell_x), map_grid_.columns);
-      const auto y = cell_spans((particles.position.load(batch, 1) - corner_y_) * inverse_cell_y_,
-                                size.half * inverse_cell_y_, size.inverse * (0.5 * map_grid_.cell_y), map_grid_.rows);
+      const auto x = mpm::cell_spans((particles.position.load(batch, 0) - cells_.corner_x) * cells_.inverse_cell_x,
+                                     size.half * cells_.inverse_cell_x, size.inverse * (0.5 * map_grid_.cell_x),
+                                     map_grid_.columns);
+      const auto y =
+          mpm::cell_spans((particles.position.load(batch, 1) - cells_.corner_y) * cells_.inverse_cell_y,
+                          size.half * cells_.inverse_cell_y, size.inverse * (0.5 * map_grid_.cell_y), map_grid_.rows);
       const auto inside =
           (x.first >= first_column) & (x.last < end_column) & (y.first >= first_row) & (y.last < end_row);
       THAWSLIDE_ASSERT(!any(!inside), "of particles {} ... one has left its tile: over map cells {} ..., {} ...",
@@ -224,13 +189,15 @@ void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Sta
 // Its heat and pressure count to the cells that the slide may reach, by the share of its width over each.
 void FlowMaps::add_piece(const PieceBelow& piece) {
   using One = Lanes<double>;
-  const CellRange x = cell_spans(One((piece.x - corner_x_) * inverse_cell_x_), One(piece.half_x * inverse_cell_x_),
-                                 One(0.5 * map_grid_.cell_x / piece.half_x), map_grid_.columns)
-                          .of_lane(0);
-  const CellRange y = cell_spans(One((piece.y - corner_y_) * inverse_cell_y_), One(piece.half_y * inverse_cell_y_),
-                                 One(0.5 * map_grid_.cell_y / piece.half_y), map_grid_.rows)
-                          .of_lane(0);
-  const BandSums band{piece.area, piece.area * piece.temperature, piece.area * piece.pressure};
+  const mpm::CellRange x = mpm::cell_spans(One((piece.x - cells_.corner_x) * cells_.inverse_cell_x),
+                                           One(piece.half_x * cells_.inverse_cell_x),
+                                           One(0.5 * map_grid_.cell_x / piece.half_x), map_grid_.columns)
+                               .of_lane(0);
+  const mpm::CellRange y = mpm::cell_spans(One((piece.y - cells_.corner_y) * cells_.inverse_cell_y),
+                                           One(piece.half_y * cells_.inverse_cell_y),
+                                           One(0.5 * map_grid_.cell_y / piece.half_y), map_grid_.rows)
+                               .of_lane(0);
+  const mpm::BandSums band{piece.area, piece.area * piece.temperature, piece.area * piece.pressure};
   for (int row = y.first; row <= y.last; ++row) {
     for (int column = x.first; column <= x.last; ++column) {
       const std::int32_t number = tile_index_.find(tile_key(column >> edge_bits, row >> edge_bits));
@@ -261,6 +228,26 @@ void FlowMaps::gather(const Grid& grid, const Particles& particles, double time,
   if (pieces != nullptr) {
     std::for_each(pieces->begin(), pieces->end(), [&](const PieceBelow& piece) { add_piece(piece); });
   }
+  take_sums(time);
+}
+
+void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time) {
+  seen_.clear();
+  window_tiles_.clear();
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const int column = mpm::column_of_key(keys[k]), row = mpm::row_of_key(keys[k]);
+    MapTile& tile = touch(column >> edge_bits, row >> edge_bits);
+    const std::size_t place = place_in_tile(column, row);
+    tile.sums[place] = sums[k].column;
+    tile.band[place] = sums[k].band;
+    window_tiles_.push_back(&tile);
+  }
+  note_active();
+  take_sums(time);
+}
+
+// What has been summed over the active tiles, which are then ready for the next sums.
+void FlowMaps::take_sums(double time) {
   parallel_for(active_.size(), [&](std::size_t k) {
     MapTile& tile = *active_[k];
     for (std::size_t place = 0; place < tile_cells; ++place) {

@@ -10,22 +10,13 @@
 #include "base/key_index.hpp"
 #include "base/raster.hpp"
 #include "mpm/body_sizes.hpp"
+#include "mpm/map_sums.hpp"
 #include "mpm/sparse_grid.hpp"
 #include "sim/map_cell.hpp"
 #include "sim/map_grid.hpp"
+#include "sim/map_kinds.hpp"
 
 namespace thawslide::sim {
-
-// One of the maps.
-struct MapKind {
-  const char* name;
-  const char* unit;
-  const char* description;
-  double (*value)(const MapCell&);
-};
-
-// All maps, in the order in which they are told of. A cell that the slide never was in has no data in any of them.
-[[nodiscard]] const std::vector<MapKind>& map_kinds();
 
 enum class MapExtent { whole_grid, slide };
 
@@ -60,7 +51,9 @@ class FlowMaps {
   // pieces: of the base, where the band is of columns, which then tell its heat and pressure in place of the particles.
   void gather(const Grid& grid, const Particles& particles, double time,
               const std::vector<PieceBelow>* pieces = nullptr);
-  // The same at t = 0: what changes of elevation count from.
+  // The same from sums over cells by key (mpm::map_cell_key): what a device made of the particles.
+  void gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time);
+  // At t = 0: what changes of elevation count from.
   void start(const Grid& grid, const Particles& particles);
 
   // Nothing of the slide is there any more; what was largest stays.
@@ -71,6 +64,7 @@ class FlowMaps {
   [[nodiscard]] static constexpr std::size_t bytes_of_cell() { return sizeof(MapTile) / tile_cells; }
 
   [[nodiscard]] const MapGrid& map_grid() const { return map_grid_; }
+  [[nodiscard]] const mpm::MapCells& cells() const { return cells_; }
   [[nodiscard]] double arrival_thickness() const { return arrival_thickness_; }
   // The cell at a column and row of the map grid; a cell like new where the slide never was near.
   [[nodiscard]] const MapCell& cell(int column, int row) const;
@@ -95,8 +89,8 @@ class FlowMaps {
   struct MapTile {
     int column = 0, row = 0;  // of its first cell
     bool active = false;
-    std::array<ColumnSums, tile_cells> sums;
-    std::array<BandSums, tile_cells> band;
+    std::array<mpm::ColumnSums, tile_cells> sums;
+    std::array<mpm::BandSums, tile_cells> band;
     std::array<MapCell, tile_cells> cells;
   };
   // Tiles of the background grid above one another, and the map tiles that their particles may reach.
@@ -116,21 +110,20 @@ class FlowMaps {
   static std::size_t place_in_tile(int column, int row);
   MapTile& touch(int tile_x, int tile_y);
   void find_stacks(const Grid& grid);
-  void place_tiles(const Grid& grid, double reach);
-  void set_window(const Grid& grid, double reach, Stack& stack);
+  void place_tiles(const Grid& grid);
+  void set_window(const Grid& grid, Stack& stack);
   void note_active();
+  void take_sums(double time);
   void add_stack(const Grid& grid, const Particles& particles, const Stack& stack);
   void add_piece(const PieceBelow& piece);
-  void add_box(const Particles& particles, std::size_t particle, const CellRange& x, const CellRange& y,
+  void add_box(const Particles& particles, std::size_t particle, const mpm::CellRange& x, const mpm::CellRange& y,
                const Stack& stack);
   [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;
 
   MapGrid map_grid_;
-  double corner_x_, corner_y_;              // of the map grid in the particles' frame [m]
-  double inverse_cell_x_, inverse_cell_y_;  // [1/m]
-  double largest_half_ = 0.0;               // of particles [m]
-  mpm::BodySizes<double> sizes_;            // of particles [m]
-  double arrival_thickness_;                // [m]
+  mpm::MapCells cells_;
+  mpm::BodySizes<double> sizes_;  // of particles [m]
+  double arrival_thickness_;      // [m]
   bool band_is_of_particles_ = true;
   KeyIndex tile_index_;
   std::vector<std::unique_ptr<MapTile>> tiles_;     // in the order in which the slide came

@@ -11,39 +11,9 @@
 #include <cmath>
 #include <limits>
 
-#include "base/portability.hpp"
+#include "mpm/map_sums.hpp"
 
 namespace thawslide::sim {
-
-// Sums over the parts of boxes that lie over a cell.
-struct ColumnSums {
-  double volume = 0.0;                                          // [m3]
-  double mass = 0.0;                                            // [kg]
-  double momentum_x = 0.0, momentum_y = 0.0, momentum_z = 0.0;  // [kg m/s]
-  double water = 0.0;  // volume of liquid water [m3], of the band as thick as it is
-
-  THAWSLIDE_ALWAYS_INLINE void add(double share, const ColumnSums& box) {
-    volume += share * box.volume;
-    mass += share * box.mass;
-    momentum_x += share * box.momentum_x;
-    momentum_y += share * box.momentum_y;
-    momentum_z += share * box.momentum_z;
-    water += share * box.water;
-  }
-};
-
-// Those over the boxes in the band.
-struct BandSums {
-  double volume = 0.0;              // V [m3]
-  double volume_temperature = 0.0;  // V T [m3 C]
-  double volume_pressure = 0.0;     // V P [m3 Pa]
-
-  THAWSLIDE_ALWAYS_INLINE void add(double share, const BandSums& box) {
-    volume += share * box.volume;
-    volume_temperature += share * box.volume_temperature;
-    volume_pressure += share * box.volume_pressure;
-  }
-};
 
 // h [m] of a volume V [m3] over a cell of area A [m2].
 [[nodiscard]] inline double thickness_of(double volume, double area) { return volume / area; }
@@ -74,7 +44,8 @@ struct MapCell {
 
   // Takes the state at a time [s]. area: of the cell [m2]; arrival_thickness [m]: where the slide is not thicker, its
   // speed and pressure are those of single particles and no record.
-  void take(const ColumnSums& sums, const BandSums& band, double area, double arrival_thickness, double time) {
+  void take(const mpm::ColumnSums& sums, const mpm::BandSums& band, double area, double arrival_thickness,
+            double time) {
     if (!(sums.volume > 0.0)) {
       thickness = velocity_x = velocity_y = velocity_z = 0.0;
       return;

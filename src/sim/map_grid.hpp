@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <string>
 
-#include "base/lanes.hpp"
-#include "base/portability.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
 
@@ -48,44 +46,5 @@ constexpr double most_map_cells = 2.5e8;
 
 // What to know of a maps.cell that is given and narrower than the background grid's; empty where there is nothing.
 [[nodiscard]] std::string note_on_map_cell(const config::Case& parameters, const config::Site& site);
-
-// The cells along one axis that a box overlaps, and its shares in them, which sum to 1.
-struct CellRange {
-  int first, last;
-  double first_share, inner_share, last_share;
-
-  [[nodiscard]] double share(int cell) const {
-    return cell == first ? first_share : cell == last ? last_share : inner_share;
-  }
-};
-
-// The same of several boxes, one a lane.
-struct CellSpans {
-  Lanes<double> first, last, first_share, inner_share, last_share;
-
-  [[nodiscard]] CellRange of_lane(std::size_t lane) const {
-    return {static_cast<int>(first[lane]), static_cast<int>(last[lane]), first_share[lane], inner_share[lane],
-            last_share[lane]};
-  }
-};
-
-// Of boxes from middle - half to middle + half, in cells, on an axis of `cells` cells. A box that ends on a border, but
-// for round-off, does not reach into the next cell. What lies beyond the grid counts to its last cell. inverse_width:
-// 1/(2 half).
-[[nodiscard]] THAWSLIDE_ALWAYS_INLINE CellSpans cell_spans(Lanes<double> middle, Lanes<double> half,
-                                                           Lanes<double> inverse_width, int cells) {
-  const Lanes<double> begin = middle - half, end = middle + half, sliver = round_off<double> * half;
-  const auto on_grid = [&](Lanes<double> cell) {
-    return max(Lanes<double>(0.0), min(cell, Lanes<double>(cells - 1.0)));
-  };
-  CellSpans spans;
-  spans.first = on_grid(floor(begin + sliver));
-  spans.last = on_grid(floor(end - sliver));
-  spans.first_share =
-      select(spans.first == spans.last, Lanes<double>(1.0), (spans.first + 1.0 - begin) * inverse_width);
-  spans.inner_share = inverse_width;
-  spans.last_share = (end - spans.last) * inverse_width;
-  return spans;
-}
 
 }  // namespace thawslide::sim

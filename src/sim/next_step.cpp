@@ -36,13 +36,19 @@ std::string advice_on(LimitKind kind) {
 }  // namespace
 
 template <int Dim, class Real>
+band::StepExtremes Simulation<Dim, Real>::extremes() const {
+  const bool are_told = device_step_ && parameters_.time.stepping == config::Stepping::adaptive;
+  return are_told ? device_sums_.extremes : extremes_of(model_, particles());
+}
+
+template <int Dim, class Real>
 StepLimit Simulation<Dim, Real>::step_limit() const {
-  return sim::step_limit(parameters_, model_, band_thickness(), particles());
+  return sim::step_limit(parameters_, model_, band_thickness(), extremes());
 }
 
 template <int Dim, class Real>
 double Simulation<Dim, Real>::adaptive_step() const {
-  const double dt = parameters_.time.safety * largest_stable_step(parameters_, model_, band_thickness(), particles());
+  const double dt = parameters_.time.safety * largest_stable_step(parameters_, model_, band_thickness(), extremes());
   return parameters_.time.step > 0.0 ? std::min(dt, parameters_.time.step) : dt;
 }
 
@@ -76,6 +82,7 @@ void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
   const StepLimit limit = step_limit();
   std::string where;
   if (limit.particle >= 0) {
+    bring_particles_back();
     const std::size_t p = place_in_memory(limit.particle);
     where = fmt::format(", of {}, whose volume is {:.3g} of that at t = 0", particle_text(p),
                         static_cast<double>(particles_.volume(p) / particles_.initial_volume(p)));
@@ -86,10 +93,11 @@ void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
                   time_, step_number_, dt, why, limit.what, where, advice_on(limit.kind)));
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                          \
-  template StepLimit Simulation<Dim, Real>::step_limit() const;   \
-  template double Simulation<Dim, Real>::adaptive_step() const;   \
-  template double Simulation<Dim, Real>::next_step(double) const; \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                               \
+  template band::StepExtremes Simulation<Dim, Real>::extremes() const; \
+  template StepLimit Simulation<Dim, Real>::step_limit() const;        \
+  template double Simulation<Dim, Real>::adaptive_step() const;        \
+  template double Simulation<Dim, Real>::next_step(double) const;      \
   template void Simulation<Dim, Real>::stop_if_step_collapses(double) const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

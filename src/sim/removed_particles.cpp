@@ -108,8 +108,9 @@ void Simulation<Dim, Real>::mark_left_particles() {
   const std::size_t tiles = model_.ground ? grid_.tiles().size() : 0;
   bad_ += parallel_sum<mpm::BadParticle>(tiles, [&](std::size_t t, mpm::BadParticle& bad) {
     // The tile's own block stands in the middle of those about it; its ground is looked at a cell further.
+    // After steps of a device tiles may be those of long ago: all particles are looked at.
     const auto own = static_cast<std::size_t>(grid_.blocks_about_tile(t)[mpm::Tile<Dim>::stencil / 2]);
-    if (!ground_.partly_unknown(own)) {
+    if (!device_step_ && !ground_.partly_unknown(own)) {
       return;
     }
     for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
@@ -202,8 +203,12 @@ void Simulation<Dim, Real>::remove_marked_particles() {
   if (none_stays || share > parameters_.guards.removed_mass) {
     stop_for_removed_mass(share);
   }
+  const bool on_device = device_step_ != nullptr;
   leave_device();
   grid_.remove(particles_, particles_.remove(marks_));
+  if (on_device) {
+    grid_.update(particles_, 0);  // it was that of where they stood when they came last, which may be long ago
+  }
   update_ground();
 }
 

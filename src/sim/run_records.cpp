@@ -25,30 +25,14 @@ std::vector<double> half_sizes(const Simulation<Dim, double>& simulation) {
   return halves;
 }
 
-struct MassMoments {
-  double mass = 0.0, mass_x = 0.0, mass_y = 0.0;  // [kg, kg m], about the origin of the particles' positions
-
-  MassMoments& operator+=(const MassMoments& part) {
-    mass += part.mass;
-    mass_x += part.mass_x;
-    mass_y += part.mass_y;
-    return *this;
-  }
-};
-
-// Of the mass over the horizontal plane [m].
-Place2 centre_of_mass(const Simulation<3, double>& simulation) {
+mpm::MassMoments mass_moments(const Simulation<3, double>& simulation) {
   const auto& particles = simulation.particles();
   const auto& grid = simulation.grid();
-  const auto sums = parallel_sum<MassMoments>(grid.tiles().size(), [&](std::size_t t, MassMoments& sum) {
+  return parallel_sum<mpm::MassMoments>(grid.tiles().size(), [&](std::size_t t, mpm::MassMoments& sum) {
     for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
-      const std::size_t p = grid.order()[k];
-      sum += {particles.mass(p), particles.mass(p) * particles.position(p, 0),
-              particles.mass(p) * particles.position(p, 1)};
+      sum += mpm::mass_moments_of(particles, grid.order()[k]);
     }
   });
-  return {sums.mass_x / sums.mass + simulation.model().origin[0],
-          sums.mass_y / sums.mass + simulation.model().origin[1]};
 }
 
 double highest_point(const Simulation<3, double>& simulation) {
@@ -103,7 +87,7 @@ template <int Dim>
 void RunRecords<Dim>::start(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     maps_->start(simulation.grid(), simulation.particles());
-    note_way(simulation);
+    note_way(simulation, mass_moments(simulation));
     release_top_ = highest_point(simulation);
   }
 }
@@ -111,10 +95,17 @@ void RunRecords<Dim>::start(const Simulation& simulation) {
 template <int Dim>
 void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
+    if (const device::MapLook* look = simulation.look_at_map(maps_->cells())) {
+      maps_->gather(look->keys, look->sums, simulation.time());
+      note_way(simulation, look->moments);
+      return;
+    }
     const std::vector<PieceBelow> pieces = pieces_below(simulation);
     maps_->gather(simulation.grid(), simulation.particles(), simulation.time(),
                   simulation.band_columns() != nullptr ? &pieces : nullptr);
-    note_way(simulation);
+    if (!path_given_) {
+      note_way(simulation, mass_moments(simulation));
+    }
   }
 }
 
@@ -125,12 +116,12 @@ void RunRecords<Dim>::slide_left() {
   }
 }
 
+// The centre of mass over the horizontal plane.
 template <int Dim>
-void RunRecords<Dim>::note_way(const Simulation& simulation) {
-  if constexpr (Dim == 3) {
-    if (!path_given_) {
-      way_.note(centre_of_mass(simulation));
-    }
+void RunRecords<Dim>::note_way(const Simulation& simulation, const mpm::MassMoments& sums) {
+  if (!path_given_) {
+    const auto& origin = simulation.model().origin;
+    way_.note({sums.mass_x / sums.mass + origin[0], sums.mass_y / sums.mass + origin[1]});
   }
 }
 

@@ -61,7 +61,7 @@ class RunRecords {
                                                   const std::function<double(double x, double y)>& ground_height) const;
 
  private:
-  void note_way(const Simulation& simulation);
+  void note_way(const Simulation& simulation, const mpm::MassMoments& sums);
   // Arc length of the path at which the release began: the smallest of the middles of the map cells that it lay in [m].
   [[nodiscard]] double rear_of_release() const;
 

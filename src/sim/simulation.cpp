@@ -44,10 +44,7 @@ void Simulation<Dim, Real>::step(double dt) {
   time_ =
       fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
   last_step_ = dt;
-  if (looks_at_particles()) {
-    bring_particles_back();
-    look_after_step();
-  }
+  look_after_step();
 }
 
 template <int Dim, class Real>
@@ -69,6 +66,10 @@ void Simulation<Dim, Real>::take_step_here() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::look_after_step() {
   watch();
+  if (nothing_befell_on_device()) {
+    return;
+  }
+  bring_particles_back();
   mark_bad_particles();
   stop_if_bad();
   mark_left_particles();
@@ -223,7 +224,8 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
       bed_(make_bed<Dim, Real>(parameters, site, model_)) {
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
-    const StepLimit limit = sim::step_limit(parameters_, model_, smallest_thickness(parameters_), particles_);
+    const StepLimit limit =
+        sim::step_limit(parameters_, model_, smallest_thickness(parameters_), extremes_of(model_, particles_));
     if (parameters_.time.step > limit.step) {
       throw UserError(
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step, or "

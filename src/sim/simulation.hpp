@@ -96,6 +96,9 @@ class Simulation {
     bring_particles_back();
     return grid_;
   }
+  [[nodiscard]] std::size_t particle_count() const { return particles_.size(); }
+  // What maps take of a step that a device took; null after one of the processor.
+  [[nodiscard]] const device::MapLook* look_at_map(const mpm::MapCells& cells) const;
   [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const { return nodes_; }
   // Null without terrain.
   [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
@@ -133,7 +136,8 @@ class Simulation {
   void bring_particles_back() const;
   // The same, and the next step on the device begins with those of the processor.
   void leave_device();
-  [[nodiscard]] bool looks_at_particles() const;
+  // Whether a device took the step, and tells that no particle is bad or may have left.
+  [[nodiscard]] bool nothing_befell_on_device() const;
 
   // What a step did goes to the accounts (step_accounts.cpp).
   void book_contact();
@@ -170,11 +174,12 @@ class Simulation {
   // Everything that follows from positions and stress at t = 0.
   void begin();
   void start_watch();
-  [[nodiscard]] WatchedSums<Real> look_at_particles() const;
-  void stop_if_energy_grows(const WatchedSums<Real>& seen);
-  void note_rest(const WatchedSums<Real>& seen);
+  [[nodiscard]] mpm::WatchedSums<Real> look_at_particles() const;
+  void stop_if_energy_grows(const mpm::WatchedSums<Real>& seen);
+  void note_rest(const mpm::WatchedSums<Real>& seen);
   void book_marked_particles();
   void mend_ledger();
+  [[nodiscard]] band::StepExtremes extremes() const;
   [[nodiscard]] double adaptive_step() const;
   void stop_if_step_collapses(double dt) const;
   [[nodiscard]] std::size_t place_in_memory(std::int64_t id) const;
@@ -213,8 +218,10 @@ class Simulation {
   mutable terrain::GroundOnGrid<Dim, Real> ground_;
   mutable bool particles_are_here_ = true;
   mpm::Nodes<Dim, Real> nodes_;
-  device::MakeStep<Dim, Real> make_step_;  // empty: the processor takes the steps
-  std::unique_ptr<device::AnyStep<Dim, Real>> device_step_;
+  device::MakeStep<Dim, Real> make_step_;                    // empty: the processor takes the steps
+  std::unique_ptr<device::AnyStep<Dim, Real>> device_step_;  // null: particles have changed here since
+  device::StepSums<Dim, Real> device_sums_;                  // of its last step
+  mutable device::MapLook map_look_;                         // the last one
   std::string device_name_;
   band::FlowDepth<Dim, Real> flow_depth_;
   std::optional<band::BaseColumns<Dim, Real>> band_columns_;

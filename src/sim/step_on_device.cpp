@@ -47,8 +47,8 @@ device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::take_step_on_device() {
-  device::StepSums<Dim, Real> sums;
-  on_device([&] { sums = step_on_device(); });
+  on_device([&] { device_sums_ = step_on_device(); });
+  const device::StepSums<Dim, Real>& sums = device_sums_;
   contact_ = sums.contact;
   book_contact();
   ledger_.numerical += sums.particle_kinetic - contact_.node_kinetic;
@@ -63,11 +63,9 @@ void Simulation<Dim, Real>::take_step_on_device() {
   bad_ += sums.bad;
 }
 
-// Whether what follows a step needs the particles, or only the next one does, wherever it is taken.
 template <int Dim, class Real>
-bool Simulation<Dim, Real>::looks_at_particles() const {
-  return !make_step_ || bad_.id >= 0 || step_number_ % watch_interval == 0 ||
-         parameters_.grid.leaving == config::Policy::remove || parameters_.terrain.kind == config::TerrainKind::dem;
+bool Simulation<Dim, Real>::nothing_befell_on_device() const {
+  return device_step_ && bad_.id < 0 && device_sums_.strays == 0;
 }
 
 // The grid becomes that of where particles stood when they came last, as it is after a step of the processor: of those
@@ -97,6 +95,15 @@ void Simulation<Dim, Real>::bring_particles_back() const {
 }
 
 template <int Dim, class Real>
+const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells& cells) const {
+  if (!device_step_) {
+    return nullptr;
+  }
+  on_device([&] { device_step_->look_at_map(cells, map_look_); });
+  return &map_look_;
+}
+
+template <int Dim, class Real>
 void Simulation<Dim, Real>::leave_device() {
   bring_particles_back();
   device_step_.reset();
@@ -107,8 +114,9 @@ void Simulation<Dim, Real>::leave_device() {
   template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;                  \
   template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                        \
   template void Simulation<Dim, Real>::take_step_on_device();                                          \
-  template bool Simulation<Dim, Real>::looks_at_particles() const;                                     \
+  template bool Simulation<Dim, Real>::nothing_befell_on_device() const;                               \
   template void Simulation<Dim, Real>::bring_particles_back() const;                                   \
+  template const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells&) const;      \
   template void Simulation<Dim, Real>::leave_device();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/instances.hpp"
-#include "physics/pressurization.hpp"
+#include "base/parallel.hpp"
 
 namespace thawslide::sim {
 
@@ -42,81 +42,26 @@ std::string wave_text(const std::string& material, double cell, double speed, do
                      cell);
 }
 
-// An extreme of some numbers, and the place in memory of the particle that it is of.
-struct Extreme {
-  static constexpr std::size_t no_particle = ~std::size_t{0};
-  double value = 0.0;
-  std::size_t particle = no_particle;
-
-  void raise(double other, std::size_t p) {
-    if (other > value) {
-      *this = {other, p};
-    }
-  }
-  void lower(double other, std::size_t p) {
-    if (other < value) {
-      *this = {other, p};
-    }
-  }
-};
-
-// What of the particles sets limits.
-struct Extremes {
-  Extreme density{HUGE_VAL};  // smallest [kg/m3]
-  Extreme speed;              // largest [m/s]
-  Extreme diffusivity;        // largest, of heat [m2/s]
-  Extreme seepage;            // largest diffusivity of pore pressure [m2/s]
-  double pore_stiffness = 0;  // largest [Pa]
-};
-
-template <int Dim, class Real>
-Extremes extremes_of(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles) {
-  Extremes found;
-  if (model.bed_density > Real(0)) {
-    found.density.value = static_cast<double>(model.bed_density);  // what is taken up of it counts from the start
-  }
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    found.density.lower(static_cast<double>(particles.mass(p) / particles.volume(p)), p);
-    double speed2 = 0.0;
-    for (int a = 0; a < Dim; ++a) {
-      speed2 += static_cast<double>(particles.velocity(p, a) * particles.velocity(p, a));
-    }
-    found.speed.raise(std::sqrt(speed2), p);
-    const Real porosity = particles.initial_porosity(p);
-    const Real saturation = particles.liquid_saturation(p);
-    found.diffusivity.raise(static_cast<double>(physics::conductivity(model.motion.phases, porosity, saturation) /
-                                                physics::heat_capacity(model.motion.phases, porosity, saturation)),
-                            p);
-    const Real storing = physics::storing_porosity(model.motion.phases, porosity, model.band.skeleton_compressibility);
-    found.pore_stiffness = std::max(
-        found.pore_stiffness, static_cast<double>(physics::pore_stiffness(model.motion.phases, storing, Real(1))));
-    const auto material = static_cast<std::size_t>(particles.material(p));
-    found.seepage.raise(static_cast<double>(physics::hydraulic_diffusivity(
-                            model.motion.phases, storing, Real(1), model.band.hydraulic_conductivity[material])),
-                        p);
-  }
-  if (!model.motion.effective_stress || !model.band.volumetric_term) {
-    found.pore_stiffness = 0.0;  // the pore does not push back
-  }
-  return found;
-}
-
-// Calls take(step [s], kind, place in memory of the particle that sets it, text) for every limit; text() says what it
-// is.
+// Calls take(step [s], kind, id of the particle that sets it, text) for every limit; text() says what it is.
 template <int Dim, class Real, class Take>
 void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
-                const mpm::Particles<Dim, Real>& particles, const Take& take) {
+                const band::StepExtremes& found, const Take& take) {
   const double cell = parameters.grid.cell;
-  const Extremes found = extremes_of(model, particles);
   if (parameters.mechanics.enabled) {
+    band::Extreme lightest = found.density;
+    if (model.bed_density > Real(0)) {
+      lightest.lower({static_cast<double>(model.bed_density)});  // what is taken up of it counts from the start
+    }
+    const bool pores_push_back = model.motion.effective_stress && model.band.volumetric_term;
+    const double pore_stiffness = pores_push_back ? found.pore_stiffness : 0.0;
     for (std::size_t m = 0; m < model.motion.materials.size(); ++m) {
       const auto& material = model.motion.materials[m];
-      const double modulus = static_cast<double>(material.elastic.p_wave_modulus()) + found.pore_stiffness;
-      const double speed = std::sqrt(modulus / found.density.value);
+      const double modulus = static_cast<double>(material.elastic.p_wave_modulus()) + pore_stiffness;
+      const double speed = std::sqrt(modulus / lightest.value);
       const auto viscosity_time = static_cast<double>(material.viscosity_time);
       const bool is_viscous = viscosity_rules(cell, speed, viscosity_time);
       take(wave_share * wave_limit(cell, speed, viscosity_time), is_viscous ? LimitKind::viscosity : LimitKind::wave,
-           found.density.particle, [&] { return wave_text(model.material_names[m], cell, speed, viscosity_time); });
+           lightest.particle, [&] { return wave_text(model.material_names[m], cell, speed, viscosity_time); });
     }
     if (found.speed.value > 0.0) {
       take(particle_share * cell / found.speed.value, LimitKind::particle_speed, found.speed.particle,
@@ -143,11 +88,24 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
 }  // namespace
 
 template <int Dim, class Real>
+band::StepExtremes extremes_of(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles) {
+  constexpr std::size_t of_a_task = 1024;
+  const std::vector<Real>& conductivity = model.band.hydraulic_conductivity;
+  const band::HydraulicConductivity<Real> hydraulic{conductivity.data(), conductivity.size() == 1};
+  const std::size_t count = particles.size(), tasks = (count + of_a_task - 1) / of_a_task;
+  return parallel_sum<band::StepExtremes>(tasks, [&](std::size_t task, band::StepExtremes& found) {
+    for (std::size_t p = task * of_a_task; p < std::min(count, (task + 1) * of_a_task); ++p) {
+      found += band::extremes_of_particle<Dim, Real>(model.band, hydraulic, particles, static_cast<std::uint32_t>(p));
+    }
+  });
+}
+
+template <int Dim, class Real>
 double largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
-                           const mpm::Particles<Dim, Real>& particles) {
+                           const band::StepExtremes& extremes) {
   double smallest = HUGE_VAL;
-  for_limits(parameters, model, thickness, particles,
-             [&](double step, LimitKind /*kind*/, std::size_t /*particle*/, const auto& /*text*/) {
+  for_limits(parameters, model, thickness, extremes,
+             [&](double step, LimitKind /*kind*/, std::int64_t /*particle*/, const auto& /*text*/) {
                smallest = std::min(smallest, step);
              });
   return smallest;
@@ -155,22 +113,23 @@ double largest_stable_step(const config::Case& parameters, const Model<Dim, Real
 
 template <int Dim, class Real>
 StepLimit step_limit(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
-                     const mpm::Particles<Dim, Real>& particles) {
+                     const band::StepExtremes& extremes) {
   StepLimit limit{HUGE_VAL, "no limit"};
-  const auto take = [&](double step, LimitKind kind, std::size_t p, const auto& text) {
+  const auto take = [&](double step, LimitKind kind, std::int64_t particle, const auto& text) {
     if (step < limit.step) {
-      limit = {step, text(), kind, p == Extreme::no_particle ? -1 : particles.id(p)};
+      limit = {step, text(), kind, particle};
     }
   };
-  for_limits(parameters, model, thickness, particles, take);
+  for_limits(parameters, model, thickness, extremes, take);
   return limit;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                               \
-  template double largest_stable_step<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double, \
-                                                 const mpm::Particles<Dim, Real>&);                    \
-  template StepLimit step_limit<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double,       \
-                                           const mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                         \
+  template band::StepExtremes extremes_of<Dim, Real>(const Model<Dim, Real>&, const mpm::Particles<Dim, Real>&); \
+  template double largest_stable_step<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double,           \
+                                                 const band::StepExtremes&);                                     \
+  template StepLimit step_limit<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double,                 \
+                                           const band::StepExtremes&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "band/step_extremes.hpp"
 #include "config/case.hpp"
 #include "mpm/particles.hpp"
 #include "sim/model.hpp"
@@ -27,15 +28,18 @@ inline double smallest_thickness(const config::Case& parameters) {
   return thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
 }
 
-// The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage [s]. It
-// allocates nothing: adaptive steps ask for it every time.
+// What of the particles sets limits. It allocates nothing: adaptive steps ask for it every time.
+template <int Dim, class Real>
+band::StepExtremes extremes_of(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles);
+
+// The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage [s].
 template <int Dim, class Real>
 double largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
-                           const mpm::Particles<Dim, Real>& particles);
+                           const band::StepExtremes& extremes);
 
 // The same, and what sets it.
 template <int Dim, class Real>
 StepLimit step_limit(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
-                     const mpm::Particles<Dim, Real>& particles);
+                     const band::StepExtremes& extremes);
 
 }  // namespace thawslide::sim

@@ -31,7 +31,7 @@ constexpr double not_looked_at = -1.0;
 // made, or lost. It is mechanical_residual_J and numerical_J of the history together, which in a stable run keep each
 // other's balance.
 template <int Dim, class Real>
-double energy_made(const Ledger<Dim, Real>& ledger, const WatchedSums<Real>& seen) {
+double energy_made(const Ledger<Dim, Real>& ledger, const mpm::WatchedSums<Real>& seen) {
   const Real there = seen.kinetic + seen.potential + ledger.stress_work + ledger.pore_work + ledger.left_mechanical;
   const Real gone = ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss + ledger.bed_work;
   const Real came = ledger.frame_work + ledger.joined_mechanical + ledger.initial_mechanical;
@@ -40,7 +40,7 @@ double energy_made(const Ledger<Dim, Real>& ledger, const WatchedSums<Real>& see
 
 // All energy that matter held or moved with, or that has been dissipated [J].
 template <int Dim, class Real>
-double energy_so_far(const Ledger<Dim, Real>& ledger, const WatchedSums<Real>& seen, double held_at_start) {
+double energy_so_far(const Ledger<Dim, Real>& ledger, const mpm::WatchedSums<Real>& seen, double held_at_start) {
   return held_at_start + static_cast<double>(seen.kinetic + std::abs(ledger.stress_work) + ledger.viscous +
                                              ledger.damping + ledger.friction_work + ledger.contact_loss);
 }
@@ -59,30 +59,21 @@ bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
 }  // namespace
 
 template <int Dim, class Real>
-WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const {
-  const auto smallest = static_cast<Real>(parameters_.guards.smallest_volume);
-  const auto largest = static_cast<Real>(parameters_.guards.largest_volume);
+mpm::WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const {
   // A way of more than this in a step is fast. The velocity of a particle has parts beside that the grid does not see,
   // and which move nothing (FLIP).
   const Real fast_way = static_cast<Real>(parameters_.time.stop_at_rest) * dt_;
-  return parallel_sum<WatchedSums<Real>>(grid_.tiles().size(), [&](std::size_t t, WatchedSums<Real>& seen) {
+  const mpm::LookAtParticle<Dim, Real> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_way,
+                                            static_cast<Real>(parameters_.guards.smallest_volume),
+                                            static_cast<Real>(parameters_.guards.largest_volume)};
+  mpm::WatchedSums<Real> seen;
+  if (device_step_) {
+    on_device([&] { seen = device_step_->watch(look); });
+    return seen;
+  }
+  return parallel_sum<mpm::WatchedSums<Real>>(grid_.tiles().size(), [&](std::size_t t, mpm::WatchedSums<Real>& sum) {
     for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
-      const std::uint32_t p = grid_.order()[k];
-      const Real mass = particles_.mass(p);
-      const auto velocity = particles_.velocity.template get<Vector<Real, Dim>>(p);
-      const auto way = particles_.step_displacement.template get<Vector<Real, Dim>>(p);
-      seen.mass += mass;
-      seen.fast_mass += way.squaredNorm() > fast_way * fast_way ? mass : Real(0);
-      seen.kinetic += Real(0.5) * mass * velocity.squaredNorm();
-      for (int a = 0; a < Dim; ++a) {
-        seen.potential -=
-            mass * model_.motion.gravity[a] * (particles_.position(p, a) + static_cast<Real>(model_.origin[a]));
-      }
-      const Real ratio = particles_.volume(p) / particles_.initial_volume(p);
-      if (ratio < smallest || ratio > largest) {
-        seen.volumes.note(particles_.id(p),
-                          ratio < smallest ? mpm::Fault::volume_too_small : mpm::Fault::volume_too_large);
-      }
+      sum += look(particles_, grid_.order()[k]);
     }
   });
 }
@@ -109,14 +100,14 @@ void Simulation<Dim, Real>::watch() {
   if (!parameters_.mechanics.enabled || (step_number_ % watch_interval != 0 && bad_.id < 0)) {
     return;
   }
-  const WatchedSums<Real> seen = look_at_particles();
+  const mpm::WatchedSums<Real> seen = look_at_particles();
   stop_if_energy_grows(seen);
   bad_ += seen.volumes;
   note_rest(seen);
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>& seen) {
+void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::WatchedSums<Real>& seen) {
   const double made = energy_made(ledger_, seen);
   watch_.lowest_made = std::min(made, watch_.lowest_made + forgotten_share * (made - watch_.lowest_made));
   watch_.largest_energy = std::max(watch_.largest_energy, energy_so_far(ledger_, seen, watch_.held_at_start));
@@ -131,13 +122,13 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>& seen) 
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::note_rest(const WatchedSums<Real>& seen) {
+void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>& seen) {
   if (parameters_.time.stop_at_rest == 0.0) {
     watch_.has_moved = not_looked_at;
     return;
   }
   if (watch_.has_moved == not_looked_at) {
-    watch_.has_moved = has_gone_further(particles_, static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
+    watch_.has_moved = has_gone_further(particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
   }
   if (seen.fast_mass > static_cast<Real>(stray_share) * seen.mass) {
     watch_.has_moved = 1.0;
@@ -174,14 +165,14 @@ std::string Simulation<Dim, Real>::rest_text() const {
       watch_.rest_since, 100.0 * stray_share, parameters_.time.stop_at_rest);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                               \
-  template WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const;         \
-  template void Simulation<Dim, Real>::start_watch();                                  \
-  template void Simulation<Dim, Real>::watch();                                        \
-  template void Simulation<Dim, Real>::stop_if_energy_grows(const WatchedSums<Real>&); \
-  template void Simulation<Dim, Real>::note_rest(const WatchedSums<Real>&);            \
-  template bool Simulation<Dim, Real>::is_at_rest() const;                             \
-  template std::string Simulation<Dim, Real>::energy_note() const;                     \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                    \
+  template mpm::WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const;         \
+  template void Simulation<Dim, Real>::start_watch();                                       \
+  template void Simulation<Dim, Real>::watch();                                             \
+  template void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::WatchedSums<Real>&); \
+  template void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>&);            \
+  template bool Simulation<Dim, Real>::is_at_rest() const;                                  \
+  template std::string Simulation<Dim, Real>::energy_note() const;                          \
   template std::string Simulation<Dim, Real>::rest_text() const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mpm/accounts.hpp"
+#include "mpm/watched_sums.hpp"
 
 namespace thawslide::sim {
 
@@ -48,22 +48,5 @@ struct Removed {
   return fmt::format("{} particle{}: {} not finite, {} by their volume", removed.by_guards(),
                      removed.by_guards() == 1 ? "" : "s", removed.not_finite, removed.volume);
 }
-
-// What a look at all particles finds.
-template <class Real>
-struct WatchedSums {
-  Real kinetic = 0, potential = 0;  // [J]
-  Real mass = 0, fast_mass = 0;     // [kg]; fast: above time.stop_at_rest
-  mpm::BadParticle volumes;         // of smallest id whose volume is out of range
-
-  WatchedSums& operator+=(const WatchedSums& part) {
-    kinetic += part.kinetic;
-    potential += part.potential;
-    mass += part.mass;
-    fast_mass += part.fast_mass;
-    volumes += part.volumes;
-    return *this;
-  }
-};
 
 }  // namespace thawslide::sim

@@ -22,6 +22,18 @@ typename mpm::Tile<Dim>::Index first_node_of(std::uint64_t block) {
   return first;
 }
 
+// Whether the ground below a block, and a cell about it, is known everywhere.
+template <int Dim>
+bool is_ground_known(const Surface<Dim>& surface, std::uint64_t block, double cell) {
+  const auto first = first_node_of<Dim>(block);
+  typename Surface<Dim>::Place from, to;
+  for (int a = 0; a + 1 < Dim; ++a) {
+    from[a] = static_cast<double>(first[static_cast<std::size_t>(a)] - 1) * cell;
+    to[a] = static_cast<double>(first[static_cast<std::size_t>(a)] + mpm::Tile<Dim>::edge) * cell;
+  }
+  return surface.is_known(from, to);
+}
+
 // What the nodes of a block learn of the ground. `substrates`: null where it is all of one kind.
 template <int Dim>
 void ask_ground(const Surface<Dim>& surface, const Substrates* substrates, std::uint64_t block, double cell,
@@ -123,14 +135,8 @@ class GroundOnGrid {
   void learn(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
     std::array<GroundAtNode<Dim, double>, static_cast<std::size_t>(T::nodes)> nodes;
     ask_ground<Dim>(surface, substrates, keys_[k], cell, nodes.data());
-    const typename T::Index first = first_node_of<Dim>(keys_[k]);
-    typename Surface<Dim>::Place from, to;
-    for (int a = 0; a + 1 < Dim; ++a) {
-      from[a] = static_cast<double>(first[static_cast<std::size_t>(a)] - 1) * cell;
-      to[a] = static_cast<double>(first[static_cast<std::size_t>(a)] + T::edge) * cell;
-    }
     any_candidate_[k] = 0;
-    partly_unknown_[k] = surface.is_known(from, to) ? 0 : 1;
+    partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], cell) ? 0 : 1;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       GroundAtNode<Dim, Real>& known = blocks_[k][n];
       known.candidate = nodes[n].candidate;

@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <utility>
 
 #include "../support/fields.hpp"
+#include "../support/small_terrain.hpp"
 #include "../support/two_bodies.hpp"
 #include "base/error.hpp"
 #include "device/host_backend.hpp"
 #include "device/step_on.hpp"
 #include "sim/history.hpp"
+#include "sim/run_records.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -31,28 +34,70 @@ device::MakeStep<Dim, double> in_place_of_a_card(ThreadOrder order) {
   };
 }
 
+// The same, which counts how often particles come back.
 template <int Dim>
-config::Case sliding_bodies(const std::vector<std::string>& more = {}) {
-  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, "type = \"flat\"\nelevation = 0.0", more);
+class CountsCopies final : public device::AnyStep<Dim, double> {
+ public:
+  CountsCopies(std::unique_ptr<device::AnyStep<Dim, double>> steps, int& copies)
+      : steps_(std::move(steps)), copies_(copies) {}
+
+  device::StepSums<Dim, double> step(double time, double dt) override { return steps_->step(time, dt); }
+  mpm::WatchedSums<double> watch(const mpm::LookAtParticle<Dim, double>& look) override { return steps_->watch(look); }
+  void look_at_map(const mpm::MapCells& cells, device::MapLook& look) override { steps_->look_at_map(cells, look); }
+  void sort_in_memory() override { steps_->sort_in_memory(); }
+  void copy_to(const mpm::ParticleView<Dim, double>& particles) const override {
+    ++copies_;
+    steps_->copy_to(particles);
+  }
+  void time_stages() override {}
+  [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
+
+ private:
+  std::unique_ptr<device::AnyStep<Dim, double>> steps_;
+  int& copies_;
+};
+template <int Dim>
+device::MakeStep<Dim, double> counting_copies(ThreadOrder order, int& copies) {
+  return [order, &copies](const auto& model, const auto& particles, std::size_t count, auto ask_terrain) {
+    return std::make_unique<CountsCopies<Dim>>(
+        in_place_of_a_card<Dim>(order)(model, particles, count, std::move(ask_terrain)), copies);
+  };
+}
+
+const std::string flat = "type = \"flat\"\nelevation = 0.0";
+
+template <int Dim>
+config::Case sliding_bodies(const std::vector<std::string>& more = {}, const std::string& terrain = flat) {
+  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, terrain, more);
 }
 
 template <int Dim>
-void expect_the_same_run(const config::Case& parameters, int steps) {
-  Simulation<Dim, double> on_processor(parameters), on_device(parameters);
-  on_device.take_steps_on("a card", in_place_of_a_card<Dim>(ThreadOrder::shuffled));
+void expect_the_same_particles(const Simulation<Dim, double>& found, const Simulation<Dim, double>& expected) {
+  const auto numbers = fields_by_id(found.particles());
+  for (const auto& [name, of_processor] : fields_by_id(expected.particles())) {
+    ASSERT_EQ(numbers.at(name).size(), of_processor.size()) << name;
+    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
+        << name;
+  }
+}
+
+// Returns how often particles came back from the device before anyone asked for them.
+template <int Dim>
+int expect_the_same_run(const config::Case& parameters, int steps, const config::Site& site = {}) {
+  Simulation<Dim, double> on_processor(parameters, site), on_device(parameters, site);
+  int copies = 0;
+  on_device.take_steps_on("a card", counting_copies<Dim>(ThreadOrder::shuffled, copies));
   on_device.set_sorting_interval(32);
   for (int k = 0; k < steps; ++k) {
     on_processor.step(on_processor.next_step(10.0));
     on_device.step(on_device.next_step(10.0));
-    ASSERT_EQ(on_device.time(), on_processor.time());
+    EXPECT_EQ(on_device.time(), on_processor.time());
   }
-  const auto numbers = fields_by_id(on_device.particles());
-  for (const auto& [name, of_processor] : fields_by_id(on_processor.particles())) {
-    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
-        << name;
-  }
+  const int copies_of_steps = copies;
+  EXPECT_EQ(on_device.removed().left, on_processor.removed().left);
+  expect_the_same_particles(on_device, on_processor);
   const auto expected = history_row(on_processor), found = history_row(on_device);
-  ASSERT_EQ(found.size(), expected.size());
+  EXPECT_EQ(found.size(), expected.size());
   const auto unit_of = [](const std::string& name) { return name.substr(name.rfind('_') + 1); };
   std::map<std::string, double> largest;
   for (const auto& [name, value] : expected) {
@@ -62,12 +107,108 @@ void expect_the_same_run(const config::Case& parameters, int steps) {
     // Sums over particles go by where these stood when they came back last: they differ by round-off.
     EXPECT_NEAR(found[k].second, expected[k].second, 1e-12 * largest.at(unit_of(found[k].first))) << found[k].first;
   }
+  return copies_of_steps;
+}
+
+template <int Dim>
+std::string error_of(Simulation<Dim, double>& simulation) {
+  try {
+    for (int k = 0; k < 200; ++k) {
+      simulation.step(0.002);
+    }
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 TEST(DeviceRun, GivesTheParticlesOfTheProcessor) {
-  expect_the_same_run<2>(sliding_bodies<2>(), 75);
-  expect_the_same_run<2>(sliding_bodies<2>({"time.stepping=\"adaptive\""}), 45);
-  expect_the_same_run<3>(sliding_bodies<3>(), 35);
+  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(), 75), 0);
+  EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>({"time.stepping=\"adaptive\""}), 45), 0);
+  EXPECT_EQ(expect_the_same_run<3>(sliding_bodies<3>(), 35), 0);
+}
+
+// They come back when some have left, and only then.
+TEST(DeviceRun, RemovesWhatLeaves) {
+  const config::Case parameters = sliding_bodies<2>({"grid.leaving=remove", "grid.max=[11.0,18.0]"});
+  Simulation<2, double> simulation(parameters);
+  while (simulation.removed().left == 0) {
+    simulation.step(0.002);
+  }
+  const auto first = static_cast<int>(simulation.step_number());
+  EXPECT_EQ(expect_the_same_run<2>(parameters, first - 1), 0);
+  const int copies = expect_the_same_run<2>(parameters, first + 20);
+  EXPECT_GT(copies, 0);
+  EXPECT_LE(copies, 21);
+}
+
+// Bumps below the bodies; where the ground is not known, beyond a place along x, a slide may not go.
+config::Site bumpy_site(double known_to) {
+  config::Site site;
+  site.ground = std::make_shared<const Raster>(raster(-10.0, -10.0, 2.0, 60, 16, [&](double x, double y) {
+    return x > known_to ? no_data : 0.1 * std::sin(0.7 * x) * std::cos(0.9 * y) - 0.11;
+  }));
+  return site;
+}
+
+TEST(DeviceRun, StaysOnGroundThatIsKnown) {
+  std::ofstream(folder_of_this_test() / "dem.tif");
+  const config::Case parameters = sliding_bodies<3>({}, "type = \"dem\"\nfile = \"dem.tif\"\n");
+  EXPECT_EQ(expect_the_same_run<3>(parameters, 12, bumpy_site(40.0)), 0);
+  std::vector<std::string> told;
+  for (const bool on_device : {false, true}) {
+    Simulation<3, double> simulation(parameters, bumpy_site(8.0));
+    if (on_device) {
+      simulation.take_steps_on("a card", in_place_of_a_card<3>(ThreadOrder::forward));
+    }
+    told.push_back(error_of(simulation));
+  }
+  EXPECT_NE(told[0].find("known"), std::string::npos) << told[0];
+  EXPECT_EQ(told[1], told[0]);
+}
+
+void expect_the_same_map(const MapKind& kind, const FlowMaps& found, const FlowMaps& expected) {
+  const Raster of_device = found.raster(kind, MapExtent::whole_grid);
+  const Raster of_processor = expected.raster(kind, MapExtent::whole_grid);
+  ASSERT_EQ(of_device.values.size(), of_processor.values.size());
+  double largest = 0.0;
+  std::size_t filled = 0;
+  for (const double value : of_processor.values) {
+    largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
+    filled += std::isnan(value) ? 0 : 1;
+  }
+  EXPECT_GT(filled, 5U) << kind.name;
+  for (std::size_t k = 0; k < of_processor.values.size(); ++k) {
+    EXPECT_EQ(std::isnan(of_device.values[k]), std::isnan(of_processor.values[k])) << kind.name << ", cell " << k;
+    if (!std::isnan(of_processor.values[k])) {
+      EXPECT_NEAR(of_device.values[k], of_processor.values[k], 1e-12 * largest) << kind.name << ", cell " << k;
+    }
+  }
+}
+
+// Of cells as wide as those of the grid, and of narrower and wider ones.
+TEST(DeviceRun, GathersTheMapsOfTheProcessor) {
+  for (const char* sets : {"maps.arrival_thickness=0.1", "maps.cell=0.6", "maps.cell=2.7"}) {
+    SCOPED_TRACE(sets);
+    const config::Case parameters = sliding_bodies<3>({sets});
+    Simulation<3, double> on_processor(parameters), on_device(parameters);
+    int copies = 0;
+    on_device.take_steps_on("a card", counting_copies<3>(ThreadOrder::backward, copies));
+    RunRecords<3> expected(on_processor, {}), found(on_device, {});
+    expected.start(on_processor);
+    found.start(on_device);
+    for (int k = 0; k < 40; ++k) {
+      on_processor.step(0.002);
+      on_device.step(0.002);
+      expected.after_step(on_processor);
+      found.after_step(on_device);
+    }
+    EXPECT_EQ(copies, 0);
+    for (const MapKind& kind : map_kinds()) {
+      expect_the_same_map(kind, *found.maps(), *expected.maps());
+    }
+    EXPECT_EQ(found.path().corners(), expected.path().corners());
+  }
 }
 
 // Steps go on from particles that the processor has changed.
@@ -87,22 +228,7 @@ TEST(DeviceRun, GoesOnFromWhatTheProcessorMakesOfIt) {
       simulation->step(0.002);
     }
   }
-  const auto numbers = fields_by_id(on_device.particles());
-  for (const auto& [name, of_processor] : fields_by_id(on_processor.particles())) {
-    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
-        << name;
-  }
-}
-
-std::string error_of(Simulation<2, double>& simulation) {
-  try {
-    for (int k = 0; k < 200; ++k) {
-      simulation.step(0.002);
-    }
-  } catch (const RunError& error) {
-    return error.what();
-  }
-  return "";
+  expect_the_same_particles(on_device, on_processor);
 }
 
 TEST(DeviceRun, EndsWithTheSameWords) {
@@ -130,6 +256,8 @@ class BreaksDown final : public device::AnyStep<2, double> {
     }
     return steps_->step(time, dt);
   }
+  mpm::WatchedSums<double> watch(const mpm::LookAtParticle<2, double>& look) override { return steps_->watch(look); }
+  void look_at_map(const mpm::MapCells& cells, device::MapLook& look) override { steps_->look_at_map(cells, look); }
   void sort_in_memory() override { steps_->sort_in_memory(); }
   void copy_to(const mpm::ParticleView<2, double>& /*particles*/) const override {
     throw std::runtime_error("copying from the card: unspecified launch failure");

@@ -48,21 +48,21 @@ const MapKind& kind(const std::string& name) {
 }
 
 // Of a box on an axis of ten cells.
-CellRange cells_below(double middle, double half) {
-  return cell_spans(Lanes<double>(middle), Lanes<double>(half), Lanes<double>(0.5 / half), 10).of_lane(0);
+mpm::CellRange cells_below(double middle, double half) {
+  return mpm::cell_spans(Lanes<double>(middle), Lanes<double>(half), Lanes<double>(0.5 / half), 10).of_lane(0);
 }
 
 TEST(CellRange, SharesAreThoseOfTheBoxAndSumToOne) {
-  const CellRange within = cells_below(2.5, 0.25);
+  const mpm::CellRange within = cells_below(2.5, 0.25);
   EXPECT_EQ(within.first, 2);
   EXPECT_EQ(within.last, 2);
   EXPECT_EQ(within.share(2), 1.0);
-  const CellRange across = cells_below(3.1, 0.5);
+  const mpm::CellRange across = cells_below(3.1, 0.5);
   EXPECT_EQ(across.first, 2);
   EXPECT_EQ(across.last, 3);
   EXPECT_NEAR(across.share(2), 0.4, 1e-15);
   EXPECT_NEAR(across.share(3), 0.6, 1e-15);
-  const CellRange wide = cells_below(4.25, 1.5);
+  const mpm::CellRange wide = cells_below(4.25, 1.5);
   EXPECT_EQ(wide.first, 2);
   EXPECT_EQ(wide.last, 5);
   EXPECT_NEAR(wide.share(2), 0.25 / 3.0, 1e-15);
@@ -72,18 +72,18 @@ TEST(CellRange, SharesAreThoseOfTheBoxAndSumToOne) {
 
 TEST(CellRange, ABoxThatEndsOnABorderStaysOnItsSide) {
   for (const double off : {0.0, 1e-13, -1e-13}) {
-    const CellRange span = cells_below(2.5 + off, 0.5);
+    const mpm::CellRange span = cells_below(2.5 + off, 0.5);
     EXPECT_EQ(span.first, 2);
     EXPECT_EQ(span.last, 2);
   }
 }
 
 TEST(CellRange, WhatLiesBesideTheGridCountsToItsEdge) {
-  const CellRange left = cells_below(0.2, 0.5);
+  const mpm::CellRange left = cells_below(0.2, 0.5);
   EXPECT_EQ(left.first, 0);
   EXPECT_EQ(left.last, 0);
   EXPECT_EQ(left.share(0), 1.0);
-  const CellRange right = cells_below(9.2, 1.0);
+  const mpm::CellRange right = cells_below(9.2, 1.0);
   EXPECT_EQ(right.first, 8);
   EXPECT_EQ(right.last, 9);
   EXPECT_NEAR(right.share(8), 0.4, 1e-15);

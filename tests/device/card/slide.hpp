@@ -160,12 +160,13 @@ device::StepModel<Dim, Real> model_of_slide() {
   model.base.grounds[0].friction = physics::basal::ConstantFriction<Real>{std::tan(20.0 * pi<Real> / 180.0)};
   model.base.grounds[0].cohesion = physics::basal::ConstantCohesion<Real>{0.0};
   model.distance_check = true;
+  model.tells_extremes = model.tells_strays = true;
   return model;
 }
 
 // Of a plane along the grid.
 template <int Dim>
-void ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
+bool ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
   using T = mpm::Tile<Dim>;
   const Real face = Dim == 2 ? cell : cell * cell;
   for (int k = 0; k < T::nodes; ++k) {
@@ -179,6 +180,7 @@ void ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
     node.space = above == 0 ? 0.5 * face * cell : above > 0 ? face * cell : 0.0;
     nodes[k] = node;
   }
+  return true;
 }
 
 template <int Dim>

@@ -1,0 +1,73 @@
+// What of particles bounds the time step (sim/time_step.hpp).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "band/physics.hpp"
+#include "mpm/one.hpp"
+#include "physics/pressurization.hpp"
+
+namespace thawslide::band {
+
+// An extreme of some numbers, and the id of the first particle that has it; negative: none has.
+struct Extreme {
+  double value = 0.0;
+  std::int64_t particle = -1;
+
+  THAWSLIDE_HD void raise(const Extreme& other) {
+    if (other.value > value) {
+      *this = other;
+    }
+  }
+  THAWSLIDE_HD void lower(const Extreme& other) {
+    if (other.value < value) {
+      *this = other;
+    }
+  }
+};
+
+struct StepExtremes {
+  Extreme density{std::numeric_limits<double>::infinity()};  // smallest [kg/m3]
+  Extreme speed;                                             // largest [m/s]
+  Extreme diffusivity;                                       // largest, of heat [m2/s]
+  Extreme seepage;                                           // largest diffusivity of pore pressure [m2/s]
+  double pore_stiffness = 0.0;                               // largest [Pa]
+
+  THAWSLIDE_HD StepExtremes& operator+=(const StepExtremes& part) {
+    density.lower(part.density);
+    speed.raise(part.speed);
+    diffusivity.raise(part.diffusivity);
+    seepage.raise(part.seepage);
+    pore_stiffness = part.pore_stiffness > pore_stiffness ? part.pore_stiffness : pore_stiffness;
+    return *this;
+  }
+};
+
+template <int Dim, class Real, class Particles>
+THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics<Real>& model,
+                                               const HydraulicConductivity<Real>& hydraulic, const Particles& particles,
+                                               std::uint32_t p) {
+  using std::sqrt;
+  const std::int64_t id = particles.id(p);
+  const Real porosity = particles.initial_porosity(p), saturation = particles.liquid_saturation(p);
+  const Real storing = physics::storing_porosity(model.phases, porosity, model.skeleton_compressibility);
+  double speed2 = 0.0;
+  for (int a = 0; a < Dim; ++a) {
+    speed2 += static_cast<double>(particles.velocity(p, a) * particles.velocity(p, a));
+  }
+  StepExtremes found;
+  found.density = {static_cast<double>(particles.mass(p) / particles.volume(p)), id};
+  found.speed.raise({sqrt(speed2), id});
+  found.diffusivity.raise({static_cast<double>(physics::conductivity(model.phases, porosity, saturation) /
+                                               physics::heat_capacity(model.phases, porosity, saturation)),
+                           id});
+  found.seepage.raise({static_cast<double>(physics::hydraulic_diffusivity(model.phases, storing, Real(1),
+                                                                          hydraulic(particles, mpm::One<Real>{{p}}))),
+                       id});
+  found.pore_stiffness = static_cast<double>(physics::pore_stiffness(model.phases, storing, Real(1)));
+  return found;
+}
+
+}  // namespace thawslide::band

@@ -1,0 +1,77 @@
+// The sums that maps take (sim/flow_maps.hpp), in a device's memory. The cells that tiles are above are numbered when
+// tiles have changed, by sorting their keys.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "device/array.hpp"
+#include "device/body_sizes.hpp"
+#include "device/column_works.hpp"
+#include "device/first_of_keys.hpp"
+#include "device/map_works.hpp"
+#include "device/step_model.hpp"
+
+namespace thawslide::device {
+
+template <class Backend, class Real>
+class Maps {
+ public:
+  // cell: mesh size [m]. half_sizes: of particles, by body, in cells.
+  Maps(Backend& backend, Real cell, const std::vector<Real>& half_sizes)
+      : backend_(backend), cell_(cell), sizes_(backend, half_sizes, cell) {}
+
+  // Tiles have changed.
+  void forget_tiles() { knows_tiles_ = false; }
+
+  // Of particles that stand where a step has brought them, by the tiles that it began with. look: of the last call, if
+  // there was one: keys are copied again only where tiles have changed.
+  void sum(const mpm::MapCells& cells, const TileTables<3>& tables, const mpm::ParticleView<3, Real>& particles,
+           MapLook& look) {
+    if (!knows_tiles_) {
+      number_cells(cells, tables);
+      look.keys = keys_.get();
+      if (!look.keys.empty() && look.keys.back() == MapPlaces::no_cell) {
+        look.keys.pop_back();
+      }
+      knows_tiles_ = true;
+    }
+    using InTile = SumMapInTile<Real>;
+    backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
+                        InTile{places_, tables, particles, sizes_.view(), parts_.data()});
+    backend_.for_each(keys_.size(), SumParts<mpm::MapSums>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
+                                                           parts_.data(), sums_.data()});
+    look.sums.resize(look.keys.size());
+    backend_.copy_out(look.sums.data(), sums_.data(), look.sums.size());
+  }
+
+ private:
+  void number_cells(const mpm::MapCells& cells, const TileTables<3>& tables) {
+    const auto places_along = [&](double inverse_cell) {
+      const double width = static_cast<double>(cell_) * (mpm::Tile<3>::edge + 2.0) + 2.0 * cells.largest_half;
+      return static_cast<std::size_t>(std::ceil(width * inverse_cell)) + 1;
+    };
+    places_ = {cells, static_cast<double>(cell_), places_along(cells.inverse_cell_x),
+               places_along(cells.inverse_cell_y)};
+    keys_of_seen_.resize(tables.tiles * places_.of_tile());
+    seen_.resize(keys_of_seen_.size());
+    parts_.resize(keys_of_seen_.size());
+    backend_.for_each(seen_.size(), ListMapCells{places_, tables.tile_keys, keys_of_seen_.data(), seen_.data()});
+    backend_.sort(keys_of_seen_.data(), seen_.data(), seen_.size());
+    first_.find(keys_of_seen_, 0, keys_, &first_seen_);
+    sums_.resize(keys_.size());
+  }
+
+  Backend& backend_;
+  Real cell_;
+  BodySizes<Backend, Real> sizes_;  // of particles [m]
+  MapPlaces places_;
+  bool knows_tiles_ = false;
+  FirstOfKeys<Backend> first_{backend_};
+  Array<std::uint64_t, Backend> keys_of_seen_{backend_}, keys_{backend_};
+  Array<std::uint32_t, Backend> seen_{backend_}, first_seen_{backend_};
+  Array<mpm::MapSums, Backend> parts_{backend_}, sums_{backend_};
+};
+
+}  // namespace thawslide::device

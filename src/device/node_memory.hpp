@@ -1,0 +1,54 @@
+// The records of all nodes of active blocks in a device's memory, by name.
+#pragma once
+
+#include "device/array.hpp"
+#include "device/node_works.hpp"
+#include "device/passes.hpp"
+
+namespace thawslide::device {
+
+template <class Backend, int Dim, class Real>
+class NodeMemory {
+ public:
+  explicit NodeMemory(Backend& backend) : backend_(backend) {}
+
+  // For so many nodes; what was in it is lost.
+  template <class... Names>
+  void make_room(std::size_t nodes) {
+    (of<Names>().resize(nodes * mpm::record_size(mpm::components_of<Names, Dim>)), ...);
+  }
+  void clear_base(std::size_t nodes) {
+    base_.resize(nodes * NodeViews<Dim, Real>::base_size);
+    backend_.for_each(base_.size(), Fill<Real>{base_.data(), Real(0)});
+  }
+
+  template <class Name>
+  [[nodiscard]] Array<Real, Backend>& of() {
+    return records_.template of<Name>();
+  }
+  template <class Name>
+  [[nodiscard]] const Array<Real, Backend>& of() const {
+    return records_.template of<Name>();
+  }
+  // known: of the ground, by node; null where there is none.
+  [[nodiscard]] NodeViews<Dim, Real> views(const terrain::GroundAtNode<Dim, Real>* known) {
+    return {of<mpm::Averages>().data(),
+            of<mpm::NodalState>().data(),
+            of<mpm::Momentum>().data(),
+            of<mpm::NearGround>().data(),
+            base_.data(),
+            of<mpm::Contact>().data(),
+            of<mpm::Motion>().data(),
+            of<mpm::Velocity>().data(),
+            known};
+  }
+
+ private:
+  Backend& backend_;
+  Array<Real, Backend> base_{backend_};
+  NodeArrays<Backend, Real, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
+             mpm::Velocity, mpm::HeatRates, mpm::OrphanHeat, mpm::Seepage, mpm::SeepingWater>
+      records_{backend_};
+};
+
+}  // namespace thawslide::device

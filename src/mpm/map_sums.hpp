@@ -1,0 +1,159 @@
+// What a slide in space brings to the cells of a map below it: sums over the parts of particles' boxes that lie above
+// each (sim/flow_maps.hpp).
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "base/portability.hpp"
+#include "base/select.hpp"
+
+namespace thawslide::mpm {
+
+// The cells of a map, in the frame of the particles' positions.
+struct MapCells {
+  double corner_x = 0.0, corner_y = 0.0;              // lower left corner of the map [m]
+  double cell_x = 1.0, cell_y = 1.0;                  // [m]
+  double inverse_cell_x = 1.0, inverse_cell_y = 1.0;  // [1/m]
+  int columns = 0, rows = 0;
+  double largest_half = 0.0;  // of a particle's width [m]
+};
+
+// A cell as a number.
+[[nodiscard]] THAWSLIDE_HD inline std::uint64_t map_cell_key(int column, int row) {
+  return static_cast<std::uint64_t>(row) << 32 | static_cast<std::uint64_t>(column);
+}
+[[nodiscard]] inline int column_of_key(std::uint64_t key) { return static_cast<int>(key & 0xffffffffU); }
+[[nodiscard]] inline int row_of_key(std::uint64_t key) { return static_cast<int>(key >> 32); }
+
+// The cells along one axis that a box overlaps, and its shares in them, which sum to 1.
+struct CellRange {
+  int first, last;
+  double first_share, inner_share, last_share;
+
+  [[nodiscard]] THAWSLIDE_HD double share(int cell) const {
+    return cell == first ? first_share : cell == last ? last_share : inner_share;
+  }
+};
+
+// The same of several boxes, one a lane, or of one.
+template <class Value>
+struct CellSpans {
+  Value first, last, first_share, inner_share, last_share;
+
+  [[nodiscard]] THAWSLIDE_HD CellRange of_lane(std::size_t lane) const {
+    return {static_cast<int>(in_lane(first, lane)), static_cast<int>(in_lane(last, lane)), in_lane(first_share, lane),
+            in_lane(inner_share, lane), in_lane(last_share, lane)};
+  }
+};
+
+// Of boxes from middle - half to middle + half, in cells, on an axis of `cells` cells. A box that ends on a border, but
+// for round-off, does not reach into the next cell. What lies beyond the grid counts to its last cell. inverse_width:
+// 1/(2 half).
+template <class Value>
+[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CellSpans<Value> cell_spans(Value middle, Value half,
+                                                                               Value inverse_width, int cells) {
+  using std::floor, thawslide::min, thawslide::max, thawslide::select;
+  const Value begin = middle - half, end = middle + half, sliver = round_off<double> * half;
+  const Value last_cell(static_cast<double>(cells) - 1.0);
+  CellSpans<Value> spans;
+  spans.first = max(Value(0.0), min(Value(floor(Value(begin + sliver))), last_cell));
+  spans.last = max(Value(0.0), min(Value(floor(Value(end - sliver))), last_cell));
+  spans.first_share = select(spans.first == spans.last, Value(1.0), Value((spans.first + 1.0 - begin) * inverse_width));
+  spans.inner_share = inverse_width;
+  spans.last_share = (end - spans.last) * inverse_width;
+  return spans;
+}
+
+// The cells along an axis, first and last, that particles may reach which stood about the nodes of a tile when the step
+// began: they move by less than a cell of the grid, no step is as long as that. first_node: of the tile, in cells of
+// the grid [m].
+struct MapWindow {
+  int first, last;
+};
+[[nodiscard]] THAWSLIDE_HD inline MapWindow map_window(int first_node, int edge, double grid_cell, double largest_half,
+                                                       double corner, double inverse_cell, int cells) {
+  using std::floor, thawslide::min, thawslide::max;
+  const double reach = largest_half + grid_cell;
+  const double from = grid_cell * first_node - 0.5 * grid_cell - reach - corner;
+  const double to = from + grid_cell * edge + 2.0 * reach, last_cell = static_cast<double>(cells) - 1.0;
+  return {static_cast<int>(max(0.0, min(floor(from * inverse_cell), last_cell))),
+          static_cast<int>(max(0.0, min(floor(to * inverse_cell), last_cell)))};
+}
+
+// Of a cell, over all boxes above it.
+struct ColumnSums {
+  double volume = 0.0;                                          // [m3]
+  double mass = 0.0;                                            // [kg]
+  double momentum_x = 0.0, momentum_y = 0.0, momentum_z = 0.0;  // [kg m/s]
+  double water = 0.0;  // volume of liquid water [m3], of the band as thick as it is
+
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add(double share, const ColumnSums& box) {
+    volume += share * box.volume;
+    mass += share * box.mass;
+    momentum_x += share * box.momentum_x;
+    momentum_y += share * box.momentum_y;
+    momentum_z += share * box.momentum_z;
+    water += share * box.water;
+  }
+};
+
+// Over the boxes in the band.
+struct BandSums {
+  double volume = 0.0;              // V [m3]
+  double volume_temperature = 0.0;  // V T [m3 C]
+  double volume_pressure = 0.0;     // V P [m3 Pa]
+
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add(double share, const BandSums& box) {
+    volume += share * box.volume;
+    volume_temperature += share * box.volume_temperature;
+    volume_pressure += share * box.volume_pressure;
+  }
+};
+
+// What the box of a particle brings as a whole.
+template <class Particles>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE ColumnSums column_sums_of(const Particles& particles, std::size_t p) {
+  const double volume = particles.volume(p), mass = particles.mass(p);
+  return {volume, mass, mass * particles.velocity(p, 0), mass * particles.velocity(p, 1),
+          mass * particles.velocity(p, 2),
+          // Cells of metres stand for a band of centimetres: its matter counts as for heat.
+          volume * particles.porosity(p) * particles.liquid_saturation(p) / particles.thermal_scaling(p)};
+}
+template <class Particles>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE BandSums band_sums_of(const Particles& particles, std::size_t p) {
+  const double volume = particles.volume(p);
+  return {volume, volume * particles.temperature(p), volume * particles.pore_pressure(p)};
+}
+
+// Both, of a cell.
+struct MapSums {
+  ColumnSums column;
+  BandSums band;
+
+  THAWSLIDE_HD MapSums& operator+=(const MapSums& part) {
+    column.add(1.0, part.column);
+    band.add(1.0, part.band);
+    return *this;
+  }
+};
+
+// Of the whole slide, about the origin of the particles' positions.
+struct MassMoments {
+  double mass = 0.0, mass_x = 0.0, mass_y = 0.0;  // [kg, kg m]
+
+  THAWSLIDE_HD MassMoments& operator+=(const MassMoments& part) {
+    mass += part.mass;
+    mass_x += part.mass_x;
+    mass_y += part.mass_y;
+    return *this;
+  }
+};
+template <class Particles>
+THAWSLIDE_HD MassMoments mass_moments_of(const Particles& particles, std::size_t p) {
+  return {particles.mass(p), particles.mass(p) * particles.position(p, 0),
+          particles.mass(p) * particles.position(p, 1)};
+}
+
+}  // namespace thawslide::mpm
