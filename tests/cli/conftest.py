@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -59,6 +60,10 @@ porosity = 0.3
 friction_angle = 10.0
 cohesion = 0.0
 """
+
+# A shell that starts tests in the background has them ignore SIGINT, and programs would go on ignoring it.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 Outcome = subprocess.CompletedProcess[str]
 Program = Callable[..., Outcome]
