@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/commands.hpp"
+#include "app/device_choice.hpp"
 #include "app/input_guard.hpp"
 #include "app/map_files.hpp"
 #include "app/notes_of_setup.hpp"
@@ -34,6 +35,26 @@ double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
     elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   return elapsed / steps;
+}
+
+// What a card would make of the run, tried from where the trial on the processor has come to.
+template <int Dim>
+CardFacts facts_of_card(sim::Simulation<Dim, double>& simulation, double steps) {
+  CardFacts facts = look_for_card();
+  if (!facts.why_not.empty()) {
+    return facts;
+  }
+  try {
+    take_steps_on<Dim>("gpu", simulation);
+    simulation.step(simulation.next_step(simulation.parameters().time.end));  // particles go to the card
+    facts.seconds = measured_step_seconds<Dim>(simulation) * steps;
+    facts.used = facts.free - look_for_card().free;
+  } catch (const UserError& error) {
+    facts.why_not = error.what();
+  } catch (const DeviceError& error) {
+    facts.why_not = error.what();
+  }
+  return facts;
 }
 
 std::vector<MapFacts> map_facts(const config::Case& parameters, const config::Site& site, const sim::FlowMaps* maps) {
@@ -103,6 +124,7 @@ int check_case(const CheckOptions& options) {
     const auto tell = [&] { fmt::print("{}", options.json ? json_of(facts) : text_of(facts)); };
     try {
       facts.seconds = measured_step_seconds<Dim>(simulation) * facts.steps;
+      facts.card = facts_of_card<Dim>(simulation, facts.steps);
     } catch (const RunError& error) {  // what was known before holds all the same
       facts.error = error.what();
       tell();

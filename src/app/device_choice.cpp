@@ -30,6 +30,15 @@ std::string take_steps_on_card(sim::Simulation<Dim, double>& /*simulation*/) {
 
 }  // namespace
 
+CardFacts look_for_card() {
+#ifdef THAWSLIDE_WITH_CARD
+  const device::Card card = device::find_card();
+  return {card.name, card.why_not, card.free, 0.0, 0.0};
+#else
+  return {"", "this program was built without CUDA", 0.0, 0.0, 0.0};
+#endif
+}
+
 template <int Dim>
 std::string take_steps_on(const std::string& device, sim::Simulation<Dim, double>& simulation) {
   if (device == "cpu") {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/device_choice.hpp"
 #include "app/disk_need.hpp"
 #include "app/substrate_list.hpp"
 #include "base/available_memory.hpp"
@@ -43,6 +44,7 @@ struct SetupFacts {
   std::string disk_folder;                                    // where the run would go
   double seconds = std::numeric_limits<double>::quiet_NaN();  // of wall time, from the first steps
   int threads = 1;
+  CardFacts card;
   std::string error;    // what the first steps ended with; empty: nothing
   std::string picture;  // its file; empty: none
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "band/any_heat_content.hpp"
+#include "band/heat_face.hpp"
 #include "band/particle_heat.hpp"
 #include "band/physics.hpp"
 #include "base/linear.hpp"
@@ -15,22 +16,13 @@
 
 namespace thawslide::band {
 
-enum class FaceHeat { insulated, temperature, flux };
-
-template <class Real>
-struct HeatFace {
-  FaceHeat kind = FaceHeat::insulated;
-  Real value = 0;  // [C], or [W/m2] into the body
-};
-
 enum class ScaledRegion { all, first_layer };
 
 template <int Dim, class Real>
 struct BandModel : BandPhysics<Real> {
   AnyHeatContent<Real> heat_content;
   bool heat = true;
-  HeatFace<Real> faces[2 * Dim] = {};
-  Vector<Real, Dim> extent;  // upper corner of the domain [m]
+  HeatFaces<Dim, Real> at_faces;
   ScaledRegion region = ScaledRegion::all;
   bool secant_capacity = true;  // off: the old apparent capacity, as Eq. 19 is printed
   bool current_masses = false;  // heat is held by masses from the current porosity and volume, as printed

@@ -40,6 +40,6 @@ class AnyStep {
 // Copies so many particles to a device, where steps go on from them.
 template <int Dim, class Real>
 using MakeStep = std::function<std::unique_ptr<AnyStep<Dim, Real>>(
-    const StepModel<Dim, Real>&, const mpm::ParticleView<Dim, Real>&, std::size_t count, AskTerrain<Dim, Real>)>;
+    const StepModel<Dim, Real>&, const mpm::ParticleView<Dim, Real>&, std::size_t count, AskProcessor<Dim, Real>)>;
 
 }  // namespace thawslide::device

@@ -8,16 +8,16 @@
 
 namespace thawslide::device {
 
-// cell: mesh size [m]; bases: by candidate node.
+// cell: mesh size [m]; columns: records of BaseState, or null; they and bases: by candidate node.
 template <class Backend, int Dim, class Real>
 void ask_of_base(Backend& backend, const NodesInStep<Dim, Real>& step, const terrain::BasalLaw<Real>& base, Real cell,
-                 const Ground<Backend, Dim, Real>& ground, BaseOfNode<Real>* bases) {
+                 const Ground<Backend, Dim, Real>& ground, const Real* columns, BaseOfNode<Real>* bases) {
   const std::size_t count = ground.candidate_count();
   const std::uint32_t* candidates = ground.candidates();
   backend.for_each(count, PressOnGround<Dim, Real>{step, candidates});
   const Real face = Dim == 2 ? cell : cell * cell;
-  backend.for_each(count,
-                   AskOfBase<Dim, Real>{step, candidates, static_cast<Real>(terrain::smallest_area) * face, bases});
+  backend.for_each(
+      count, AskOfBase<Dim, Real>{step, candidates, static_cast<Real>(terrain::smallest_area) * face, columns, bases});
   for (std::size_t g = 0; g < base.grounds.size(); ++g) {
     const int substrate = static_cast<int>(g);
     std::visit(

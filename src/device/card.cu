@@ -8,10 +8,7 @@ namespace thawslide::device {
 template <int Dim>
 MakeStep<Dim, double> on_card() {
   return [](const StepModel<Dim, double>& model, const mpm::ParticleView<Dim, double>& particles, std::size_t count,
-            AskTerrain<Dim, double> ask_terrain) -> std::unique_ptr<AnyStep<Dim, double>> {
-    return std::make_unique<StepOn<Cuda, mpm::Ugimp<double>, Dim, double>>(model, particles, count,
-                                                                           std::move(ask_terrain));
-  };
+            AskProcessor<Dim, double> ask) { return steps_on<Cuda>(model, particles, count, std::move(ask)); };
 }
 template MakeStep<2, double> on_card<2>();
 template MakeStep<3, double> on_card<3>();
@@ -41,6 +38,9 @@ Card find_card() {
               std::to_string(known.minor) + ", " + std::to_string(known.totalGlobalMem >> 30) + " GiB";
   try {
     const Cuda probe;
+    std::size_t free = 0, total = 0;
+    expect_done(cudaMemGetInfo(&free, &total), "asking the card for its memory");
+    card.free = static_cast<double>(free);
   } catch (const CardError& error) {
     card.why_not = "the card (" + card.name + ") cannot run this program: " + error.what() +
                    ". Build with THAWSLIDE_CUDA_ARCHITECTURES for it";

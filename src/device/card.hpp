@@ -10,10 +10,11 @@ namespace thawslide::device {
 struct Card {
   bool is_usable = false;
   std::string name, why_not;
+  double free = 0.0;  // memory [bytes]
 };
 Card find_card();
 
-// Steps on the card that find_card found, in double precision, with uGIMP shape functions. What goes wrong on the way
+// Steps on the card that find_card found, in double precision. What goes wrong on the way
 // is thrown as a std::runtime_error that says what the card was doing.
 template <int Dim>
 MakeStep<Dim, double> on_card();

@@ -108,6 +108,10 @@ struct SolveRates {
   const std::uint8_t* changing_blocks;  // null: none yet
   Real* orphan_heat;
   Real dt;
+  const std::uint64_t* block_keys;
+  band::HeatFaces<Dim, Real> faces;
+  bool has_faces, first_step;
+  Real cell;
 
   THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
     using mpm::HeatRates;
@@ -120,7 +124,11 @@ struct SolveRates {
         tangent, rates[HeatRates::capacity], rates[HeatRates::subgrid],
         nodes.contact_at(node)[mpm::Contact::friction_heat], static_cast<const Real*>(nodes.momentum_at(node)), dt,
         nodes.state_at(node)[mpm::NodalState::temperature_rate], orphan_heat[node * orphan_size], part,
-        [](Real& /*rate*/, Real& /*power*/) { return false; });
+        [&](Real& rate, Real& power) {
+          return has_faces && band::meets_face(faces.at(place_of_node<Dim>(block_keys, node, cell)), first_step,
+                                               static_cast<const Real*>(nodes.averages_at(node)),
+                                               rates[HeatRates::capacity], cell, dt, rate, power, part.gain.boundary);
+        });
   }
   THAWSLIDE_HD void add(const Part* parts, std::size_t count, Sum& sum) const {
     for (std::size_t k = 0; k < count; ++k) {

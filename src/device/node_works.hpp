@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "band/heat_face.hpp"
 #include "band/nodal_state.hpp"
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
@@ -36,6 +37,20 @@ struct NodeViews {
 
   static constexpr std::size_t base_size = mpm::BaseLayout::size;
 };
+
+// Position [m, relative to the domain's lower corner] of a node, by its number among those of all blocks.
+template <int Dim, class Real>
+THAWSLIDE_HD Vector<Real, Dim> place_of_node(const std::uint64_t* block_keys, std::size_t node, Real cell) {
+  using T = mpm::Tile<Dim>;
+  constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
+  const typename T::Index index =
+      T::node(T::index(block_keys[node / block_nodes]), static_cast<int>(node % block_nodes));
+  Vector<Real, Dim> place;
+  for (int a = 0; a < Dim; ++a) {
+    place[a] = static_cast<Real>(index[static_cast<std::size_t>(a)]) * cell;
+  }
+  return place;
+}
 
 // The faces of the domain, at one node.
 template <int Dim, class Real>
@@ -71,14 +86,7 @@ struct NodesInStep {
   bool distance_check, pore_pressure, base_holds;
 
   [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim, Real> walls(std::size_t node) const {
-    using T = mpm::Tile<Dim>;
-    const typename T::Index index =
-        T::node(T::index(tables.block_keys[node / block_nodes]), static_cast<int>(node % block_nodes));
-    FacesAtNode<Dim, Real> walls{faces, {}};
-    for (int a = 0; a < Dim; ++a) {
-      walls.position[a] = static_cast<Real>(index[static_cast<std::size_t>(a)]) * cell;
-    }
-    return walls;
+    return {faces, place_of_node<Dim>(tables.block_keys, node, cell)};
   }
   [[nodiscard]] THAWSLIDE_HD terrain::NodeState<Dim, Real> trial(std::size_t node) const {
     return terrain::trial_state<Dim>(walls(node), dt, mass_damping, static_cast<const Real*>(nodes.momentum_at(node)));
@@ -95,13 +103,20 @@ struct NodesInStep {
   }
 };
 
+// A node's temperature and pore pressure, and the faces of the domain that tell it otherwise.
 template <int Dim, class Real>
 struct SetState {
   NodeViews<Dim, Real> nodes;
+  const std::uint64_t* block_keys;
+  band::HeatFaces<Dim, Real> faces;
+  bool has_faces;
+  Real cell;
 
   THAWSLIDE_HD void operator()(std::size_t node) const {
     Real* state = nodes.state_at(node);
-    band::set_nodal_state<Dim, Real>(static_cast<const Real*>(nodes.averages_at(node)), state);
+    if (band::set_nodal_state<Dim, Real>(static_cast<const Real*>(nodes.averages_at(node)), state) && has_faces) {
+      band::prescribe_temperature(faces.at(place_of_node<Dim>(block_keys, node, cell)), state);
+    }
   }
 };
 
@@ -155,6 +170,7 @@ struct AskOfBase {
   NodesInStep<Dim, Real> step;
   const std::uint32_t* candidates;
   Real smallest_area;
+  const Real* columns;  // records of BaseState of the candidates; null where there are no band columns
   BaseOfNode<Real>* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
@@ -178,6 +194,9 @@ struct AskOfBase {
     base.node = terrain::contact_node_of<Dim>(
         static_cast<const Real*>(nodes.state_at(node)), nodes.averages_at(node)[mpm::Averages::volume],
         static_cast<const Real*>(nodes.near_ground_at(node)), pressure, step.pore_pressure, normal, step.trial(node));
+    if (columns != nullptr) {
+      terrain::take_columns_state(columns + k * mpm::BaseState::size<Dim>, step.pore_pressure, base.node);
+    }
     base.node.time = step.time;
   }
 

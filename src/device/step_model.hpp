@@ -8,6 +8,7 @@
 
 #include "band/any_heat_content.hpp"
 #include "band/at_columns.hpp"
+#include "band/heat_face.hpp"
 #include "band/nodal_heat.hpp"
 #include "band/physics.hpp"
 #include "band/pressure_kernels.hpp"
@@ -16,6 +17,8 @@
 #include "mpm/domain_faces.hpp"
 #include "mpm/map_sums.hpp"
 #include "mpm/material.hpp"
+#include "mpm/records.hpp"
+#include "mpm/shape.hpp"
 #include "mpm/stress_kernel.hpp"
 #include "mpm/tile.hpp"
 #include "physics/mixture.hpp"
@@ -27,12 +30,17 @@ namespace thawslide::device {
 
 template <int Dim, class Real>
 struct StepModel {
-  Real cell = 0;                 // mesh size [m]
-  std::vector<Real> half_sizes;  // of particles, by body, in cells
-  mpm::HeldSides<Dim> sides;     // that prescribe velocity
-  Vector<Real, Dim> gravity;     // [m/s2]
-  Real pic_share = 0;            // of new velocities
-  Real mass_damping = 0;         // [1/s]
+  Real cell = 0;                                 // mesh size [m]
+  std::vector<Real> half_sizes;                  // of particles, by body, in cells
+  mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
+  bool affine = false;                           // APIC
+  bool moves = true;                             // off: heat and pore pressure alone
+  mpm::HeldSides<Dim> sides;                     // that prescribe velocity
+  Vector<Real, Dim> gravity;                     // [m/s2]
+  Real pic_share = 0;                            // of new velocities
+  int filter_order = 0;                          // of the velocity filter; 0: there is none
+  std::function<bool(Real time, Real dt)> filters_in_step;
+  Real mass_damping = 0;  // [1/s]
   std::vector<mpm::MaterialModel<Real>> materials;
   physics::Phases<Real> phases;
   bool effective_stress = false;  // the pore pressure acts inside the body too
@@ -46,10 +54,11 @@ struct StepModel {
   bool pore_pressure = true;      // off: P = 0 at contact nodes
   bool distance_check = false;    // a node may close its clearance before contact acts
   bool pressure_changes = false;  // off: pore pressures rest
-  // Heat of particles, by masses of t = 0 and the secant to their heat content; no conditions at the domain's faces.
+  // Heat of particles, by masses of t = 0 and the secant to their heat content.
   bool heat = false;   // off: temperatures rest
   bool starts = true;  // the first step is that of t = 0
   band::AnyHeatContent<Real> heat_content;
+  band::HeatFaces<Dim, Real> heat_faces;
   band::BandPhysics<Real> band;
   std::vector<Real> hydraulic_conductivity;        // by material [m/s]
   std::function<Real(Real time)> scaling_in_band;  // xi
@@ -70,12 +79,29 @@ struct StepModel {
 template <int Dim, class Real>
 using AskGround = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
 
+// Band columns, which lie under the slide and are the processor's; empty where there are none.
+template <class Real>
+struct ColumnsOnProcessor {
+  // Told of the active blocks, by ascending key, when they have changed: returns the numbers of those whose nodes it
+  // asks for.
+  std::function<std::vector<std::uint32_t>(const std::vector<std::uint64_t>& blocks)> take_blocks;
+  // Records of BaseState of the nodes that may touch the ground, in the order of blocks and nodes.
+  std::function<const std::vector<Real>&()> states;
+  // After contact: a record of columns_read<Dim> numbers of each node of the blocks that were asked for.
+  std::function<void(const std::vector<Real>& nodes)> follow;
+};
+// Of a node: the record of Contact, mass [kg] and mid-step velocity [m/s].
+template <int Dim>
+inline constexpr std::size_t columns_read = static_cast<std::size_t>(mpm::Contact::size<Dim> + 1 + Dim);
+
+// What the processor is asked amid a step.
 template <int Dim, class Real>
-struct AskTerrain {
+struct AskProcessor {
   AskGround<Dim, Real> ground;
   // As band/flow_depth.hpp asks. Without the slope's cosine thickness is vertical; the gravity is needed for loads
   // only.
   band::OfPlace<Dim, Real> slope_cosine, normal_gravity;
+  ColumnsOnProcessor<Real> columns;
 };
 
 // What maps and the way of the centre of mass take after a step, in space.
@@ -90,6 +116,7 @@ template <int Dim, class Real>
 struct StepSums {
   terrain::ContactWork<Dim, Real> contact;
   Real particle_kinetic = 0;  // as mpm::MoveWork
+  Real filtered = 0;          // kinetic energy that the velocity filter gave
   Real mapped_back = 0;       // work of internal forces at mid-step velocities less that at the mapped-back ones
   mpm::Deformed<Real> deformed;
   Real band_rescale = 0;  // heat by another scaling

@@ -14,8 +14,8 @@ class StepOn final : public AnyStep<Dim, Real> {
   // backend: what Backend is made of.
   template <class... Words>
   StepOn(const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
-         AskTerrain<Dim, Real> ask_terrain, Words&&... backend)
-      : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask_terrain)) {}
+         AskProcessor<Dim, Real> ask, Words&&... backend)
+      : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask)) {}
 
   StepSums<Dim, Real> step(Real time, Real dt) override { return step_.step(time, dt); }
   mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) override { return step_.watch(look); }
@@ -29,5 +29,18 @@ class StepOn final : public AnyStep<Dim, Real> {
   Backend backend_;
   Step<Backend, Shape, Dim, Real> step_;
 };
+
+// With the shape functions that the model asks for.
+template <class Backend, int Dim, class Real, class... Words>
+std::unique_ptr<AnyStep<Dim, Real>> steps_on(const StepModel<Dim, Real>& model,
+                                             const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
+                                             AskProcessor<Dim, Real> ask, const Words&... backend) {
+  std::unique_ptr<AnyStep<Dim, Real>> made;
+  mpm::with_shape<Real>(model.shape, [&](auto shape) {
+    made = std::make_unique<StepOn<Backend, decltype(shape), Dim, Real>>(model, particles, count, std::move(ask),
+                                                                         backend...);
+  });
+  return made;
+}
 
 }  // namespace thawslide::device

@@ -18,16 +18,6 @@ constexpr std::size_t keys_per_task = 1024;
 constexpr double most_scattered = 4;
 constexpr std::size_t none = ~std::size_t{0};
 
-template <int Dim>
-typename Tile<Dim>::Index neighbour(const typename Tile<Dim>::Index& tile, int direction) {
-  typename Tile<Dim>::Index other = tile;
-  for (int a = 0; a < Dim; ++a) {
-    other[static_cast<std::size_t>(a)] += direction % 3 - 1;
-    direction /= 3;
-  }
-  return other;
-}
-
 // Places of nodes in the patch of a tile, from their numbers along the axes.
 template <int Dim, class Real>
 BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Dim>& lowest) {
@@ -259,6 +249,7 @@ void SparseGrid<Dim, Real>::list_tiles() {
     stale_[t] = !same || changes_[t].changed ? 1 : 0;
   }
   if (!same) {
+    list_blocks();
     connect_blocks();
     blocks_changed_ = true;
   }
@@ -333,45 +324,6 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
     }
     batches.push_back(batch);
     broken_[t] += batch.contiguous ? 0 : 1;
-  }
-}
-
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::connect_blocks() {
-  blocks_.clear();
-  tile_number_.clear();
-  for (const OccupiedTile& tile : tiles_) {
-    tile_number_.insert(tile.key);
-    const Index here = T::index(tile.key);
-    for (int d = 0; d < T::stencil; ++d) {
-      blocks_.push_back(T::key(neighbour<Dim>(here, d)));
-    }
-  }
-  std::sort(blocks_.begin(), blocks_.end());
-  blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
-
-  block_number_.clear();
-  tiles_about_block_.resize(blocks_.size() * stencil);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    block_number_.insert(blocks_[b]);
-    for (int d = 0; d < T::stencil; ++d) {
-      tiles_about_block_[b * stencil + static_cast<std::size_t>(d)] =
-          tile_number_.find(T::key(neighbour<Dim>(T::index(blocks_[b]), d)));
-    }
-  }
-  blocks_about_block_.resize(blocks_.size() * stencil);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    for (int d = 0; d < T::stencil; ++d) {
-      blocks_about_block_[b * stencil + static_cast<std::size_t>(d)] =
-          block_number_.find(T::key(neighbour<Dim>(T::index(blocks_[b]), d)));
-    }
-  }
-  blocks_about_tile_.resize(tiles_.size() * stencil);
-  for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    for (int d = 0; d < T::stencil; ++d) {
-      blocks_about_tile_[t * stencil + static_cast<std::size_t>(d)] =
-          block_number_.find(T::key(neighbour<Dim>(T::index(tiles_[t].key), d)));
-    }
   }
 }
 

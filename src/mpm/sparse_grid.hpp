@@ -39,6 +39,9 @@ class SparseGrid {
   // Follows Particles::remove, with what that returned.
   void remove(const Particles<Dim, Real>& particles, const std::vector<std::uint32_t>& now_at);
 
+  // Of a grid that no particles come to: its active blocks, by ascending key.
+  void set_blocks(std::vector<std::uint64_t> keys);
+
   // Particle indices in canonical order.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
   [[nodiscard]] const std::vector<OccupiedTile>& tiles() const { return tiles_; }
@@ -96,6 +99,7 @@ class SparseGrid {
   void list_tiles();
   void reorder(Particles<Dim, Real>& particles);
   void note_order(bool sorted);
+  void list_blocks();
   void connect_blocks();
   void make_stale_batches(const Particles<Dim, Real>& particles);
   void make_batches(const Particles<Dim, Real>& particles, std::size_t t);

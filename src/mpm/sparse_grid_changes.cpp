@@ -69,6 +69,7 @@ void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& no
   broken_.resize(tiles);
   stale_.resize(tiles);
   if (blocks_changed_) {
+    list_blocks();
     connect_blocks();
   }
 }

@@ -2,52 +2,21 @@
 
 #include "base/instances.hpp"
 #include "mpm/filter_kernels.hpp"
+#include "mpm/filter_node.hpp"
 #include "mpm/particle_pass.hpp"
 
 namespace thawslide::mpm {
 
 namespace {
 
-// Mean square distance of masses from an axis, over the cell's square, below which they do not turn about it.
-constexpr double least_square = 1e-8;
-
-// What fits the velocities that particles have just brought: a node's rigid motion, as the records of motions hold it.
-template <int Dim, class Real>
-Vector<Real, components_of<FilterMomentum, Dim>> fitted(const SparseGrid<Dim, Real>& grid,
-                                                        const Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k) {
-  constexpr int turns = physics::rotations<Dim>;
-  const auto& moments = nodes.filter_moments(b, k);
-  const auto& momentum = nodes.filter_momentum(b, k);
-  const physics::MassPoints<Dim, Real> points{
-      nodes.momentum(b, k)[MomentumLayout<Dim>::mass], vector_at<Dim, Real>(moments, FilterMoments::first),
-      vector_at<physics::squares<Dim>, Real>(moments, Dim), vector_at<Dim, Real>(momentum, FilterMomentum::momentum),
-      vector_at<turns, Real>(momentum, Dim)};
-  const Real least = static_cast<Real>(least_square) * grid.cell() * grid.cell();
-  const physics::RigidMotion<Dim, Real> motion = physics::nearest_rigid_motion(points, least);
-  Vector<Real, Dim + turns> numbers;
-  numbers << motion.at_origin, motion.rotation;
-  return numbers;
-}
-
 // Sums what particles brought, and makes the next increments of it: the fit itself, or what the last ones are short of.
 template <int Dim, class Real>
 void make_increments(const SparseGrid<Dim, Real>& grid, bool first, Nodes<Dim, Real>& nodes) {
-  constexpr int size = components_of<FilterMomentum, Dim>;
+  const Real least = least_square_of<Real>(grid.cell());
   sum_patches(grid, nodes.filter_momentum, [&](std::size_t b) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(Tile<Dim>::nodes); ++k) {
-      auto& increment = nodes.filter_increment(b, k);
-      auto& total = nodes.filter_total(b, k);
-      if (first) {
-        increment.fill(Real(0));
-        total.fill(Real(0));
-      }
-      if (!(nodes.momentum(b, k)[MomentumLayout<Dim>::mass] > Real(0))) {
-        continue;
-      }
-      const Vector<Real, size> fit = fitted(grid, nodes, b, k);
-      const Vector<Real, size> next = first ? fit : Vector<Real, size>(vector_at<size, Real>(increment, 0) - fit);
-      set_vector<size>(increment, 0, next);
-      set_vector<size>(total, 0, Vector<Real, size>(vector_at<size, Real>(total, 0) + next));
+      make_increment<Dim>(first, least, nodes.momentum(b, k), nodes.filter_moments(b, k), nodes.filter_momentum(b, k),
+                          nodes.filter_increment(b, k), nodes.filter_total(b, k));
     }
   });
 }

@@ -7,6 +7,7 @@
 
 #include "base/linear.hpp"
 #include "base/portability.hpp"
+#include "physics/principal.hpp"
 
 namespace thawslide::physics {
 
@@ -82,7 +83,8 @@ struct RigidMotion {
 // Where points lie so close to one another that they have next to no moment of inertia about an axis, at most mass
 // times least_square [m2], there is no rotation about it.
 template <int Dim, class Real>
-[[nodiscard]] RigidMotion<Dim, Real> nearest_rigid_motion(const MassPoints<Dim, Real>& points, Real least_square) {
+[[nodiscard]] THAWSLIDE_HD RigidMotion<Dim, Real> nearest_rigid_motion(const MassPoints<Dim, Real>& points,
+                                                                       Real least_square) {
   const Vector<Real, Dim> centre = points.first / points.mass, velocity = points.momentum / points.mass;
   const Vector<Real, rotations<Dim>> spin = points.moment - moment_of<Dim>(centre, points.momentum);
   const Vector<Real, squares<Dim>> about_centre = points.second - points.mass * squares_of<Dim>(centre);
@@ -92,14 +94,14 @@ template <int Dim, class Real>
       motion.rotation = spin / about_centre[0];
     }
   } else {
-    Matrix<Real, 3> inertia;
     const auto& s = about_centre;
-    inertia << s[1] + s[2], -s[3], -s[5], -s[3], s[0] + s[2], -s[4], -s[5], -s[4], s[0] + s[1];
-    const Eigen::SelfAdjointEigenSolver<Matrix<Real, 3>> axes(inertia);
+    SymmetricTensor<Real> inertia;
+    inertia << s[1] + s[2], s[0] + s[2], s[0] + s[1], -s[3], -s[4], -s[5];
+    const Principal<Real> about = principal(inertia);
     for (int k = 0; k < 3; ++k) {
-      if (axes.eigenvalues()[k] > points.mass * least_square) {
-        const Vector<Real, 3> axis = axes.eigenvectors().col(k);
-        motion.rotation += axis.dot(spin) / axes.eigenvalues()[k] * axis;
+      if (about.values[k] > points.mass * least_square) {
+        const Vector<Real, 3> axis = about.axes.col(k);
+        motion.rotation += axis.dot(spin) / about.values[k] * axis;
       }
     }
   }

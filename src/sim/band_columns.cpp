@@ -89,7 +89,9 @@ void Simulation<Dim, Real>::band_columns_to_nodes() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::band_columns_follow() {
+void Simulation<Dim, Real>::band_columns_follow(const mpm::SparseGrid<Dim, Real>& grid,
+                                                const terrain::GroundOnGrid<Dim, Real>& ground_on_grid,
+                                                mpm::Nodes<Dim, Real>& nodes) {
   if (!band_columns_) {
     return;
   }
@@ -102,18 +104,18 @@ void Simulation<Dim, Real>::band_columns_follow() {
       }};
   const auto node_ground = [&](std::size_t b, std::size_t k) {
     using NodeGround = typename band::BaseColumns<Dim, Real>::NodeGround;
-    if (!ground_.any_candidate(b) || !ground_.block(b)[k].candidate) {
+    if (!ground_on_grid.any_candidate(b) || !ground_on_grid.block(b)[k].candidate) {
       return NodeGround{nullptr, Real(0)};
     }
-    const auto& known = ground_.block(b)[k];
+    const auto& known = ground_on_grid.block(b)[k];
     return NodeGround{&known.normal, known.distance};
   };
   const auto thickness = static_cast<Real>(band_thickness());
-  band_columns_->take(grid_, ground, node_ground, thickness, dt_, nodes_);
+  band_columns_->take(grid, ground, node_ground, thickness, dt_, nodes);
   column_time_ += static_cast<double>(dt_);
   if (column_time_ + 0.5 * static_cast<double>(dt_) > parameters_.band.column_step) {
     const auto duration = static_cast<Real>(column_time_);
-    band_columns_->follow(grid_, ground, node_ground, duration, nodes_);
+    band_columns_->follow(grid, ground, node_ground, duration, nodes);
     band_columns_->step(thickness, duration);
     column_time_ = 0.0;
   }
@@ -123,7 +125,8 @@ void Simulation<Dim, Real>::band_columns_follow() {
   template void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>&); \
   template void Simulation<Dim, Real>::start_band_columns();                             \
   template void Simulation<Dim, Real>::band_columns_to_nodes();                          \
-  template void Simulation<Dim, Real>::band_columns_follow();
+  template void Simulation<Dim, Real>::band_columns_follow(                              \
+      const mpm::SparseGrid<Dim, Real>&, const terrain::GroundOnGrid<Dim, Real>&, mpm::Nodes<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -16,7 +16,7 @@ namespace {
 
 // Nothing comes in through the sides of the case's domain, and the depth is that of a body which keeps its shape.
 band::BandModel<2, double> of_a_rigid_body(band::BandModel<2, double> model) {
-  std::fill(std::begin(model.faces), std::end(model.faces), band::HeatFace<double>{});
+  std::fill(std::begin(model.at_faces.faces), std::end(model.at_faces.faces), band::HeatFace<double>{});
   model.thickness_each_step = false;
   return model;
 }

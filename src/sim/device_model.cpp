@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "band/heat_nodes.hpp"
 #include "base/instances.hpp"
+#include "sim/filter_times.hpp"
 #include "sim/terrain_at_columns.hpp"
 #include "terrain/ground_on_grid.hpp"
 
@@ -12,21 +12,13 @@ namespace thawslide::sim {
 
 template <int Dim, class Real>
 std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real>& model) {
-  const config::Mechanics& mechanics = parameters.mechanics;
   const struct {
     bool is_asked;
     const char* what;
   } options[] = {
-      {!mechanics.enabled, "mechanics.enabled = false"},
-      {mechanics.shape_function == config::ShapeFunction::linear, "mechanics.shape_function = \"linear\""},
-      {mechanics.shape_function == config::ShapeFunction::quadratic, "mechanics.shape_function = \"quadratic\""},
-      {mechanics.transfer == config::Transfer::apic, "mechanics.transfer = \"apic\""},
-      {mechanics.transfer == config::Transfer::fmpm, "mechanics.transfer = \"fmpm\""},
       {!model.constraints.frames.empty(), "a [frame]"},
       {parameters.terrain.form == config::TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},
-      {model.contact.band_columns, "band.model = \"columns\""},
       {model.bed_density > Real(0), "an erodible [bed]"},
-      {model.band.heat && band::any_face_condition(model.band), "a condition of [heat.boundary]"},
       {model.band.heat && !model.band.secant_capacity, "heat.update = \"apparent_capacity\""},
       {model.band.current_masses, "heat.masses = \"current\""},
       {static_cast<bool>(model.layer_thickness), "band.cut_cells = \"equal_thickness\""},
@@ -47,9 +39,16 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   for (std::size_t body = 0; body < model.body_names.size(); ++body) {
     device.half_sizes.push_back(model.motion.sizes.half(body));
   }
+  device.shape = model.motion.shape;
+  device.affine = model.motion.transfer == mpm::TransferKind::apic;
+  device.moves = parameters.mechanics.enabled;
   device.sides = model.motion.sides;
   device.gravity = model.motion.gravity;
   device.pic_share = model.motion.pic_share;
+  device.filter_order = model.motion.filter_order;
+  device.filters_in_step = [parameters](Real time, Real dt) {
+    return filters_in_step(parameters, static_cast<double>(time), static_cast<double>(dt));
+  };
   device.mass_damping = model.contact.mass_damping;
   device.materials = model.motion.materials;
   device.phases = model.motion.phases;
@@ -68,11 +67,14 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.base_holds = model.contact.base_holds;
   device.pore_pressure = model.contact.pore_pressure;
   device.distance_check = model.contact.distance_check;
-  device.pressure_changes = model.band.pressure;
-  device.heat = model.band.heat;
+  const bool has_columns = model.contact.band_columns;  // which have all heat and pore pressure of the base
+  device.pressure_changes = model.band.pressure && !has_columns;
+  device.heat = model.band.heat && !has_columns;
   device.starts = starts;
   device.heat_content = model.band.heat_content;
+  device.heat_faces = model.band.at_faces;
   device.band = model.band;
+  device.band.rescaling_mixes = model.band.rescaling_mixes && !has_columns;
   device.hydraulic_conductivity = model.band.hydraulic_conductivity;
   device.scaling_in_band = [thickness = parameters.band.thickness, cell = device.cell](Real time) {
     const auto now = static_cast<Real>(thickness.value.empty() ? 0.0 : thickness.at(static_cast<double>(time)));
@@ -83,8 +85,8 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
 }
 
 template <int Dim, class Real>
-device::AskTerrain<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell) {
-  device::AskTerrain<Dim, Real> ask;
+device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell) {
+  device::AskProcessor<Dim, Real> ask;
   if (model.ground) {
     ask.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
       std::array<terrain::GroundAtNode<Dim, double>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> found;
@@ -111,7 +113,7 @@ device::AskTerrain<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, 
   template std::string not_on_devices<Dim, Real>(const config::Case&, const Model<Dim, Real>&);                  \
   template device::StepModel<Dim, Real> device_model_of<Dim, Real>(const config::Case&, const Model<Dim, Real>&, \
                                                                    bool);                                        \
-  template device::AskTerrain<Dim, Real> terrain_for_device<Dim, Real>(const Model<Dim, Real>&, double);
+  template device::AskProcessor<Dim, Real> terrain_for_device<Dim, Real>(const Model<Dim, Real>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

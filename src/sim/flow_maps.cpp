@@ -231,7 +231,8 @@ void FlowMaps::gather(const Grid& grid, const Particles& particles, double time,
   take_sums(time);
 }
 
-void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time) {
+void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time,
+                      const std::vector<PieceBelow>* pieces) {
   seen_.clear();
   window_tiles_.clear();
   for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -239,10 +240,13 @@ void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<
     MapTile& tile = touch(column >> edge_bits, row >> edge_bits);
     const std::size_t place = place_in_tile(column, row);
     tile.sums[place] = sums[k].column;
-    tile.band[place] = sums[k].band;
+    tile.band[place] = pieces == nullptr ? sums[k].band : mpm::BandSums{};
     window_tiles_.push_back(&tile);
   }
   note_active();
+  if (pieces != nullptr) {
+    std::for_each(pieces->begin(), pieces->end(), [&](const PieceBelow& piece) { add_piece(piece); });
+  }
   take_sums(time);
 }
 

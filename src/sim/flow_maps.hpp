@@ -52,7 +52,8 @@ class FlowMaps {
   void gather(const Grid& grid, const Particles& particles, double time,
               const std::vector<PieceBelow>* pieces = nullptr);
   // The same from sums over cells by key (mpm::map_cell_key): what a device made of the particles.
-  void gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time);
+  void gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time,
+              const std::vector<PieceBelow>* pieces = nullptr);
   // At t = 0: what changes of elevation count from.
   void start(const Grid& grid, const Particles& particles);
 

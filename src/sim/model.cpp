@@ -180,13 +180,13 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   band.heat = parameters.heat.enabled;
   band.conduction = parameters.heat.conduction;
   band.advection = parameters.heat.advection && parameters.pressure.enabled;
-  band.extent = extent;
+  band.at_faces.extent = extent;
   for (std::size_t f = 0; f < 2 * Dim; ++f) {
     const config::HeatBoundary& face = parameters.heat.boundary[f];
-    band.faces[f].kind = face.kind == config::HeatBoundaryKind::temperature ? band::FaceHeat::temperature
-                         : face.kind == config::HeatBoundaryKind::flux      ? band::FaceHeat::flux
-                                                                            : band::FaceHeat::insulated;
-    band.faces[f].value = static_cast<Real>(face.value);
+    band.at_faces.faces[f].kind = face.kind == config::HeatBoundaryKind::temperature ? band::FaceHeat::temperature
+                                  : face.kind == config::HeatBoundaryKind::flux      ? band::FaceHeat::flux
+                                                                                     : band::FaceHeat::insulated;
+    band.at_faces.faces[f].value = static_cast<Real>(face.value);
   }
   band.region =
       parameters.band.region == config::BandRegion::all ? band::ScaledRegion::all : band::ScaledRegion::first_layer;

@@ -95,14 +95,14 @@ void RunRecords<Dim>::start(const Simulation& simulation) {
 template <int Dim>
 void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
+    const std::vector<PieceBelow> pieces = pieces_below(simulation);
+    const std::vector<PieceBelow>* below = simulation.band_columns() != nullptr ? &pieces : nullptr;
     if (const device::MapLook* look = simulation.look_at_map(maps_->cells())) {
-      maps_->gather(look->keys, look->sums, simulation.time());
+      maps_->gather(look->keys, look->sums, simulation.time(), below);
       note_way(simulation, look->moments);
       return;
     }
-    const std::vector<PieceBelow> pieces = pieces_below(simulation);
-    maps_->gather(simulation.grid(), simulation.particles(), simulation.time(),
-                  simulation.band_columns() != nullptr ? &pieces : nullptr);
+    maps_->gather(simulation.grid(), simulation.particles(), simulation.time(), below);
     if (!path_given_) {
       note_way(simulation, mass_moments(simulation));
     }

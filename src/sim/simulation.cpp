@@ -9,6 +9,7 @@
 #include "mpm/velocity_filter.hpp"
 #include "sim/bodies.hpp"
 #include "sim/entrainment.hpp"
+#include "sim/filter_times.hpp"
 #include "sim/memory_need.hpp"
 #include "sim/restored_state.hpp"
 #include "sim/terrain_at_columns.hpp"
@@ -127,26 +128,18 @@ void Simulation<Dim, Real>::resolve_contact() {
   if (model_.ground) {
     terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
   }
-  band_columns_follow();
+  band_columns_follow(grid_, ground_, nodes_);
 }
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::move_particles() {
   const auto work = mpm::move_particles(grid_, particles_, model_.motion, dt_, nodes_);
   ledger_.numerical += work.particle_kinetic - contact_.node_kinetic;
-  if (filters_in_this_step()) {
+  if (model_.motion.filter_order > 0 && filters_in_step(parameters_, time_, static_cast<double>(dt_))) {
     ledger_.numerical += mpm::filter_velocities(grid_, particles_, model_.motion, nodes_);
   }
   ledger_.numerical += terrain::constrain_mapped_back(grid_, ground(), model_.constraints, model_.contact,
                                                       model_.motion.gravity, static_cast<Real>(time_), dt_, nodes_);
-}
-
-// In one that reaches or passes a multiple of the interval; never by round-off of the time.
-template <int Dim, class Real>
-bool Simulation<Dim, Real>::filters_in_this_step() const {
-  const double interval = parameters_.mechanics.fmpm_interval;
-  const auto intervals = [&](double time) { return std::floor(time / interval * (1.0 + 1e-12)); };
-  return model_.motion.filter_order > 0 && intervals(time_ + static_cast<double>(dt_)) > intervals(time_);
 }
 
 template <int Dim, class Real>

@@ -14,6 +14,7 @@
 #include "config/case.hpp"
 #include "device/any_step.hpp"
 #include "mpm/motion.hpp"
+#include "sim/grid_of_device.hpp"
 #include "sim/ledger.hpp"
 #include "sim/model.hpp"
 #include "sim/time_step.hpp"
@@ -55,8 +56,8 @@ class Simulation {
   // One time step of dt [s]. Throws RunError when a particle goes bad; the state then is that of the failed step.
   void step(double dt);
 
-  // From now on steps are taken on a device, but for those in which a body settles. Throws UserError, with the key, for
-  // what no device does yet; a step throws DeviceError where the device fails.
+  // From now on steps are taken on a device. Throws UserError, with the key, for what no device does yet; a step throws
+  // DeviceError where the device fails.
   void take_steps_on(const std::string& device, device::MakeStep<Dim, Real> make);
 
   // Particles join between two steps, with ids that none has had. They are in no band until the next step.
@@ -153,7 +154,6 @@ class Simulation {
   void average_band_on_grid();
   void resolve_contact();
   void move_particles();
-  [[nodiscard]] bool filters_in_this_step() const;
   void update_stress_and_porosity();
   void conduct_heat();
   void drain_pore_pressure();
@@ -199,7 +199,10 @@ class Simulation {
   void rescale_band();
   void start_band_columns();
   void band_columns_to_nodes();
-  void band_columns_follow();
+  void band_columns_follow(const mpm::SparseGrid<Dim, Real>& grid, const terrain::GroundOnGrid<Dim, Real>& ground,
+                           mpm::Nodes<Dim, Real>& nodes);
+  // Where a device takes the steps (columns_of_device.cpp).
+  [[nodiscard]] device::ColumnsOnProcessor<Real> columns_on_processor();
   void start_ledger();
   [[nodiscard]] std::vector<Vector<double, Dim - 1>> places_below_slide(
       const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const;
@@ -225,6 +228,7 @@ class Simulation {
   std::string device_name_;
   band::FlowDepth<Dim, Real> flow_depth_;
   std::optional<band::BaseColumns<Dim, Real>> band_columns_;
+  std::unique_ptr<GridOfDevice<Dim, Real>> grid_of_device_;  // as band columns see it; null: none do
   std::optional<terrain::Bed<Dim, Real>> bed_;
   terrain::ContactWork<Dim, Real> contact_;
   Ledger<Dim, Real> ledger_, ledger_before_;  // of now, and before the step

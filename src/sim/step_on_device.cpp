@@ -20,12 +20,16 @@ void Simulation<Dim, Real>::take_steps_on(const std::string& device, device::Mak
   make_step_ = std::move(make);
 }
 
-// Work that the device does for the step. Of particles that stood on one that failed only what was brought back last is
-// left.
+// Work that the device does for the step, and the processor for the device. Of particles that stood on one that failed
+// only what was brought back last is left.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
   try {
     work();
+  } catch (const UserError&) {
+    throw;
+  } catch (const RunError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     particles_are_here_ = true;
     throw DeviceError(fmt::format("{} failed at step {}: {}", device_name_, step_number_, error.what()));
@@ -35,8 +39,10 @@ void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
 template <int Dim, class Real>
 device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
   if (!device_step_) {
+    device::AskProcessor<Dim, Real> ask = terrain_for_device(model_, parameters_.grid.cell);
+    ask.columns = columns_on_processor();
     device_step_ = make_step_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
-                              particles_.size(), terrain_for_device(model_, parameters_.grid.cell));
+                              particles_.size(), std::move(ask));
   }
   if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
     device_step_->sort_in_memory();
@@ -49,13 +55,20 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::take_step_on_device() {
   on_device([&] { device_sums_ = step_on_device(); });
   const device::StepSums<Dim, Real>& sums = device_sums_;
-  contact_ = sums.contact;
-  book_contact();
+  if (parameters_.mechanics.enabled) {
+    contact_ = sums.contact;
+    book_contact();
+  }
   ledger_.numerical += sums.particle_kinetic - contact_.node_kinetic;
+  ledger_.numerical += sums.filtered;
   ledger_.numerical += sums.mapped_back;
   book_stress_work(sums.deformed.work);
   ledger_.band_rescale += sums.band_rescale;
-  book_heat(sums.heat);
+  if (band_columns_) {  // the body keeps its temperature
+    ledger_.friction_heat += contact_.friction_work - contact_.converted;
+  } else {
+    book_heat(sums.heat);
+  }
   ledger_.drained_water += sums.drained.mass;
   ledger_.drained_heat += sums.drained.heat;
   ledger_.vented_water += sums.vented;
@@ -107,6 +120,7 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::leave_device() {
   bring_particles_back();
   device_step_.reset();
+  grid_of_device_.reset();
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                               \

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
@@ -128,7 +129,8 @@ void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>& seen) {
     return;
   }
   if (watch_.has_moved == not_looked_at) {
-    watch_.has_moved = has_gone_further(particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
+    watch_.has_moved =
+        has_gone_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
   }
   if (seen.fast_mass > static_cast<Real>(stray_share) * seen.mass) {
     watch_.has_moved = 1.0;

@@ -29,28 +29,15 @@ struct BlockContact {
   Column<NodeState<Dim, Real>> state;
 };
 
-// Where band columns lie under the slide, the base is as they have it; where none has been laid yet, as the body is.
-template <class Record, class Real>
-void take_columns_state(const Record& state, bool pore_pressure, std::size_t c, BasalNodes<Real>& basal) {
-  using mpm::BaseState;
-  const Real area = state[BaseState::area];
-  if (!(area > Real(0))) {
-    basal.pore_pressure[c] = Real(0);
-    return;
-  }
-  basal.pore_pressure[c] = pore_pressure ? state[BaseState::pressure_ratio] / area * basal.normal_pressure[c] : Real(0);
-  basal.saturation[c] = state[BaseState::saturation] / area;
-  basal.solid_fraction[c] = state[BaseState::solid_fraction] / area;
-  basal.temperature[c] = state[BaseState::temperature] / area;
-  basal.slip[c] = state[BaseState::slip] / area;
-}
-
 template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
                       const ContactModel<Dim, Real>& model, const GroundAtNode<Dim, Real>& ground,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
-  const auto known = contact_node_of(nodes.state(b, k), nodes.averages(b, k)[Averages::volume], nodes.near_ground(b, k),
-                                     pressure, model.pore_pressure, ground.normal, state);
+  auto known = contact_node_of(nodes.state(b, k), nodes.averages(b, k)[Averages::volume], nodes.near_ground(b, k),
+                               pressure, model.pore_pressure, ground.normal, state);
+  if (model.band_columns) {
+    take_columns_state(nodes.base_state(b, k), model.pore_pressure, known);
+  }
   BasalNodes<Real>& basal = contact.basal;
   const std::size_t c = basal.count++;
   const Real load = nodes.base(b, k)[BaseLayout::load];
@@ -66,9 +53,6 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   basal.temperature[c] = known.temperature;
   basal.slip[c] = known.slip;
   basal.speed[c] = known.speed;
-  if (model.band_columns) {
-    take_columns_state(nodes.base_state(b, k), model.pore_pressure, c, basal);
-  }
 }
 
 // How much of the space that belongs to a node the slide fills, 0 to 1.

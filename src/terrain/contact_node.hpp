@@ -124,6 +124,23 @@ THAWSLIDE_HD physics::basal::ContactNode<Real> contact_node_of(const StateRecord
   return node;
 }
 
+// Where band columns lie under the slide, the base is as they have it; where none has been laid yet, as the body is,
+// without pore pressure. state: the node's record of BaseState.
+template <class Record, class Real>
+THAWSLIDE_HD void take_columns_state(const Record& state, bool pore_pressure, physics::basal::ContactNode<Real>& node) {
+  using mpm::BaseState;
+  const Real area = state[BaseState::area];
+  if (!(area > Real(0))) {
+    node.pore_pressure = Real(0);
+    return;
+  }
+  node.pore_pressure = pore_pressure ? state[BaseState::pressure_ratio] / area * node.normal_pressure : Real(0);
+  node.saturation = state[BaseState::saturation] / area;
+  node.solid_fraction = state[BaseState::solid_fraction] / area;
+  node.temperature = state[BaseState::temperature] / area;
+  node.slip = state[BaseState::slip] / area;
+}
+
 // What a contact node gives to the bed's matter in a step.
 template <class Real>
 struct Bite {

@@ -7,11 +7,9 @@ namespace thawslide::card_test {
 
 template <int Dim>
 device::MakeStep<Dim, Real> on_processor() {
-  return
-      [](const auto& model, const auto& particles, std::size_t count, auto ask_terrain) -> std::unique_ptr<Steps<Dim>> {
-        return std::make_unique<device::StepOn<device::Host, mpm::Ugimp<Real>, Dim, Real>>(model, particles, count,
-                                                                                           std::move(ask_terrain));
-      };
+  return [](const auto& model, const auto& particles, std::size_t count, device::AskProcessor<Dim, Real> ask) {
+    return device::steps_on<device::Host>(model, particles, count, std::move(ask));
+  };
 }
 template device::MakeStep<2, Real> on_processor<2>();
 template device::MakeStep<3, Real> on_processor<3>();

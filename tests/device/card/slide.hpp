@@ -184,7 +184,7 @@ bool ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
 }
 
 template <int Dim>
-device::AskTerrain<Dim, Real> terrain_of_slide() {
+device::AskProcessor<Dim, Real> terrain_of_slide() {
   using Place = Vector<Real, Dim - 1>;
   return {ask_ground<Dim>, [](const Place& /*place*/) { return 1.0; },
           [](const Place& /*place*/) { return 9.81 * std::cos(slope * pi<Real> / 180.0); }};

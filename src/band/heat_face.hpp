@@ -1,0 +1,79 @@
+// Conditions for heat at the faces of the domain. For host and device.
+#pragma once
+
+#include "base/linear.hpp"
+#include "base/portability.hpp"
+#include "mpm/records.hpp"
+
+namespace thawslide::band {
+
+enum class FaceHeat { insulated, temperature, flux };
+
+template <class Real>
+struct HeatFace {
+  FaceHeat kind = FaceHeat::insulated;
+  Real value = 0;  // [C], or [W/m2] into the body
+};
+
+template <int Dim, class Real>
+struct HeatFaces {
+  HeatFace<Real> faces[2 * Dim] = {};
+  Vector<Real, Dim> extent;  // upper corner of the domain [m]
+
+  [[nodiscard]] THAWSLIDE_HD bool any() const {
+    for (const HeatFace<Real>& face : faces) {
+      if (face.kind != FaceHeat::insulated) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // The face that a node at a position lies on, if that face has a condition; null otherwise.
+  [[nodiscard]] THAWSLIDE_HD const HeatFace<Real>* at(const Vector<Real, Dim>& position) const {
+    for (int a = 0; a < Dim; ++a) {
+      const HeatFace<Real>& lower = faces[2 * a];
+      const HeatFace<Real>& upper = faces[2 * a + 1];
+      if (lower.kind != FaceHeat::insulated && position[a] <= round_off<Real> * extent[a]) {
+        return &lower;
+      }
+      if (upper.kind != FaceHeat::insulated && position[a] >= extent[a] * (Real(1) - round_off<Real>)) {
+        return &upper;
+      }
+    }
+    return nullptr;
+  }
+};
+
+// A prescribed temperature takes its node before gradients are formed. face: of the node, or null; state: its record of
+// NodalState.
+template <class Real, class Record>
+THAWSLIDE_HD void prescribe_temperature(const HeatFace<Real>* face, Record& state) {
+  if (face != nullptr && face->kind == FaceHeat::temperature) {
+    state[mpm::NodalState::temperature] = face->value;
+  }
+}
+
+// The condition of the face that a node lies on, if any: whether it prescribes the rate of temperature; else heat that
+// flows in adds to the power [W]. averages: the node's record of Averages; first_step: prescribed temperatures jump
+// now; inflow: heat that comes in [J].
+template <class Real, class Record>
+THAWSLIDE_HD bool meets_face(const HeatFace<Real>* face, bool first_step, const Record& averages, Real capacity,
+                             Real cell, Real dt, Real& rate, Real& power, Real& inflow) {
+  using mpm::Averages;
+  if (face != nullptr && face->kind == FaceHeat::temperature) {
+    const Real mapped = averages[Averages::temperature] / averages[Averages::volume];
+    rate = first_step ? (face->value - mapped) / dt : Real(0);
+    inflow += dt * (capacity * rate - power);
+    return true;
+  }
+  if (face != nullptr && face->kind == FaceHeat::flux) {
+    // A full row of cells gives its face node half a cell of volume: area = 2 V / cell.
+    const Real through_face = face->value * Real(2) * averages[Averages::volume] / cell;
+    inflow += dt * through_face;
+    power += through_face;
+  }
+  return false;
+}
+
+}  // namespace thawslide::band

@@ -1,0 +1,79 @@
+// The band columns under the slide (band/base_columns.hpp), which stay with the processor: what nodes in contact learn
+// of them, and they of the nodes.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "device/array.hpp"
+#include "device/node_works.hpp"
+#include "device/step_model.hpp"
+
+namespace thawslide::device {
+
+// A thread a node of the blocks that the processor asks for.
+template <int Dim, class Real>
+struct TellColumns {
+  static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+  static constexpr auto of_contact = static_cast<std::size_t>(mpm::Contact::size<Dim>);
+
+  NodeViews<Dim, Real> nodes;
+  const std::uint32_t* blocks;
+  Real* records;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    const std::size_t node = blocks[k / block_nodes] * block_nodes + k % block_nodes;
+    Real* record = records + k * columns_read<Dim>;
+    for (std::size_t c = 0; c < of_contact; ++c) {
+      record[c] = nodes.contact_at(node)[c];
+    }
+    record[of_contact] = nodes.momentum_at(node)[mpm::MomentumLayout<Dim>::mass];
+    for (std::size_t a = 0; a < Dim; ++a) {
+      record[of_contact + 1 + a] = nodes.motion_at(node)[mpm::MotionLayout<Dim>::middle_velocity + a];
+    }
+  }
+};
+
+template <class Backend, int Dim, class Real>
+class BandColumns {
+ public:
+  BandColumns(Backend& backend, ColumnsOnProcessor<Real> processor)
+      : backend_(backend), processor_(std::move(processor)) {}
+
+  [[nodiscard]] bool exist() const { return static_cast<bool>(processor_.states); }
+
+  // To be called after blocks changed.
+  void update(const std::vector<std::uint64_t>& blocks) {
+    if (exist()) {
+      asked_.set(processor_.take_blocks(blocks));
+      records_.resize(asked_.size() * TellColumns<Dim, Real>::block_nodes * columns_read<Dim>);
+    }
+  }
+
+  // Records of BaseState, by candidate node; null where there are no columns.
+  [[nodiscard]] const Real* states() {
+    if (!exist()) {
+      return nullptr;
+    }
+    states_.set(processor_.states());
+    return states_.data();
+  }
+
+  // Contact has been resolved.
+  void follow(const NodeViews<Dim, Real>& nodes) {
+    if (exist()) {
+      backend_.for_each(asked_.size() * TellColumns<Dim, Real>::block_nodes,
+                        TellColumns<Dim, Real>{nodes, asked_.data(), records_.data()});
+      processor_.follow(records_.get());
+    }
+  }
+
+ private:
+  Backend& backend_;
+  ColumnsOnProcessor<Real> processor_;
+  Array<std::uint32_t, Backend> asked_{backend_};
+  Array<Real, Backend> states_{backend_}, records_{backend_};
+};
+
+}  // namespace thawslide::device

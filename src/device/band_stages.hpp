@@ -1,0 +1,185 @@
+// The stages of a step on a device in which heat and pore pressure change (band/heat.hpp, band/pore_pressure.hpp).
+#pragma once
+
+#include <variant>
+
+#include "band/averages_kernel.hpp"
+#include "device/columns.hpp"
+#include "device/heat_works.hpp"
+#include "device/pressure_works.hpp"
+#include "device/step_passes.hpp"
+
+namespace thawslide::device {
+
+template <class Backend, class Shape, int Dim, class Real>
+class BandStages {
+  using Passes = StepPasses<Backend, Shape, Dim, Real>;
+
+ public:
+  // sums: of the step, in the device's memory.
+  BandStages(Passes& passes, const AskProcessor<Dim, Real>& ask, StepSums<Dim, Real>* sums)
+      : passes_(passes),
+        sums_(sums),
+        columns_(passes.backend, passes.model.cell, passes.model.half_sizes, ask.slope_cosine, ask.normal_gravity) {
+    hydraulic_.set(passes.model.hydraulic_conductivity);
+  }
+
+  // Blocks have changed; there are so many nodes.
+  void make_room(std::size_t nodes) {
+    if (passes_.model.heat) {
+      passes_.nodes.template make_room<mpm::HeatRates, mpm::OrphanHeat>(nodes);
+      secant_rates_.resize(passes_.template of<mpm::HeatRates>().size());
+    }
+    if (passes_.model.pressure_changes) {
+      passes_.nodes.template make_room<mpm::Seepage, mpm::SeepingWater>(nodes);
+      columns_.update(passes_.cells.tables());
+    }
+  }
+
+  void average() {
+    passes_.run(passes_.linear(), band::AddAverages<Dim, Real>{});
+    passes_.template sum<mpm::Averages, void>(EveryTile{});
+    passes_.backend.for_each(
+        passes_.cells.tables().blocks * Passes::block_nodes,
+        SetState<Dim, Real>{passes_.views(), passes_.cells.tables().block_keys, passes_.model.heat_faces,
+                            passes_.model.heat_faces.any(), passes_.model.cell});
+  }
+
+  void rescale(Real time) {
+    const Real scaling = passes_.model.scaling_in_band(time);
+    passes_.backend.for_each(1, Fill<Real>{&sums_->band_rescale, Real(0)});
+    if (passes_.model.scales_all && scaling == scaling_in_force_) {
+      return;
+    }
+    scaling_in_force_ = scaling;
+    std::visit(
+        [&]<class Content>(const Content& content) {
+          using Kernel = RescaleBand<Dim, Real, Content>;
+          const Kernel kernel{content, passes_.model.band, passes_.model.pressure_changes, passes_.model.scales_all,
+                              scaling};
+          passes_.keep(&passes_.run(passes_.linear(), kernel)->template of<Kernel>(), &sums_->band_rescale);
+        },
+        passes_.model.heat_content);
+  }
+
+  void conduct_heat(Real time, Real dt) {
+    if (!passes_.model.band.rescaling_mixes) {
+      rescale(time);
+    }
+    average_seeping_water();
+    if (passes_.model.heat) {
+      std::visit([&](const auto& content) { conduct_heat_by(content, dt); }, passes_.model.heat_content);
+      passes_.model.starts = false;
+    }
+  }
+  void drain_pore_pressure(Real dt) {
+    columns_.sum(passes_.cells.tables(), passes_.particles.view());
+    if (passes_.model.band.needs_normal_load()) {
+      passes_.run(passes_.linear(), TakeLoad<Dim, Real>{columns_.loading(passes_.cells.tables())});
+    }
+    if (find_seepage(SeepingBefore<Dim, Real>{{passes_.particles.view(), passes_.model.band, hydraulic()}})) {
+      seep(dt);
+      update_pressure<true>();
+    } else {
+      passes_.backend.for_each(1, Fill<Real>{&sums_->vented, Real(0)});
+      update_pressure<false>();
+    }
+  }
+  [[nodiscard]] band::HydraulicConductivity<Real> hydraulic() const {
+    return {hydraulic_.data(), hydraulic_.size() == 1};
+  }
+
+ private:
+  template <class Content>
+  void conduct_heat_by(const Content& content, Real dt) {
+    passes_.run(passes_.linear(), HeatFlows<Dim, Real, Content>{content, passes_.model.band, hydraulic(), dt,
+                                                                Real(1) / passes_.model.cell, !passes_.model.starts});
+    passes_.template sum<mpm::HeatRates, void>(EveryTile{});
+    solve_rates(nullptr, dt);
+    passes_.marks.mark_tiles(passes_.cells.tables(),
+                             MayChange<Dim, Real, Content>{passes_.views(), passes_.particles.view(), content, dt});
+    passes_.marks.mark_blocks(passes_.cells.tables());
+    passes_.run(passes_.linear(passes_.marks.tiles()), SecantCapacity<Dim, Real, Content>{content, dt});
+    passes_.backend.for_each(secant_rates_.size(),
+                             SumPatches<mpm::HeatRates, void, EveryTile, Dim, Real>{
+                                 passes_.cells.tables(), {}, passes_.memory.patches(0), secant_rates_.data()});
+    passes_.keep(&solve_rates(passes_.marks.blocks(), dt)->gain, &sums_->heat);
+    passes_.marks.mark_tiles(passes_.cells.tables(),
+                             HoldsHeat<Dim, Real>{passes_.template of<mpm::OrphanHeat>().data()});
+    passes_.run(passes_.momentum(passes_.marks.tiles()), band::TakeOrphanHeat<Dim, Real>{dt});
+    passes_.run(passes_.linear(), TakeHeat<Dim, Real, Content>{content, passes_.model.band, dt});
+  }
+  const band::NodalHeat<Real>* solve_rates(const std::uint8_t* changing_blocks, Real dt) {
+    const std::size_t blocks = passes_.cells.tables().blocks;
+    const SolveRates<Dim, Real> solve{passes_.views(),
+                                      passes_.template of<mpm::HeatRates>().data(),
+                                      secant_rates_.data(),
+                                      changing_blocks,
+                                      passes_.template of<mpm::OrphanHeat>().data(),
+                                      dt,
+                                      passes_.cells.tables().block_keys,
+                                      passes_.model.heat_faces,
+                                      passes_.model.heat_faces.any(),
+                                      passes_.model.starts,
+                                      passes_.model.cell};
+    return block_pass<Dim>(passes_.backend, blocks, solve,
+                           passes_.memory.template sums<band::NodalHeat<Real>>(blocks + 1));
+  }
+
+  // Marks the blocks that water seeps to, and the tiles about them; false if there are none.
+  template <class Asks>
+  bool find_seepage(const Asks& asks) {
+    if (!passes_.model.lets_water_seep()) {
+      return false;
+    }
+    passes_.marks.mark_tiles(passes_.cells.tables(), asks);
+    passes_.marks.mark_blocks(passes_.cells.tables());
+    return passes_.marks.mark_tiles_about(passes_.cells.tables());
+  }
+
+  void average_seeping_water() {
+    if (passes_.model.band.frozen_rows == band::FrozenRows::draining ||
+        !find_seepage(SeepingNow<Dim, Real>{passes_.particles.view(), passes_.model.band, hydraulic()})) {
+      return;
+    }
+    passes_.run(passes_.linear(passes_.marks.tiles()), AddSeepingWater<Dim, Real>{passes_.model.band, hydraulic()});
+    passes_.template sum<mpm::SeepingWater, void>(passes_.marks.tiles());
+    passes_.backend.for_each(
+        passes_.cells.tables().blocks * Passes::block_nodes,
+        SetSeepingPressure<Dim, Real>{passes_.views(), passes_.template of<mpm::SeepingWater>().data(),
+                                      passes_.marks.blocks()});
+  }
+
+  void seep(Real dt) {
+    passes_.run(passes_.linear(passes_.marks.tiles()),
+                SeepageFlows<Dim, Real>{passes_.model.band, hydraulic(), dt, Real(1) / passes_.model.cell});
+    passes_.template sum<mpm::Seepage, void>(passes_.marks.tiles());
+    const std::size_t blocks = passes_.cells.tables().blocks;
+    const Real* taken =
+        block_pass<Dim>(passes_.backend, blocks,
+                        SolveSeepage<Dim, Real>{passes_.views(), passes_.template of<mpm::Seepage>().data(), dt},
+                        passes_.memory.template sums<Real>(blocks + 1));
+    passes_.backend.for_each(1, KeepVented<Real>{taken, passes_.model.band.phases, &sums_->vented});
+  }
+  template <bool Seeps>
+  void update_pressure() {
+    if (passes_.model.band.balances_water()) {
+      update_pressure_by<UpdatePorePressure<Dim, Real, Seeps, true>>();
+    } else {
+      update_pressure_by<UpdatePorePressure<Dim, Real, Seeps, false>>();
+    }
+  }
+  template <class Kernel>
+  void update_pressure_by() {
+    const Kernel kernel{passes_.model.band, hydraulic(), columns_.seen(passes_.cells.tables())};
+    passes_.keep(&passes_.run(passes_.linear(), kernel)->template of<Kernel>(), &sums_->drained);
+  }
+
+  Passes& passes_;
+  StepSums<Dim, Real>* sums_;
+  Columns<Backend, Dim, Real> columns_;
+  Array<Real, Backend> secant_rates_{passes_.backend}, hydraulic_{passes_.backend};
+  Real scaling_in_force_ = 0;
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,110 @@
+// What all stages of a step on a device share: particles, cells, records of nodes, and how passes run over them.
+#pragma once
+
+#include "device/block_pass.hpp"
+#include "device/body_sizes.hpp"
+#include "device/cells.hpp"
+#include "device/ground.hpp"
+#include "device/marks.hpp"
+#include "device/node_memory.hpp"
+#include "device/particles.hpp"
+#include "terrain/near_ground_kernel.hpp"
+
+namespace thawslide::device {
+
+// Shape: of momentum's shape functions (mpm/shape.hpp).
+template <class Backend, class Shape, int Dim, class Real>
+class StepPasses {
+ public:
+  static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+
+  // So many particles of the processor's memory, copied.
+  StepPasses(Backend& used, const StepModel<Dim, Real>& known, const mpm::ParticleView<Dim, Real>& of_processor,
+             std::size_t count, const AskGround<Dim, Real>& ask_ground)
+      : backend(used),
+        model(known),
+        particles(used, of_processor, count),
+        cells(used, known.cell),
+        ground(used, ask_ground),
+        sizes_(used, known.half_sizes, Real(1)) {}
+  StepPasses(const StepPasses&) = delete;
+  StepPasses& operator=(const StepPasses&) = delete;
+
+  Backend& backend;
+  StepModel<Dim, Real> model;
+  Particles<Backend, Dim, Real> particles;
+  Cells<Backend, Dim, Real> cells;
+  Ground<Backend, Dim, Real> ground;
+  NodeMemory<Backend, Dim, Real> nodes{backend};
+  PassMemory<Backend, Real> memory{backend};
+  Marks<Backend, Dim> marks{backend};
+
+  [[nodiscard]] MomentumWeights<Shape, Dim, Real> weights() const { return {sizes_.view(), model.sides}; }
+  // Calls work(weights) with those of APIC where the model asks for it.
+  template <class Work>
+  void if_affine(const Work& work) const {
+    if constexpr (!std::is_same_v<Shape, mpm::Linear<Real>>) {
+      if (model.affine) {
+        work(AffineWeights<Shape, Dim, Real>{weights()});
+      }
+    }
+  }
+  // What a pass goes over: by linear shape functions, or by those of momentum.
+  template <class Takes = EveryTile>
+  [[nodiscard]] auto linear(const Takes& takes = {}) const {
+    return over(LinearWeights{}, takes);
+  }
+  template <class Takes = EveryTile>
+  [[nodiscard]] auto momentum(const Takes& takes = {}) const {
+    return over(weights(), takes);
+  }
+  template <class Weights, class Takes>
+  [[nodiscard]] PassOver<Weights, Takes, Dim, Real> over(const Weights& weights, const Takes& takes) const {
+    return {cells.tables(), particles.view(), weights, takes, model.cell};
+  }
+  template <class Over, class... Kernels>
+  SumsOf<Kernels...>* run(const Over& over, const Kernels&... kernels) {
+    return particle_pass(backend, memory, over, *this, kernels...);
+  }
+  template <class Name, class Lowered, class Takes>
+  void sum(const Takes& takes) {
+    const std::size_t numbers = of<Name>().size();
+    backend.for_each(numbers, SumPatches<Name, Lowered, Takes, Dim, Real>{cells.tables(), takes, memory.patches(0),
+                                                                          of<Name>().data()});
+  }
+  template <class Kernel, class Sum>
+  Sum sum_over_particles(const Kernel& kernel, Array<Sum, Backend>& sum) {
+    keep(&run(linear(), kernel)->template of<Kernel>(), sum.data());
+    return sum.get(0);
+  }
+  // What stands in memory that the next pass needs.
+  template <class Sum>
+  void keep(const Sum* from, Sum* to) {
+    backend.for_each(1, Keep<Sum>{from, to});
+  }
+
+  template <class Name>
+  [[nodiscard]] Array<Real, Backend>& of() {
+    return nodes.template of<Name>();
+  }
+  [[nodiscard]] NodeViews<Dim, Real> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
+  [[nodiscard]] NodesInStep<Dim, Real> nodes_in_step(Real time, Real dt) {
+    return {cells.tables(), views(), model.faces,          model.gravity,       model.cell,      model.mass_damping,
+            time,           dt,      model.distance_check, model.pore_pressure, model.base_holds};
+  }
+
+  // The records that a pass reads (device/passes.hpp).
+  template <class Name>
+  [[nodiscard]] const Real* numbers() const {
+    if constexpr (std::is_same_v<Name, terrain::Ground>) {
+      return ground.records();
+    } else {
+      return nodes.template of<typename mpm::OwnerOf<Name>::Type>().data();
+    }
+  }
+
+ private:
+  BodySizes<Backend, Real> sizes_;  // of particles, in cells
+};
+
+}  // namespace thawslide::device

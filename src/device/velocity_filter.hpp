@@ -1,0 +1,60 @@
+// The velocities of particles replaced by those that their nodes' rigid motions give (mpm/velocity_filter.hpp).
+#pragma once
+
+#include "device/step_passes.hpp"
+#include "mpm/filter_kernels.hpp"
+#include "mpm/filter_node.hpp"
+
+namespace thawslide::device {
+
+// A thread a node.
+template <int Dim, class Real>
+struct MakeIncrement {
+  bool first;
+  Real least_square;
+  const Real *masses, *moments, *brought;
+  Real *increments, *totals;
+
+  THAWSLIDE_HD void operator()(std::size_t node) const {
+    Real* increment = at<mpm::FilterIncrement>(increments, node);
+    Real* total = at<mpm::FilterTotal>(totals, node);
+    mpm::make_increment<Dim>(first, least_square, at<mpm::Momentum>(masses, node),
+                             at<mpm::FilterMoments>(moments, node), at<mpm::FilterMomentum>(brought, node), increment,
+                             total);
+  }
+
+ private:
+  template <class Name, class Number>
+  THAWSLIDE_HD static Number* at(Number* numbers, std::size_t node) {
+    return numbers + node * mpm::record_size(mpm::components_of<Name, Dim>);
+  }
+};
+
+// Momentum is added to the patches of Velocity anew. gained: kinetic energy [J], in the device's memory.
+template <class Backend, class Shape, int Dim, class Real>
+void filter_velocities(StepPasses<Backend, Shape, Dim, Real>& passes, Real* gained) {
+  using Passes = StepPasses<Backend, Shape, Dim, Real>;
+  using Taking = mpm::TakeFiltered<Dim, Real>;
+  const std::size_t nodes = passes.cells.tables().blocks * Passes::block_nodes;
+  passes.nodes.template make_room<mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>(
+      nodes);
+  const auto make_increments = [&](bool first) {
+    passes.template sum<mpm::FilterMomentum, void>(EveryTile{});
+    passes.backend.for_each(
+        nodes, MakeIncrement<Dim, Real>{
+                   first, mpm::least_square_of(passes.model.cell), passes.template of<mpm::Momentum>().data(),
+                   passes.template of<mpm::FilterMoments>().data(), passes.template of<mpm::FilterMomentum>().data(),
+                   passes.template of<mpm::FilterIncrement>().data(), passes.template of<mpm::FilterTotal>().data()});
+  };
+  passes.run(passes.momentum(), mpm::AddFilterMoments<Dim, Real>{});
+  passes.template sum<mpm::FilterMoments, void>(EveryTile{});
+  passes.run(passes.momentum(), mpm::AddFilterMomentum<Dim, Real>{});
+  make_increments(true);
+  for (int order = 2; order <= passes.model.filter_order; ++order) {
+    passes.run(passes.momentum(), mpm::SweepFilter<Dim, Real>{});
+    make_increments(false);
+  }
+  passes.keep(&passes.run(passes.momentum(), Taking{})->template of<Taking>(), gained);
+}
+
+}  // namespace thawslide::device

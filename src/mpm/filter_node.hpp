@@ -1,0 +1,47 @@
+// What a node does in filter_velocities, in the numbers of one node. For host and device.
+#pragma once
+
+#include <cstddef>
+
+#include "base/linear.hpp"
+#include "mpm/kernel.hpp"
+#include "mpm/records.hpp"
+#include "mpm/vectors_in_records.hpp"
+#include "physics/rigid_motion.hpp"
+
+namespace thawslide::mpm {
+
+// Mean square distance [m2] of masses from an axis below which they do not turn about it. cell: mesh size [m].
+template <class Real>
+THAWSLIDE_HD Real least_square_of(Real cell) {
+  constexpr Real least = static_cast<Real>(1e-8);  // in cells squared
+  return least * cell * cell;
+}
+
+// The next increment of a node's rigid motion from what particles have brought: the fit itself, or what the last
+// increment is short of. Records: of Momentum, FilterMoments, FilterMomentum, FilterIncrement and FilterTotal.
+template <int Dim, class Real, class MassRecord, class Moments, class Brought, class Increment, class Total>
+THAWSLIDE_HD void make_increment(bool first, Real least_square, const MassRecord& mass, const Moments& moments,
+                                 const Brought& brought, Increment& increment, Total& total) {
+  constexpr int turns = physics::rotations<Dim>, size = components_of<FilterMomentum, Dim>;
+  if (first) {
+    for (std::size_t c = 0; c < record_size(size); ++c) {
+      increment[c] = total[c] = Real(0);
+    }
+  }
+  if (!(mass[MomentumLayout<Dim>::mass] > Real(0))) {
+    return;
+  }
+  const physics::MassPoints<Dim, Real> points{
+      mass[MomentumLayout<Dim>::mass], vector_at<Dim, Real>(moments, FilterMoments::first),
+      vector_at<physics::squares<Dim>, Real>(moments, Dim), vector_at<Dim, Real>(brought, FilterMomentum::momentum),
+      vector_at<turns, Real>(brought, Dim)};
+  const physics::RigidMotion<Dim, Real> motion = physics::nearest_rigid_motion(points, least_square);
+  Vector<Real, size> fit;
+  fit << motion.at_origin, motion.rotation;
+  const Vector<Real, size> next = first ? fit : Vector<Real, size>(vector_at<size, Real>(increment, 0) - fit);
+  set_vector<size>(increment, 0, next);
+  set_vector<size>(total, 0, Vector<Real, size>(vector_at<size, Real>(total, 0) + next));
+}
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,81 @@
+// The active blocks of nodes, and what lies about them.
+#include <utility>
+
+#include "base/instances.hpp"
+#include "mpm/sparse_grid.hpp"
+
+namespace thawslide::mpm {
+
+namespace {
+
+template <int Dim>
+typename Tile<Dim>::Index neighbour(const typename Tile<Dim>::Index& tile, int direction) {
+  typename Tile<Dim>::Index other = tile;
+  for (int a = 0; a < Dim; ++a) {
+    other[static_cast<std::size_t>(a)] += direction % 3 - 1;
+    direction /= 3;
+  }
+  return other;
+}
+
+// By neighbour of each of the tiles or blocks, in order: its number among others, or KeyIndex::absent.
+template <int Dim, class KeyOf>
+void find_about(std::size_t count, const KeyOf& key_of, const KeyIndex& others, std::vector<std::int32_t>& about) {
+  using T = Tile<Dim>;
+  constexpr auto stencil = static_cast<std::size_t>(T::stencil);
+  about.resize(count * stencil);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (int d = 0; d < T::stencil; ++d) {
+      about[k * stencil + static_cast<std::size_t>(d)] = others.find(T::key(neighbour<Dim>(T::index(key_of(k)), d)));
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::list_blocks() {
+  blocks_.clear();
+  for (const OccupiedTile& tile : tiles_) {
+    const Index here = T::index(tile.key);
+    for (int d = 0; d < T::stencil; ++d) {
+      blocks_.push_back(T::key(neighbour<Dim>(here, d)));
+    }
+  }
+  std::sort(blocks_.begin(), blocks_.end());
+  blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
+}
+
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::connect_blocks() {
+  tile_number_.clear();
+  for (const OccupiedTile& tile : tiles_) {
+    tile_number_.insert(tile.key);
+  }
+  block_number_.clear();
+  for (const std::uint64_t block : blocks_) {
+    block_number_.insert(block);
+  }
+  const auto key_of_block = [&](std::size_t b) { return blocks_[b]; };
+  find_about<Dim>(blocks_.size(), key_of_block, tile_number_, tiles_about_block_);
+  find_about<Dim>(blocks_.size(), key_of_block, block_number_, blocks_about_block_);
+  find_about<Dim>(
+      tiles_.size(), [&](std::size_t t) { return tiles_[t].key; }, block_number_, blocks_about_tile_);
+}
+
+template <int Dim, class Real>
+void SparseGrid<Dim, Real>::set_blocks(std::vector<std::uint64_t> keys) {
+  THAWSLIDE_ASSERT(tiles_.empty(), "{} tiles hold particles, whose blocks others cannot set", tiles_.size());
+  blocks_ = std::move(keys);
+  connect_blocks();
+  blocks_changed_ = true;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                 \
+  template void SparseGrid<Dim, Real>::list_blocks();    \
+  template void SparseGrid<Dim, Real>::connect_blocks(); \
+  template void SparseGrid<Dim, Real>::set_blocks(std::vector<std::uint64_t>);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::mpm

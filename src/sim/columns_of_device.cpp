@@ -1,0 +1,100 @@
+// The band columns under a slide whose steps a device takes: they stay with the processor.
+#include <algorithm>
+
+#include "base/instances.hpp"
+#include "device/step_model.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+using mpm::BaseState, mpm::Contact;
+
+// The blocks change. Pieces of base see nodes in blocks with candidate nodes and in those about them.
+template <int Dim, class Real>
+void take_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_t>& keys, GridOfDevice<Dim, Real>& base) {
+  constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+  const auto near = [&](std::size_t b) { return base.ground.any_candidate(b); };
+  base.grid.set_blocks(keys);
+  base.ground.update(*model.ground, base.grid, model.substrates.get());
+  base.nodes.near_ground.hold(keys.size(), near);
+  base.nodes.contact.hold(keys.size(), near);
+  base.nodes.momentum.resize(keys.size());
+  base.nodes.motion.resize(keys.size());
+  base.asked.clear();
+  for (std::size_t b = 0; b < keys.size(); ++b) {
+    std::fill_n(base.nodes.momentum.of_block(b), block_nodes,
+                typename mpm::RecordsOf<mpm::Momentum, Dim, Real>::Record{});
+    const std::int32_t* about = base.grid.blocks_about_block(b);
+    if (std::any_of(about, about + mpm::Tile<Dim>::stencil, [&](std::int32_t other) {
+          return other != KeyIndex::absent && near(static_cast<std::size_t>(other));
+        })) {
+      base.asked.push_back(static_cast<std::uint32_t>(b));
+    }
+  }
+}
+
+template <int Dim, class Real>
+void list_states(const band::BaseColumns<Dim, Real>& columns, GridOfDevice<Dim, Real>& base) {
+  columns.to_nodes(base.grid, base.nodes);
+  base.states.clear();
+  for (std::size_t b = 0; b < base.grid.blocks().size(); ++b) {
+    if (!base.ground.any_candidate(b)) {
+      continue;
+    }
+    const auto& known = base.ground.block(b);
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      if (known[k].candidate) {
+        const auto& record = base.nodes.base_state(b, k);
+        base.states.insert(base.states.end(), record.begin(), record.begin() + BaseState::size<Dim>);
+      }
+    }
+  }
+}
+
+template <int Dim, class Real>
+void take_nodes(const std::vector<Real>& numbers, GridOfDevice<Dim, Real>& base) {
+  constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+  constexpr auto of_contact = static_cast<std::size_t>(Contact::size<Dim>);
+  const Real* record = numbers.data();
+  for (const std::size_t b : base.asked) {
+    for (std::size_t k = 0; k < block_nodes; ++k, record += device::columns_read<Dim>) {
+      if (base.nodes.contact.holds(b)) {
+        std::copy_n(record, of_contact, base.nodes.contact.of_block(b)[k].begin());
+      }
+      base.nodes.momentum.of_block(b)[k][mpm::MomentumLayout<Dim>::mass] = record[of_contact];
+      std::copy_n(record + of_contact + 1, Dim,
+                  base.nodes.motion.of_block(b)[k].begin() + mpm::MotionLayout<Dim>::middle_velocity);
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+device::ColumnsOnProcessor<Real> Simulation<Dim, Real>::columns_on_processor() {
+  if (!band_columns_) {
+    return {};
+  }
+  grid_of_device_ = std::make_unique<GridOfDevice<Dim, Real>>(grid_.cell());
+  return {[this](const std::vector<std::uint64_t>& blocks) {
+            take_blocks(model_, blocks, *grid_of_device_);
+            return grid_of_device_->asked;
+          },
+          [this]() -> const std::vector<Real>& {
+            list_states(*band_columns_, *grid_of_device_);
+            return grid_of_device_->states;
+          },
+          [this](const std::vector<Real>& nodes) {
+            take_nodes(nodes, *grid_of_device_);
+            band_columns_follow(grid_of_device_->grid, grid_of_device_->ground, grid_of_device_->nodes);
+          }};
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real) \
+  template device::ColumnsOnProcessor<Real> Simulation<Dim, Real>::columns_on_processor();
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,17 @@
+// When velocities are filtered (mpm/velocity_filter.hpp).
+#pragma once
+
+#include <cmath>
+
+#include "config/case.hpp"
+
+namespace thawslide::sim {
+
+// In a step of dt from a time on [s] that reaches or passes a multiple of the interval; never by round-off of the time.
+[[nodiscard]] inline bool filters_in_step(const config::Case& parameters, double time, double dt) {
+  const double interval = parameters.mechanics.fmpm_interval;
+  const auto intervals = [&](double until) { return std::floor(until / interval * (1.0 + 1e-12)); };
+  return intervals(time + dt) > intervals(time);
+}
+
+}  // namespace thawslide::sim

@@ -1,0 +1,24 @@
+// The grid of a device as the processor keeps it, where it has a part in the step: no particles, and of the nodes what
+// band columns read.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mpm/nodes.hpp"
+#include "terrain/ground_on_grid.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim, class Real>
+struct GridOfDevice {
+  explicit GridOfDevice(Real cell) : grid(cell) {}
+
+  mpm::SparseGrid<Dim, Real> grid;
+  terrain::GroundOnGrid<Dim, Real> ground;
+  mpm::Nodes<Dim, Real> nodes;
+  std::vector<std::uint32_t> asked;  // blocks whose nodes the device tells of
+  std::vector<Real> states;          // records of BaseState of candidate nodes
+};
+
+}  // namespace thawslide::sim
