@@ -38,12 +38,13 @@ std::string duration_text(double seconds) {
 Progress::Progress(double begin)
     : terminal_(isatty(STDOUT_FILENO) != 0), begin_(begin), start_(Clock::now()), last_(start_) {}
 
-bool Progress::due(double time, double end) const {
-  const double share = (time - begin_) / (end - begin_);
-  if (terminal_) {
-    return seconds_since(last_) >= seconds_between_bars;
-  }
-  return share - last_share_ >= share_between_lines || seconds_since(last_) >= seconds_between_lines;
+bool Progress::due(double time, double end) {
+  constexpr double least_work_between = 20.0;  // in times of what the last line took
+  const double share = (time - begin_) / (end - begin_), passed = seconds_since(last_);
+  const bool is_due = terminal_ ? passed >= seconds_between_bars
+                                : share - last_share_ >= share_between_lines || passed >= seconds_between_lines;
+  begun_ = Clock::now();
+  return is_due && passed >= least_work_between * work_;
 }
 
 void Progress::show(const ProgressState& state) {
@@ -66,6 +67,7 @@ void Progress::show(const ProgressState& state) {
     say("{:3.0f} % | {}\n", 100.0 * share, text);
   }
   last_ = Clock::now();
+  work_ = std::chrono::duration<double>(last_ - begun_).count();
   last_share_ = share;
 }
 

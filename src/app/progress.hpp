@@ -19,8 +19,9 @@ class Progress {
   // `begin`: simulated time the run starts at [s].
   explicit Progress(double begin);
 
-  // True if enough wall time has passed for a new line: the caller then works out the state.
-  [[nodiscard]] bool due(double time, double end) const;
+  // True if enough wall time has passed for a new line: the caller then works out the state, which may take no more
+  // than a small share of all time.
+  [[nodiscard]] bool due(double time, double end);
   void show(const ProgressState& state);
   // A line of its own above the bar.
   void note(const std::string& text);
@@ -33,7 +34,8 @@ class Progress {
   bool terminal_;
   bool drawn_ = false;
   double begin_, last_share_ = 0.0;
-  Clock::time_point start_, last_;
+  double work_ = 0.0;  // to show the last state, the caller's part too [s]
+  Clock::time_point start_, last_, begun_;
 };
 
 // "1 h 02 min", "3 min 20 s", "12 s".

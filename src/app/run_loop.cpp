@@ -271,6 +271,8 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
     output.begin(simulation);
   } catch (const WriteError& error) {
     return end_at_once<Dim>(simulation, output, error, ExitCode::not_written, folder);
+  } catch (const DeviceError& error) {
+    return end_at_once<Dim>(simulation, output, error, ExitCode::device_failed, folder);
   }
   return run_to_end<Dim>(simulation, output, folder);
 }

@@ -8,12 +8,14 @@
 #include <memory>
 #include <string>
 
+#include "device/failure.hpp"
 #include "device/step_model.hpp"
 #include "mpm/particle_view.hpp"
 #include "mpm/watched_sums.hpp"
 
 namespace thawslide::device {
 
+// What goes wrong with the device is thrown as a Failure; what goes wrong with the processor's part as it is.
 template <int Dim, class Real>
 class AnyStep {
  public:
@@ -26,7 +28,7 @@ class AnyStep {
   virtual StepSums<Dim, Real> step(Real time, Real dt) = 0;
   // What a look at the particles after a step finds.
   virtual mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) = 0;
-  // The same for maps, in space; look: of the last call.
+  // The same for maps, in space.
   virtual void look_at_map(const mpm::MapCells& cells, MapLook& look) = 0;
   // Particles move in memory to stand in canonical order. Results do not depend on it.
   virtual void sort_in_memory() = 0;

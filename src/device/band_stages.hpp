@@ -62,10 +62,7 @@ class BandStages {
         passes_.model.heat_content);
   }
 
-  void conduct_heat(Real time, Real dt) {
-    if (!passes_.model.band.rescaling_mixes) {
-      rescale(time);
-    }
+  void conduct_heat(Real dt) {
     average_seeping_water();
     if (passes_.model.heat) {
       std::visit([&](const auto& content) { conduct_heat_by(content, dt); }, passes_.model.heat_content);

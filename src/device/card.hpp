@@ -15,7 +15,7 @@ struct Card {
 Card find_card();
 
 // Steps on the card that find_card found, in double precision. What goes wrong on the way
-// is thrown as a std::runtime_error that says what the card was doing.
+// is thrown as a Failure that says what the card was doing.
 template <int Dim>
 MakeStep<Dim, double> on_card();
 

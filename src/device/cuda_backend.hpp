@@ -9,17 +9,17 @@
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_scan.cuh>
 #include <map>
-#include <stdexcept>
 #include <string>
 
 #include "base/portability.hpp"
+#include "device/failure.hpp"
 
 namespace thawslide::device {
 
-class CardError : public std::runtime_error {
+class CardError : public Failure {
  public:
   explicit CardError(cudaError_t code, const char* doing)
-      : std::runtime_error(std::string(doing) + ": " + cudaGetErrorString(code)), code_(code) {}
+      : Failure(std::string(doing) + ": " + cudaGetErrorString(code)), code_(code) {}
   [[nodiscard]] cudaError_t code() const { return code_; }
 
  private:

@@ -25,18 +25,18 @@ class Maps {
   // Tiles have changed.
   void forget_tiles() { knows_tiles_ = false; }
 
-  // Of particles that stand where a step has brought them, by the tiles that it began with. look: of the last call, if
-  // there was one: keys are copied again only where tiles have changed.
+  // Of particles that stand where a step has brought them, by the tiles that it began with.
   void sum(const mpm::MapCells& cells, const TileTables<3>& tables, const mpm::ParticleView<3, Real>& particles,
            MapLook& look) {
-    if (!knows_tiles_) {
+    if (!knows_tiles_ || !(cells == places_.cells)) {
       number_cells(cells, tables);
-      look.keys = keys_.get();
-      if (!look.keys.empty() && look.keys.back() == MapPlaces::no_cell) {
-        look.keys.pop_back();
+      known_keys_ = keys_.get();
+      if (!known_keys_.empty() && known_keys_.back() == MapPlaces::no_cell) {
+        known_keys_.pop_back();
       }
       knows_tiles_ = true;
     }
+    look.keys = known_keys_;
     using InTile = SumMapInTile<Real>;
     backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
                         InTile{places_, tables, particles, sizes_.view(), parts_.data()});
@@ -68,6 +68,7 @@ class Maps {
   BodySizes<Backend, Real> sizes_;  // of particles [m]
   MapPlaces places_;
   bool knows_tiles_ = false;
+  std::vector<std::uint64_t> known_keys_;  // of cells below some tile
   FirstOfKeys<Backend> first_{backend_};
   Array<std::uint64_t, Backend> keys_of_seen_{backend_}, keys_{backend_};
   Array<std::uint32_t, Backend> seen_{backend_}, first_seen_{backend_};

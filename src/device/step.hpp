@@ -50,7 +50,7 @@ class Step {
   Sums step(Real time, Real dt) {
     find_cells();
     passes_.backend.end_stage("find_cells");
-    if (passes_.model.band.rescaling_mixes) {
+    if (passes_.model.rescales_band && passes_.model.band.rescaling_mixes) {
       band_.rescale(time);  // which changes temperatures
     }
     if (passes_.ground.exists() || passes_.model.has_band()) {
@@ -60,8 +60,11 @@ class Step {
     if (passes_.model.moves) {
       take_mechanics(time, dt);
     }
+    if (passes_.model.rescales_band && !passes_.model.band.rescaling_mixes) {
+      band_.rescale(time);
+    }
     if (passes_.model.has_band()) {
-      band_.conduct_heat(time, dt);
+      band_.conduct_heat(dt);
       passes_.backend.end_stage("conduct_heat");
     }
     if (passes_.model.pressure_changes) {

@@ -62,6 +62,7 @@ struct StepModel {
   band::BandPhysics<Real> band;
   std::vector<Real> hydraulic_conductivity;        // by material [m/s]
   std::function<Real(Real time)> scaling_in_band;  // xi
+  bool rescales_band = true;                       // off: its scaling rests
   bool scales_all = true;                          // and elsewhere too
 
   [[nodiscard]] bool has_band() const { return heat || pressure_changes; }

@@ -18,6 +18,8 @@ struct MapCells {
   double inverse_cell_x = 1.0, inverse_cell_y = 1.0;  // [1/m]
   int columns = 0, rows = 0;
   double largest_half = 0.0;  // of a particle's width [m]
+
+  [[nodiscard]] bool operator==(const MapCells& other) const = default;
 };
 
 // A cell as a number.

@@ -74,7 +74,7 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.heat_content = model.band.heat_content;
   device.heat_faces = model.band.at_faces;
   device.band = model.band;
-  device.band.rescaling_mixes = model.band.rescaling_mixes && !has_columns;
+  device.rescales_band = !has_columns;
   device.hydraulic_conductivity = model.band.hydraulic_conductivity;
   device.scaling_in_band = [thickness = parameters.band.thickness, cell = device.cell](Real time) {
     const auto now = static_cast<Real>(thickness.value.empty() ? 0.0 : thickness.at(static_cast<double>(time)));

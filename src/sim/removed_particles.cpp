@@ -203,12 +203,8 @@ void Simulation<Dim, Real>::remove_marked_particles() {
   if (none_stays || share > parameters_.guards.removed_mass) {
     stop_for_removed_mass(share);
   }
-  const bool on_device = device_step_ != nullptr;
   leave_device();
   grid_.remove(particles_, particles_.remove(marks_));
-  if (on_device) {
-    grid_.update(particles_, 0);  // it was that of where they stood when they came last, which may be long ago
-  }
   update_ground();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -98,6 +99,10 @@ void RunRecords<Dim>::after_step(const Simulation& simulation) {
     const std::vector<PieceBelow> pieces = pieces_below(simulation);
     const std::vector<PieceBelow>* below = simulation.band_columns() != nullptr ? &pieces : nullptr;
     if (const device::MapLook* look = simulation.look_at_map(maps_->cells())) {
+      const double mass = std::accumulate(look->sums.begin(), look->sums.end(), 0.0,
+                                          [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });
+      THAWSLIDE_ASSERT(std::abs(mass - look->moments.mass) <= round_off<double> * look->moments.mass,
+                       "{} kg of {} kg lie over map cells that particles may reach", mass, look->moments.mass);
       maps_->gather(look->keys, look->sums, simulation.time(), below);
       note_way(simulation, look->moments);
       return;

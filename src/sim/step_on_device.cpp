@@ -1,6 +1,4 @@
 // Steps that a device takes (src/device), and how its particles come back.
-#include <stdexcept>
-
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/device_model.hpp"
@@ -20,17 +18,13 @@ void Simulation<Dim, Real>::take_steps_on(const std::string& device, device::Mak
   make_step_ = std::move(make);
 }
 
-// Work that the device does for the step, and the processor for the device. Of particles that stood on one that failed
-// only what was brought back last is left.
+// Work that the device does for the step. Of particles that stood on one that failed only what was brought back last is
+// left, or a mixture, where it failed as they were brought back.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
   try {
     work();
-  } catch (const UserError&) {
-    throw;
-  } catch (const RunError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
+  } catch (const device::Failure& error) {
     particles_are_here_ = true;
     throw DeviceError(fmt::format("{} failed at step {}: {}", device_name_, step_number_, error.what()));
   }
@@ -63,7 +57,7 @@ void Simulation<Dim, Real>::take_step_on_device() {
   ledger_.numerical += sums.filtered;
   ledger_.numerical += sums.mapped_back;
   book_stress_work(sums.deformed.work);
-  ledger_.band_rescale += sums.band_rescale;
+  ledger_.band_rescale += model_.band.heat ? sums.band_rescale : Real(0);
   if (band_columns_) {  // the body keeps its temperature
     ledger_.friction_heat += contact_.friction_work - contact_.converted;
   } else {
@@ -81,15 +75,12 @@ bool Simulation<Dim, Real>::nothing_befell_on_device() const {
   return device_step_ && bad_.id < 0 && device_sums_.strays == 0;
 }
 
-// The grid becomes that of where particles stood when they came last, as it is after a step of the processor: of those
-// that have gone bad since, or have left, it knows their last sound place.
+// The grid becomes that of where they stand: what is summed in its order does not depend on when they came.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::bring_particles_back() const {
   if (particles_are_here_) {
     return;
   }
-  grid_.update(particles_, 0);
-  update_ground();
   std::vector<std::int64_t> ids(particles_.size());
   for (std::size_t p = 0; p < ids.size(); ++p) {
     ids[p] = particles_.id(p);
@@ -105,6 +96,8 @@ void Simulation<Dim, Real>::bring_particles_back() const {
     order[p] = places[static_cast<std::size_t>(ids[p])];
   }
   particles_.reorder(order);
+  grid_.update(particles_, 0);
+  update_ground();
 }
 
 template <int Dim, class Real>

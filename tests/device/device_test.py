@@ -31,6 +31,8 @@ REGISTERS_OF_PHYSICS = {
     "yield_and_gap<3>": 80,  # 72
     "rigid_motion<2>": 32,  # 24
     "rigid_motion<3>": 40,  # 32
+    "nearest_motion<2>": 48,  # 40
+    "nearest_motion<3>": 104,  # 92
     "heat<PowerLawCurve<double>>": 60,  # 54
     "heat<LinearCurve<double>>": 56,  # 50
     "mixture": 40,  # 32

@@ -119,6 +119,18 @@ __global__ void rigid_motion(Real* numbers, Real* results, std::size_t particles
 template __global__ void rigid_motion<2>(Real*, Real*, std::size_t);
 template __global__ void rigid_motion<3>(Real*, Real*, std::size_t);
 
+template <int Dim>
+__global__ void nearest_motion(Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const MassPoints<Dim, Real> points{row.take(), row.take_vector<Dim>(), row.take_vector<squares<Dim>>(),
+                                     row.take_vector<Dim>(), row.take_vector<rotations<Dim>>()};
+  const RigidMotion<Dim, Real> motion = nearest_rigid_motion(points, row.take());
+  result.put<Dim>(motion.at_origin);
+  result.put<rotations<Dim>>(motion.rotation);
+}
+template __global__ void nearest_motion<2>(Real*, Real*, std::size_t);
+template __global__ void nearest_motion<3>(Real*, Real*, std::size_t);
+
 template <class Curve>
 __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);

@@ -1,0 +1,144 @@
+// Runs on a device that go bad, fail, are refused, or go on from a checkpoint.
+#include <filesystem>
+#include <utility>
+
+#include "io/checkpoint.hpp"
+#include "run_on_device.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+TEST(DeviceRun, EndsWithTheSameWords) {
+  const config::Case parameters = sliding_bodies<2>();
+  Simulation<2, double> on_processor(parameters), on_device(parameters);
+  on_device.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+  for (Simulation<2, double>* simulation : {&on_processor, &on_device}) {
+    for (std::size_t p = 0; p < simulation->particles().size(); ++p) {
+      simulation->particles().velocity(p, 0) = -500.0;
+    }
+  }
+  const std::string expected = error_of(on_processor);
+  EXPECT_NE(expected.find("left the domain"), std::string::npos) << expected;
+  EXPECT_EQ(error_of(on_device), expected);
+}
+
+// Steps until it breaks down, or until particles are asked for.
+class BreaksDown final : public device::AnyStep<2, double> {
+ public:
+  BreaksDown(std::unique_ptr<device::AnyStep<2, double>> steps, int sound) : steps_(std::move(steps)), left_(sound) {}
+
+  device::StepSums<2, double> step(double time, double dt) override {
+    if (left_-- == 0) {
+      throw device::Failure("asking the card for memory: out of memory");
+    }
+    return steps_->step(time, dt);
+  }
+  mpm::WatchedSums<double> watch(const mpm::LookAtParticle<2, double>& look) override { return steps_->watch(look); }
+  void look_at_map(const mpm::MapCells& cells, device::MapLook& look) override { steps_->look_at_map(cells, look); }
+  void sort_in_memory() override { steps_->sort_in_memory(); }
+  void copy_to(const mpm::ParticleView<2, double>& /*particles*/) const override {
+    throw device::Failure("copying from the card: unspecified launch failure");
+  }
+  void time_stages() override {}
+  [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
+
+ private:
+  std::unique_ptr<device::AnyStep<2, double>> steps_;
+  int left_;
+};
+
+// Steps of a device that breaks down after so many; returns what is told, and the particles that are left.
+std::string told_of_failure(int sound, int steps) {
+  Simulation<2, double> simulation(sliding_bodies<2>());
+  const auto at_start = fields_by_id(simulation.particles());
+  const auto make = [sound](const auto& model, const auto& particles, std::size_t count, auto ask) {
+    return std::make_unique<BreaksDown>(
+        in_place_of_a_card<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)), sound);
+  };
+  simulation.take_steps_on("a card", make);
+  std::string told;
+  try {
+    for (int k = 0; k < steps; ++k) {
+      simulation.step(0.002);
+    }
+    static_cast<void>(std::as_const(simulation).particles());
+  } catch (const DeviceError& error) {
+    told = error.what();
+  }
+  EXPECT_EQ(fields_by_id(std::as_const(simulation).particles()).at("position"), at_start.at("position"));
+  return told;
+}
+
+TEST(DeviceRun, TellsOfADeviceThatFails) {
+  EXPECT_EQ(told_of_failure(3, 5), "a card failed at step 3: asking the card for memory: out of memory");
+  EXPECT_EQ(told_of_failure(9, 5), "a card failed at step 5: copying from the card: unspecified launch failure");
+}
+
+// The same while a body settles.
+TEST(DeviceRun, TellsOfADeviceThatFailsAsABodySettles) {
+  Simulation<2, double> simulation(sliding_bodies<2>(
+      {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"}));
+  simulation.take_steps_on("a card", [](const auto& model, const auto& particles, std::size_t count, auto ask) {
+    return std::make_unique<BreaksDown>(
+        in_place_of_a_card<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)), 3);
+  });
+  EXPECT_THROW(simulation.settle(), DeviceError);
+}
+
+// From the numbers of a checkpoint, on the processor or on a device again.
+TEST(DeviceRun, GoesOnFromACheckpoint) {
+  const config::Case parameters = sliding_bodies<2>({"time.stepping=\"adaptive\""});
+  Simulation<2, double> whole(parameters), first(parameters);
+  for (Simulation<2, double>* simulation : {&whole, &first}) {
+    simulation->take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+  }
+  const auto go_on = [](Simulation<2, double>& simulation, int steps) {
+    for (int k = 0; k < steps; ++k) {
+      simulation.step(simulation.next_step(10.0));
+    }
+  };
+  go_on(whole, 30);
+  go_on(first, 13);
+  const std::filesystem::path folder = folder_of_this_test();
+  io::write_checkpoint<2, double>(folder, std::as_const(first).particles(), first.particles_at_start(), first.scalars(),
+                                  {}, "");
+  for (const bool on_device : {false, true}) {
+    Simulation<2, double> second(parameters);
+    if (on_device) {
+      second.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::backward));
+    }
+    std::vector<double> numbers;
+    io::read_checkpoint<2, double>(io::newest_checkpoint(folder), second.particles(), numbers);
+    second.restore(numbers);
+    go_on(second, 17);
+    EXPECT_EQ(second.time(), whole.time());
+    expect_the_same_particles(second, whole);
+  }
+}
+
+// Each refusal names the option as a case has it.
+TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
+  const std::pair<std::vector<std::string>, std::string> options[] = {
+      {{"terrain.representation=\"rigid_points\""}, "terrain.representation = \"rigid_points\""},
+      {{"heat.update=\"apparent_capacity\""}, "heat.update = \"apparent_capacity\""},
+      {{"heat.masses=\"current\""}, "heat.masses = \"current\""}};
+  std::vector<std::pair<config::Case, std::string>> cases;
+  for (const auto& [sets, told] : options) {
+    cases.emplace_back(sliding_bodies<2>(sets), told);
+  }
+  cases.emplace_back(sliding_bodies<2>(), "a [frame]");
+  cases.back().first.frames["driver"] = {{-3.0, 2.4}, {7.5, 20.0}, "x", 25.0};
+  for (const auto& [parameters, told] : cases) {
+    Simulation<2, double> simulation(parameters);
+    try {
+      simulation.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+      ADD_FAILURE() << told;
+    } catch (const UserError& error) {
+      EXPECT_NE(std::string(error.what()).find("no step on a card does " + told + " yet"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::sim

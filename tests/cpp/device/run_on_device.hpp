@@ -1,0 +1,91 @@
+// Runs whose steps a device takes, the processor in a card's place, for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../support/fields.hpp"
+#include "../support/two_bodies.hpp"
+#include "base/error.hpp"
+#include "device/host_backend.hpp"
+#include "device/step_on.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+using namespace testing_support;
+using device::Host, device::ThreadOrder;
+
+template <int Dim>
+device::MakeStep<Dim, double> in_place_of_a_card(ThreadOrder order) {
+  return [order](const auto& model, const auto& particles, std::size_t count, device::AskProcessor<Dim, double> ask) {
+    return device::steps_on<Host>(model, particles, count, std::move(ask), order);
+  };
+}
+
+// The same, which counts how often particles come back.
+template <int Dim>
+class CountsCopies final : public device::AnyStep<Dim, double> {
+ public:
+  CountsCopies(std::unique_ptr<device::AnyStep<Dim, double>> steps, int& copies)
+      : steps_(std::move(steps)), copies_(copies) {}
+
+  device::StepSums<Dim, double> step(double time, double dt) override { return steps_->step(time, dt); }
+  mpm::WatchedSums<double> watch(const mpm::LookAtParticle<Dim, double>& look) override { return steps_->watch(look); }
+  void look_at_map(const mpm::MapCells& cells, device::MapLook& look) override { steps_->look_at_map(cells, look); }
+  void sort_in_memory() override { steps_->sort_in_memory(); }
+  void copy_to(const mpm::ParticleView<Dim, double>& particles) const override {
+    ++copies_;
+    steps_->copy_to(particles);
+  }
+  void time_stages() override {}
+  [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
+
+ private:
+  std::unique_ptr<device::AnyStep<Dim, double>> steps_;
+  int& copies_;
+};
+template <int Dim>
+device::MakeStep<Dim, double> counting_copies(ThreadOrder order, int& copies) {
+  return [order, &copies](const auto& model, const auto& particles, std::size_t count, auto ask) {
+    return std::make_unique<CountsCopies<Dim>>(in_place_of_a_card<Dim>(order)(model, particles, count, std::move(ask)),
+                                               copies);
+  };
+}
+
+inline const std::string flat = "type = \"flat\"\nelevation = 0.0";
+
+template <int Dim>
+config::Case sliding_bodies(const std::vector<std::string>& more = {}, const std::string& terrain = flat) {
+  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, terrain, more);
+}
+
+template <int Dim>
+void expect_the_same_particles(const Simulation<Dim, double>& found, const Simulation<Dim, double>& expected) {
+  const auto numbers = fields_by_id(found.particles());
+  for (const auto& [name, of_processor] : fields_by_id(expected.particles())) {
+    ASSERT_EQ(numbers.at(name).size(), of_processor.size()) << name;
+    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
+        << name;
+  }
+}
+
+template <int Dim>
+std::string error_of(Simulation<Dim, double>& simulation) {
+  try {
+    for (int k = 0; k < 200; ++k) {
+      simulation.step(0.002);
+    }
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace thawslide::sim
