@@ -16,6 +16,7 @@ import numpy as np
 
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.run import Numbers
+from thawslide.text_files import is_file
 
 _ENVELOPE_BYTES = {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}
 _LONGEST_VALUE = 8 * 1024 * 1024  # bytes of one geometry or text
@@ -35,7 +36,7 @@ class Feature:
 
 def read_layer(path: Path, layer: str) -> list[Feature]:
     """Read all features of a layer; NotInRunError without the file or the layer, ReportError when it is damaged."""
-    if not path.is_file():
+    if not is_file(path):
         raise NotInRunError(f"{path}: no such file; only a 3D run on a DEM writes it")
     try:
         with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as database:

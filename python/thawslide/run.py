@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from thawslide.arrays import Numbers
-from thawslide.errors import NotInRunError, ReportError
+from thawslide.errors import NotInRunError, ReportError, quoted
 from thawslide.history import History, read_history
 from thawslide.resolved_case import Case, read_case
 from thawslide.run_facts import Ending, ending_of, read_facts
 from thawslide.snapshot import Snapshot, snapshot_time
 from thawslide.targets import Target, read_targets
-from thawslide.text_files import finite_number, read_table
+from thawslide.text_files import finite_number, is_file, read_table
 
 __all__ = ["History", "Numbers", "Run", "Snapshot", "Target"]
 
@@ -40,7 +40,7 @@ class Run:
         self.folder = Path(folder)
         if not self.folder.is_dir():
             raise ReportError(f"{self.folder}: no such folder; give the folder a run has written, e.g. runs/lamplugh")
-        absent = [name for name in ("case.toml", "history.csv") if not (self.folder / name).is_file()]
+        absent = [name for name in ("case.toml", "history.csv") if not is_file(self.folder / name)]
         if absent:
             raise ReportError(f"{self.folder}: not a run folder, {' and '.join(absent)} not found there")
         self.warnings: list[str] = []
@@ -94,7 +94,7 @@ class Run:
     def probes(self) -> History | None:
         """What probes saw through time, None for a run without any."""
         path = self.folder / "probes.csv"
-        if not path.is_file():
+        if not is_file(path):
             return None
         return read_history(path, self.warnings)
 
@@ -102,7 +102,7 @@ class Run:
     def terrain(self) -> tuple[Numbers, Numbers] | None:
         """Distance and elevation [m] of the ground, or None for a run without terrain."""
         path = self.folder / "terrain.csv"
-        if not path.is_file():
+        if not is_file(path):
             return None
         rows = read_table(path, ("distance_m", "terrain_elevation_m")).rows
         if not rows:
@@ -123,9 +123,13 @@ class Run:
         if not name:
             return []
         path, case = self.folder / name, self.folder / "case.toml"
-        if not path.resolve().is_relative_to(self.folder.resolve()):
+        try:
+            within, there = path.resolve().is_relative_to(self.folder.resolve()), path.is_file()
+        except (OSError, RuntimeError, ValueError) as error:  # too long; links that lead round in a circle; a zero byte
+            raise ReportError(f"{case}: [report] targets {quoted(name)} cannot be read") from error
+        if not within:
             raise ReportError(f"{case}: [report] targets names {path}, outside the run folder")
-        if not path.is_file():
+        if not there:
             raise ReportError(f"{path}: no such file; [report] targets in {case} names it")
         return read_targets(path)
 

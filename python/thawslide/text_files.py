@@ -22,12 +22,20 @@ _OTHER_ENCODINGS = {
 }
 
 
+def is_file(path: Path) -> bool:
+    """Return whether there is such a file; ReportError where that cannot be told, as of a name that is too long."""
+    try:
+        return path.is_file()
+    except OSError as error:
+        raise ReportError(f"{path}: cannot be read: {error.strerror}") from error
+
+
 def read_text(path: Path, most_bytes: int) -> str:
     """Read UTF-8 with or without a byte order mark; line ends become one newline each.
 
     ReportError for another encoding, zero bytes, or a file that is no file, cannot be read or is larger than allowed.
     """
-    if not path.is_file():
+    if not is_file(path):
         raise ReportError(f"{path}: {'not a file' if path.exists() else 'no such file'}")
     try:
         with path.open("rb") as file:

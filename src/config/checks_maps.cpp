@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "config/checks.hpp"
+#include "config/input_limits.hpp"
 #include "physics/freezing.hpp"
 #include "physics/mixture.hpp"
 
@@ -74,7 +75,7 @@ void check_field(const Body& body, const InitialField& field, const std::string&
         {name, table + ".release"},
         fmt::format("{} is the attribute \"{}\", and {}.release is not given; there are no polygons to "
                     "have it. Give the file of polygons, or a number, a table or a raster.",
-                    name, field.source, table));
+                    name, shown(field.source), table));
   }
 }
 

@@ -182,6 +182,9 @@ bool ValueReader::numbers(const toml::node& node, std::vector<double>& values, b
 bool ValueReader::resolve_path(const toml::node& node, std::string& path, const std::string& form) const {
   namespace fs = std::filesystem;
   const bool from_command_line = reading.place_of(key, node.source()).command_line;
+  if (path.find('\0') != std::string::npos) {
+    return fail(node, fmt::format("is \"{}\", a name with a zero byte; allowed: a file", shown(path)));
+  }
   std::error_code error;
   const fs::path base = from_command_line ? fs::current_path(error) : reading.folder;
   const fs::path whole = (base / path).lexically_normal();
@@ -190,18 +193,19 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
       return fail(node,
                   fmt::format("is \"{}\", which lies outside the folder of the case file; allowed: a file in that "
                               "folder. Copy it there, or give its path with --set {}={}",
-                              path, key, form));
+                              shown(path), key, form));
     }
   }
   if (const std::string found = what_stands_at(whole); !found.empty()) {
-    return fail(node, fmt::format("is \"{}\", {}; allowed: a file", path, found));
+    return fail(node, fmt::format("is \"{}\", {}; allowed: a file", shown(path), found));
   }
   if (!fs::is_regular_file(whole, error)) {
     const std::string hint = similar_file(whole);
-    return fail(node, fmt::format("is \"{}\": no such file ({}){} {}: {}", path, whole.parent_path().string(),
-                                  hint.empty() ? ";" : hint, hint.empty() ? "allowed" : "Allowed",
-                                  from_command_line ? "a file, told from where you are"
-                                                    : "a file, told from the folder of the case file"));
+    return fail(node,
+                fmt::format("is \"{}\": no such file ({}){} {}: {}", shown(path), shown(whole.parent_path().string()),
+                            hint.empty() ? ";" : hint, hint.empty() ? "allowed" : "Allowed",
+                            from_command_line ? "a file, told from where you are"
+                                              : "a file, told from the folder of the case file"));
   }
   path = whole.string();
   return true;

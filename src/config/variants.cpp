@@ -100,7 +100,7 @@ std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, c
   }
   const auto& begin = node->source().begin;
   const std::string place =
-      fmt::format("{}:{}:{}: case.based_on is \"{}\"", file.string(), begin.line, begin.column, text->get());
+      fmt::format("{}:{}:{}: case.based_on is \"{}\"", file.string(), begin.line, begin.column, shown(text->get()));
   const fs::path name(text->get());
   const fs::path base = file.parent_path() / name;
   if (name.has_parent_path()) {

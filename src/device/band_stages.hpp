@@ -20,7 +20,8 @@ class BandStages {
   BandStages(Passes& passes, const AskProcessor<Dim, Real>& ask, StepSums<Dim, Real>* sums)
       : passes_(passes),
         sums_(sums),
-        columns_(passes.backend, passes.model.cell, passes.model.half_sizes, ask.slope_cosine, ask.normal_gravity) {
+        columns_(passes.backend, passes.model.cell, passes.model.half_sizes, ask.slope_cosine, ask.normal_gravity),
+        layers_(passes.backend, ask.layer_at_middle) {
     hydraulic_.set(passes.model.hydraulic_conductivity);
   }
 
@@ -36,6 +37,13 @@ class BandStages {
     }
   }
 
+  // The same, and the ground is below these.
+  void take_layers(const std::vector<std::uint64_t>& blocks) {
+    if (layers_.exists()) {
+      layers_.update(blocks);
+    }
+  }
+
   void average() {
     passes_.run(passes_.linear(), band::AddAverages<Dim, Real>{});
     passes_.template sum<mpm::Averages, void>(EveryTile{});
@@ -46,20 +54,18 @@ class BandStages {
   }
 
   void rescale(Real time) {
-    const Real scaling = passes_.model.scaling_in_band(time);
+    const Real thickness = passes_.model.band_thickness(time), cell = passes_.model.cell;
     passes_.backend.for_each(1, Fill<Real>{&sums_->band_rescale, Real(0)});
-    if (passes_.model.scales_all && scaling == scaling_in_force_) {
+    if (layers_.exists() && thickness > Real(0)) {
+      rescale_by(ScalingByLayer<Dim, Real>{layers_.layers(passes_.cells.tables(), cell), thickness});
+      scaling_in_force_ = Real(0);  // none that all have
       return;
     }
-    scaling_in_force_ = scaling;
-    std::visit(
-        [&]<class Content>(const Content& content) {
-          using Kernel = RescaleBand<Dim, Real, Content>;
-          const Kernel kernel{content, passes_.model.band, passes_.model.pressure_changes, passes_.model.scales_all,
-                              scaling};
-          passes_.keep(&passes_.run(passes_.linear(), kernel)->template of<Kernel>(), &sums_->band_rescale);
-        },
-        passes_.model.heat_content);
+    const Real scaling = thickness > Real(0) ? cell / thickness : Real(1);
+    if (!passes_.model.scales_all || scaling != scaling_in_force_) {
+      scaling_in_force_ = scaling;
+      rescale_by(OneScaling<Real>{scaling});
+    }
   }
 
   void conduct_heat(Real dt) {
@@ -87,6 +93,17 @@ class BandStages {
   }
 
  private:
+  template <class Scaling>
+  void rescale_by(const Scaling& scaling) {
+    std::visit(
+        [&]<class Content>(const Content& content) {
+          using Kernel = RescaleBand<Dim, Real, Content, Scaling>;
+          const Kernel kernel{content, passes_.model.band, passes_.model.pressure_changes, passes_.model.scales_all,
+                              scaling};
+          passes_.keep(&passes_.run(passes_.linear(), kernel)->template of<Kernel>(), &sums_->band_rescale);
+        },
+        passes_.model.heat_content);
+  }
   template <class Content>
   void conduct_heat_by(const Content& content, Real dt) {
     passes_.run(passes_.linear(), HeatFlows<Dim, Real, Content>{content, passes_.model.band, hydraulic(), dt,
@@ -176,6 +193,7 @@ class BandStages {
   StepSums<Dim, Real>* sums_;
   Columns<Backend, Dim, Real> columns_;
   Array<Real, Backend> secant_rates_{passes_.backend}, hydraulic_{passes_.backend};
+  LayerThickness<Backend, Dim, Real> layers_;
   Real scaling_in_force_ = 0;
 };
 

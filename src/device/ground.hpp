@@ -120,6 +120,7 @@ class Ground {
   [[nodiscard]] const Real* records() const { return records_.data(); }
   // Nodes with a candidate; by node, which of them it is, or absent.
   [[nodiscard]] const std::uint32_t* candidates() const { return candidates_.data(); }
+  [[nodiscard]] std::vector<std::uint32_t> list_candidates() const { return candidates_.get(); }
   [[nodiscard]] std::size_t candidate_count() const { return candidates_.size(); }
   [[nodiscard]] const std::int32_t* number() const { return number_.data(); }
   // By block: whether the ground below it, and a cell about it, is not known everywhere.

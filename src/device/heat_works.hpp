@@ -5,12 +5,44 @@
 #include "band/heat_kernels.hpp"
 #include "band/nodal_heat.hpp"
 #include "band/rescaling.hpp"
+#include "device/layer_thickness.hpp"
 #include "device/node_works.hpp"
 
 namespace thawslide::device {
 
+// The scaling xi of particles in the band: the same everywhere, or by the thickness of the cells at the ground.
+template <class Real>
+struct OneScaling {
+  Real scaling;
+
+  [[nodiscard]] THAWSLIDE_HD OneScaling in_tile(std::size_t /*tile*/) const { return *this; }
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD Real of(const Particles& /*particles*/, std::uint32_t /*p*/) const {
+    return scaling;
+  }
+};
+template <int Dim, class Real>
+struct ScalingByLayer {
+  LayersOfTile<Dim> layers;
+  Real thickness;  // of the band [m]
+
+  [[nodiscard]] THAWSLIDE_HD ScalingByLayer in_tile(std::size_t tile) const {
+    ScalingByLayer of_tile = *this;
+    of_tile.layers.tile = tile;
+    return of_tile;
+  }
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD Real of(const Particles& particles, std::uint32_t p) const {
+    std::array<double, Dim - 1> place{};
+    for (std::size_t a = 0; a < place.size(); ++a) {
+      place[a] = static_cast<double>(particles.position(p, static_cast<int>(a)));
+    }
+    return static_cast<Real>(layers.at(place)) / thickness;
+  }
+};
+
 // Scaling of a particle in the band, or of all; sums the heat that another scaling adds.
-template <int Dim, class Real, class Content>
+template <int Dim, class Real, class Content, class Scaling>
 struct RescaleBand {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
   using Reads = mpm::RecordList<>;
@@ -20,14 +52,18 @@ struct RescaleBand {
   Content content;
   band::BandPhysics<Real> physics;
   bool has_water, scales_all;
-  Real in_band;
+  Scaling in_band;
+
+  [[nodiscard]] THAWSLIDE_HD RescaleBand in_tile(std::size_t tile) const {
+    return {content, physics, has_water, scales_all, in_band.in_tile(tile)};
+  }
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
                                Real& added_heat) const {
     const std::uint32_t p = at.particle[0];
     const Law law{content};
-    const Real scaling = scales_all || particles.in_band(p) != 0 ? in_band : Real(1);
+    const Real scaling = scales_all || particles.in_band(p) != 0 ? in_band.of(particles, p) : Real(1);
     band::rescale_particle(physics, law, has_water, scaling, p, particles, added_heat);
   }
 };

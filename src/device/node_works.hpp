@@ -247,8 +247,18 @@ struct AskCohesion {
   }
 };
 
-// From nodal momentum and force to nodal motion.
-template <int Dim, class Real>
+// Where there is no bed that nodes could take up.
+struct NoBeds {
+  template <class Real>
+  [[nodiscard]] THAWSLIDE_HD terrain::NoBed below(std::size_t /*candidate*/, Real /*area*/, Real /*strength*/,
+                                                  Real /*dt*/, Real /*mass*/) const {
+    return {};
+  }
+};
+
+// From nodal momentum and force to nodal motion. Beds: below(candidate, area, strength, dt, mass) is what apply_contact
+// is to know of the bed.
+template <class Beds, int Dim, class Real>
 struct ResolveContact {
   struct Part {
     terrain::ContactWork<Dim, Real> contact, motion;
@@ -262,6 +272,7 @@ struct ResolveContact {
   physics::FrictionClamp clamp;
   bool cap_pressure;
   Real heat_fraction;
+  Beds beds;
 
   THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
     const NodeViews<Dim, Real>& nodes = step.nodes;
@@ -278,7 +289,7 @@ struct ResolveContact {
     const FacesAtNode<Dim, Real> walls = step.walls(node);
     if (candidate != absent && bases[candidate].area > Real(0)) {
       part.touches = true;
-      touch(bases[candidate], node, walls, state, part.contact, contact);
+      touch(static_cast<std::size_t>(candidate), node, walls, state, part.contact, contact);
     }
     terrain::finish_node<Dim>(state, walls.any(), step.mass_damping, step.dt, part.motion, motion);
   }
@@ -305,15 +316,17 @@ struct ResolveContact {
       record[c] = Real(0);
     }
   }
-  THAWSLIDE_HD void touch(const BaseOfNode<Real>& base, std::size_t node, const FacesAtNode<Dim, Real>& walls,
+  THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, const FacesAtNode<Dim, Real>& walls,
                           terrain::NodeState<Dim, Real>& state, Sum& work, Real* contact) const {
+    const BaseOfNode<Real>& base = bases[candidate];
     const Real held = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief, base.cohesion,
                                                 clamp, cap_pressure);
     const Real strength = step.base_holds ? std::numeric_limits<Real>::infinity() : held;
     const terrain::HoldOnNode<Dim, Real> hold{step.nodes.known[node].normal,
                                               step.nodes.base_at(node)[mpm::BaseLayout::load], base.area, strength,
                                               base.friction};
-    terrain::apply_contact(walls, hold, heat_fraction, step.dt, terrain::NoBed{}, state, work, contact);
+    terrain::apply_contact(walls, hold, heat_fraction, step.dt,
+                           beds.below(candidate, base.area, strength, step.dt, state.mass), state, work, contact);
   }
 };
 

@@ -7,6 +7,7 @@
 #include "device/band_columns.hpp"
 #include "device/band_stages.hpp"
 #include "device/base_laws.hpp"
+#include "device/erodible_bed.hpp"
 #include "device/looks.hpp"
 #include "device/maps.hpp"
 #include "device/material_stress.hpp"
@@ -32,7 +33,8 @@ class Step {
         sums_(backend, 1),
         band_(passes_, ask, sums_.data()),
         maps_(backend, model.cell, model.half_sizes),
-        band_columns_(backend, ask.columns) {
+        band_columns_(backend, ask.columns),
+        bed_(backend, ask.bed) {
     sums_.set(std::vector<Sums>(1));
   }
 
@@ -109,7 +111,9 @@ class Step {
     if (passes_.ground.exists()) {
       const std::vector<std::uint64_t> blocks = passes_.cells.block_keys();
       passes_.ground.update(passes_.cells.tables(), blocks);
+      band_.take_layers(blocks);
       band_columns_.update(blocks);
+      bed_.update(blocks, passes_.ground);
       passes_.nodes.clear_base(nodes);
       bases_.resize(passes_.ground.candidate_count());
     }
@@ -144,20 +148,32 @@ class Step {
       ask_of_base(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground, band_columns_.states(),
                   bases_.data());
     }
-    const std::size_t blocks = step.tables.blocks;
-    passes_.keep(
-        block_pass<Dim>(passes_.backend, blocks,
-                        ResolveContact<Dim, Real>{step, passes_.ground.exists() ? passes_.ground.number() : nullptr,
-                                                  bases_.data(), passes_.model.base.clamp,
-                                                  passes_.model.base.cap_pressure, passes_.model.base.heat_fraction},
-                        passes_.memory.template sums<terrain::ContactWork<Dim, Real>>(blocks + 1)),
-        &sums_.data()->contact);
-    band_columns_.follow(passes_.views());
+    if (bed_.exists()) {
+      bed_.share_out(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.ground, passes_.model.cell,
+                     step.nodes);
+      resolve_contact(step, bed_.below_nodes());
+      bed_.collect(step.nodes, passes_.ground.candidates());
+    } else {
+      resolve_contact(step, NoBeds{});
+    }
+    band_columns_.follow(step.nodes);
     if (passes_.ground.exists()) {
       passes_.backend.for_each(passes_.particles.size(),
                                VisitInMemory<Dim, Real, terrain::LeaveBand<Dim, Real>>{passes_.particles.view(), {}});
       passes_.run(passes_.linear(passes_.ground.sees_candidates()), terrain::MarkBand<Dim, Real>{dt});
     }
+  }
+
+  template <class Beds>
+  void resolve_contact(const NodesInStep<Dim, Real>& step, const Beds& beds) {
+    const std::size_t blocks = step.tables.blocks;
+    passes_.keep(block_pass<Dim>(passes_.backend, blocks,
+                                 ResolveContact<Beds, Dim, Real>{
+                                     step, passes_.ground.exists() ? passes_.ground.number() : nullptr, bases_.data(),
+                                     passes_.model.base.clamp, passes_.model.base.cap_pressure,
+                                     passes_.model.base.heat_fraction, beds},
+                                 passes_.memory.template sums<terrain::ContactWork<Dim, Real>>(blocks + 1)),
+                 &sums_.data()->contact);
   }
 
   void move(Real time, Real dt) {
@@ -219,6 +235,7 @@ class Step {
   BandStages<Backend, Shape, Dim, Real> band_;
   Maps<Backend, Real> maps_;
   BandColumns<Backend, Dim, Real> band_columns_;
+  ErodibleBed<Backend, Dim, Real> bed_;
   Array<BaseOfNode<Real>, Backend> bases_{passes_.backend};
   Array<mpm::WatchedSums<Real>, Backend> watched_{passes_.backend, 1};
   Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};

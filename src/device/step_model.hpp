@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -23,6 +24,7 @@
 #include "mpm/tile.hpp"
 #include "physics/mixture.hpp"
 #include "terrain/basal_law.hpp"
+#include "terrain/bed_node.hpp"
 #include "terrain/contact_work.hpp"
 #include "terrain/surface.hpp"
 
@@ -60,10 +62,10 @@ struct StepModel {
   band::AnyHeatContent<Real> heat_content;
   band::HeatFaces<Dim, Real> heat_faces;
   band::BandPhysics<Real> band;
-  std::vector<Real> hydraulic_conductivity;        // by material [m/s]
-  std::function<Real(Real time)> scaling_in_band;  // xi
-  bool rescales_band = true;                       // off: its scaling rests
-  bool scales_all = true;                          // and elsewhere too
+  std::vector<Real> hydraulic_conductivity;       // by material [m/s]
+  std::function<Real(Real time)> band_thickness;  // [m]; 0: there is no band, and xi = 1
+  bool rescales_band = true;                      // off: its scaling rests
+  bool scales_all = true;                         // and elsewhere too
 
   [[nodiscard]] bool has_band() const { return heat || pressure_changes; }
   [[nodiscard]] bool lets_water_seep() const {
@@ -80,6 +82,11 @@ struct StepModel {
 template <int Dim, class Real>
 using AskGround = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
 
+// Thickness of the cells along the ground at the middle of a column of cells, by its indices along the horizontal axes
+// [m] (terrain/layer_thickness.hpp); empty: it is one cell.
+template <int Dim>
+using LayerAtMiddle = std::function<double(const std::array<int, Dim - 1>&)>;
+
 // Band columns, which lie under the slide and are the processor's; empty where there are none.
 template <class Real>
 struct ColumnsOnProcessor {
@@ -95,6 +102,26 @@ struct ColumnsOnProcessor {
 template <int Dim>
 inline constexpr std::size_t columns_read = static_cast<std::size_t>(mpm::Contact::size<Dim> + 1 + Dim);
 
+// The erodible bed, which is the processor's; empty where there is none.
+template <int Dim, class Real>
+struct BedOnProcessor {
+  using Columns = std::vector<std::array<int, Dim - 1>>;  // by the indices of their nodes along the horizontal axes
+
+  terrain::BedMatter<Real> matter;
+  // Told of the columns of the active blocks and of those that the nodes stand in that may touch the ground, when
+  // blocks have changed; some are beyond the domain.
+  std::function<void(const Columns& of_blocks, const Columns& of_candidates)> take_columns;
+  // Told which parts of the former the slide has come to cover (terrain/bed.hpp) and how the latter press on the
+  // ground: what of the bed is available to these [kg].
+  std::function<const std::vector<Real>&(const std::vector<std::uint32_t>& parts, const std::vector<Real>& loads)>
+      share_out;
+  // After contact: a record of bed_told<Dim> numbers of each of the latter.
+  std::function<void(const std::vector<Real>& nodes)> collect;
+};
+// Of a node: the record of BedLayout, and the normal pressure where it has taken some of the bed [Pa].
+template <int Dim>
+inline constexpr std::size_t bed_told = static_cast<std::size_t>(mpm::BedLayout<Dim>::size) + 1;
+
 // What the processor is asked amid a step.
 template <int Dim, class Real>
 struct AskProcessor {
@@ -102,7 +129,9 @@ struct AskProcessor {
   // As band/flow_depth.hpp asks. Without the slope's cosine thickness is vertical; the gravity is needed for loads
   // only.
   band::OfPlace<Dim, Real> slope_cosine, normal_gravity;
+  LayerAtMiddle<Dim> layer_at_middle;
   ColumnsOnProcessor<Real> columns;
+  BedOnProcessor<Dim, Real> bed;
 };
 
 // What maps and the way of the centre of mass take after a step, in space.

@@ -39,6 +39,7 @@ class StepPasses {
   PassMemory<Backend, Real> memory{backend};
   Marks<Backend, Dim> marks{backend};
 
+  [[nodiscard]] mpm::SizesOfBodies<Real> body_sizes() const { return sizes_.view(); }  // in cells
   [[nodiscard]] MomentumWeights<Shape, Dim, Real> weights() const { return {sizes_.view(), model.sides}; }
   // Calls work(weights) with those of APIC where the model asks for it.
   template <class Work>
@@ -104,7 +105,7 @@ class StepPasses {
   }
 
  private:
-  BodySizes<Backend, Real> sizes_;  // of particles, in cells
+  BodySizes<Backend, Real> sizes_;
 };
 
 }  // namespace thawslide::device

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
@@ -206,7 +207,8 @@ std::string reference_system_named(const std::string& text) {
     throw UserError(fmt::format(
         "'{}' is no coordinate reference system that is known{} a number of the EPSG registry such as \"EPSG:31287\" "
         "(epsg.io finds it), or a WKT.",
-        text, lacks_registry ? fmt::format("; did you mean \"{}\"? Allowed:", with_registry) : "; allowed:"));
+        config::shown(text),
+        lacks_registry ? fmt::format("; did you mean \"{}\"? Allowed:", with_registry) : "; allowed:"));
   }
   return wkt_from_reference(&reference);
 }

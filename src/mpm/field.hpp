@@ -199,14 +199,16 @@ class Field final : public FieldBase {
     data_.shrink_to_fit();
   }
 
+  // What a block holds beyond the last particle is nobody's: whole blocks come back from a device.
   void set_size(std::size_t particles) override {
     expect_room(particles);
-    for (std::size_t p = particles; kept_ && p < particles_; ++p) {  // what is taken away must not come back
-      set(p, Vector<T, Components>(Vector<T, Components>::Zero()));
-    }
+    const std::size_t known = std::min(particles_, particles);
     particles_ = particles;
     if (kept_) {
       data_.resize((particles + lanes - 1) / lanes * lanes * Components, T{});
+      for (std::size_t p = known; p < data_.size() / Components; ++p) {
+        set(p, Vector<T, Components>(Vector<T, Components>::Zero()));
+      }
     }
   }
 

@@ -18,10 +18,8 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real
   } options[] = {
       {!model.constraints.frames.empty(), "a [frame]"},
       {parameters.terrain.form == config::TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},
-      {model.bed_density > Real(0), "an erodible [bed]"},
       {model.band.heat && !model.band.secant_capacity, "heat.update = \"apparent_capacity\""},
       {model.band.current_masses, "heat.masses = \"current\""},
-      {static_cast<bool>(model.layer_thickness), "band.cut_cells = \"equal_thickness\""},
   };
   for (const auto& option : options) {
     if (option.is_asked) {
@@ -76,9 +74,8 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.band = model.band;
   device.rescales_band = !has_columns;
   device.hydraulic_conductivity = model.band.hydraulic_conductivity;
-  device.scaling_in_band = [thickness = parameters.band.thickness, cell = device.cell](Real time) {
-    const auto now = static_cast<Real>(thickness.value.empty() ? 0.0 : thickness.at(static_cast<double>(time)));
-    return now > Real(0) ? cell / now : Real(1);
+  device.band_thickness = [thickness = parameters.band.thickness](Real time) {
+    return static_cast<Real>(thickness.value.empty() ? 0.0 : thickness.at(static_cast<double>(time)));
   };
   device.scales_all = model.band.region == band::ScaledRegion::all;
   return device;
@@ -106,6 +103,7 @@ device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model
     ask.slope_cosine = slope_cosine_of(model, cell);
   }
   ask.normal_gravity = normal_gravity_of(model, cell);
+  ask.layer_at_middle = model.layer_at_middle;
   return ask;
 }
 

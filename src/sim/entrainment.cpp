@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
@@ -87,6 +88,7 @@ std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
   struct Lowest {
     Vector<double, Dim - 1> place;
     double height = HUGE_VAL;
+    std::int64_t id = -1;
   };
   const double cell = parameters_.grid.cell;
   std::map<typename terrain::Bed<Dim, Real>::Column, Lowest> lowest;
@@ -102,9 +104,10 @@ std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
           static_cast<int>(std::lround(static_cast<double>(particles_.position(p, a)) / cell));
     }
     const auto found = lowest.find(column);
-    if (found != lowest.end() && static_cast<double>(particles_.position(p, Dim - 1)) < found->second.height) {
-      found->second = {particles_.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>(),
-                       static_cast<double>(particles_.position(p, Dim - 1))};
+    const auto height = static_cast<double>(particles_.position(p, Dim - 1));
+    const std::int64_t id = particles_.id(p);
+    if (found != lowest.end() && std::tie(height, id) < std::tie(found->second.height, found->second.id)) {
+      found->second = {particles_.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>(), height, id};
     }
   }
   std::vector<Vector<double, Dim - 1>> places;
@@ -167,8 +170,6 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::collect_bed() {
   if (bed_in_reach() != nullptr) {
     bed_->collect(grid_, nodes_, dt_);
-    ledger_.bed_work += contact_.bed_work;
-    ledger_.bed_impulse += contact_.bed_impulse;
   }
 }
 
@@ -201,6 +202,7 @@ void Simulation<Dim, Real>::take_up_bed() {
   if (columns.empty()) {
     return;
   }
+  bring_particles_back();
   const auto places = places_below_slide(columns);
   std::vector<NewParticle<Dim, Real>> joining;
   for (std::size_t k = 0; k < parts.size(); ++k) {

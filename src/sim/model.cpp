@@ -296,6 +296,11 @@ void set_layer_thickness(const config::Case& parameters, const config::Site& sit
   model.layer_thickness = [layer](const Vector<Real, Dim - 1>& place) {
     return static_cast<Real>(layer->at(place.template cast<double>()));
   };
+  model.layer_at_middle = [layer](const std::array<int, Dim - 1>& column) {
+    typename Layer::Number number;
+    std::copy(column.begin(), column.end(), number.begin());
+    return layer->at_middle(number);
+  };
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ struct Model {
   // Of the cells that make up the band, over horizontal places, both in [m]; empty: one cell. The largest counts for
   // the step.
   std::function<Real(const Vector<Real, Dim - 1>&)> layer_thickness;
+  std::function<double(const std::array<int, Dim - 1>&)> layer_at_middle;  // of a column of cells
   Real largest_layer = 0;
   Real bed_density = 0;                                 // of the erodible bed [kg/m3]; 0: there is none
   std::vector<std::string> body_names, material_names;  // by number; the last body is what is taken up of the bed

@@ -67,10 +67,17 @@ void Simulation<Dim, Real>::take_step_here() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::look_after_step() {
   watch();
-  if (nothing_befell_on_device()) {
-    return;
+  if (!nothing_befell_on_device()) {
+    bring_particles_back();
+    stop_for_or_remove_particles();
   }
-  bring_particles_back();
+  if (bed_in_reach() != nullptr) {
+    stopwatch_.time("take_up_bed", [&] { take_up_bed(); });
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_for_or_remove_particles() {
   mark_bad_particles();
   stop_if_bad();
   mark_left_particles();
@@ -79,9 +86,6 @@ void Simulation<Dim, Real>::look_after_step() {
   }
   stop_if_bad();
   remove_marked_particles();
-  if (bed_in_reach() != nullptr) {
-    stopwatch_.time("take_up_bed", [&] { take_up_bed(); });
-  }
 }
 
 template <int Dim, class Real>
@@ -125,6 +129,7 @@ void Simulation<Dim, Real>::resolve_contact() {
                                       dt_, nodes_, bed_to_meet());
   collect_bed();
   book_contact();
+  book_bed();
   if (model_.ground) {
     terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
   }

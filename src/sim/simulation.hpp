@@ -14,6 +14,7 @@
 #include "config/case.hpp"
 #include "device/any_step.hpp"
 #include "mpm/motion.hpp"
+#include "sim/bed_of_device.hpp"
 #include "sim/grid_of_device.hpp"
 #include "sim/ledger.hpp"
 #include "sim/model.hpp"
@@ -142,6 +143,7 @@ class Simulation {
 
   // What a step did goes to the accounts (step_accounts.cpp).
   void book_contact();
+  void book_bed();
   void book_stress_work(const mpm::StressWork<Real>& work);
   void book_heat(const band::HeatGain<Real>& gain);
 
@@ -159,6 +161,7 @@ class Simulation {
   void drain_pore_pressure();
   void take_new_positions();
   void watch();
+  void stop_for_or_remove_particles();
   void mark_bad_particles();
   void mark_left_particles();
   void remove_marked_particles();
@@ -203,6 +206,8 @@ class Simulation {
                            mpm::Nodes<Dim, Real>& nodes);
   // Where a device takes the steps (columns_of_device.cpp).
   [[nodiscard]] device::ColumnsOnProcessor<Real> columns_on_processor();
+  // The same (bed_of_device.cpp).
+  [[nodiscard]] device::BedOnProcessor<Dim, Real> bed_on_processor();
   void start_ledger();
   [[nodiscard]] std::vector<Vector<double, Dim - 1>> places_below_slide(
       const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const;
@@ -230,6 +235,7 @@ class Simulation {
   std::optional<band::BaseColumns<Dim, Real>> band_columns_;
   std::unique_ptr<GridOfDevice<Dim, Real>> grid_of_device_;  // as band columns see it; null: none do
   std::optional<terrain::Bed<Dim, Real>> bed_;
+  std::unique_ptr<BedOfDevice<Dim, Real>> bed_of_device_;  // null: it lies below no step of a device
   terrain::ContactWork<Dim, Real> contact_;
   Ledger<Dim, Real> ledger_, ledger_before_;  // of now, and before the step
   Watch watch_;

@@ -19,6 +19,14 @@ void Simulation<Dim, Real>::book_contact() {
 }
 
 template <int Dim, class Real>
+void Simulation<Dim, Real>::book_bed() {
+  if (bed_in_reach() != nullptr) {
+    ledger_.bed_work += contact_.bed_work;
+    ledger_.bed_impulse += contact_.bed_impulse;
+  }
+}
+
+template <int Dim, class Real>
 void Simulation<Dim, Real>::book_stress_work(const mpm::StressWork<Real>& work) {
   ledger_.stress_work += work.total;
   ledger_.plastic += work.plastic;
@@ -37,6 +45,7 @@ void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>& gain) {
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                               \
   template void Simulation<Dim, Real>::book_contact();                                 \
+  template void Simulation<Dim, Real>::book_bed();                                     \
   template void Simulation<Dim, Real>::book_stress_work(const mpm::StressWork<Real>&); \
   template void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

@@ -35,6 +35,7 @@ device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
   if (!device_step_) {
     device::AskProcessor<Dim, Real> ask = terrain_for_device(model_, parameters_.grid.cell);
     ask.columns = columns_on_processor();
+    ask.bed = bed_on_processor();
     device_step_ = make_step_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
                               particles_.size(), std::move(ask));
   }
@@ -52,6 +53,7 @@ void Simulation<Dim, Real>::take_step_on_device() {
   if (parameters_.mechanics.enabled) {
     contact_ = sums.contact;
     book_contact();
+    book_bed();
   }
   ledger_.numerical += sums.particle_kinetic - contact_.node_kinetic;
   ledger_.numerical += sums.filtered;
@@ -114,6 +116,7 @@ void Simulation<Dim, Real>::leave_device() {
   bring_particles_back();
   device_step_.reset();
   grid_of_device_.reset();
+  bed_of_device_.reset();
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                               \

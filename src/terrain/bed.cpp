@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "base/instances.hpp"
 #include "base/state_numbers.hpp"
@@ -22,20 +21,13 @@ typename Bed<Dim, Real>::Column Bed<Dim, Real>::column_of(const mpm::SparseGrid<
 }
 
 template <int Dim, class Real>
-bool Bed<Dim, Real>::holds(const Column& column) const {
-  for (std::size_t a = 0; a < column.size(); ++a) {
-    if (column[a] < 0 || column[a] >= columns_[a]) {
-      return false;
-    }
-  }
-  return true;
-}
-
-template <int Dim, class Real>
 std::size_t Bed<Dim, Real>::number_of(const Column& column) const {
-  auto number = static_cast<std::size_t>(column[0]);
-  if constexpr (Dim == 3) {
-    number += static_cast<std::size_t>(column[1]) * static_cast<std::size_t>(columns_[0]);
+  std::size_t number = 0;
+  for (std::size_t a = column.size(); a-- > 0;) {
+    if (column[a] < 0 || column[a] >= columns_[a]) {
+      return outside;
+    }
+    number = number * static_cast<std::size_t>(columns_[a]) + static_cast<std::size_t>(column[a]);
   }
   return number;
 }
@@ -55,11 +47,11 @@ void Bed<Dim, Real>::cover_part(const Column& part) {
   Column column{};
   int bit = 0;
   for (std::size_t a = part.size(); a-- > 0;) {
-    column[a] = part[a] >= 0 ? part[a] / parts : -1;
-    bit = bit * parts + part[a] % parts;
+    column[a] = part[a] >= 0 ? part[a] / bed_parts : -1;
+    bit = bit * bed_parts + part[a] % bed_parts;
   }
-  if (holds(column)) {
-    covered_[number_of(column)] |= static_cast<std::uint16_t>(1U << bit);
+  if (number_of(column) != outside) {
+    cover(number_of(column), 1U << bit);
   }
 }
 
@@ -73,13 +65,12 @@ void Bed<Dim, Real>::cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
     }
     for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
       const std::uint32_t p = grid.order()[k];
-      const Real half = sizes.half(static_cast<std::size_t>(particles.body(p))) * parts;  // in parts
+      const Real half = sizes.half(static_cast<std::size_t>(particles.body(p)));
       Column first{}, last{};
-      for (int a = 0; a + 1 < Dim; ++a) {
-        // The first part of column 0 begins half a column below the domain's corner.
-        const Real middle = (particles.position(p, a) / grid.cell() + Real(0.5)) * parts - Real(0.5);
-        first[static_cast<std::size_t>(a)] = static_cast<int>(std::ceil(middle - half));
-        last[static_cast<std::size_t>(a)] = static_cast<int>(std::floor(middle + half));
+      for (std::size_t a = 0; a < first.size(); ++a) {
+        const PartsCovered along = parts_covered(particles.position(p, static_cast<int>(a)), half, grid.cell());
+        first[a] = along.first;
+        last[a] = along.last;
       }
       Column part = first;
       for (part[0] = first[0]; part[0] <= last[0]; ++part[0]) {
@@ -98,68 +89,79 @@ void Bed<Dim, Real>::cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
 template <int Dim, class Real>
 void Bed<Dim, Real>::share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
   nodes.bed.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.base.holds(b); });
-  struct Pressing {
-    std::size_t block, node, column;
+  struct Place {
+    std::size_t block, node;
   };
+  std::vector<Place> places;
   std::vector<Pressing> pressing;
-  std::map<std::size_t, Real> load;  // by column where some of the bed is left [kg m/s]
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     for (std::size_t k = 0; nodes.base.holds(b) && k < nodes.base.nodes; ++k) {
       nodes.bed.of_block(b)[k] = {};
-      const Real of_node = nodes.base(b, k)[BaseLayout::load];
-      const Column column = column_of(grid, b, k);
-      if (of_node > Real(0) && holds(column) && left_[number_of(column)] > Real(0)) {
-        pressing.push_back({b, k, number_of(column)});
-        load[number_of(column)] += of_node;
+      if (nodes.base(b, k)[BaseLayout::load] > Real(0)) {
+        places.push_back({b, k});
+        pressing.push_back({number_of(column_of(grid, b, k)), nodes.base(b, k)[BaseLayout::load]});
       }
     }
   }
-  constexpr int all_parts = Dim == 2 ? parts : parts * parts;
-  for (const Pressing& at : pressing) {
-    const int bare_parts = all_parts - std::popcount(covered_[at.column]);
-    const Real bare = initial_[at.column] * static_cast<Real>(bare_parts) / Real(all_parts);
-    const Real share = nodes.base(at.block, at.node)[BaseLayout::load] / load[at.column];
-    nodes.bed.of_block(at.block)[at.node][Layout::available] = share * std::max(left_[at.column] - bare, Real(0));
+  share_out(pressing);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    nodes.bed.of_block(places[n].block)[places[n].node][Layout::available] = pressing[n].available;
   }
 }
 
 template <int Dim, class Real>
-Bite<Real> Bed<Dim, Real>::bite(Real available, Real mass, Real speed, Real shear, Real normal_pressure, Real area,
-                                Real dt) const {
-  const Real strength = physics::bed_strength(matter_.cohesion, matter_.tangent, normal_pressure);
-  const Real rate = matter_.law == BedLaw::strength
-                        ? physics::erosion_by_strength(shear, strength, speed, matter_.depth_per_slip)
-                        : physics::erosion_by_momentum(shear, strength, matter_.density, speed, matter_.depth_per_slip);
-  const Real taken = std::min(available, matter_.density * rate * area * dt);
-  if (matter_.law == BedLaw::momentum) {
-    return {taken, taken * speed, taken * speed};
+void Bed<Dim, Real>::share_out(std::vector<Pressing>& nodes) const {
+  const auto has_bed = [&](const Pressing& node) {
+    return node.load > Real(0) && node.column != outside && left_[node.column] > Real(0);
+  };
+  std::map<std::size_t, Real> load;  // by column where some of the bed is left [kg m/s]
+  for (const Pressing& node : nodes) {
+    if (has_bed(node)) {
+      load[node.column] += node.load;
+    }
   }
-  return {taken, taken * physics::speed_with_taken(mass, speed, taken), Real(0)};
+  constexpr int all_parts = Dim == 2 ? bed_parts : bed_parts * bed_parts;
+  for (Pressing& node : nodes) {
+    node.available = Real(0);
+    if (has_bed(node)) {
+      const int bare_parts = all_parts - std::popcount(covered_[node.column]);
+      const Real bare = initial_[node.column] * static_cast<Real>(bare_parts) / Real(all_parts);
+      node.available = node.load / load[node.column] * std::max(left_[node.column] - bare, Real(0));
+    }
+  }
 }
 
 template <int Dim, class Real>
 void Bed<Dim, Real>::collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes, Real dt) {
+  age(dt);
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    for (std::size_t k = 0; nodes.bed.holds(b) && k < nodes.bed.nodes; ++k) {
+      const auto& contact = nodes.contact(b, k);
+      if (nodes.bed(b, k)[Layout::taken] > Real(0)) {
+        collect(number_of(column_of(grid, b, k)), nodes.bed(b, k).data(),
+                contact[mpm::Contact::normal_force] / contact[mpm::Contact::area]);
+      }
+    }
+  }
+}
+
+template <int Dim, class Real>
+void Bed<Dim, Real>::age(Real dt) {
   for (auto& [column, matter] : loose_) {
     matter.idle += dt;
   }
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    for (std::size_t k = 0; nodes.bed.holds(b) && k < nodes.bed.nodes; ++k) {
-      const auto& of_node = nodes.bed(b, k);
-      const Real taken = of_node[Layout::taken];
-      if (!(taken > Real(0))) {
-        continue;
-      }
-      const std::size_t column = number_of(column_of(grid, b, k));
-      LooseMatter<Dim, Real>& matter = loose_[column];
-      left_[column] = std::max(left_[column] - taken, Real(0));  // of shares that sum to it but for rounding
-      matter.mass += taken;
-      matter.momentum += mpm::vector_at<Dim, Real>(of_node, Layout::impulse);
-      matter.work += of_node[Layout::work];
-      matter.normal_pressure =
-          nodes.contact(b, k)[mpm::Contact::normal_force] / nodes.contact(b, k)[mpm::Contact::area];
-      matter.idle = Real(0);
-    }
-  }
+}
+
+template <int Dim, class Real>
+void Bed<Dim, Real>::collect(std::size_t column, const Real* record, Real normal_pressure) {
+  const Real taken = record[Layout::taken];
+  LooseMatter<Dim, Real>& matter = loose_[column];
+  left_[column] = std::max(left_[column] - taken, Real(0));  // of shares that sum to it but for rounding
+  matter.mass += taken;
+  matter.momentum += mpm::vector_at<Dim, Real>(record, Layout::impulse);
+  matter.work += record[Layout::work];
+  matter.normal_pressure = normal_pressure;
+  matter.idle = Real(0);
 }
 
 template <int Dim, class Real>

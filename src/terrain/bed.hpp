@@ -10,21 +10,10 @@
 
 #include "mpm/body_sizes.hpp"
 #include "mpm/nodes.hpp"
-#include "physics/entrainment.hpp"
-#include "terrain/contact_node.hpp"
+#include "terrain/bed_node.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::terrain {
-
-enum class BedLaw { strength, momentum };
-
-template <class Real>
-struct BedMatter {
-  BedLaw law = BedLaw::momentum;
-  Real cohesion = 0, tangent = 0;  // of what it withstands: c_b [Pa], tan(phi_b)
-  Real depth_per_slip = 0;         // [1]
-  Real density = 0;                // [kg/m3]
-};
 
 // Bed matter that has been taken up and waits to join the slide as a particle.
 template <int Dim, class Real>
@@ -47,21 +36,32 @@ class Bed {
   Bed(const BedMatter<Real>& matter, const Column& columns, std::vector<Real> mass)
       : matter_(matter), columns_(columns), initial_(std::move(mass)), left_(initial_), covered_(initial_.size(), 0) {}
 
-  // Notes which parts of the bed the slide has come to cover: so many along each axis for a column of nodes.
-  static constexpr int parts = 4;
+  // Number of a column, x fastest; `outside` for one beyond the domain.
+  static constexpr std::size_t outside = ~std::size_t{0};
+  [[nodiscard]] std::size_t number_of(const Column& column) const;
+
+  // Notes which parts of the bed the slide has come to cover: bed_parts along each axis for a column of nodes.
   void cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
              const mpm::BodySizes<Real>& sizes, const mpm::Particles<Dim, Real>& particles);
+  // The same of one column; parts: a bit for each.
+  void cover(std::size_t column, std::uint32_t parts) { covered_[column] |= static_cast<std::uint16_t>(parts); }
 
   // Shares out what is left below each column among its nodes, by how they press on the ground (nodes.base): none takes
   // what another one does, and none where the slide has never been. Fills nodes.bed.
   void share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
-
-  // Of a node of so much mass [kg] that slides at `speed` > 0 [m/s] after friction of the strength `shear` [Pa].
-  [[nodiscard]] Bite<Real> bite(Real available, Real mass, Real speed, Real shear, Real normal_pressure, Real area,
-                                Real dt) const;
+  // The same among nodes of a list, of any columns.
+  struct Pressing {
+    std::size_t column = outside;
+    Real load = 0;       // as BaseLayout has it
+    Real available = 0;  // of the bed [kg]
+  };
+  void share_out(std::vector<Pressing>& nodes) const;
 
   // What nodes took in a step of dt goes from the bed to what is loose.
   void collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes, Real dt);
+  // The same node by node, after age(dt). record: of BedLayout.
+  void age(Real dt);
+  void collect(std::size_t column, const Real* record, Real normal_pressure);
 
   // Loose matter that is to join: join(column, matter) says whether it does, and it is loose no more.
   void release(const std::function<bool(const Column&, const LooseMatter<Dim, Real>&)>& join);
@@ -84,8 +84,6 @@ class Bed {
  private:
   void cover_part(const Column& part);
   [[nodiscard]] Column column_of(const mpm::SparseGrid<Dim, Real>& grid, std::size_t block, std::size_t node) const;
-  [[nodiscard]] bool holds(const Column& column) const;
-  [[nodiscard]] std::size_t number_of(const Column& column) const;
   [[nodiscard]] Column column_at(std::size_t number) const;
 
   BedMatter<Real> matter_;

@@ -109,31 +109,6 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
   });
 }
 
-// What a sliding node takes of the bed, whose record it fills; its momentum along the slip is still that after
-// friction. `bed` may be null.
-template <int Dim, class Real>
-struct BedBelowNode {
-  const Bed<Dim, Real>* bed;
-  typename decltype(mpm::Nodes<Dim, Real>::bed)::Record* record;
-  Real area, strength, dt, mass;
-
-  template <int>
-  [[nodiscard]] Bite<Real> bite(const physics::ContactImpulse<Real>& impulse, const Vector<Real, Dim>& along,
-                                Real tangential_size) const {
-    using Layout = mpm::BedLayout<Dim>;
-    if (bed == nullptr || !impulse.slides || !((*record)[Layout::available] > Real(0))) {
-      return {};
-    }
-    const Real speed = (tangential_size - impulse.tangential) / mass;
-    const Bite<Real> bite =
-        bed->bite((*record)[Layout::available], mass, speed, strength, impulse.normal / (area * dt), area, dt);
-    (*record)[Layout::taken] = bite.taken;
-    mpm::set_vector<Dim>(*record, Layout::impulse, Vector<Real, Dim>(bite.impulse * along));
-    return bite;
-  }
-  void note_work(Real work) const { (*record)[mpm::BedLayout<Dim>::work] = work; }
-};
-
 // No node of a block is in contact; `known`: its nodes' ground.
 template <int Dim, class Real>
 void start_block(const typename GroundOnGrid<Dim, Real>::Block& known, std::size_t b, mpm::Nodes<Dim, Real>& nodes) {
@@ -212,8 +187,8 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
     for (std::size_t c = 0; c < contact.basal.count; ++c) {
       const std::size_t k = contact.node[c];
       const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
-      const BedBelowNode<Dim, Real> below{bed,
-                                          bed != nullptr ? &nodes.bed.of_block(b)[k] : nullptr,
+      const BedBelowNode<Dim, Real> below{bed != nullptr ? &bed->matter() : nullptr,
+                                          bed != nullptr ? nodes.bed.of_block(b)[k].data() : nullptr,
                                           contact.area[c],
                                           strength,
                                           dt,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/between_middles.hpp"
+
 namespace thawslide::terrain {
 
 namespace {
@@ -105,27 +107,19 @@ double LayerThickness<Dim>::at_middle(const Number& number) {
 template <int Dim>
 double LayerThickness<Dim>::at(const Place& place) {
   Number left;
-  Place share;
-  for (int a = 0; a + 1 < Dim; ++a) {
-    const double in_columns = place[a] / cell_ + 0.5;  // 1 in the middle of column 0
-    left[static_cast<std::size_t>(a)] = static_cast<long>(std::floor(in_columns)) - 1;
+  std::array<double, Dim - 1> share;
+  for (std::size_t a = 0; a < left.size(); ++a) {
+    const double in_columns = place[static_cast<int>(a)] / cell_ + 0.5;  // 1 in the middle of column 0
+    left[a] = static_cast<long>(std::floor(in_columns)) - 1;
     share[a] = in_columns - std::floor(in_columns);
   }
-  // Linear between the middles of the columns, along one axis after the other.
-  const auto along_x = [&](const Number& first) {
-    Number next = first;
-    ++next[0];
-    const double here = at_middle(first);
-    return here + share[0] * (at_middle(next) - here);
-  };
-  if constexpr (Dim == 2) {
-    return along_x(left);
-  } else {
-    Number above = left;
-    ++above[1];
-    const double here = along_x(left);
-    return here + share[1] * (along_x(above) - here);
-  }
+  return between_middles(share, [&](const std::array<int, Dim - 1>& steps) {
+    Number number = left;
+    for (std::size_t a = 0; a < number.size(); ++a) {
+      number[a] += steps[a];
+    }
+    return at_middle(number);
+  });
 }
 
 template <int Dim>

@@ -16,6 +16,7 @@ template <int Dim>
 class LayerThickness {
  public:
   using Place = typename Surface<Dim>::Place;
+  using Number = std::array<long, Dim - 1>;  // of a column of cells, along each horizontal axis
 
   // How particles fill the cells at the start: at the centres of the cells' equal parts, `spacing` [m] apart, where
   // these lie above the ground; or in columns that stand on the ground.
@@ -27,11 +28,12 @@ class LayerThickness {
   // surface [m], both averaged over some columns of cells about the place with weights that fall off linearly: without
   // that it would jump from column to column, and with it the heat of particles that slide through them.
   [[nodiscard]] double at(const Place& place);
+  // The same at the middle of a column.
+  [[nodiscard]] double at_middle(const Number& number);
   // The largest of it at the middles of the columns over a rectangle [m].
   [[nodiscard]] double largest(const Place& from, const Place& to);
 
  private:
-  using Number = std::array<long, Dim - 1>;  // of a column of cells, along each horizontal axis
   // Of one column of cells: what particles fill of its band cells, and its ground [m, m2 in 2D; m3, m2 in 3D].
   struct Column {
     double filled, ground;
@@ -39,7 +41,6 @@ class LayerThickness {
 
   [[nodiscard]] Column make_column(const Number& number) const;
   [[nodiscard]] Column column(const Number& number);
-  [[nodiscard]] double at_middle(const Number& number);
 
   std::shared_ptr<const Surface<Dim>> ground_;
   double cell_, spacing_;

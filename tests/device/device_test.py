@@ -210,6 +210,20 @@ def test_every_kernel_of_the_step_is_compiled() -> None:
     assert {kernel for kernel in kernels - by_law if not re.search(rf"\b{kernel}<", code)} == set()
 
 
+def test_the_program_for_a_card_goes_well_without_one() -> None:
+    """Build it, and let it compare the processor with threads of the processor in no order, choice by choice."""
+    find_nvcc()
+    build = ["cmake", "--build", str(ROOT / "build" / "release"), "--target", "thawslide_device_test"]
+    built = subprocess.run(build, capture_output=True, text=True, timeout=LIMIT, check=False)
+    assert built.returncode == 0, built.stdout[-4000:]
+    program = ROOT / "build" / "release" / "tests" / "thawslide_device_test"
+    done = subprocess.run([program, "--rehearse"], capture_output=True, text=True, timeout=LIMIT, check=False)
+    assert done.returncode == 0, done.stdout
+    compared = re.findall(r"(\d+) of (\d+) (?:fields|numbers) have the same bits", done.stdout)
+    assert len(compared) > 60
+    assert [(same, count) for same, count in compared if same != count] == []
+
+
 def test_the_step_on_a_card_compiles_without_spills(tmp_path: Path) -> None:
     """As launched: passes by groups of threads, nodes, sorting."""
     used = resources(compiled(find_nvcc(), CARD, tmp_path))

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -46,8 +47,14 @@ inline std::filesystem::path write(const std::string& name, std::string_view byt
 template <class Read>
 bool gives_value(const std::string& file, const Read& read) {
   const auto told = [&](const std::exception& error) {
-    if (std::string_view(error.what()).find(file) == std::string_view::npos) {
-      fail(fmt::format("the message does not name {}: {}", file, error.what()));
+    const std::string_view words(error.what());
+    if (const auto* letter =
+            std::find_if(words.begin(), words.end(), [](char l) { return l > 0 && l < ' ' && l != '\n'; });
+        letter != words.end()) {
+      fail(fmt::format("the message holds the control letter {:#x}: {}", *letter, words));
+    }
+    if (words.find(file) == std::string_view::npos) {
+      fail(fmt::format("the message does not name {}: {}", file, words));
     }
     return false;
   };

@@ -121,6 +121,15 @@ def test_missing_targets_file_names_the_key(make_run: MakeRun) -> None:
     expect(folder, "targets.csv: no such file; [report] targets in ")
 
 
+@pytest.mark.parametrize("name", ["x" * 300, "zero\\u0000byte", "loop"])
+def test_name_of_targets_that_no_file_has(make_run: MakeRun, name: str) -> None:
+    folder = make_run()
+    (folder / "loop").symlink_to("loop")
+    case = folder / "case.toml"
+    case.write_text(case.read_text().replace("inputs/targets.csv", name))
+    expect(folder, "case.toml: [report] targets '" + name[:4])
+
+
 def test_row_cut_off_at_the_end_is_left_out_with_a_warning(make_run: MakeRun) -> None:
     folder = make_run(rows=11)
     text = (folder / "history.csv").read_text()

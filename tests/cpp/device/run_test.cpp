@@ -72,6 +72,7 @@ void expect_the_same_with_every_choice(int steps) {
       {at_face, "heat.boundary.x_min={temperature=3.0}"},
       {at_face, "heat.boundary.x_min={flux=400.0}"},
       {at_face, "heat.boundary.x_min={temperature=3.0}", "mechanics.enabled=false"},
+      {"band.region=first_layer", "band.cut_cells=equal_thickness", "body.right.particles_per_axis=2"},
       {"band.region=first_layer", "heat.enabled=false"},
       {"band.region=first_layer", "pressure.enabled=false", "heat.enabled=false"}};
   for (const std::vector<std::string>& sets : choices) {
@@ -102,6 +103,41 @@ void expect_the_same_columns(int steps) {
 TEST(DeviceRun, KeepsTheBandColumnsOfTheProcessor) {
   expect_the_same_columns<2>(60);
   expect_the_same_columns<3>(25);
+}
+
+// The bed stays with the processor; what is taken of it joins the slide.
+template <int Dim>
+void expect_the_same_bed(const std::vector<std::string>& more, int steps) {
+  std::vector<std::string> sets{"bed.depth={x=[-4.0,8.0],value=[0.2,0.6]}",
+                                "bed.strength=100.0",
+                                "bed.friction_angle=5.0",
+                                "bed.depth_per_slip=0.2",
+                                "bed.material=melted",
+                                "bed.temperature=-0.5",
+                                "bed.porosity=0.9",
+                                "bed.particles_per_axis=4"};
+  sets.insert(sets.end(), more.begin(), more.end());
+  const config::Case parameters = sliding_bodies<Dim>(sets);
+  EXPECT_GT(expect_the_same_run<Dim>(parameters, steps), 0);
+  Simulation<Dim, double> on_processor(parameters), on_device(parameters);
+  on_device.take_steps_on("a card", in_place_of_a_card<Dim>(ThreadOrder::backward));
+  for (int k = 0; k < steps; ++k) {
+    on_processor.step(0.002);
+    on_device.step(0.002);
+    ASSERT_EQ(on_device.bed()->state(), on_processor.bed()->state()) << "after step " << k;
+  }
+  EXPECT_GT(on_processor.particle_count(), on_processor.particles_at_start() + 5);
+  EXPECT_EQ(on_device.particle_count(), on_processor.particle_count());
+}
+TEST(DeviceRun, TakesUpTheBedOfTheProcessor) {
+  for (const std::string law : {"momentum", "strength"}) {
+    SCOPED_TRACE(law);
+    expect_the_same_bed<2>({"bed.law=" + law}, 90);
+    expect_the_same_bed<3>({"bed.law=" + law}, 30);
+  }
+  std::vector<std::string> both = on_columns;
+  both.emplace_back("bed.law=momentum");
+  expect_the_same_bed<2>(both, 60);
 }
 
 TEST(DeviceRun, SettlesABody) {
@@ -148,6 +184,11 @@ TEST(DeviceRun, StaysOnGroundThatIsKnown) {
   std::ofstream(folder_of_this_test() / "dem.tif");
   const config::Case parameters = sliding_bodies<3>({}, "type = \"dem\"\nfile = \"dem.tif\"\n");
   EXPECT_EQ(expect_the_same_run<3>(parameters, 12, bumpy_site(40.0)), 0);
+  const config::Case by_layer =
+      sliding_bodies<3>({"band.region=first_layer", "band.cut_cells=equal_thickness", "body.right.particles_per_axis=2",
+                         "band.thickness={time=[0.0,0.01],value=[0.1,0.2]}"},
+                        "type = \"dem\"\nfile = \"dem.tif\"\n");
+  EXPECT_EQ(expect_the_same_run<3>(by_layer, 12, bumpy_site(40.0)), 0);
   std::vector<std::string> told;
   for (const bool on_device : {false, true}) {
     Simulation<3, double> simulation(parameters, bumpy_site(8.0));

@@ -223,8 +223,12 @@ TEST(Particles, KeepTheirValuesWhenOthersGoAndNewOnesHaveNone) {
       EXPECT_EQ(particles.velocity(now_at[p], 1), 10.0 * static_cast<double>(p));
     }
   }
+  for (int c = 0; c < 2; ++c) {  // what a device leaves in the rest of a block
+    particles.velocity(16, c) = 7.0;
+  }
   EXPECT_EQ(particles.append(5), 16U);
   for (std::size_t p = 16; p < 21; ++p) {
+    EXPECT_EQ(particles.velocity(p, 0), 0.0);
     EXPECT_EQ(particles.velocity(p, 1), 0.0);
     EXPECT_EQ(particles.id(p), 0);
   }

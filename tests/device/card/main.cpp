@@ -1,19 +1,21 @@
 // thawslide_device_test: steps on a card against the same on the processor, and how fast the card is.
 //   thawslide_device_test            small slides compared, then 100,000 and 10 million particles for their speed
 //   thawslide_device_test --compare  small slides alone: for compute-sanitizer
-//   thawslide_device_test --speed N  so many particles alone
+//   thawslide_device_test --speed N  so many particles alone, with the time of each stage
+//   thawslide_device_test --table    how fast, by size, up to what the card holds: the table of docs/gpu.md
+//   thawslide_device_test --rehearse  as --compare, without a card: its threads run on the processor, in no order
 // Exit codes: 0 the bits are the same, or differ by at most 1e-12 of each quantity's largest value (it says which);
 // 1 they differ by more, or two runs on the card differ at all; 2 wrong options; 5 there is no card to run on.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "device/card.hpp"
-#include "steps_on.hpp"
+#include "measure.hpp"
 
 namespace thawslide::card_test {
 namespace {
@@ -114,26 +116,31 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
   }
   return numbers;
 }
-bool tell_looks(const std::string& when, const std::vector<double>& of_processor, const std::vector<double>& of_card) {
+bool tell_numbers(const std::string& what, const std::vector<double>& of_processor,
+                  const std::vector<double>& of_card) {
   std::size_t same = 0;
   bool well = of_card.size() == of_processor.size();
   for (std::size_t k = 0; well && k < of_card.size(); ++k) {
     same += std::memcmp(&of_card[k], &of_processor[k], sizeof of_card[k]) == 0 ? 1 : 0;
     well = std::abs(of_card[k] - of_processor[k]) <= tolerance * std::max(1.0, std::abs(of_processor[k]));
   }
-  std::printf("%-60s %zu of %zu numbers have the same bits: %s\n", (when + "looks at particles").c_str(), same,
-              of_processor.size(), well ? "well" : "beyond what is allowed");
+  std::printf("%-60s %zu of %zu numbers have the same bits: %s\n", what.c_str(), same, of_processor.size(),
+              well ? "well" : "beyond what is allowed");
   return well;
 }
 
+bool tell_looks(const std::string& when, const std::vector<double>& of_processor, const std::vector<double>& of_card) {
+  return tell_numbers(when + "looks at particles", of_processor, of_card);
+}
+
 template <int Dim>
-bool compare_slides(const Size& size) {
+bool compare_slides(const device::MakeStep<Dim, Real>& make, const Size& size) {
   ParticleMemory<Dim> start(size.particles(Dim));
   seed(size, start);
   bool well = true;
   const std::string dim = Dim == 2 ? "2D, " : "3D, ";
   const auto processor = steps_of(on_processor<Dim>(), start);
-  const auto card = steps_of(device::on_card<Dim>(), start), again = steps_of(device::on_card<Dim>(), start);
+  const auto card = steps_of(make, start), again = steps_of(make, start);
   ParticleMemory<Dim> of_processor(start.size()), of_card(start.size()), of_second(start.size());
   int done = 0;
   for (const int steps : {1, 20, 60}) {
@@ -157,46 +164,81 @@ bool compare_slides(const Size& size) {
   return well;
 }
 
-void measure(std::size_t particles) {
-  const double height = std::cbrt(static_cast<double>(particles) / 8.0 / 16.0);  // as long as wide, a quarter as high
-  const auto cells = [](double number) { return static_cast<std::size_t>(std::max(1.0, std::round(number))); };
-  const Size size{cells(4 * height), cells(4 * height), cells(height)};
-  ParticleMemory<3> start(size.particles(3));
+// What else models choose: the same bits on both, of particles, looks and what the processor is told amid steps.
+template <int Dim>
+bool compare_variant(const device::MakeStep<Dim, Real>& make, const Size& size, const NamedVariant& of) {
+  ParticleMemory<Dim> start(size.particles(Dim)), of_processor(start.size()), of_card(start.size());
   seed(size, start);
-  const auto card = steps_of(device::on_card<3>(), start);
-  take_steps(*card, 0, 5);
-  card->sort_in_memory();
-  take_steps(*card, 5, 10);
-  const auto begin = std::chrono::steady_clock::now();
-  int steps = 0;
-  double seconds = 0;
-  while (seconds < 5.0 && steps < 200) {
-    take_steps(*card, 10 + steps, 20 + steps);
-    steps += 10;
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto told = std::make_shared<Told>(), told_by_card = std::make_shared<Told>();
+  const auto processor = steps_of(on_processor<Dim>(), start, of.variant, told);
+  const auto card = steps_of(make, start, of.variant, told_by_card);
+  bool well = true;
+  int done = 0;
+  for (const int steps : {1, 12}) {
+    const auto sums = take_steps(*processor, done, steps), of_this_card = take_steps(*card, done, steps);
+    done = steps;
+    processor->copy_to(of_processor.view());
+    card->copy_to(of_card.view());
+    const std::string when =
+        (Dim == 2 ? "2D, " : "3D, ") + std::string(of.name) + ", " + std::to_string(steps) + " steps, ";
+    well =
+        (tell((when + "card against processor").c_str(), compare(of_processor, of_card), false) || steps > 1) && well;
+    if (steps == 1) {
+      well = tell_looks(when, looks(*processor, sums), looks(*card, of_this_card)) && well;
+      well = (told->empty() || tell_numbers(when + "what the processor is told", *told, *told_by_card)) && well;
+    }
   }
-  std::printf("3D, %zu particles: %.4g million particle-steps a second, %.4g ms a step\n", start.size(),
-              static_cast<double>(start.size()) * steps / seconds / 1e6, 1e3 * seconds / steps);
-  card->time_stages();
-  constexpr int timed = 20;
-  take_steps(*card, 10 + steps, 10 + steps + timed);
-  for (const auto& [stage, spent] : card->seconds()) {
-    std::printf("  %-28s %.4g ms\n", stage.c_str(), 1e3 * spent / timed);
+  return well;
+}
+
+double free_memory() { return device::find_card().free; }
+
+void measure(std::size_t particles) {
+  std::map<std::string, double> stages;
+  const auto keep = [&](const std::string& stage, double seconds) { stages[stage] = seconds; };
+  const Measured found = measured(device::on_card<3>(), particles, Variant::plain, 5.0, free_memory, keep);
+  std::printf("3D, %zu particles, %.0f %% yielding: %.4g million particle-steps a second, %.4g ms a step\n",
+              found.particles, 100 * found.yielding, static_cast<double>(found.particles) / found.seconds_a_step / 1e6,
+              1e3 * found.seconds_a_step);
+  for (const auto& [stage, seconds] : stages) {
+    std::printf("  %-28s %.4g ms\n", stage.c_str(), 1e3 * seconds);
   }
 }
 
+// make: what takes the place of `on a card`.
+template <int Dim>
+bool compare_all(const device::MakeStep<Dim, Real>& make, const Size& size) {
+  bool well = compare_slides<Dim>(make, size);
+  for (const NamedVariant& variant : variants) {
+    well = (variant.variant == Variant::plain || compare_variant<Dim>(make, size, variant)) && well;
+  }
+  return well;
+}
+bool compare_all(const device::MakeStep<2, Real>& make_2d, const device::MakeStep<3, Real>& make_3d) {
+  const bool well = compare_all<2>(make_2d, {20, 1, 8});
+  return compare_all<3>(make_3d, {8, 5, 4}) && well;
+}
+
 int run(const std::string& what, std::size_t particles) {
+  if (what == "--rehearse") {
+    constexpr auto order = device::ThreadOrder::shuffled;
+    const bool well = compare_all(on_processor<2>(order), on_processor<3>(order));
+    print_table(on_processor<3>(order), {2000}, 0.0, [] { return 0.0; });
+    return well ? 0 : 1;
+  }
   const device::Card card = device::find_card();
   if (!card.is_usable) {
     std::fprintf(stderr, "nothing was run: %s\n", card.why_not.c_str());
     return no_card;
   }
   std::printf("%s\n", card.name.c_str());
-  bool well = true;
-  if (what != "--speed") {
-    well = compare_slides<2>({20, 1, 8}) && well;
-    well = compare_slides<3>({8, 5, 4}) && well;
+  if (what == "--table") {
+    print_table(device::on_card<3>(),
+                {100'000, 1'000'000, 10'000'000, 50'000'000, 100'000'000, 150'000'000, 200'000'000, 300'000'000}, 5.0,
+                free_memory);
+    return 0;
   }
+  const bool well = what == "--speed" || compare_all(device::on_card<2>(), device::on_card<3>());
   if (what.empty()) {
     measure(100'000);
     measure(10'000'000);
@@ -213,8 +255,9 @@ int main(int count, char** arguments) {
   const std::string what = count > 1 ? arguments[1] : "";
   const bool is_speed = what == "--speed" && count == 3;
   const long long particles = is_speed ? std::atoll(arguments[2]) : 0;
-  if (!(count == 1 || (what == "--compare" && count == 2) || (is_speed && particles > 0))) {
-    std::fprintf(stderr, "usage: thawslide_device_test [--compare | --speed PARTICLES]\n");
+  const bool has_no_number = what == "--compare" || what == "--rehearse" || what == "--table";
+  if (!(count == 1 || (has_no_number && count == 2) || (is_speed && particles > 0))) {
+    std::fprintf(stderr, "usage: thawslide_device_test [--compare | --rehearse | --table | --speed PARTICLES]\n");
     return 2;
   }
   try {

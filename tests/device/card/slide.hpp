@@ -152,7 +152,7 @@ device::StepModel<Dim, Real> model_of_slide() {
   model.band.water.law = physics::WaterExpansionLaw::by_temperature;
   model.band.conservative_advection = true;
   model.hydraulic_conductivity = {1e-9};
-  model.scaling_in_band = [](Real /*time*/) { return 10.0; };
+  model.band_thickness = [cell = model.cell](Real /*time*/) { return cell / 10.0; };
   model.scales_all = false;
   model.faces.extent.setConstant(1e5);
   model.lower.setZero();
@@ -186,8 +186,11 @@ bool ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
 template <int Dim>
 device::AskProcessor<Dim, Real> terrain_of_slide() {
   using Place = Vector<Real, Dim - 1>;
-  return {ask_ground<Dim>, [](const Place& /*place*/) { return 1.0; },
-          [](const Place& /*place*/) { return 9.81 * std::cos(slope * pi<Real> / 180.0); }};
+  device::AskProcessor<Dim, Real> ask;
+  ask.ground = ask_ground<Dim>;
+  ask.slope_cosine = [](const Place& /*place*/) { return 1.0; };
+  ask.normal_gravity = [](const Place& /*place*/) { return 9.81 * std::cos(slope * pi<Real> / 180.0); };
+  return ask;
 }
 
 }  // namespace thawslide::card_test

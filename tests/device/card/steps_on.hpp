@@ -1,10 +1,11 @@
-// Steps of the block (slide.hpp) by the processor, in a card's place.
+// Steps of the block (slide.hpp) on a card, or by the processor in a card's place.
 #pragma once
 
 #include <memory>
 
 #include "device/any_step.hpp"
-#include "slide.hpp"
+#include "device/host_backend.hpp"
+#include "variants.hpp"
 
 namespace thawslide::card_test {
 
@@ -12,11 +13,14 @@ template <int Dim>
 using Steps = device::AnyStep<Dim, Real>;
 
 template <int Dim>
-device::MakeStep<Dim, Real> on_processor();
+device::MakeStep<Dim, Real> on_processor(device::ThreadOrder order = device::ThreadOrder::forward);
 
+// told: what the processor's part in the steps is told.
 template <int Dim>
-std::unique_ptr<Steps<Dim>> steps_of(const device::MakeStep<Dim, Real>& make, const ParticleMemory<Dim>& particles) {
-  return make(model_of_slide<Dim>(), particles.view(), particles.size(), terrain_of_slide<Dim>());
+std::unique_ptr<Steps<Dim>> steps_of(const device::MakeStep<Dim, Real>& make, const ParticleMemory<Dim>& particles,
+                                     Variant variant = Variant::plain,
+                                     const std::shared_ptr<Told>& told = std::make_shared<Told>()) {
+  return make(model_of<Dim>(variant), particles.view(), particles.size(), processor_of<Dim>(variant, told));
 }
 
 }  // namespace thawslide::card_test

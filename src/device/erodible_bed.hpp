@@ -1,0 +1,196 @@
+// The erodible bed on the ground (terrain/bed.hpp), which stays with the processor: which parts of it the slide covers,
+// how nodes press on it, what of it they may take and what they took.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "device/array.hpp"
+#include "device/ground.hpp"
+#include "device/node_works.hpp"
+#include "device/stacks.hpp"
+#include "device/step_model.hpp"
+#include "terrain/bed_node.hpp"
+
+namespace thawslide::device {
+
+// Parts of a column of nodes.
+template <int Dim>
+inline constexpr std::size_t parts_of_column = static_cast<std::size_t>(mpm::power(terrain::bed_parts, Dim - 1));
+
+// Marks the parts that particles of tiles near the ground cover. A group of threads a tile.
+template <int Dim, class Real>
+struct CoverBed {
+  using T = mpm::Tile<Dim>;
+
+  TileTables<Dim> tables;
+  mpm::ParticleView<Dim, Real> particles;
+  mpm::SizesOfBodies<Real> sizes;
+  SeesCandidates<Dim> sees;
+  Real cell;
+  const std::uint32_t* stack_of_block;
+  std::uint8_t* covered;  // by stack, column and part
+
+  template <class Group>
+  THAWSLIDE_HD void operator()(Group& group, std::size_t tile) const {
+    constexpr auto nodes = static_cast<std::size_t>(T::nodes);
+    const std::size_t first = tables.first_of_cell[tile * nodes];
+    const std::size_t last = sees(tile) ? tables.first_of_cell[(tile + 1) * nodes] : first;
+    group.each(last - first, [this, tile, first](std::size_t k) { cover(tile, tables.order[first + k]); });
+  }
+
+ private:
+  THAWSLIDE_HD void cover(std::size_t tile, std::uint32_t particle) const {
+    const Real half = sizes.half[sizes.is_uniform ? 0 : static_cast<std::size_t>(particles.body(particle))];
+    std::array<terrain::PartsCovered, 2> along{};  // in the plane the second is one part wide
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      along[a] = terrain::parts_covered(particles.position(particle, static_cast<int>(a)), half, cell);
+    }
+    for (int y = along[1].first; y <= along[1].last; ++y) {
+      for (int x = along[0].first; x <= along[0].last; ++x) {
+        if (x >= 0 && y >= 0) {
+          cover(tile, std::array<int, 2>{x, y});
+        }
+      }
+    }
+  }
+  THAWSLIDE_HD void cover(std::size_t tile, const std::array<int, 2>& part) const {
+    constexpr int parts = terrain::bed_parts;
+    const typename T::Index corner = T::node(T::index(tables.tile_keys[tile]), 0);
+    ColumnIndex<Dim> column{};
+    int bit = 0;
+    for (std::size_t a = Dim - 1; a-- > 0;) {
+      column[a] = part[a] / parts - corner[a];
+      bit = bit * parts + part[a] % parts;
+    }
+    const std::size_t place = place_of_column<Dim>(tables, stack_of_block, tile, column);
+    covered[place * parts_of_column<Dim> + static_cast<std::size_t>(bit)] = 1;  // all who write it write the same
+  }
+};
+
+// The parts of a column in one number, a bit for each. A thread a column.
+template <int Dim>
+struct PackParts {
+  const std::uint8_t* covered;
+  std::uint32_t* parts;
+
+  THAWSLIDE_HD void operator()(std::size_t column) const {
+    std::uint32_t all = 0;
+    for (std::size_t bit = 0; bit < parts_of_column<Dim>; ++bit) {
+      all |= covered[column * parts_of_column<Dim> + bit] != 0 ? 1U << bit : 0U;
+    }
+    parts[column] = all;
+  }
+};
+
+// How candidate nodes press on the ground; with what they may take, the records that they begin with; and what of these
+// the processor is told. A thread a candidate.
+template <int Dim, class Real>
+struct TellLoad {
+  NodeViews<Dim, Real> nodes;
+  const std::uint32_t* candidates;
+  Real* loads;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const { loads[k] = nodes.base_at(candidates[k])[mpm::BaseLayout::load]; }
+};
+template <int Dim, class Real>
+struct OfferBed {
+  const Real* available;
+  Real* records;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    Real* record = records + k * bed_told<Dim>;
+    for (std::size_t c = 0; c < bed_told<Dim>; ++c) {
+      record[c] = Real(0);
+    }
+    record[mpm::BedLayout<Dim>::available] = available[k];
+  }
+};
+template <int Dim, class Real>
+struct TellPressure {
+  NodeViews<Dim, Real> nodes;
+  const std::uint32_t* candidates;
+  Real* records;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    Real* record = records + k * bed_told<Dim>;
+    const Real* contact = nodes.contact_at(candidates[k]);
+    if (record[mpm::BedLayout<Dim>::taken] > Real(0)) {
+      record[mpm::BedLayout<Dim>::size] = contact[mpm::Contact::normal_force] / contact[mpm::Contact::area];
+    }
+  }
+};
+
+// As ResolveContact asks (device/node_works.hpp).
+template <int Dim, class Real>
+struct BedBelowNodes {
+  terrain::BedMatter<Real> matter;
+  Real* records;
+
+  [[nodiscard]] THAWSLIDE_HD terrain::BedBelowNode<Dim, Real> below(std::size_t candidate, Real area, Real strength,
+                                                                    Real dt, Real mass) const {
+    return {&matter, records + candidate * bed_told<Dim>, area, strength, dt, mass};
+  }
+};
+
+template <class Backend, int Dim, class Real>
+class ErodibleBed {
+ public:
+  ErodibleBed(Backend& backend, BedOnProcessor<Dim, Real> processor)
+      : backend_(backend), processor_(std::move(processor)) {}
+
+  [[nodiscard]] bool exists() const { return static_cast<bool>(processor_.share_out); }
+
+  // To be called after blocks changed.
+  void update(const std::vector<std::uint64_t>& blocks, const Ground<Backend, Dim, Real>& ground) {
+    if (!exists()) {
+      return;
+    }
+    const Stacks<Dim> stacks(blocks);
+    constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+    std::vector<ColumnIndex<Dim>> of_candidates;
+    for (const std::uint32_t node : ground.list_candidates()) {
+      of_candidates.push_back(column_of_node<Dim>(blocks[node / block_nodes], node % block_nodes));
+    }
+    stack_.set(stacks.of_block);
+    parts_.resize(stacks.columns.size());
+    covered_.resize(stacks.columns.size() * parts_of_column<Dim>);
+    backend_.for_each(covered_.size(), Fill<std::uint8_t>{covered_.data(), 0});
+    loads_.resize(of_candidates.size());
+    records_.resize(of_candidates.size() * bed_told<Dim>);
+    processor_.take_columns(stacks.columns, of_candidates);
+  }
+
+  // The base has been asked: what candidate nodes may take.
+  void share_out(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles,
+                 const mpm::SizesOfBodies<Real>& sizes, const Ground<Backend, Dim, Real>& ground, Real cell,
+                 const NodeViews<Dim, Real>& nodes) {
+    constexpr std::size_t threads = 128;
+    backend_.for_groups(
+        tables.tiles, threads, 0,
+        CoverBed<Dim, Real>{tables, particles, sizes, ground.sees_candidates(), cell, stack_.data(), covered_.data()});
+    backend_.for_each(parts_.size(), PackParts<Dim>{covered_.data(), parts_.data()});
+    backend_.for_each(loads_.size(), TellLoad<Dim, Real>{nodes, ground.candidates(), loads_.data()});
+    available_.set(processor_.share_out(parts_.get(), loads_.get()));
+    backend_.for_each(loads_.size(), OfferBed<Dim, Real>{available_.data(), records_.data()});
+  }
+
+  [[nodiscard]] BedBelowNodes<Dim, Real> below_nodes() { return {processor_.matter, records_.data()}; }
+
+  // Contact has been resolved.
+  void collect(const NodeViews<Dim, Real>& nodes, const std::uint32_t* candidates) {
+    backend_.for_each(loads_.size(), TellPressure<Dim, Real>{nodes, candidates, records_.data()});
+    processor_.collect(records_.get());
+  }
+
+ private:
+  Backend& backend_;
+  BedOnProcessor<Dim, Real> processor_;
+  Array<std::uint32_t, Backend> stack_{backend_}, parts_{backend_};
+  Array<std::uint8_t, Backend> covered_{backend_};
+  Array<Real, Backend> loads_{backend_}, available_{backend_}, records_{backend_};
+};
+
+}  // namespace thawslide::device

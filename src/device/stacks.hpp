@@ -1,0 +1,67 @@
+// Blocks that stand above each other, and the columns of nodes in them: for what depends on the horizontal place alone.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "base/portability.hpp"
+#include "device/tile_tables.hpp"
+
+namespace thawslide::device {
+
+// Indices of a column's nodes along the horizontal axes.
+template <int Dim>
+using ColumnIndex = std::array<int, Dim - 1>;
+
+template <int Dim>
+inline constexpr std::size_t columns_of_block = static_cast<std::size_t>(mpm::power(mpm::Tile<Dim>::edge, Dim - 1));
+
+// The column of a node of a block.
+template <int Dim>
+ColumnIndex<Dim> column_of_node(std::uint64_t block, std::size_t node) {
+  using T = mpm::Tile<Dim>;
+  const typename T::Index index = T::node(T::index(block), static_cast<int>(node));
+  ColumnIndex<Dim> column{};
+  std::copy_n(index.begin(), column.size(), column.begin());
+  return column;
+}
+
+template <int Dim>
+struct Stacks {
+  std::vector<std::uint32_t> of_block;    // the stack that it is in
+  std::vector<ColumnIndex<Dim>> columns;  // of one stack after the other, x fastest
+
+  explicit Stacks(const std::vector<std::uint64_t>& blocks) {
+    std::map<ColumnIndex<Dim>, std::uint32_t> numbers;  // by the first column
+    for (const std::uint64_t key : blocks) {
+      const auto [place, is_new] =
+          numbers.try_emplace(column_of_node<Dim>(key, 0), static_cast<std::uint32_t>(numbers.size()));
+      of_block.push_back(place->second);
+      for (std::size_t k = 0; is_new && k < columns_of_block<Dim>; ++k) {
+        columns.push_back(column_of_node<Dim>(key, k));  // nodes of the lowest layer come first
+      }
+    }
+  }
+};
+
+// Where a column stands among those of all stacks. column: counted from the first of a tile, -1 .. edge.
+template <int Dim>
+THAWSLIDE_HD std::size_t place_of_column(const TileTables<Dim>& tables, const std::uint32_t* stack_of_block,
+                                         std::size_t tile, const ColumnIndex<Dim>& column) {
+  using T = mpm::Tile<Dim>;
+  int direction = T::stencil / 2, in_stack = 0;
+  for (std::size_t a = Dim - 1; a-- > 0;) {
+    const int beside = column[a] >> T::edge_bits;  // rounds down
+    direction += beside * mpm::power(3, static_cast<int>(a));
+    in_stack = in_stack * T::edge + (column[a] - beside * T::edge);
+  }
+  const std::int32_t block =
+      tables.blocks_about_tile[tile * static_cast<std::size_t>(T::stencil) + static_cast<std::size_t>(direction)];
+  return stack_of_block[static_cast<std::size_t>(block)] * columns_of_block<Dim> + static_cast<std::size_t>(in_stack);
+}
+
+}  // namespace thawslide::device

@@ -1,0 +1,84 @@
+// What one node does with the erodible bed below it, and which parts of the bed a particle covers. For host and device.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "base/select.hpp"
+#include "mpm/records.hpp"
+#include "mpm/vectors_in_records.hpp"
+#include "physics/entrainment.hpp"
+#include "terrain/contact_node.hpp"
+
+namespace thawslide::terrain {
+
+enum class BedLaw { strength, momentum };
+
+template <class Real>
+struct BedMatter {
+  BedLaw law = BedLaw::momentum;
+  Real cohesion = 0, tangent = 0;  // of what it withstands: c_b [Pa], tan(phi_b)
+  Real depth_per_slip = 0;         // [1]
+  Real density = 0;                // [kg/m3]
+};
+
+// Of a column of nodes: so many parts along each axis, which the slide covers one by one.
+inline constexpr int bed_parts = 4;
+
+// Along one axis the parts whose middles the box of a particle reaches, counted from the domain's lower corner, where
+// the first of column 0 begins half a column below it. half: of the box, in cells.
+struct PartsCovered {
+  int first, last;
+};
+template <class Real>
+THAWSLIDE_HD PartsCovered parts_covered(Real position, Real half, Real cell) {
+  using std::ceil, std::floor;
+  const Real middle = (position / cell + Real(0.5)) * bed_parts - Real(0.5);
+  const Real reach = half * bed_parts;
+  return {static_cast<int>(ceil(middle - reach)), static_cast<int>(floor(middle + reach))};
+}
+
+// What a node of so much mass [kg] takes of the bed that slides at `speed` > 0 [m/s] after friction of the strength
+// `shear` [Pa]. available: to it of the bed [kg].
+template <class Real>
+THAWSLIDE_HD Bite<Real> bite_of(const BedMatter<Real>& matter, Real available, Real mass, Real speed, Real shear,
+                                Real normal_pressure, Real area, Real dt) {
+  const Real strength = physics::bed_strength(matter.cohesion, matter.tangent, normal_pressure);
+  const Real rate = matter.law == BedLaw::strength
+                        ? physics::erosion_by_strength(shear, strength, speed, matter.depth_per_slip)
+                        : physics::erosion_by_momentum(shear, strength, matter.density, speed, matter.depth_per_slip);
+  const Real taken = min(available, matter.density * rate * area * dt);
+  if (matter.law == BedLaw::momentum) {
+    return {taken, taken * speed, taken * speed};
+  }
+  return {taken, taken * physics::speed_with_taken(mass, speed, taken), Real(0)};
+}
+
+// What a sliding node takes of the bed, whose record of BedLayout it fills; its momentum along the slip is still that
+// after friction. matter: null where there is no bed.
+template <int Dim, class Real>
+struct BedBelowNode {
+  const BedMatter<Real>* matter;
+  Real* record;
+  Real area, strength, dt, mass;
+
+  template <int>
+  [[nodiscard]] THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& impulse,
+                                             const Vector<Real, Dim>& along, Real tangential_size) const {
+    using Layout = mpm::BedLayout<Dim>;
+    if (matter == nullptr || !impulse.slides || !(record[Layout::available] > Real(0))) {
+      return {};
+    }
+    const Real speed = (tangential_size - impulse.tangential) / mass;
+    const Bite<Real> bite =
+        bite_of(*matter, record[Layout::available], mass, speed, strength, impulse.normal / (area * dt), area, dt);
+    record[Layout::taken] = bite.taken;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      record[Layout::impulse + a] = bite.impulse * along[static_cast<int>(a)];
+    }
+    return bite;
+  }
+  THAWSLIDE_HD void note_work(Real work) const { record[mpm::BedLayout<Dim>::work] = work; }
+};
+
+}  // namespace thawslide::terrain
