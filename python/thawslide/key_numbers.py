@@ -96,7 +96,7 @@ def key_numbers(run: Run) -> list[KeyNumber]:
 
 
 def found_for(run: Run, target: Target) -> str:
-    """Return what a run has for a reported value, with its unit; "" where it has nothing to compare."""
+    """Return what a run has for a reported value, with its unit, or why it has nothing to compare."""
     if target.quantity == SETS_CLOCK:
         start = time_of_speed(run, target.value)
         return f"at {shown(start, 's')}" if np.isfinite(start) else "never"
@@ -107,7 +107,18 @@ def found_for(run: Run, target: Target) -> str:
         if time < first or time > last:
             return f"not compared: the run is of {first:g} to {last:g} s"
     value = _found(run, target)
-    return "" if value is None else shown(target.in_its_unit(value), target.unit_words)
+    return _why_not(run, target) if value is None else shown(target.in_its_unit(value), target.unit_words)
+
+
+def _why_not(run: Run, target: Target) -> str:
+    """Return why a run has nothing for a reported value."""
+    if quantity_of(target.quantity).column in run.history:
+        return "not compared: the run never reaches the speed that sets the clock"
+    if quantity_of(target.quantity).fact:
+        return "not known: this takes a 3D run that came to its end" if run.dimension == 3 else "not known in 2D"
+    if run.per_metre:
+        return "not known: the case gives no width (case.width)"
+    return "not in the files of this run"
 
 
 def _found(run: Run, target: Target) -> float | None:

@@ -47,6 +47,8 @@ def make_report(
     output = output or run.folder
     _ = run.history, run.facts, run.targets  # what every page needs: mistakes are told before anything is drawn
     report = Report(output / "report.html")
+    if (output / "figures").is_symlink():
+        raise ReportError(f"{output / 'figures'} is a link; figures go into the folder of the report alone")
     try:
         (output / "figures").mkdir(parents=True, exist_ok=True)
         chosen = list(names or figures_of(run))

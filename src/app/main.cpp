@@ -95,7 +95,8 @@ int run_program(int count, char** arguments) {
   add_case_options(*run, run_options.of_case);
   add_threads_option(*run, run_options.threads);
   add_device_option(*run, run_options.device);
-  run->add_option("--output", run_options.output, "Folder of the results (default: runs/NAME)");
+  run->add_option("--output", run_options.output, "Folder of the results (default: runs/NAME)")
+      ->check([](const std::string& folder) { return folder.empty() ? std::string("name a folder") : std::string(); });
   run->add_flag("--overwrite", run_options.overwrite, "Replace the run the folder holds");
   run->callback([&] { exit_code = run_case(run_options); });
 

@@ -66,30 +66,39 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
   }
 }
 
+std::string reason_for_cell(const config::Proposal& proposal, bool given) {
+  return given ? fmt::format("--cell: a release {:.4g} m thick with cells of {:g} m", proposal.thickness, proposal.cell)
+               : fmt::format("--thickness: a release {:.4g} m thick asks for cells of {:g} m", proposal.thickness,
+                             proposal.cell);
+}
+
 // As many cells along each axis as a case may have.
-void require_resolvable(const config::Proposal& proposal) {
+// given: by --cell, and not by the thickness.
+void require_resolvable(const config::Proposal& proposal, bool given) {
   constexpr double fewest = 2.0, most = 5e5;
   for (std::size_t a = 0; a < 3; ++a) {
     const double cells = (proposal.max[a] - proposal.min[a]) / proposal.cell;
     if (!(cells >= fewest && cells <= most)) {
       throw UserError(
-          fmt::format("--thickness: a release {:.4g} m thick asks for cells of {:g} m, and the terrain about it would "
-                      "have {:.4g} of them along {}; allowed: {:g} to {:g}. Is the thickness in metres?",
-                      proposal.thickness, proposal.cell, std::max(0.0, std::round(cells)), "xyz"[a], fewest, most));
+          fmt::format("{}, and the terrain about it would have {:.4g} of them along {}; allowed: {:g} to {:g}. {}",
+                      reason_for_cell(proposal, given), std::max(0.0, std::round(cells)), "xyz"[a], fewest, most,
+                      given ? "Give another --cell." : "Is the thickness in metres?"));
     }
   }
 }
 
 // Before any file is written, in words for a user who has no case yet.
-void require_memory(const config::Proposal& proposal) {
+void require_memory(const config::Proposal& proposal, bool given) {
   const sim::MemoryNeed need = sim::memory_of_particles<3>(proposal.particles);
   const AvailableMemory available = available_memory();
   if (need.total() > available.bytes) {
-    throw UserError(fmt::format(
-        "--thickness: a release {:.4g} m thick asks for cells of {:g} m and {:.3g} particles; they need about {:.3g} "
-        "GB of memory, and {:.3g} GB {}. Set --cell {:g} or more, which is coarser. Is the thickness in metres?",
-        proposal.thickness, proposal.cell, proposal.particles, need.total() / 1e9, available.bytes / 1e9,
-        available.bound, sim::smallest_cell<3>(need, proposal.cell, available.bytes)));
+    throw UserError(
+        fmt::format("{} and {:.3g} particles; they need about {:.3g} GB of memory, and {:.3g} GB {}. Set --cell {:g} "
+                    "or more, which "
+                    "is coarser.{}",
+                    reason_for_cell(proposal, given), proposal.particles, need.total() / 1e9, available.bytes / 1e9,
+                    available.bound, sim::smallest_cell<3>(need, proposal.cell, available.bytes),
+                    given ? "" : " Is the thickness in metres?"));
   }
 }
 
@@ -156,8 +165,8 @@ int make_new_case(const NewOptions& options) {
   }
   const config::Proposal proposal =
       config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle, options.cell);
-  require_resolvable(proposal);
-  require_memory(proposal);
+  require_resolvable(proposal, options.cell > 0.0);
+  require_memory(proposal, options.cell > 0.0);
   input.title = title_of(options.folder);
   const std::string release_name = fs::path(options.maps.release).filename().string();
   input.dem_file = release_name == "dem.tif" ? "terrain.tif" : "dem.tif";

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 
 #include "app/say.hpp"
 
@@ -16,6 +17,13 @@ constexpr double seconds_between_bars = 0.2;
 constexpr double seconds_between_lines = 10.0;
 constexpr double share_between_lines = 0.1;
 constexpr int bar_width = 24;
+
+// Of a processor, for this thread: what a line costs, however busy the machine is.
+double thread_seconds() {
+  timespec spent{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
+  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -43,7 +51,7 @@ bool Progress::due(double time, double end) {
   const double share = (time - begin_) / (end - begin_), passed = seconds_since(last_);
   const bool is_due = terminal_ ? passed >= seconds_between_bars
                                 : share - last_share_ >= share_between_lines || passed >= seconds_between_lines;
-  begun_ = Clock::now();
+  begun_ = thread_seconds();
   return is_due && passed >= least_work_between * work_;
 }
 
@@ -67,7 +75,7 @@ void Progress::show(const ProgressState& state) {
     say("{:3.0f} % | {}\n", 100.0 * share, text);
   }
   last_ = Clock::now();
-  work_ = std::chrono::duration<double>(last_ - begun_).count();
+  work_ = thread_seconds() - begun_;
   last_share_ = share;
 }
 

@@ -34,8 +34,9 @@ class Progress {
   bool terminal_;
   bool drawn_ = false;
   double begin_, last_share_ = 0.0;
-  double work_ = 0.0;  // to show the last state, the caller's part too [s]
-  Clock::time_point start_, last_, begun_;
+  double work_ = 0.0;   // to show the last state, the caller's part too [s]
+  double begun_ = 0.0;  // the work, in processor time [s]
+  Clock::time_point start_, last_;
 };
 
 // "1 h 02 min", "3 min 20 s", "12 s".

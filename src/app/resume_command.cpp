@@ -1,5 +1,6 @@
 // thawslide resume.
 #include <algorithm>
+#include <set>
 
 #include "app/commands.hpp"
 #include "app/device_choice.hpp"
@@ -17,6 +18,7 @@
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/history_writer.hpp"
+#include "io/run_folder.hpp"
 #include "io/run_lock.hpp"
 #include "io/sha256.hpp"
 
@@ -37,6 +39,10 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
   std::vector<std::string> changed;
   for (const io::InputFile& input : inputs) {
     const fs::path copy = folder / input.copy;
+    if (fs::path(input.copy).parent_path() != "inputs") {
+      throw UserError(fmt::format("{}: damaged: it names {} as the copy of an input; those lie in inputs/.",
+                                  (folder / "run.json").string(), input.copy));
+    }
     if (copy.filename() == reported_values.filename()) {
       continue;
     }
@@ -97,6 +103,21 @@ std::string advice_on(const fs::path& folder, const io::Provenance& facts, const
                   folder.string(), joined(changes, " --set ")));
 }
 
+// One of another run may have been put there.
+void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& facts, const std::string& now,
+                               const std::string& of_checkpoint) {
+  const std::string sha256 = sha256_of_text(of_checkpoint);
+  const bool is_known = std::any_of(facts.parts.begin(), facts.parts.end(),
+                                    [&](const io::RunPart& part) { return part.case_sha256 == sha256; });
+  if (!is_known) {
+    const std::vector<std::string> differences = config::differences(of_checkpoint, now);
+    throw UserError(fmt::format(
+        "the checkpoint of {} was not written by this run: run.json tells of no part with its case{}{}. Put back the "
+        "run's own checkpoint.bin or checkpoint.previous.bin, or run the case anew.",
+        folder.string(), differences.empty() ? "" : ", in which ", joined(differences, "; ")));
+  }
+}
+
 // case.toml must be what the run's checkpoint was written with, or what a resume that was cut off has put there; what
 // `sets` replaces may be anything.
 void require_same_case(const fs::path& folder, const io::Provenance& facts, const std::string& before,
@@ -108,6 +129,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
   }
   const std::string now = io::read_file(file);
   const io::RunPart& last = facts.parts.back();
+  require_checkpoint_of_run(folder, facts, now, before);
   if (sha256_of_text(now) == last.case_sha256) {
     return;
   }
@@ -176,15 +198,16 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
 // What the run goes on with.
 struct Continuation {
   config::Case parameters;
-  std::string case_text;   // for case.toml
-  io::Provenance earlier;  // what run.json tells, with the part that begins
-  bool ends_earlier = false;
+  std::string case_text;       // for case.toml
+  io::Provenance earlier;      // what run.json tells, with the part that begins
+  double earlier_end = 0.0;    // time.end before it was changed [s]
   std::string device = "cpu";  // --device
 };
 
 Continuation continuation_of(const fs::path& folder, const std::vector<std::string>& sets, io::Provenance facts) {
   config::require_changeable(sets);
   Continuation next{config::read_case(folder, sets), io::read_file(folder / "case.toml"), std::move(facts)};
+  next.earlier_end = next.parameters.time.end;
   if (!sets.empty()) {
     const config::Case before = config::read_case(folder);
     if (config::guards_remove(before) != config::guards_remove(next.parameters)) {
@@ -192,7 +215,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
           "history.csv has a column removed_mass_kg where [guards] may remove particles, and none where they may not: "
           "a run that goes on cannot change that. Run the case anew.");
     }
-    next.ends_earlier = next.parameters.time.end < before.time.end;
+    next.earlier_end = before.time.end;
     next.case_text = config::resolved_toml(next.parameters, "inputs");
   }
   io::RunPart part = io::part_of_this_process();
@@ -233,6 +256,38 @@ int start_anew(const fs::path& folder, const Continuation& next) {
   return start_and_run<Dim>(simulation, output, folder);
 }
 
+// Whether a run that is done goes on, with what was changed. falls_back: its last checkpoint is lost. Throws UserError
+// where it cannot, and the changes would be lost.
+template <int Dim>
+bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, bool falls_back,
+                              sim::Simulation<Dim, double>& simulation) {
+  const std::vector<std::string>& changes = next.earlier.parts.back().changes;
+  const bool is_end_alone = config::keys_of(changes) == std::set<std::string>{"time.end"};
+  if (simulation.time() >= next.parameters.time.end - 0.5 * simulation.last_step()) {
+    if (!changes.empty() && !is_end_alone) {
+      throw UserError(fmt::format(
+          "{} has reached its end at {:g} s: no step is left that could take {}. Give a later end too: --end T.",
+          folder.string(), simulation.time(), joined(changes, ", ")));
+    }
+    say("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
+    return false;
+  }
+  if (simulation.is_at_rest()) {
+    if (changes.empty() || is_end_alone) {
+      say("{} has come to rest at {:g} s; nothing to do. It goes on with --set time.stop_at_rest=0\n", folder.string(),
+          simulation.time());
+      return false;
+    }
+    simulation.wait_for_rest_anew();
+  } else if (simulation.time() < next.earlier_end - 0.5 * simulation.last_step() && !falls_back) {
+    throw UserError(
+        fmt::format("{} has ended, and nothing is left of the slide to go on with: {}. Run the case anew, "
+                    "in a larger domain.",
+                    folder.string(), next.earlier.message));
+  }
+  return true;
+}
+
 template <int Dim>
 int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
   Notes notes;
@@ -248,14 +303,12 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
   const double end = next.parameters.time.end, half_a_step = 0.5 * simulation.last_step();
   const double had_come_to = std::max(next.earlier.simulated_time,
                                       io::last_time_in_history(folder / "history.csv").value_or(simulation.time()));
-  if (next.ends_earlier && end < had_come_to - half_a_step) {
+  if (end < next.earlier_end && end < had_come_to - half_a_step) {
     throw UserError(
         fmt::format("the end of {:g} s has passed: the run had come to {:g} s. Give a later one.", end, had_come_to));
   }
-  const bool is_at_end = simulation.time() >= end - half_a_step;
-  if ((is_at_end || simulation.is_at_rest()) && next.earlier.status == "done") {
-    say("{} has {} at {:g} s; nothing to do\n", folder.string(), is_at_end ? "reached its end" : "come to rest",
-        simulation.time());
+  if (next.earlier.status == "done" &&
+      !takes_changes_at_its_end<Dim>(folder, next, !checkpoint.note.empty(), simulation)) {
     return static_cast<int>(ExitCode::done);
   }
   if (!checkpoint.note.empty()) {
@@ -297,6 +350,7 @@ int resume_run(const ResumeOptions& options) {
     }
   }
   const io::RunLock lock(folder);
+  io::require_own_folders(folder);
   const io::Provenance facts = io::read_provenance(folder);
   io::WholeCheckpoint checkpoint;
   const bool has_checkpoint = io::has_checkpoint(folder);

@@ -133,15 +133,18 @@ std::string words_for(const RunStatus& status) {
         "ago",
         duration_text(status.last_write_age.value_or(0.0)));
   }
-  const std::string words = status.state == "failed" ? "the run went bad" : status.state;
-  return status.message.empty() ? words : words + ": " + status.message;
+  if (status.state == "failed") {
+    return status.message.empty() ? "the run went bad" : status.message;  // which begins with these words
+  }
+  return status.message.empty() ? status.state : status.state + ": " + status.message;
 }
 
 void print_status(const fs::path& folder, const RunStatus& status) {
   fmt::print("{}: {}\n", folder.string(), words_for(status));
   if (status.end) {
-    fmt::print("  {:g} of {:g} s simulated ({:.0f} %){}\n", status.time, *status.end,
-               std::floor(100.0 * std::min(1.0, status.time / *status.end)),
+    const double share = std::floor(100.0 * std::min(1.0, status.time / *status.end));
+    fmt::print("  {:g} of {:g} s simulated{}{}\n", status.time, *status.end,
+               status.state == "done" ? "" : fmt::format(" ({:.0f} %)", share),
                status.time_left ? fmt::format(", about {} left", duration_text(*status.time_left)) : "");
   } else {
     fmt::print("  {:g} s simulated; its end is not known: {}\n", status.time, status.case_error);

@@ -135,20 +135,25 @@ double round_down(double x) {
   return best;
 }
 
+constexpr double leeway = 1.5;  // to come by a cell of few digits
+
+// Cells: all lengths are whole multiples of so many, and of a whole part of them.
+double common_cells(double cell, const std::vector<double>& lengths) {
+  long common = 0;
+  for (const double length : lengths) {
+    common = std::gcd(common, std::lround(length / cell));
+  }
+  return static_cast<double>(common);
+}
+
 // A cell of at most so much, of which a domain of these lengths has a whole number along each axis, as it has of
 // `cell`.
 double fitting_cell(double most, double cell, const std::vector<double>& lengths) {
   if (lengths.empty()) {
     return round_down(most);
   }
-  long common = 0;
-  for (const double length : lengths) {
-    common = std::gcd(common, std::lround(length / cell));
-  }
-  // All lengths are whole multiples of this, and of a whole part of it.
-  const double largest = cell * static_cast<double>(common);
+  const double largest = cell * common_cells(cell, lengths);
   const double fewest = std::ceil(largest / most * (1.0 - 1e-9));
-  constexpr double leeway = 1.5;  // to come by a cell of few digits
   for (double parts = fewest; parts <= leeway * fewest; ++parts) {
     const double found = largest / parts, of_few_digits = std::stod(fmt::format("{:.2g}", found));
     if (std::abs(found - of_few_digits) < 1e-9 * found) {
@@ -156,6 +161,29 @@ double fitting_cell(double most, double cell, const std::vector<double>& lengths
     }
   }
   return largest / fewest;
+}
+
+double fitting_cell_from(double least, double cell, const std::vector<double>& lengths) {
+  const double largest = cell * common_cells(cell, lengths);
+  const double most = std::floor(largest / least * (1.0 + 1e-9));
+  if (most < 1.0) {
+    return least;
+  }
+  for (double parts = most; parts >= 1.0 && parts * leeway >= most; --parts) {
+    const double found = largest / parts, of_few_digits = std::stod(fmt::format("{:.2g}", found));
+    if (std::abs(found - of_few_digits) < 1e-9 * found) {
+      return of_few_digits;
+    }
+  }
+  return largest / most;
+}
+
+std::vector<double> lengths_of_domain(const Case& parameters) {
+  std::vector<double> lengths;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(parameters.general.dimension); ++a) {
+    lengths.push_back(parameters.grid.max[a] - parameters.grid.min[a]);
+  }
+  return lengths;
 }
 
 double median_thickness(const Raster& thickness) {

@@ -61,6 +61,13 @@ void propose_times(Proposal& proposal, double farthest);
 // Of a raster of thickness [m]: half of the volume is where it is thinner.
 [[nodiscard]] double median_thickness(const Raster& thickness);
 
+// The extent of the domain along each axis [m].
+[[nodiscard]] std::vector<double> lengths_of_domain(const Case& parameters);
+
+// A cell of at least so much, of which a domain of these lengths has a whole number along each axis, as it has of
+// `cell`; `least` itself where there is none.
+[[nodiscard]] double fitting_cell_from(double least, double cell, const std::vector<double>& lengths);
+
 // What the user should know of cells that put too few particles across the median thickness of a body [m]; empty where
 // they are enough. The cell that it names fits a domain of these `lengths` [m], a whole number of cells each; empty:
 // any does, as the domain follows from it.

@@ -16,6 +16,7 @@ constexpr double stiffest = 1e11;       // [Pa]; fresh rock has some 5e10
 constexpr double smallest_angle = 3.0;  // [degrees]; tan 3 is 0.05, the least that is said of ice on ice
 constexpr double warm = 0.0;            // [C]
 constexpr double most_snapshots = 10000.0;
+constexpr double least_wall_interval = 1.0;  // [s]
 constexpr double most_steps = 1e9;
 constexpr double least_on_earth = 9.5, most_on_earth = 10.1;         // [m/s2]; 9.81 and what is rounded from it
 constexpr double lightest_in_grams = 0.5, heaviest_in_grams = 10.0;  // [g/cm3]
@@ -173,11 +174,23 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
         "time.output_interval", time.output_interval, " s",
         fmt::format("that is {:.6g} snapshots, each a file, more than a folder or a film is good for.", snapshots));
   }
-  if (const double interval = parameters.checkpoint.interval; is_fixed && interval > 0.0 && interval < time.step) {
+  if (const double interval = parameters.checkpoint.interval;
+      is_fixed && interval > 0.0 && interval <= time.step) {
     doubts.add("checkpoint.interval", interval, " s",
-               fmt::format("shorter than the step of {} s: a checkpoint every step takes longer than the step. "
+               fmt::format("no longer than the step of {} s: a checkpoint every step takes longer than the step. "
                            "checkpoint.wall_interval writes them by the clock.",
                            time.step));
+  }
+  if (const double interval = parameters.checkpoint.wall_interval; interval > 0.0 && interval < least_wall_interval) {
+    doubts.add("checkpoint.wall_interval", interval, " s",
+               "so often most of the time goes into checkpoints; usual is a minute to an hour.");
+  }
+  for (const double at : parameters.report.times) {
+    if (at > time.end) {
+      doubts.add("report.times", at, " s",
+                 fmt::format("later than the run, which ends at {} s: no figure shows that time.", time.end));
+      break;
+    }
   }
   if (time.history_interval > time.end) {
     doubts.add(

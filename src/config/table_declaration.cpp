@@ -124,11 +124,25 @@ std::vector<std::string> table_names(const toml::node& node, const std::string& 
   return names;
 }
 
+namespace {
+
+std::string reason_for(const std::string& when) {
+  return when == "always" ? "it has no default" : "it is needed " + when;
+}
+
+}  // namespace
+
 void report_missing(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
                     Reading& reading) {
-  const std::string reason = when == "always" ? "it has no default" : "it is needed " + when;
-  reading.report(join(table, rule.key), fmt::format("key '{}' is missing: {}. Add '{} = ...' to [{}]: {}, {}.",
-                                                    join(table, rule.key), reason, rule.key, table, rule.text, type));
+  reading.report(join(table, rule.key),
+                 fmt::format("key '{}' is missing: {}. Add '{} = ...' to [{}]: {}, {}.", join(table, rule.key),
+                             reason_for(when), rule.key, table, rule.text, type));
+}
+
+void report_empty(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
+                  Reading& reading) {
+  const std::string key = join(table, rule.key);
+  reading.report(key, fmt::format("{} is empty, and {}. Allowed: {}, {}.", key, reason_for(when), rule.text, type));
 }
 
 void report_without_meaning(const std::string& table, const Rule& rule, const Meaning& meaning, Reading& reading) {

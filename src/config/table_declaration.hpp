@@ -26,6 +26,9 @@ void report_unknown_keys(const toml::table& table, const std::string& dotted, co
 std::vector<std::string> table_names(const toml::node& node, const std::string& kind, Reading& reading);
 void report_missing(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
                     Reading& reading);
+// Reports a path that was given as no text at all.
+void report_empty(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
+                  Reading& reading);
 // Reports a key that was given where it has no meaning.
 void report_without_meaning(const std::string& table, const Rule& rule, const Meaning& meaning, Reading& reading);
 bool check_dimension(const toml::node& node, const std::string& dotted, const Rule& rule, Reading& reading);
@@ -80,6 +83,10 @@ class SectionParameters {
         const bool may_judge = p.has_meaning && is_decided && reading.sound({key, join(dotted, p.meaning.decided_by)});
         if (may_judge && !p.has_meaning(whole, section)) {
           report_without_meaning(dotted, p.rule, p.meaning, reading);
+        }
+        const bool is_empty = p.rule.is_path && p.write(section, p.rule, WriteContext{}) == quoted("");
+        if (is_empty && is_decided && reading.sound({key}) && p.is_required && p.is_required(whole, section)) {
+          report_empty(dotted, p.rule, p.type, p.required_words, reading);
         }
         continue;
       }

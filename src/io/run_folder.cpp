@@ -96,6 +96,16 @@ void require_usable(const fs::path& folder, bool overwrite) {
   }
 }
 
+void require_own_folders(const fs::path& folder) {
+  for (const char* name : {"snapshots", "maps", "inputs"}) {
+    if (fs::is_symlink(folder / name)) {
+      throw UserError(fmt::format(
+          "{} is a link; a run writes and reads its files in its own folder alone. Put the folder itself there.",
+          (folder / name).string()));
+    }
+  }
+}
+
 RunLock make_run_folder(const fs::path& folder, bool overwrite) {
   require_usable(folder, overwrite);
   std::error_code error;

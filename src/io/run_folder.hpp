@@ -14,6 +14,9 @@ namespace thawslide::io {
 // folder with other things in it, a place that cannot be written.
 void require_usable(const std::filesystem::path& folder, bool overwrite);
 
+// Throws UserError where a link stands in the place of a folder of a run.
+void require_own_folders(const std::filesystem::path& folder);
+
 // Makes the folder and its parents, and takes its lock; with `overwrite` removes the files of the run it holds, and
 // nothing else.
 RunLock make_run_folder(const std::filesystem::path& folder, bool overwrite);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "config/case_proposal.hpp"
+#include "sim/body_shape.hpp"
 
 namespace thawslide::sim {
 
@@ -55,6 +56,7 @@ class Bodies {
     figures.name = simulation_.model().body_names[number];
     figures.spacing = spacing_[number];
     sum_particles(number, figures);
+    figures.shape_volume = shape_volume(figures);
     measure_columns(number, figures);
     const auto release = simulation_.site().releases.find(figures.name);
     if (release != simulation_.site().releases.end()) {
@@ -85,6 +87,15 @@ class Bodies {
           std::floor(simulation_.particles().position(p, static_cast<int>(a)) / parameters().grid.cell));
     }
     return place;
+  }
+
+  // A release and what has no shape have that of their particles.
+  [[nodiscard]] double shape_volume(const BodyFigures& figures) const {
+    const auto body = parameters().bodies.find(figures.name);
+    if (body == parameters().bodies.end() || body->second.shape == config::BodyShape::release) {
+      return figures.volume;
+    }
+    return BodyShape<Dim>(parameters(), simulation_.site(), body->second, std::nullopt).volume();
   }
 
   void sum_particles(std::size_t number, BodyFigures& figures) const {

@@ -13,7 +13,8 @@ namespace thawslide::sim {
 struct BodyFigures {
   std::string name;
   std::size_t particles = 0;
-  double volume = 0.0;                                                           // [m3]
+  double volume = 0.0;                                                           // of its particles [m3]
+  double shape_volume = 0.0;                                                     // as the case gives it [m3]
   double mass = 0.0;                                                             // [kg]
   double area = 0.0;                                                             // horizontal [m2]
   double mean_thickness = 0.0, median_thickness = 0.0, largest_thickness = 0.0;  // [m]

@@ -12,10 +12,27 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double most_strain = 0.05;    // by its own weight, at the base
-constexpr double least_standing = 0.5;  // share of a body's area
-constexpr double touching = 0.5;        // spacings: particles stand on a lattice, and the ground need not
+constexpr double most_strain = 0.05;      // by its own weight, at the base
+constexpr double most_volume_off = 0.02;  // share that particles may have more or less than the shape
+constexpr double least_standing = 0.5;    // share of a body's area
+constexpr double touching = 0.5;          // spacings: particles stand on a lattice, and the ground need not
 constexpr int digits_of_places = 6;
+
+// Particles stand on a lattice, which the shape need not.
+std::string doubt_of_volume(const config::Case& parameters, const BodyFigures& body) {
+  const double more = body.volume / body.shape_volume - 1.0;
+  if (std::abs(more) <= most_volume_off) {
+    return "";
+  }
+  const std::string key = "body." + body.name;
+  return fmt::format(
+      "{}: {} has {:.6g} {}; its particles, which stand {:g} m apart and are what slides, have {:.6g}, {:.2g} % {}. "
+      "Put its "
+      "corners on multiples of that distance, or make grid.cell smaller.",
+      config::place_of(parameters, key), key, body.shape_volume,
+      parameters.general.dimension == 2 ? "m3 per m of width" : "m3", body.spacing, body.volume, 100.0 * std::abs(more),
+      more > 0.0 ? "more" : "less");
+}
 
 // A body over nothing, or far above what is below it.
 std::string doubt_of_standing(const config::Case& parameters, const BodyFigures& body) {
@@ -33,8 +50,8 @@ std::string doubt_of_standing(const config::Case& parameters, const BodyFigures&
     const double time = std::sqrt(2.0 * body.clearance / parameters.general.gravity);
     return fmt::format(
         "{}: {} floats: its underside is {:.3g} m above what is below it, and it falls for {:.2g} s before it touches. "
-        "Begin it lower by {:.3g} m, or set shape = \"surface\" or \"release\", which follow the ground.",
-        config::place_of(parameters, key), key, body.clearance, time, body.clearance);
+        "Begin it on that, or set shape = \"surface\" or \"release\", which follow the ground.",
+        config::place_of(parameters, key), key, body.clearance, time);
   }
   if (body.standing_share < least_standing) {
     return fmt::format(
@@ -88,14 +105,6 @@ std::string doubt_of_warmth(const config::Case& parameters, const BodyFigures& b
       config::place_of(parameters, key), key, body.warmest, digits_of_places, temperature.source);
 }
 
-std::vector<double> lengths_of_domain(const config::Case& parameters) {
-  std::vector<double> lengths;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(parameters.general.dimension); ++a) {
-    lengths.push_back(parameters.grid.max[a] - parameters.grid.min[a]);
-  }
-  return lengths;
-}
-
 }  // namespace
 
 std::vector<std::string> doubts_of_bodies(const config::Case& parameters, const std::vector<BodyFigures>& bodies) {
@@ -106,14 +115,15 @@ std::vector<std::string> doubts_of_bodies(const config::Case& parameters, const 
     }
   };
   for (const BodyFigures& body : bodies) {
+    add(doubt_of_volume(parameters, body));
     add(doubt_of_standing(parameters, body));
     add(doubt_of_stiffness(parameters, body));
     add(doubt_of_band(parameters, body));
     add(doubt_of_warmth(parameters, body));
     if (parameters.mechanics.enabled) {
-      const std::string note =
-          config::resolution_note(body.name, body.median_thickness, parameters.grid.cell,
-                                  parameters.bodies.at(body.name).particles_per_axis, lengths_of_domain(parameters));
+      const std::string note = config::resolution_note(body.name, body.median_thickness, parameters.grid.cell,
+                                                       parameters.bodies.at(body.name).particles_per_axis,
+                                                       config::lengths_of_domain(parameters));
       add(note.empty() ? "" : config::place_of(parameters, "grid.cell") + ": " + note);
     }
   }

@@ -6,6 +6,7 @@
 
 #include "band/base_piece.hpp"
 #include "base/error.hpp"
+#include "config/case_proposal.hpp"
 #include "sim/body_shape.hpp"
 #include "sim/flow_maps.hpp"
 #include "sim/map_grid.hpp"
@@ -147,14 +148,15 @@ const config::Case& require_memory(const config::Case& parameters, const config:
   const BodiesAtStart bodies = bodies_at_start<Dim>(parameters, site);
   const double cell = parameters.grid.cell;
   const MemoryNeed need = memory_need<Dim>(parameters, site, bodies);
-  const double fitting = smallest_cell<Dim>(need, cell, available.bytes);
+  const double smallest = smallest_cell<Dim>(need, cell, available.bytes);
+  const std::vector<double> lengths = config::lengths_of_domain(parameters);
   if (bodies.particles > most_particles) {
     const double countable = 1.05 * cell * std::pow(bodies.particles / most_particles, 1.0 / Dim);
     throw UserError(fmt::format(
-        "{}: grid.cell is {} m, which makes {:.3g} particles; allowed: {:.3g}. Make grid.cell {:.2g} m or more, or "
+        "{}: grid.cell is {} m, which makes {:.3g} particles; allowed: {:.3g}. Make grid.cell {:g} m or more, or "
         "particles_per_axis smaller.",
         config::place_of(parameters, "grid.cell"), cell, bodies.particles, most_particles,
-        std::max(fitting, countable)));
+        config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
   }
   if (need.total() <= available.bytes) {
     return parameters;
@@ -162,13 +164,14 @@ const config::Case& require_memory(const config::Case& parameters, const config:
   const std::string amounts =
       fmt::format("the run needs about {:.3g} GB of memory ({}), and {:.3g} GB {}", need.total() / gigabyte,
                   parts_of(need), available.bytes / gigabyte, available.bound);
-  if (fitting == 0.0) {
+  if (smallest == 0.0) {
     refuse_fixed_part(parameters, need, amounts);
   }
   throw UserError(fmt::format(
       "{}: grid.cell is {} m, which makes {:.3g} particles: {}. Make grid.cell {:g} m or more, or particles_per_axis "
       "smaller.",
-      config::place_of(parameters, "grid.cell"), cell, bodies.particles, amounts, fitting));
+      config::place_of(parameters, "grid.cell"), cell, bodies.particles, amounts,
+      config::fitting_cell_from(smallest, cell, lengths)));
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                      \

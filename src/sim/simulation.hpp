@@ -71,6 +71,8 @@ class Simulation {
   // Whether the slide has come to rest, as time.stop_at_rest has it; and since when, in words.
   [[nodiscard]] bool is_at_rest() const;
   [[nodiscard]] std::string rest_text() const;
+  // What has come to rest is to rest for time.rest_time once more.
+  void wait_for_rest_anew();
   // What is to be said of energy that came slowly and without a cause, by more than guards.energy_growth; empty:
   // nothing.
   [[nodiscard]] std::string energy_note() const;

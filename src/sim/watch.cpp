@@ -148,6 +148,11 @@ bool Simulation<Dim, Real>::is_at_rest() const {
 }
 
 template <int Dim, class Real>
+void Simulation<Dim, Real>::wait_for_rest_anew() {
+  watch_.rest_since = -1.0;
+}
+
+template <int Dim, class Real>
 std::string Simulation<Dim, Real>::energy_note() const {
   if (watch_.made_share <= parameters_.guards.energy_growth) {
     return "";
@@ -175,6 +180,7 @@ std::string Simulation<Dim, Real>::rest_text() const {
   template void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>&);            \
   template bool Simulation<Dim, Real>::is_at_rest() const;                                  \
   template std::string Simulation<Dim, Real>::energy_note() const;                          \
+  template void Simulation<Dim, Real>::wait_for_rest_anew();                                \
   template std::string Simulation<Dim, Real>::rest_text() const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

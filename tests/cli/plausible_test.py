@@ -58,7 +58,7 @@ COARSE = (
         (
             sets(body__block__min="[10.0,2.0]", body__block__max="[14.0,5.0]"),
             "{case}:27:1: body.block floats: its underside is 2 m above what is below it, and it falls for 0.64 s "
-            'before it touches. Begin it lower by 2 m, or set shape = "surface" or "release", which follow the ground.',
+            'before it touches. Begin it on that, or set shape = "surface" or "release", which follow the ground.',
         ),
         (
             sets(terrain__type="none"),
@@ -216,3 +216,12 @@ def test_what_cannot_fit_into_memory_is_refused_at_once(
     assert float(found[1]) < 3.0 and 0.001 < float(found[2]) < 0.02
     coarser = 0.01 if float(found[2]) <= 0.01 else 0.02
     assert outcome(str(coarser)).returncode == 0
+
+
+def test_what_is_doubted_is_told_before_a_step_is_refused_because_of_it(
+    thawslide: Program, plain_case: Path, tmp_path: Path
+) -> None:
+    for words in (["check"], ["run", "--output", tmp_path / "run"]):
+        outcome = thawslide(words[0], plain_case, *words[1:], *sets(phases__rock_density=2.75, time__step=0.05))
+        assert outcome.returncode == 2 and "time.step is 0.05 s, above the limit of" in outcome.stderr
+        assert "phases.rock_density is 2.75 kg/m3: if it is in g/cm3, it is 2750 kg/m3." in outcome.stdout

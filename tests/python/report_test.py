@@ -212,5 +212,8 @@ def test_reported_values_are_compared_on_the_clock_they_name(make_run: MakeRun) 
     assert marks.get_xdata()[0] == pytest.approx(5.5, abs=1e-3)
     targets.write_text("quantity,time_s,value,unit,source\nstart_velocity,4,60,m/s,x\nmean_displacement,7,50,m,x\n")
     run = Run(folder)
-    assert [found_for(run, target) for target in run.targets] == ["never", ""]
+    assert [found_for(run, target) for target in run.targets] == [
+        "never",
+        "not compared: the run never reaches the speed that sets the clock",
+    ]
     assert "This run never does" in clock_note(run)

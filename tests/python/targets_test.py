@@ -165,7 +165,7 @@ def test_numbers_of_the_end_are_compared(make_run: MakeRun) -> None:
         HEADER + "deposit_volume,0,52,million m3,x\nangle_of_reach,0,14,degrees,x\ndrop_height,0,1,km,x\n"
     )
     run = Run(folder)
-    assert [found_for(run, target) for target in run.targets] == ["50 million m3", "14.5 degrees", ""]
+    assert [found_for(run, target) for target in run.targets] == ["50 million m3", "14.5 degrees", "not known in 2D"]
 
 
 def test_mistakes_are_told_before_anything_is_drawn(make_run: MakeRun) -> None:

@@ -123,8 +123,11 @@ TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
        "1e-12 s: that is 1e+12 steps, months of computing. `thawslide check` tells the limit, which a step may come "
        "close to."},
       {"checkpoint.interval", "1e-8",
-       "1e-08 s: shorter than the step of 0.001 s: a checkpoint every step takes longer than the step. "
+       "1e-08 s: no longer than the step of 0.001 s: a checkpoint every step takes longer than the step. "
        "checkpoint.wall_interval writes them by the clock."},
+      {"checkpoint.wall_interval", "1e-9",
+       "1e-09 s: so often most of the time goes into checkpoints; usual is a minute to an hour."},
+      {"report.times", "[0.5, 5.0]", "5 s: later than the run, which ends at 1 s: no figure shows that time."},
       {"time.history_interval", "2",
        "2 s: longer than the run of 1 s: history.csv gets a row of its start and one of its end."}};
   const std::string known = "pressure.frozen=none", text = changed(with_columns);

@@ -10,11 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "../../device/on_processor.hpp"
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
 #include "base/error.hpp"
-#include "device/host_backend.hpp"
-#include "device/step_on.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -24,9 +23,7 @@ using device::Host, device::ThreadOrder;
 
 template <int Dim>
 device::MakeStep<Dim, double> in_place_of_a_card(ThreadOrder order) {
-  return [order](const auto& model, const auto& particles, std::size_t count, device::AskProcessor<Dim, double> ask) {
-    return device::steps_on<Host>(model, particles, count, std::move(ask), order);
-  };
+  return device::on_processor<Dim>(order);
 }
 
 // The same, which counts how often particles come back.

@@ -73,7 +73,22 @@ TEST(BodyFigures, TellHowFarABodyIsAboveTheGround) {
   const auto doubts = doubts_of_bodies(case_from_text(step), bodies);
   ASSERT_EQ(doubts.size(), 1U);
   EXPECT_NE(doubts.front().find("body.step floats: its underside is 1.75 m above what is below it, and it falls for "
-                                "0.6 s before it touches. Begin it lower by 1.75 m"),
+                                "0.6 s before it touches. Begin it on that"),
+            std::string::npos)
+      << doubts.front();
+}
+
+TEST(BodyFigures, TellWhatTheLatticeMakesOfAVolume) {
+  const std::vector<std::string> lower{
+      "body.step.vertices=[[10.0,1.0],[22.0,1.0],[22.0,3.0],[18.0,3.0],[18.0,4.8],[10.0,4.8]]"};
+  const std::vector<BodyFigures> bodies = figures_of(step, lower);
+  EXPECT_NEAR(bodies.front().shape_volume, 38.4, 1e-12);
+  EXPECT_NEAR(bodies.front().volume, 40.0, 1e-12);
+  const auto doubts = doubts_of_bodies(case_from_text(step, lower), bodies);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_NE(doubts.front().find("body.step has 38.4 m3 per m of width; its particles, which stand 0.5 m apart and are "
+                                "what slides, have 40, 4.2 % more. Put its corners on multiples of that distance, or "
+                                "make grid.cell smaller."),
             std::string::npos)
       << doubts.front();
 }

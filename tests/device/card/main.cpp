@@ -139,7 +139,7 @@ bool compare_slides(const device::MakeStep<Dim, Real>& make, const Size& size) {
   seed(size, start);
   bool well = true;
   const std::string dim = Dim == 2 ? "2D, " : "3D, ";
-  const auto processor = steps_of(on_processor<Dim>(), start);
+  const auto processor = steps_of(device::on_processor<Dim>(), start);
   const auto card = steps_of(make, start), again = steps_of(make, start);
   ParticleMemory<Dim> of_processor(start.size()), of_card(start.size()), of_second(start.size());
   int done = 0;
@@ -170,7 +170,7 @@ bool compare_variant(const device::MakeStep<Dim, Real>& make, const Size& size, 
   ParticleMemory<Dim> start(size.particles(Dim)), of_processor(start.size()), of_card(start.size());
   seed(size, start);
   const auto told = std::make_shared<Told>(), told_by_card = std::make_shared<Told>();
-  const auto processor = steps_of(on_processor<Dim>(), start, of.variant, told);
+  const auto processor = steps_of(device::on_processor<Dim>(), start, of.variant, told);
   const auto card = steps_of(make, start, of.variant, told_by_card);
   bool well = true;
   int done = 0;
@@ -222,8 +222,8 @@ bool compare_all(const device::MakeStep<2, Real>& make_2d, const device::MakeSte
 int run(const std::string& what, std::size_t particles) {
   if (what == "--rehearse") {
     constexpr auto order = device::ThreadOrder::shuffled;
-    const bool well = compare_all(on_processor<2>(order), on_processor<3>(order));
-    print_table(on_processor<3>(order), {2000}, 0.0, [] { return 0.0; });
+    const bool well = compare_all(device::on_processor<2>(order), device::on_processor<3>(order));
+    print_table(device::on_processor<3>(order), {2000}, 0.0, [] { return 0.0; });
     return well ? 0 : 1;
   }
   const device::Card card = device::find_card();

@@ -3,17 +3,13 @@
 
 #include <memory>
 
-#include "device/any_step.hpp"
-#include "device/host_backend.hpp"
+#include "../on_processor.hpp"
 #include "variants.hpp"
 
 namespace thawslide::card_test {
 
 template <int Dim>
 using Steps = device::AnyStep<Dim, Real>;
-
-template <int Dim>
-device::MakeStep<Dim, Real> on_processor(device::ThreadOrder order = device::ThreadOrder::forward);
 
 // told: what the processor's part in the steps is told.
 template <int Dim>
