@@ -32,7 +32,7 @@ TOLERANCE = 1e-6
 
 @pytest.fixture(scope="session")
 def rehearsal() -> Path:
-    """The program, built; where there is no nvcc, nothing is."""
+    """Build the program and return its path; skip where there is no nvcc."""
     if shutil.which("nvcc") is None and not Path(os.environ.get("CUDA_HOME", "/usr/local/cuda"), "bin/nvcc").exists():
         pytest.skip("no nvcc")
     command = ["cmake", "--build", str(BUILD), "--target", "thawslide_rehearsal"]
