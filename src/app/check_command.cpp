@@ -117,7 +117,6 @@ int check_case(const CheckOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     Notes notes(options.json ? Notes::Form::kept : Notes::Form::printed);
-    add_notes_of_case(parameters, notes);  // before what may be refused because of them
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, notes));
     sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
     records.start(simulation);

@@ -9,16 +9,13 @@
 
 namespace thawslide::app {
 
-void add_notes_of_case(const config::Case& parameters, Notes& notes) {
-  notes.add(config::notices(parameters));
-  notes.add(config::note_on_late_values(parameters));
-}
-
 template <int Dim>
 void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
                         const DiskNeed& disk, const std::filesystem::path& folder, Notes& notes) {
   const config::Case& parameters = simulation.parameters();
   notes.add(sim::note_on_map_cell(parameters, simulation.site()));
+  notes.add(config::notices(parameters));
+  notes.add(config::note_on_late_values(parameters));
   notes.add(sim::doubts_of_bodies(parameters, bodies));
   notes.add(doubt_of_disk(parameters, disk, free_on_disk(folder), folder));
 }

@@ -9,10 +9,7 @@
 
 namespace thawslide::app {
 
-// Of the case alone.
-void add_notes_of_case(const config::Case& parameters, Notes& notes);
-
-// The others. folder: of the run to come. For a simulation that has not taken a step.
+// folder: of the run to come. For a simulation that has not taken a step.
 template <int Dim>
 void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
                         const DiskNeed& disk, const std::filesystem::path& folder, Notes& notes);

@@ -279,7 +279,8 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
       return false;
     }
     simulation.wait_for_rest_anew();
-  } else if (simulation.time() < next.earlier_end - 0.5 * simulation.last_step() && !falls_back) {
+  } else if (simulation.time() < next.earlier_end - 0.5 * simulation.last_step() && !falls_back &&
+             !next.earlier.message.empty()) {
     throw UserError(
         fmt::format("{} has ended, and nothing is left of the slide to go on with: {}. Run the case anew, "
                     "in a larger domain.",
@@ -350,7 +351,7 @@ int resume_run(const ResumeOptions& options) {
     }
   }
   const io::RunLock lock(folder);
-  io::require_own_folders(folder);
+  io::require_own_folders(folder, {"snapshots", "inputs"});
   const io::Provenance facts = io::read_provenance(folder);
   io::WholeCheckpoint checkpoint;
   const bool has_checkpoint = io::has_checkpoint(folder);
@@ -365,6 +366,9 @@ int resume_run(const ResumeOptions& options) {
   }
   Continuation next = continuation_of(folder, sets, facts);
   next.device = options.device;
+  if (next.parameters.general.dimension == 3) {
+    io::require_own_folders(folder, {"maps"});
+  }
   require_same_inputs(folder, facts.inputs, next.parameters.report.targets);
   tell_changed_originals(facts.inputs);
   return with_dimension(next.parameters.general.dimension,

@@ -27,7 +27,6 @@ int run_case(const RunOptions& options) {
   io::require_usable(folder, options.overwrite);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     Notes notes;
-    add_notes_of_case(parameters, notes);  // before what may be refused because of them
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, notes));
     {
       sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written, or removed

@@ -174,8 +174,7 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
         "time.output_interval", time.output_interval, " s",
         fmt::format("that is {:.6g} snapshots, each a file, more than a folder or a film is good for.", snapshots));
   }
-  if (const double interval = parameters.checkpoint.interval;
-      is_fixed && interval > 0.0 && interval <= time.step) {
+  if (const double interval = parameters.checkpoint.interval; is_fixed && interval > 0.0 && interval <= time.step) {
     doubts.add("checkpoint.interval", interval, " s",
                fmt::format("no longer than the step of {} s: a checkpoint every step takes longer than the step. "
                            "checkpoint.wall_interval writes them by the clock.",
@@ -184,13 +183,6 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
   if (const double interval = parameters.checkpoint.wall_interval; interval > 0.0 && interval < least_wall_interval) {
     doubts.add("checkpoint.wall_interval", interval, " s",
                "so often most of the time goes into checkpoints; usual is a minute to an hour.");
-  }
-  for (const double at : parameters.report.times) {
-    if (at > time.end) {
-      doubts.add("report.times", at, " s",
-                 fmt::format("later than the run, which ends at {} s: no figure shows that time.", time.end));
-      break;
-    }
   }
   if (time.history_interval > time.end) {
     doubts.add(

@@ -96,8 +96,8 @@ void require_usable(const fs::path& folder, bool overwrite) {
   }
 }
 
-void require_own_folders(const fs::path& folder) {
-  for (const char* name : {"snapshots", "maps", "inputs"}) {
+void require_own_folders(const fs::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
     if (fs::is_symlink(folder / name)) {
       throw UserError(fmt::format(
           "{} is a link; a run writes and reads its files in its own folder alone. Put the folder itself there.",

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "io/run_lock.hpp"
 
@@ -14,8 +16,8 @@ namespace thawslide::io {
 // folder with other things in it, a place that cannot be written.
 void require_usable(const std::filesystem::path& folder, bool overwrite);
 
-// Throws UserError where a link stands in the place of a folder of a run.
-void require_own_folders(const std::filesystem::path& folder);
+// Throws UserError where a link stands in the place of one of these folders of a run.
+void require_own_folders(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 // Makes the folder and its parents, and takes its lock; with `overwrite` removes the files of the run it holds, and
 // nothing else.

@@ -213,6 +213,26 @@ void Simulation<Dim, Real>::take_new_positions() {
   }
 }
 
+namespace {
+
+// What makes a wave fast, which may be a slip of the pen; empty for other limits.
+template <int Dim, class Real>
+std::string matter_text(const config::Case& parameters, const Model<Dim, Real>& model,
+                        const mpm::Particles<Dim, Real>& particles, const StepLimit& limit) {
+  if (limit.kind != LimitKind::wave && limit.kind != LimitKind::viscosity) {
+    return "";
+  }
+  std::size_t p = 0;
+  while (p + 1 < particles.size() && particles.id(p) != limit.particle) {
+    ++p;
+  }
+  const std::string& material = model.material_names[static_cast<std::size_t>(particles.material(p))];
+  return fmt::format(", with a Young's modulus of {:g} Pa and {:.4g} kg/m3",
+                     parameters.materials.at(material).youngs_modulus, particles.mass(p) / particles.volume(p));
+}
+
+}  // namespace
+
 template <int Dim, class Real>
 Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::Site& site)
     : parameters_(require_memory<Dim>(parameters, site)),  // before anything is made
@@ -226,9 +246,10 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
         sim::step_limit(parameters_, model_, smallest_thickness(parameters_), extremes_of(model_, particles_));
     if (parameters_.time.step > limit.step) {
       throw UserError(
-          fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step, or "
+          fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}{}. Use a smaller time.step, or "
                       "time.stepping = \"adaptive\".",
-                      config::place_of(parameters_, "time.step"), parameters_.time.step, limit.step, limit.what));
+                      config::place_of(parameters_, "time.step"), parameters_.time.step, limit.step, limit.what,
+                      matter_text(parameters_, model_, particles_, limit)));
     }
   }
   begin();

@@ -85,8 +85,8 @@ def test_a_case_goes_from_start_to_end(rehearsal: Path, tmp_path: Path, name: st
 
 @pytest.mark.parametrize("name", ["incline", "valley3d-columns"])
 def test_checkpoints_go_from_the_processor_to_a_card_and_back(rehearsal: Path, tmp_path: Path, name: str) -> None:
-    case, sets = SMALL[name][0], settings(name)
     end = float(SMALL[name][1][-1].split("=")[1])
+    case, sets = SMALL[name][0], [*settings(name), "--set", f"time.history_interval={end / 4}"]
     run(PROCESSOR, "run", case, *sets, "--output", tmp_path / "whole")
     run(PROCESSOR, "run", case, *sets, "--set", f"time.end={end / 4}", "--output", tmp_path / "parts")
     run(rehearsal, "resume", tmp_path / "parts", "--end", end / 2, "--device", "gpu")

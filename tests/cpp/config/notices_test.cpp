@@ -127,7 +127,6 @@ TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
        "checkpoint.wall_interval writes them by the clock."},
       {"checkpoint.wall_interval", "1e-9",
        "1e-09 s: so often most of the time goes into checkpoints; usual is a minute to an hour."},
-      {"report.times", "[0.5, 5.0]", "5 s: later than the run, which ends at 1 s: no figure shows that time."},
       {"time.history_interval", "2",
        "2 s: longer than the run of 1 s: history.csv gets a row of its start and one of its end."}};
   const std::string known = "pressure.frozen=none", text = changed(with_columns);

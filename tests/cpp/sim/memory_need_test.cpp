@@ -122,7 +122,7 @@ TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
   // 2500 cells in a square metre: 400 m2 at 4 particles in each, 50 m2 at 16.
   EXPECT_EQ(refusal_of(parameters, {4e9, "are free"}),
             "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6e+06 particles: the run needs about 8.54 GB of "
-            "memory (particles 3.7 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.03 m or more, or "
+            "memory (particles 3.7 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.032 m or more, or "
             "particles_per_axis smaller.");
   EXPECT_EQ(refusal_of(parameters, {8.6e9, "are free"}), "");
   EXPECT_EQ(refusal_of(case_from_text(two_bodies), {40.9e6, "are free"}), "");
@@ -133,7 +133,7 @@ TEST(MemoryNeed, MoreParticlesThanCanBeCountedAreRefused) {
   EXPECT_EQ(
       refusal_of(parameters, {1e15, "are free"}),
       "--set grid.cell=0.002: grid.cell is 0.002 m, which makes 6e+08 particles; allowed: 2.3e+08. Make grid.cell "
-      "0.0034 m or more, or particles_per_axis smaller.");
+      "0.004 m or more, or particles_per_axis smaller.");
 }
 
 }  // namespace

@@ -190,27 +190,29 @@ double manufactured_error(double cell) {
   Simulation<2, double> simulation(paper_case(
       bar, {"grid.max=[2.0,2.0]", "body.bar.max=[2.0,2.0]", fmt::format("grid.cell={}", cell),
             fmt::format("time.step={}", 256.0 * cell * cell / 0.01), "time.end=8e4", "freezing.exponent=2.0"}));
-  auto& particles = simulation.particles();
   return simulation.model().band.with_heat_content([&](const auto& content) {
-    const auto set_heat = [&](std::size_t p, double heat) {
-      particles.heat_content(p) = heat;
-      particles.temperature(p) = content.temperature(heat, particles.initial_porosity(p), particles.temperature(p));
-      particles.liquid_saturation(p) = content.curve.saturation(particles.temperature(p));
+    const auto set_heat = [&](auto& of, std::size_t p, double heat) {
+      of.heat_content(p) = heat;
+      of.temperature(p) = content.temperature(heat, of.initial_porosity(p), of.temperature(p));
+      of.liquid_saturation(p) = content.curve.saturation(of.temperature(p));
     };
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      const double start = Manufactured::temperature(particles.position(p, 0), particles.position(p, 1), 0.0);
-      set_heat(p, content.content(start, particles.initial_porosity(p)));
+    auto& at_start = simulation.particles();
+    for (std::size_t p = 0; p < at_start.size(); ++p) {
+      const double start = Manufactured::temperature(at_start.position(p, 0), at_start.position(p, 1), 0.0);
+      set_heat(at_start, p, content.content(start, at_start.initial_porosity(p)));
     }
     while (simulation.time() < Manufactured::end * (1.0 - 1e-12)) {
       const double dt = simulation.next_step(Manufactured::end);
       const double middle = simulation.time() + 0.5 * dt;
       simulation.step(dt);
+      auto& particles = simulation.particles();  // asked for anew, as a device may have had them
       for (std::size_t p = 0; p < particles.size(); ++p) {
         const double power = Manufactured::source(content, particles.initial_porosity(p), particles.position(p, 0),
                                                   particles.position(p, 1), middle);
-        set_heat(p, particles.heat_content(p) + dt * power);
+        set_heat(particles, p, particles.heat_content(p) + dt * power);
       }
     }
+    const auto& particles = simulation.particles();
     std::vector<double> errors;
     for (std::size_t p = 0; p < particles.size(); ++p) {
       errors.push_back(particles.temperature(p) - Manufactured::temperature(particles.position(p, 0),
