@@ -87,7 +87,8 @@ toml::table parse(const std::string& text, const std::string& file) {
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
     throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. {}Correct the line; https://toml.io tells the rules.",
-                                file, begin.line, begin.column, error.description(), likely_slip(error.description())));
+                                file, begin.line, begin.column, shown(std::string(error.description())),
+                                likely_slip(error.description())));
   }
 }
 

@@ -151,7 +151,7 @@ Raster resampled(const Raster& raster, const Raster& new_layout) {
 Raster smoothed(const Raster& raster, double standard_deviation) {
   const auto along = [&](double cell, int count) {
     const double s = standard_deviation / cell;
-    const int reach = static_cast<int>(std::ceil(smoothing_reach * s));
+    const auto reach = static_cast<int>(std::min(std::ceil(smoothing_reach * s), static_cast<double>(count)));
     std::vector<Weights> all;
     for (int k = 0; k < count; ++k) {
       Weights made{std::max(k - reach, 0), {}};

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "config/input_limits.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "io/snapshot.hpp"
@@ -138,7 +139,7 @@ void read_field(Reader& reader, const std::filesystem::path& file, std::size_t p
     throw UserError(
         fmt::format("{} has the field '{}' where this program has '{}'. Continue the run with the version that wrote "
                     "it (run.json names it).",
-                    file.string(), name, field.info().name));
+                    file.string(), config::shown(name), field.info().name));
   }
   reader.expect(row_bytes, fmt::format("bytes a particle of the field '{}':", name).c_str());
   std::vector<std::byte> rows(row_bytes * particles);
@@ -237,7 +238,7 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
   for (std::uint64_t left = reader.number(); left > 0; --left) {
     const std::string name = reader.text();
     if (!blocks.emplace(name, reader.numbers()).second) {
-      reader.fail(fmt::format("it has the block '{}' twice", name));
+      reader.fail(fmt::format("it has the block '{}' twice", config::shown(name)));
     }
   }
   reader.expect_end();

@@ -1,0 +1,33 @@
+// Included before tests/cpp/verification where these take their steps on a card: every Simulation of a test then does,
+// but those whose case no device takes, which tell so and stay with the processor.
+#pragma once
+
+#include <cstdio>
+#include <utility>
+
+#include "base/error.hpp"
+#include "device/card.hpp"
+#include "sim/base_table.hpp"
+#include "sim/body_figures.hpp"
+#include "sim/history.hpp"
+#include "sim/run_records.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim, class Real>
+class SimulationOnCard : public Simulation<Dim, Real> {
+ public:
+  explicit SimulationOnCard(const config::Case& parameters, const config::Site& site = {})
+      : Simulation<Dim, Real>(parameters, site) {
+    try {
+      this->take_steps_on("a card", device::on_card<Dim>());
+    } catch (const UserError& refused) {
+      std::printf("on the processor: %s\n", refused.what());
+    }
+  }
+};
+
+}  // namespace thawslide::sim
+
+#define Simulation SimulationOnCard
