@@ -1,4 +1,6 @@
 // What a mistake in the case file is told as: the whole text, with its place.
+#include <algorithm>
+
 #include "case_messages.hpp"
 
 namespace thawslide::config {
@@ -64,6 +66,10 @@ TEST(Mistakes, NotToml) {
             "FOLDER/case.toml:5:12: this is not TOML: Error while parsing key-value pair: expected a comment or "
             "whitespace, saw 'm'. A number stands without its unit; a text stands in quotes" +
                 remedy);
+  const std::string found = error_of_changed({{"cell = 5.0", "cell = f\x02\x1d"}});
+  EXPECT_NE(found.find(":5:8: this is not TOML: "), std::string::npos) << found;
+  EXPECT_TRUE(std::none_of(found.begin(), found.end(), [](char letter) { return letter > 0 && letter < ' '; }))
+      << found;
 }
 
 TEST(Mistakes, NumbersInUnitsThatAreLikely) {
