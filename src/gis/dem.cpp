@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "config/input_limits.hpp"
 #include "gis/pits.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
@@ -97,6 +98,19 @@ Rectangle area_to_read(const config::Case& parameters, const Raster& layout) {
   return domain_of(parameters).widened(grid_cells + 2.0 * layout.cell_x, grid_cells + 2.0 * layout.cell_y);
 }
 
+// Points of the whole terrain model are numbered before those of the domain are read.
+void check_distance(const config::Case& parameters, const RasterFile& file) {
+  const Raster& layout = file.layout();
+  const double length = std::max((layout.columns - 1) * layout.cell_x, (layout.rows - 1) * layout.cell_y);
+  const double distance = parameters.terrain.resample;
+  if (distance > 0.0 && length / distance > config::most_raster_points) {
+    fail_at(parameters, "terrain.resample",
+            fmt::format("points {:g} m apart along the {:.6g} m of {} would be {:.2g}; allowed: {:g}. Give a larger "
+                        "distance.",
+                        distance, length, file.file(), length / distance, config::most_raster_points));
+  }
+}
+
 Raster read_and_resample(const config::Case& parameters, const RasterFile& file, const Raster& layout,
                          const Rectangle& area, std::vector<std::string>& notes) {
   const bool as_it_is = &layout == &file.layout();
@@ -121,6 +135,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   const RasterFile& file = *opened;
   const std::string system = system_of(parameters, file, notes);
   check_unit(parameters, file);
+  check_distance(parameters, file);
   const Raster made = terrain.resample > 0.0 ? resampled_layout(file.layout(), terrain.resample) : Raster{};
   const Raster& layout = terrain.resample > 0.0 ? made : file.layout();
   if (layout.columns < 2 || layout.rows < 2) {

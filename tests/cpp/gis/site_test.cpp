@@ -92,6 +92,11 @@ TEST(SiteTest, DomainBeyondTheTerrainModel) {
       "apart, by 22.5 m in the west and 50 m in the north; allowed: x from 400010 to 400990, y from 300010 to "
       "300790. Set grid.min = [400017.5, 300100, 0] and grid.max = [400900, 300790, 3000], or take a larger terrain "
       "model.");
+  parameters.places["terrain.resample"] = "case.toml:4:1";
+  parameters.terrain.resample = 1e-7;
+  EXPECT_EQ(error_of_site(parameters),
+            "case.toml:4:1: terrain.resample: points 1e-07 m apart along the 1000 m of FOLDER/dem.tif would be 1e+10; "
+            "allowed: 4e+08. Give a larger distance.");
   parameters.terrain.resample = 0.0;
   parameters.grid.min = {0.0, 0.0, 0.0};
   parameters.grid.max = {100.0, 50.0, 3000.0};
