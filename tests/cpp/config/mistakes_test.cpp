@@ -67,7 +67,7 @@ TEST(Mistakes, NotToml) {
             "whitespace, saw 'm'. A number stands without its unit; a text stands in quotes" +
                 remedy);
   const std::string found = error_of_changed({{"cell = 5.0", "cell = f\x02\x1d"}});
-  EXPECT_NE(found.find(":5:8: this is not TOML: "), std::string::npos) << found;
+  EXPECT_NE(found.find(":5:9: this is not TOML: "), std::string::npos) << found;
   EXPECT_TRUE(std::none_of(found.begin(), found.end(), [](char letter) { return letter > 0 && letter < ' '; }))
       << found;
 }
