@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
@@ -73,10 +74,10 @@ double error_on(double cell, double frozen, double k_ice, double k_water, const 
                        fmt::format("phases.ice_conductivity={}", (k_ice - (1.0 - share) * 2.0) / share),
                        fmt::format("phases.water_conductivity={}", (k_water - (1.0 - share) * 2.0) / share),
                        fmt::format("freezing.slope={}", -1.0 / frozen)}));
-  const auto& particles = simulation.particles();
   std::vector<double> errors;
   for (int sample = 20; sample <= 40; ++sample) {
     run_until(simulation, 8.64e5 * sample / 40.0);
+    const auto& particles = std::as_const(simulation).particles();  // anew, as a device may have had them
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const double x = particles.position(p, 0);
       if (x < 2.0) {
