@@ -195,6 +195,15 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   return static_cast<int>(ExitCode::done);
 }
 
+// Called for an error of reading the case: where it is of a copy that has changed, it is told as that change.
+void tell_of_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {
+  for (const io::InputFile& input : inputs) {
+    if (error.find(input.copy) != std::string::npos) {
+      require_same_inputs(folder, {input}, {});
+    }
+  }
+}
+
 // What the run goes on with.
 struct Continuation {
   config::Case parameters;
@@ -206,7 +215,13 @@ struct Continuation {
 
 Continuation continuation_of(const fs::path& folder, const std::vector<std::string>& sets, io::Provenance facts) {
   config::require_changeable(sets);
-  Continuation next{config::read_case(folder, sets), io::read_file(folder / "case.toml"), std::move(facts)};
+  Continuation next{{}, io::read_file(folder / "case.toml"), std::move(facts)};
+  try {
+    next.parameters = config::read_case(folder, sets);
+  } catch (const UserError& error) {
+    tell_of_changed_copy(folder, next.earlier.inputs, error.what());
+    throw;
+  }
   next.earlier_end = next.parameters.time.end;
   if (!sets.empty()) {
     const config::Case before = config::read_case(folder);

@@ -1,10 +1,12 @@
 // Parallel loops. Their backend is named in parallel.cpp alone.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/sum_order.hpp"
 
 namespace thawslide {
 
@@ -61,8 +63,8 @@ void parallel_for(std::size_t count, const Body& body) {
   parallel_for(count, calls_at_a_time(count), body);
 }
 
-// What body(k, sum) adds up for k = 0 .. count-1, each once and from zero, on any thread; then call after call. No bit
-// of the sum depends on how many calls run at a time.
+// What body(k, sum) adds up for k = 0 .. count-1, each once and from zero, on any thread; then call after call, in runs
+// (base/sum_order.hpp). No bit of the sum depends on how many calls run at a time.
 template <class Sum, class Body>
 [[nodiscard]] Sum parallel_sum(std::size_t count, const Body& body) {
   thread_local std::vector<Sum> room;  // kept: a step allocates nothing
@@ -80,8 +82,13 @@ template <class Sum, class Body>
     throw;
   }
   Sum sum{};
-  for (std::size_t k = 0; k < count; ++k) {
-    sum += sums[k];
+  for (std::size_t first = 0; first < count; first += parts_of_a_run) {
+    const std::size_t last = std::min(first + parts_of_a_run, count);
+    Sum run{};
+    for (std::size_t k = first; k < last; ++k) {
+      run += sums[k];
+    }
+    sum += run;
   }
   room.clear();
   return sum;

@@ -85,13 +85,28 @@ bool names_existing_table(const Override& override, const std::vector<std::strin
   return true;
 }
 
+// A table with a name of its own takes no value: one of its keys was meant.
+bool fits_named_table(const Override& override, const std::vector<std::string>& parts, const toml::node& value,
+                      Reading& reading) {
+  const bool is_named = std::any_of(tables().begin(), tables().end(), [&](const auto& table) {
+    return table->is_named() && parts.size() == 2 && table->name == parts[0];
+  });
+  if (!is_named || value.is_table()) {
+    return true;
+  }
+  reading.problems.add(place_of(override),
+                       fmt::format("[{}] is a table, and {} no table. Set one of its keys: --set {}.KEY=VALUE.",
+                                   override.key, override.value, override.key));
+  return false;
+}
+
 void apply(const Override& override, toml::table& root, Reading& reading) {
   const std::vector<std::string> parts = split_at_dots(override.key);
   if (!names_existing_table(override, parts, root, reading)) {
     return;
   }
   const std::optional<toml::table> value = parse_value(override, reading);
-  if (!value) {
+  if (!value || !fits_named_table(override, parts, *value->get("value"), reading)) {
     return;
   }
   toml::table* table = &root;

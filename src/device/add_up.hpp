@@ -1,30 +1,34 @@
-// Sums of what tiles and blocks sum, one after the other: always in the same order.
+// Sums of what tiles and blocks sum, always in the same order, that of the processor (base/sum_order.hpp).
 #pragma once
 
 #include <cstddef>
 
 #include "base/portability.hpp"
+#include "base/sum_order.hpp"
 
 namespace thawslide::device {
 
-// One group of threads: it fetches some parts at a time, which a single thread adds up.
+// A group of threads: it fetches as many parts as there are in a run, which a single thread adds up, one run or one
+// after the other.
 template <class Sum>
 struct AddUp {
-  static constexpr std::size_t at_a_time = 128, bytes = at_a_time * sizeof(Sum);
+  static constexpr std::size_t at_a_time = parts_of_a_run, bytes = at_a_time * sizeof(Sum);
 
   const Sum* parts;
-  std::size_t count;
-  Sum* sum;
+  std::size_t count, of_a_group;  // parts
+  Sum* sums;                      // by group
 
   template <class Group>
-  THAWSLIDE_HD void operator()(Group& group, std::size_t /*k*/) const {
+  THAWSLIDE_HD void operator()(Group& group, std::size_t number) const {
     auto* fetched = reinterpret_cast<Sum*>(group.shared());
-    group.each(1, [this](std::size_t /*k*/) { *sum = {}; });
-    for (std::size_t first = 0; first < count; first += at_a_time) {
-      const std::size_t here = count - first < at_a_time ? count - first : at_a_time;
+    Sum* sum = sums + number;
+    group.each(1, [sum](std::size_t /*k*/) { *sum = {}; });
+    const std::size_t end = count < (number + 1) * of_a_group ? count : (number + 1) * of_a_group;
+    for (std::size_t first = number * of_a_group; first < end; first += at_a_time) {
+      const std::size_t here = end - first < at_a_time ? end - first : at_a_time;
       group.each(here, [this, first, fetched](std::size_t k) { fetched[k] = parts[first + k]; });
       group.barrier();
-      group.each(1, [this, here, fetched](std::size_t /*k*/) {
+      group.each(1, [sum, here, fetched](std::size_t /*k*/) {
         Sum all = *sum;
         for (std::size_t k = 0; k < here; ++k) {
           all += fetched[k];
@@ -36,10 +40,21 @@ struct AddUp {
   }
 };
 
+// How many sums add_up needs room for, of so many parts.
+constexpr std::size_t room_to_add_up(std::size_t parts) { return parts + runs_of(parts) + 1; }
+
+// sums: the parts, and room after them. Returns where in it their sum stands.
 template <class Backend, class Sum>
-void add_up(Backend& backend, const Sum* parts, std::size_t count, Sum* sum) {
+Sum* add_up(Backend& backend, Sum* sums, std::size_t parts) {
   using Adding = AddUp<Sum>;
-  backend.for_groups(1, Adding::at_a_time, Adding::bytes, Adding{parts, count, sum});
+  Sum* of_runs = sums + parts;
+  const std::size_t runs = runs_of(parts);
+  backend.for_groups(runs, Adding::at_a_time, Adding::bytes, Adding{sums, parts, parts_of_a_run, of_runs});
+  if (runs == 1) {
+    return of_runs;
+  }
+  backend.for_groups(1, Adding::at_a_time, Adding::bytes, Adding{of_runs, runs, runs, of_runs + runs});
+  return of_runs + runs;
 }
 
 }  // namespace thawslide::device

@@ -137,7 +137,7 @@ class BandStages {
                                       passes_.model.starts,
                                       passes_.model.cell};
     return block_pass<Dim>(passes_.backend, blocks, solve,
-                           passes_.memory.template sums<band::NodalHeat<Real>>(blocks + 1));
+                           passes_.memory.template sums<band::NodalHeat<Real>>(room_to_add_up(blocks)));
   }
 
   // Marks the blocks that water seeps to, and the tiles about them; false if there are none.
@@ -172,7 +172,7 @@ class BandStages {
     const Real* taken =
         block_pass<Dim>(passes_.backend, blocks,
                         SolveSeepage<Dim, Real>{passes_.views(), passes_.template of<mpm::Seepage>().data(), dt},
-                        passes_.memory.template sums<Real>(blocks + 1));
+                        passes_.memory.template sums<Real>(room_to_add_up(blocks)));
     passes_.backend.for_each(1, KeepVented<Real>{taken, passes_.model.band.phases, &sums_->vented});
   }
   template <bool Seeps>

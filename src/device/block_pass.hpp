@@ -35,13 +35,12 @@ struct BlockPass {
   }
 };
 
-// sums: room for one more than there are blocks. Returns where in it their sum stands.
+// sums: room to add up the blocks. Returns where in it their sum stands.
 template <int Dim, class Backend, class Work>
 typename Work::Sum* block_pass(Backend& backend, std::size_t blocks, const Work& work, typename Work::Sum* sums) {
   using Pass = BlockPass<Work, Dim>;
   backend.for_groups(blocks, Pass::nodes, Pass::bytes, Pass{work, sums});
-  add_up(backend, sums, blocks, sums + blocks);
-  return sums + blocks;
+  return add_up(backend, sums, blocks);
 }
 
 }  // namespace thawslide::device

@@ -6,12 +6,14 @@
 namespace thawslide::device {
 
 template <int Dim>
-MakeStep<Dim, double> on_card() {
-  return [](const StepModel<Dim, double>& model, const mpm::ParticleView<Dim, double>& particles, std::size_t count,
-            AskProcessor<Dim, double> ask) { return steps_on<Cuda>(model, particles, count, std::move(ask)); };
+MakeStep<Dim, double> on_card(Launching launching) {
+  return [launching](const StepModel<Dim, double>& model, const mpm::ParticleView<Dim, double>& particles,
+                     std::size_t count, AskProcessor<Dim, double> ask) {
+    return steps_on<Cuda>(model, particles, count, std::move(ask), launching);
+  };
 }
-template MakeStep<2, double> on_card<2>();
-template MakeStep<3, double> on_card<3>();
+template MakeStep<2, double> on_card<2>(Launching);
+template MakeStep<3, double> on_card<3>(Launching);
 
 Card find_card() {
   Card card;

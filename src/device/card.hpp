@@ -4,6 +4,7 @@
 #include <string>
 
 #include "device/any_step.hpp"
+#include "device/launching.hpp"
 
 namespace thawslide::device {
 
@@ -17,6 +18,6 @@ Card find_card();
 // Steps on the card that find_card found, in double precision. What goes wrong on the way
 // is thrown as a Failure that says what the card was doing.
 template <int Dim>
-MakeStep<Dim, double> on_card();
+MakeStep<Dim, double> on_card(Launching launching = Launching::in_graphs);
 
 }  // namespace thawslide::device

@@ -10,9 +10,12 @@
 #include <cub/device/device_scan.cuh>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "base/portability.hpp"
+#include "device/cuda_graphs.hpp"
 #include "device/failure.hpp"
+#include "device/launching.hpp"
 
 namespace thawslide::device {
 
@@ -56,11 +59,17 @@ class CudaGroup {
   std::byte* shared_;
 };
 
+// A thread each.
 template <class Work>
-__global__ void run_each(std::size_t count, const __grid_constant__ Work work) {
+struct Each {
+  std::size_t count;
+  Work work;
+};
+template <class Work>
+__global__ void run_each(const __grid_constant__ Each<Work> each) {
   const std::size_t k = static_cast<std::size_t>(blockIdx.x) * blockDim.x + threadIdx.x;
-  if (k < count) {
-    work(k);
+  if (k < each.count) {
+    each.work(k);
   }
 }
 template <class Work>
@@ -74,10 +83,11 @@ struct NoWork {
   THAWSLIDE_HD void operator()(std::size_t /*k*/) const {}
 };
 
+// What is launched waits until the processor waits for the card, and then goes to it as a graph (cuda_graphs.hpp).
 class Cuda {
  public:
   // The card that the process uses; throws where there is none that this program is for.
-  Cuda() {
+  explicit Cuda(Launching launching = Launching::in_graphs) : launching_(launching) {
     expect_done(cudaGetDevice(&card_), "looking for a card");
     cudaFuncAttributes attributes;
     expect_done(cudaFuncGetAttributes(&attributes, run_each<NoWork>), "asking the card to run this program");
@@ -97,18 +107,24 @@ class Cuda {
     return static_cast<T*>(memory);
   }
   // What has failed before is told by whoever waits for it.
-  static void release(void* memory) { static_cast<void>(cudaFree(memory)); }
+  void release(void* memory) {
+    note(graphs_.launch());  // what uses this memory yet
+    static_cast<void>(cudaFree(memory));
+  }
 
   template <class T>
   void copy_in(T* to, const T* from, std::size_t count) {
+    launch_waiting();
     expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyHostToDevice), "copying to the card");
   }
   template <class T>
   void copy(T* to, const T* from, std::size_t count) {
+    launch_waiting();
     expect_done(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDeviceToDevice), "copying on the card");
   }
   template <class T>
   void copy_out(T* to, const T* from, std::size_t count) {
+    launch_waiting();
     expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyDeviceToHost), "copying from the card");
   }
 
@@ -116,8 +132,7 @@ class Cuda {
   void for_each(std::size_t count, const Work& work) {
     constexpr std::size_t threads = 128;
     if (count > 0) {
-      run_each<<<static_cast<unsigned>((count + threads - 1) / threads), threads>>>(count, work);
-      expect_done(cudaGetLastError(), "starting threads on the card");
+      launch(run_each<Work>, (count + threads - 1) / threads, threads, 0, Each<Work>{count, work});
     }
   }
 
@@ -130,8 +145,7 @@ class Cuda {
                   "asking the card for shared memory");
     }
     if (groups > 0) {
-      run_groups<<<static_cast<unsigned>(groups), static_cast<unsigned>(threads), shared_bytes>>>(work);
-      expect_done(cudaGetLastError(), "starting groups of threads on the card");
+      launch(run_groups<Work>, groups, threads, shared_bytes, work);
     }
   }
 
@@ -152,7 +166,10 @@ class Cuda {
   }
 
   // Waits until the card has done all that it was given.
-  void wait() { expect_done(cudaDeviceSynchronize(), "waiting for the card"); }
+  void wait() {
+    launch_waiting();
+    expect_done(cudaDeviceSynchronize(), "waiting for the card");
+  }
 
   // From now on the end of each stage is waited for, which makes a step slower; seconds by stage, so far.
   void time_stages() {
@@ -187,9 +204,25 @@ class Cuda {
     }
     return static_cast<T*>(room.memory);
   }
+  template <class Argument>
+  void launch(void (*kernel)(Argument), std::size_t groups, std::size_t threads, std::size_t shared_bytes,
+              const Argument& argument) {
+    graphs_.add(kernel, dim3(static_cast<unsigned>(groups)), dim3(static_cast<unsigned>(threads)), shared_bytes,
+                argument);
+    if (launching_ == Launching::one_by_one) {
+      launch_waiting();
+    }
+  }
+  void launch_waiting() {
+    note(graphs_.launch());
+    expect_done(std::exchange(failed_, cudaSuccess), "starting threads on the card");
+  }
+  void note(cudaError_t code) { failed_ = failed_ == cudaSuccess ? code : failed_; }
+
   // Calls work(memory, bytes): without memory it tells how much it needs.
   template <class Work>
   void with_working_room(const char* doing, const Work& work) {
+    launch_waiting();
     std::size_t bytes = 0;
     expect_done(work(nullptr, bytes), doing);
     void* memory = room_for<std::byte>(working_, bytes > 0 ? bytes : 1);
@@ -199,6 +232,9 @@ class Cuda {
   using Clock = std::chrono::steady_clock;
 
   int card_ = 0;
+  Launching launching_;
+  CudaGraphs graphs_;
+  cudaError_t failed_ = cudaSuccess;  // of launches that nobody has been told of yet
   bool times_stages_ = false;
   Clock::time_point last_;
   std::map<std::string, double> seconds_;

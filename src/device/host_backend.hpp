@@ -1,6 +1,7 @@
 // The processor in the place of a device. Threads of a group run one after the other, in any order asked for: what does
 // not depend on the order of threads gives the same bits in all of them, and what a phase reads of a phase that no
-// barrier ended is not there yet. Memory holds no numbers at first.
+// barrier ended is not there yet. What is launched waits until the processor asks for something, as on a card, and
+// memory holds no numbers at first.
 #pragma once
 
 #include <algorithm>
@@ -11,24 +12,37 @@
 #include <map>
 #include <memory>
 #include <numeric>
-#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace thawslide::device {
 
 enum class ThreadOrder { forward, backward, shuffled };
 
-// The numbers 0 .. count-1 in an order.
-inline std::vector<std::size_t> in_thread_order(std::size_t count, ThreadOrder order) {
-  std::vector<std::size_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-  if (order == ThreadOrder::backward) {
-    std::reverse(numbers.begin(), numbers.end());
-  } else if (order == ThreadOrder::shuffled) {
-    std::shuffle(numbers.begin(), numbers.end(), std::mt19937(1));
+// Calls visit(k) for k = 0 .. count-1 in an order.
+template <class Visit>
+void in_thread_order(std::size_t count, ThreadOrder order, const Visit& visit) {
+  if (order == ThreadOrder::forward) {
+    for (std::size_t k = 0; k < count; ++k) {
+      visit(k);
+    }
+  } else if (order == ThreadOrder::backward) {
+    for (std::size_t k = count; k-- > 0;) {
+      visit(k);
+    }
+  } else {
+    // From place to place by a stride that shares no factor with their count, and so comes to each once.
+    std::size_t stride = count * 5 / 8 + 1;
+    while (std::gcd(stride, count) > 1) {
+      ++stride;
+    }
+    std::size_t k = count / 3;
+    for (std::size_t done = 0; done < count; ++done) {
+      visit(k);
+      k = (k + stride) % count;
+    }
   }
-  return numbers;
 }
 
 // Threads that work together: in phases, between which barriers let all wait for each other, on memory that they share.
@@ -86,49 +100,73 @@ class Host {
                 int omitted_barrier = HostGroup::none)
       : order_(order), threads_(threads), omitted_barrier_(omitted_barrier) {}
 
+  Host(const Host& other) : order_(other.order_), threads_(other.threads_), omitted_barrier_(other.omitted_barrier_) {}
+  Host& operator=(const Host&) = delete;
+  ~Host() = default;
+
   template <class T>
   [[nodiscard]] T* allocate(std::size_t count) {
     void* memory = ::operator new(count * sizeof(T));
     std::memset(memory, 0xff, count * sizeof(T));
     return static_cast<T*>(memory);
   }
-  static void release(void* memory) { ::operator delete(memory); }
+  void release(void* memory) {
+    wait();
+    ::operator delete(memory);
+  }
 
   // From the processor's memory to the device's, within that, and back.
   template <class T>
   void copy_in(T* to, const T* from, std::size_t count) {
+    wait();
     std::copy_n(from, count, to);
   }
   template <class T>
   void copy(T* to, const T* from, std::size_t count) {
+    wait();
     std::copy_n(from, count, to);
   }
   template <class T>
   void copy_out(T* to, const T* from, std::size_t count) {
+    wait();
     std::copy_n(from, count, to);
   }
 
   // work(k) for k = 0 .. count-1, a thread each.
   template <class Work>
   void for_each(std::size_t count, const Work& work) {
-    for (const std::size_t k : in_thread_order(count, order_)) {
-      work(k);
-    }
+    waiting_.push_back([this, count, work] { in_thread_order(count, order_, work); });
   }
 
   // work(group, k) for k = 0 .. groups-1, a group of so many threads each.
   template <class Work>
   void for_groups(std::size_t groups, std::size_t threads, std::size_t shared_bytes, const Work& work) {
-    const auto in_group = in_thread_order(threads_ != 0 ? threads_ : threads, order_);
-    for (const std::size_t k : in_thread_order(groups, order_)) {
-      HostGroup group(in_group, shared_bytes, omitted_barrier_);
-      work(group, k);
-      group.end();
+    waiting_.push_back([this, groups, threads, shared_bytes, work] {
+      std::vector<std::size_t> in_group;
+      in_thread_order(threads_ != 0 ? threads_ : threads, order_, [&](std::size_t k) { in_group.push_back(k); });
+      in_thread_order(groups, order_, [&](std::size_t k) {
+        HostGroup group(in_group, shared_bytes, omitted_barrier_);
+        work(group, k);
+        group.end();
+      });
+    });
+  }
+
+  // Until all that was launched is done.
+  void wait() {
+    launches_ += waiting_.size();
+    waits_ += waiting_.empty() ? 0 : 1;
+    for (const std::function<void()>& launch : std::exchange(waiting_, {})) {
+      launch();
     }
   }
+  // How many were launched, and how often something was to be waited for: the graphs of a card.
+  [[nodiscard]] std::size_t launches() const { return launches_; }
+  [[nodiscard]] std::size_t waits() const { return waits_; }
 
   // Sorts keys and what belongs to them; equal keys keep their order.
   void sort(std::uint64_t* keys, std::uint32_t* values, std::size_t count) {
+    wait();
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
@@ -142,6 +180,7 @@ class Host {
 
   // sums[k] = numbers[0] + ... + numbers[k-1], for k = 0 .. count-1.
   void sum_before(const std::uint32_t* numbers, std::uint32_t* sums, std::size_t count) {
+    wait();
     std::exclusive_scan(numbers, numbers + count, sums, std::uint32_t{0});
   }
 
@@ -154,6 +193,8 @@ class Host {
   ThreadOrder order_;
   std::size_t threads_;
   int omitted_barrier_;
+  std::vector<std::function<void()>> waiting_;
+  std::size_t launches_ = 0, waits_ = 0;
 };
 
 }  // namespace thawslide::device

@@ -18,7 +18,7 @@ class PassMemory {
     patches_.resize(numbers > patches_.size() ? numbers : patches_.size());
     return patches_.data();
   }
-  // So many, the last of which becomes their sum.
+  // So many.
   template <class Sums>
   [[nodiscard]] Sums* sums(std::size_t count) {
     sums_.resize(count * sizeof(Sums) > sums_.size() ? count * sizeof(Sums) : sums_.size());
@@ -39,8 +39,8 @@ struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...> {
 };
 
 // As mpm::particle_pass, with kernels that hold what they need by value. What they add stands in the patches of
-// `memory` then; returns where in the device's memory their sums over particles stand until the next pass. records: of
-// what is read, by name.
+// `memory` then; returns where in the device's memory their sums over particles, if any, stand until the next pass.
+// records: of what is read, by name.
 template <class Backend, class Weights, class Takes, int Dim, class Real, class Records, class... Kernels>
 SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& memory,
                                   const PassOver<Weights, Takes, Dim, Real>& over, const Records& records,
@@ -49,7 +49,7 @@ SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& m
   using Adds = mpm::AllOf<typename Kernels::Adds...>;
   using Pass = ParticlePass<PassOver<Weights, Takes, Dim, Real>, Reads, Adds, Dim, Real, Kernels...>;
   const std::size_t tiles = over.tables.tiles;
-  auto* sums = memory.template sums<SumsOf<Kernels...>>(tiles + 1);
+  auto* sums = memory.template sums<SumsOf<Kernels...>>(room_to_add_up(tiles));
   const Pass pass{over,
                   RecordsRead<Reads, Real>::from(records),
                   memory.patches(tiles * Pass::patch_nodes * Pass::size),
@@ -57,9 +57,9 @@ SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& m
                   {{kernels}...}};
   backend.for_groups(tiles, Pass::Room::threads, Pass::Room::bytes, pass);
   if constexpr (Pass::adds_up) {
-    add_up(backend, sums, tiles, sums + tiles);
+    return add_up(backend, sums, tiles);
   }
-  return sums + tiles;
+  return sums;
 }
 
 // A kernel that neither reads nor adds to nodes, nor sums, for a particle as it stands in memory.

@@ -172,7 +172,7 @@ class Step {
                                      step, passes_.ground.exists() ? passes_.ground.number() : nullptr, bases_.data(),
                                      passes_.model.base.clamp, passes_.model.base.cap_pressure,
                                      passes_.model.base.heat_fraction, beds},
-                                 passes_.memory.template sums<terrain::ContactWork<Dim, Real>>(blocks + 1)),
+                                 passes_.memory.template sums<terrain::ContactWork<Dim, Real>>(room_to_add_up(blocks))),
                  &sums_.data()->contact);
   }
 
@@ -193,7 +193,7 @@ class Step {
     passes_.template sum<mpm::Velocity, void>(EveryTile{});
     const std::size_t blocks = passes_.cells.tables().blocks;
     passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim, Real>{passes_.nodes_in_step(time, dt)},
-                                 passes_.memory.template sums<Real>(blocks + 1)),
+                                 passes_.memory.template sums<Real>(room_to_add_up(blocks))),
                  &sums_.data()->mapped_back);
   }
 

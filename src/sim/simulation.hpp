@@ -10,6 +10,7 @@
 #include "band/base_columns.hpp"
 #include "band/heat.hpp"
 #include "band/pore_pressure.hpp"
+#include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "config/case.hpp"
 #include "device/any_step.hpp"
@@ -103,7 +104,11 @@ class Simulation {
   [[nodiscard]] std::size_t particle_count() const { return particles_.size(); }
   // What maps take of a step that a device took; null after one of the processor.
   [[nodiscard]] const device::MapLook* look_at_map(const mpm::MapCells& cells) const;
-  [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const { return nodes_; }
+  // Of a step of the processor.
+  [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const {
+    THAWSLIDE_ASSERT(device_name_.empty(), "nodes are asked for, which {} keeps", device_name_);
+    return nodes_;
+  }
   // Null without terrain.
   [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
   [[nodiscard]] const Ledger<Dim, Real>& ledger() const { return ledger_; }

@@ -149,6 +149,14 @@ def small_case(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
+def done(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
+    """Return the folder of a run of that case which has come to its end, of 0.2 s."""
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    return run
+
+
+@pytest.fixture
 def slope(tmp_path: Path) -> Slope:
     """Return a function that writes a slope as a terrain model."""
 
@@ -171,6 +179,11 @@ def sets(**values: object) -> list[str]:
 def run_facts(run: Path) -> dict[str, Any]:
     facts: dict[str, Any] = json.loads((run / "run.json").read_text())
     return facts
+
+
+def content_of(run: Path) -> dict[Path, bytes]:
+    """Return every file of a run by its path."""
+    return {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
 
 
 def history(run: Path) -> dict[str, np.ndarray]:

@@ -12,6 +12,7 @@ from conftest import (
     Interrupted,
     Program,
     assert_same_bits,
+    content_of,
     history,
     run_facts,
     sets,
@@ -48,14 +49,14 @@ def test_a_run_ends_at_rest(thawslide: Program, small_case: Path, tmp_path: Path
 def test_a_run_at_rest_is_left_as_it_is(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
-    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    before = content_of(run)
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0
     end = run_facts(run)["simulated_time_s"]
     told = run_facts(run)["message"]
     assert told.startswith("the slide is at rest: ")
     assert outcome.stdout == f"{run} has reached its end at {end:g} s: {told}; nothing to do\n"
-    assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
+    assert content_of(run) == before
 
 
 @pytest.mark.parametrize("slides", [True, False])

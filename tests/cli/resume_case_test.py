@@ -7,16 +7,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import Program, run_facts, sets
+from conftest import Program, content_of, run_facts, sets
 from faults import as_killed
-
-
-@pytest.fixture
-def done(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
-    """Return the folder of a run that has come to its end, of 0.2 s."""
-    run = tmp_path / "run"
-    assert thawslide("run", small_case, "--output", run).returncode == 0
-    return run
 
 
 def edit(run: Path, old: str, new: str) -> Path:
@@ -25,10 +17,6 @@ def edit(run: Path, old: str, new: str) -> Path:
     assert text.count(old) == 1
     file.write_text(text.replace(old, new))
     return file
-
-
-def content(run: Path) -> dict[Path, bytes]:
-    return {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
 
 
 def before_its_first_checkpoint(run: Path) -> None:
@@ -41,7 +29,7 @@ def test_a_case_changed_before_the_first_checkpoint_is_refused(thawslide: Progra
     before_its_first_checkpoint(done)
     text = (done / "case.toml").read_text()
     file = edit(done, "\ncohesion = 100000.0 ", "\ncohesion = 200000.0 ")
-    before = content(done)
+    before = content_of(done)
     for words in ([], ["--end", "0.3"]):
         outcome = thawslide("resume", done, *words)
         assert outcome.returncode == 2
@@ -49,7 +37,7 @@ def test_a_case_changed_before_the_first_checkpoint_is_refused(thawslide: Progra
             f"error: {file} has changed since the run began (run.json has its SHA-256), and there is no checkpoint to "
             "tell what it was. Put back what was there, or run the case anew.\n"
         )
-    assert content(done) == before
+    assert content_of(done) == before
     file.unlink()
     outcome = thawslide("resume", done)
     assert outcome.returncode == 2 and f"{file} is missing, and there is no checkpoint" in outcome.stderr
@@ -136,11 +124,11 @@ def test_an_end_that_was_passed_before_the_kill_is_refused(thawslide: Program, d
     """The checkpoint is of an earlier moment, and what came after it would be cut away."""
     as_killed(done)
     (done / "checkpoint.previous.bin").rename(done / "checkpoint.bin")
-    before = content(done)
+    before = content_of(done)
     outcome = thawslide("resume", done, "--end", 0.1)
     assert outcome.returncode == 2
     assert outcome.stderr == "error: the end of 0.1 s has passed: the run had come to 0.2 s. Give a later one.\n"
-    assert content(done) == before
+    assert content_of(done) == before
     outcome = thawslide("resume", done, "--end", 0.25)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(

@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from conftest import Program, run_facts, sets
+from conftest import Program, content_of, run_facts, sets
 from faults import as_killed
 
 RESTS = sets(
@@ -20,27 +20,15 @@ RESTS = sets(
 LEAVES = sets(time__end=4, body__block__velocity="[30,0]", grid__leaving="remove")
 
 
-@pytest.fixture
-def done(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
-    """Return the folder of a run that has come to its end, of 0.2 s."""
-    run = tmp_path / "run"
-    assert thawslide("run", small_case, "--output", run).returncode == 0
-    return run
-
-
-def content(run: Path) -> dict[Path, bytes]:
-    return {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
-
-
 def test_a_change_that_no_step_is_left_for_is_refused(thawslide: Program, done: Path) -> None:
-    before = content(done)
+    before = content_of(done)
     outcome = thawslide("resume", done, *sets(basal__friction_angle=5))
     assert outcome.returncode == 2
     assert outcome.stderr == (
         f"error: {done} has reached its end at 0.2 s: no step is left that could take basal.friction_angle=5. Give a "
         "later end too: --end T.\n"
     )
-    assert content(done) == before
+    assert content_of(done) == before
     assert thawslide("resume", done, "--end", 0.2).stdout.endswith("has reached its end at 0.2 s; nothing to do\n")
     assert thawslide("resume", done, "--end", 0.3, *sets(basal__friction_angle=5)).returncode == 0
     assert run_facts(done)["parts"][-1]["changes"] == ["basal.friction_angle=5", "time.end=0.3"]
@@ -67,14 +55,14 @@ def test_a_run_whose_slide_has_left_has_nothing_to_go_on_with(
     run = tmp_path / "run"
     outcome = thawslide("run", small_case, "--output", run, *LEAVES)
     assert outcome.returncode == 0 and "the whole slide has left" in outcome.stdout
-    before = content(run)
+    before = content_of(run)
     outcome = thawslide("resume", run, "--end", 8)
     assert outcome.returncode == 2
     assert outcome.stderr.startswith(
         f"error: {run} has ended, and nothing is left of the slide to go on with: the whole slide has left the domain"
     )
     assert outcome.stderr.endswith(". Run the case anew, in a larger domain.\n")
-    assert content(run) == before
+    assert content_of(run) == before
     assert thawslide("resume", run).returncode == 0
 
 
@@ -84,7 +72,7 @@ def test_the_checkpoint_of_another_run_is_refused(
     other = tmp_path / "other"
     assert thawslide("run", small_case, "--output", other, *sets(basal__friction_angle=5)).returncode == 0
     as_killed(done)
-    before = content(done)
+    before = content_of(done)
     for name in ("checkpoint.bin", "checkpoint.previous.bin"):
         shutil.copy(other / name, done / name)
     outcome = thawslide("resume", done)
@@ -106,14 +94,14 @@ def test_a_link_in_place_of_a_folder_of_a_run_is_refused(
     elsewhere = tmp_path / "elsewhere"
     (done / name).rename(elsewhere)
     (done / name).symlink_to(elsewhere)
-    before = content(elsewhere)
+    before = content_of(elsewhere)
     outcome = thawslide("resume", done, "--end", 0.3)
     assert outcome.returncode == 2
     assert outcome.stderr == (
         f"error: {done / name} is a link; a run writes and reads its files in its own folder alone. Put the folder "
         "itself there.\n"
     )
-    assert content(elsewhere) == before
+    assert content_of(elsewhere) == before
 
 
 def test_run_json_may_not_name_copies_elsewhere(thawslide: Program, done: Path) -> None:

@@ -9,7 +9,18 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import LAMPLUGH, LIMIT, Interrupted, Program, assert_same_bits, history, run_facts, sets, snapshot_files
+from conftest import (
+    LAMPLUGH,
+    LIMIT,
+    Interrupted,
+    Program,
+    assert_same_bits,
+    content_of,
+    history,
+    run_facts,
+    sets,
+    snapshot_files,
+)
 from faults import as_killed, digest
 
 # Neither rows nor snapshots nor checkpoints fall together.
@@ -130,11 +141,11 @@ def test_a_run_that_particles_have_left_goes_on(thawslide: Program, small_case: 
 def test_a_finished_run_is_left_as_it_is(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
-    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    before = content_of(run)
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0
     assert outcome.stdout == f"{run} has reached its end at 0.2 s; nothing to do\n"
-    assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
+    assert content_of(run) == before
 
 
 def test_resume_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> None:
@@ -281,7 +292,7 @@ def test_a_changed_case_is_refused(thawslide: Program, small_case: Path, tmp_pat
     text = file.read_text()
     changed = text.replace("\nend = 0.2 ", "\nend = 0.3 ").replace("\ncohesion = 100000.0 ", "\ncohesion = 200000.0 ")
     file.write_text(changed)
-    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    before = content_of(run)
     outcome = thawslide("resume", run)
     assert outcome.returncode == 2
     assert outcome.stderr == (
@@ -289,7 +300,7 @@ def test_a_changed_case_is_refused(thawslide: Program, small_case: Path, tmp_pat
         "100000.0; time.end is 0.3, was 0.2. Put that back, or remove the file, which then is written anew; what "
         f"should change is told on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
     )
-    assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
+    assert content_of(run) == before
     file.unlink()
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
@@ -332,6 +343,25 @@ def test_a_changed_input_is_refused_and_a_changed_original_told(
     )
 
 
+def test_a_changed_input_that_is_no_profile_any_more_is_told_as_changed(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    file, run = small_case / "case.toml", tmp_path / "run"
+    text = file.read_text()
+    file.write_text(text.replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "profile.csv"'))
+    (small_case / "profile.csv").write_text("distance_m,terrain_elevation_m\n0,0\n20,0\n")
+    assert thawslide("run", small_case, "--output", run).returncode == 0
+    as_killed(run)
+    copy = run / "inputs" / "profile.csv"
+    copy.write_text("no profile")
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 2
+    assert outcome.stderr == (
+        f"error: {copy} has changed. A run goes on with the inputs it began with (run.json has their SHA-256): put "
+        "them back, or run the case anew.\n"
+    )
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -351,11 +381,11 @@ def test_changes_that_cannot_be(
 ) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
-    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    before = content_of(run)
     outcome = thawslide("resume", run, *words)
     assert outcome.returncode == 2
     assert message in outcome.stderr
-    assert {path: path.read_bytes() for path in run.rglob("*") if path.is_file()} == before
+    assert content_of(run) == before
 
 
 def test_a_change_that_was_cut_off_is_asked_for_again(thawslide: Program, small_case: Path, tmp_path: Path) -> None:

@@ -76,6 +76,17 @@ TEST(Set, OfAnUnknownKey) {
   EXPECT_EQ(error_of_text(sound, {"gird.cell=1"}).substr(0, start.size()), start);
 }
 
+TEST(Set, OfATableWithANameIsNoValue) {
+  EXPECT_EQ(error_of_text(sound, {"body.block=3"}),
+            "--set body.block=3: [body.block] is a table, and 3 no table. Set one of its keys: --set "
+            "body.block.KEY=VALUE.");
+  EXPECT_EQ(error_of_text(sound, {"body.block=[1, 2]"}),
+            "--set body.block=[1, 2]: [body.block] is a table, and [1, 2] no table. Set one of its keys: --set "
+            "body.block.KEY=VALUE.");
+  const std::string two_bodies = sound + "[body.other]\nmaterial = \"rock\"\nmin = [50, 0]\nmax = [60, 10]\n";
+  EXPECT_EQ(error_of_text(two_bodies, {"body.block=3"}), error_of_text(sound, {"body.block=3"}));
+}
+
 TEST(Set, OfAWrongType) {
   EXPECT_EQ(error_of_text(sound, {"grid.cell=five"}),
             "--set grid.cell=five: grid.cell is the text \"five\"; allowed: a number, > 0 [m].");
@@ -110,10 +121,6 @@ TEST(Set, IsNamedWhereItDoesNotFit) {
   EXPECT_EQ(error_of_text(sound, {"body.block.min=[0, -5]"}),
             "--set body.block.min=[0, -5]: body.block is below the terrain: at x = 0 m its elevation is -5 m and the "
             "ground's 0 m; allowed: on the ground or above it. Lift the body, or lower the terrain.");
-  const std::string two_bodies = sound + "[body.other]\nmaterial = \"rock\"\nmin = [50, 0]\nmax = [60, 10]\n";
-  EXPECT_EQ(error_of_text(two_bodies, {"body.block=3"}),
-            "--set body.block=3: 'block' stands in [body], which needs a name; write [body.NAME] with a name of your "
-            "choice above it.");
 }
 
 TEST(Set, TellsPathsFromTheWorkingDirectory) {

@@ -195,11 +195,13 @@ std::vector<double> run_on_device(Host host, const Pass<Records, Takes, Asked>& 
   device::Cells<Host, Dim, double> cells(in_order, scene.grid.cell());
   cells.update(on_host.view(), on_host.by_id(), particles.size());
   device::PassMemory<Host, double> memory(in_order);
+  in_order.wait();
   std::fill_n(memory.patches(numbers), numbers, 0.0);
   const RecordsOnDevice<Reads> records(scene.grid, pass.records);
   const device::PassOver<decltype(on_device(weights)), TakesOnDevice<Takes, Dim>, Dim, double> over{
       cells.tables(), on_host.view(), on_device(weights), {pass.takes}, scene.grid.cell()};
   const auto* all = device::particle_pass(host, memory, over, records, kernels...);
+  host.wait();
   if constexpr ((!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...)) {
     (take_sum(all->template of<Kernels>(), sums), ...);
   }

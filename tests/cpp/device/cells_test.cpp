@@ -78,6 +78,7 @@ void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
   device::Particles<Host, Dim, double> on_device(host, view_of(particles), count);
   device::Cells<Host, Dim, double> cells(host, 0.7);
   cells.update(on_device.view(), on_device.by_id(), count);
+  host.wait();
   EXPECT_TRUE(cells.blocks_changed());
   expect_the_tables_of(grid, cells.tables(), particles);
   std::mt19937 random(4);
@@ -98,6 +99,7 @@ void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
     }
     grid.update(particles, 0);
     cells.update(on_device.view(), on_device.by_id(), count);
+    host.wait();
     EXPECT_EQ(cells.blocks_changed(), grid.blocks_changed()) << step;
     any_kept = any_kept || !cells.blocks_changed();
     expect_the_tables_of(grid, cells.tables(), particles);
@@ -105,6 +107,7 @@ void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
   EXPECT_TRUE(any_kept);
   on_device.reorder(cells.tables().order);
   cells.note_order_in_memory();
+  host.wait();
   for (std::size_t k = 0; k < count; ++k) {
     EXPECT_EQ(cells.tables().order[k], k);
     EXPECT_EQ(on_device.view().id(k), particles.id(grid.order()[k]));

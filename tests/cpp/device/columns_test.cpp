@@ -64,6 +64,7 @@ std::vector<double> on_device(Scene<Dim>& scene, Host host) {
   device::Columns<Host, Dim, double> columns(host, cell, half_sizes, cosine_at<Dim>, gravity_at<Dim>);
   columns.update(tables);
   columns.sum(tables, on_host.view());
+  host.wait();
   std::vector<double> numbers;
   for (std::size_t t = 0; t < tables.tiles; ++t) {
     const auto seen = columns.seen(tables).of_tile(t);

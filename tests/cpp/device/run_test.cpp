@@ -108,14 +108,7 @@ TEST(DeviceRun, KeepsTheBandColumnsOfTheProcessor) {
 // The bed stays with the processor; what is taken of it joins the slide.
 template <int Dim>
 void expect_the_same_bed(const std::vector<std::string>& more, int steps) {
-  std::vector<std::string> sets{"bed.depth={x=[-4.0,8.0],value=[0.2,0.6]}",
-                                "bed.strength=100.0",
-                                "bed.friction_angle=5.0",
-                                "bed.depth_per_slip=0.2",
-                                "bed.material=melted",
-                                "bed.temperature=-0.5",
-                                "bed.porosity=0.9",
-                                "bed.particles_per_axis=4"};
+  std::vector<std::string> sets = loose_bed();
   sets.insert(sets.end(), more.begin(), more.end());
   const config::Case parameters = sliding_bodies<Dim>(sets);
   EXPECT_GT(expect_the_same_run<Dim>(parameters, steps), 0);

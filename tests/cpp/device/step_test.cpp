@@ -243,5 +243,31 @@ TEST(DeviceStep, HasThemWithPorePressureInSpace) {
   expect_the_steps_of_the_processor<3>(with_pressure<3>(balanced("vented")), 100, 50, Host(ThreadOrder::backward, 7));
 }
 
+// The launches of a step in which no particle comes to another cell: they wait for what the processor asks, which is
+// whether there is one, whether water seeps (for the averages, and for the pressures) and the sums of the step.
+TEST(DeviceStep, GoesToACardInFourGraphs) {
+  const config::Case parameters = with_pressure<3>(balanced("vented"));
+  Simulation<3, double> simulation(parameters);
+  Host host;
+  device::Step<Host, mpm::Ugimp<double>, 3, double> steps(
+      host, step_model_of(simulation), mpm::view_of(simulation.particles()), simulation.particles().size(),
+      terrain_for_device(simulation.model(), simulation.grid().cell()));
+  // Steps so short that some of the later ones leave all particles in their cells.
+  std::size_t fewest_waits = 1000, launches = 0;
+  double time = 0.0;
+  for (int k = 0; k < 20; ++k) {
+    const double dt = k < 10 ? 0.002 : 1e-7;
+    const std::size_t waits = host.waits(), launched = host.launches();
+    steps.step(time, dt);
+    time += dt;
+    if (host.waits() - waits < fewest_waits) {
+      fewest_waits = host.waits() - waits;
+      launches = host.launches() - launched;
+    }
+  }
+  EXPECT_EQ(fewest_waits, 4u);
+  EXPECT_LE(launches, 80u);
+}
+
 }  // namespace
 }  // namespace thawslide::sim

@@ -27,14 +27,7 @@ constexpr int steps = Dim == 2 ? 150 : 60;
 
 template <int Dim>
 config::Case slide_over_bed(std::vector<std::string> sets) {
-  const std::vector<std::string> bed{"bed.depth={x=[-4.0,8.0],value=[0.2,0.6]}",
-                                     "bed.strength=100.0",
-                                     "bed.friction_angle=5.0",
-                                     "bed.depth_per_slip=0.2",
-                                     "bed.material=melted",
-                                     "bed.temperature=-0.5",
-                                     "bed.porosity=0.9",
-                                     "bed.particles_per_axis=4"};
+  const std::vector<std::string> bed = loose_bed();
   sets.insert(sets.begin(), bed.begin(), bed.end());
   return two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets);
 }

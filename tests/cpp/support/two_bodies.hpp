@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "case_from_text.hpp"
 
@@ -76,6 +78,18 @@ thickness = 0.1
                                 terrain, cohesion, cohesion, 0.5 * cohesion, at(0.0, 0.0), at(length, height),
                                 along_slope, at(length, 0.0), at(length + 4.3, 4.1), along_slope),
                     sets);
+}
+
+// A bed of melted matter below two_bodies, loose enough to be taken up.
+inline std::vector<std::string> loose_bed() {
+  return {"bed.depth={x=[-4.0,8.0],value=[0.2,0.6]}",
+          "bed.strength=100.0",
+          "bed.friction_angle=5.0",
+          "bed.depth_per_slip=0.2",
+          "bed.material=melted",
+          "bed.temperature=-0.5",
+          "bed.porosity=0.9",
+          "bed.particles_per_axis=4"};
 }
 
 }  // namespace thawslide::testing_support

@@ -22,6 +22,7 @@ namespace {
 
 constexpr int no_card = 5;
 constexpr double tolerance = 1e-12;
+constexpr Size in_plane{20, 1, 8}, in_space{8, 5, 4};
 
 struct Comparison {
   std::size_t fields = 0, fields_of_same_bits = 0;
@@ -134,13 +135,14 @@ bool tell_looks(const std::string& when, const std::vector<double>& of_processor
 }
 
 template <int Dim>
-bool compare_slides(const device::MakeStep<Dim, Real>& make, const Size& size) {
+bool compare_slides(const device::MakeStep<Dim, Real>& make, const device::MakeStep<Dim, Real>& make_again,
+                    const Size& size) {
   ParticleMemory<Dim> start(size.particles(Dim));
   seed(size, start);
   bool well = true;
   const std::string dim = Dim == 2 ? "2D, " : "3D, ";
   const auto processor = steps_of(device::on_processor<Dim>(), start);
-  const auto card = steps_of(make, start), again = steps_of(make, start);
+  const auto card = steps_of(make, start), again = steps_of(make_again, start);
   ParticleMemory<Dim> of_processor(start.size()), of_card(start.size()), of_second(start.size());
   int done = 0;
   for (const int steps : {1, 20, 60}) {
@@ -197,32 +199,43 @@ void measure(std::size_t particles) {
   std::map<std::string, double> stages;
   const auto keep = [&](const std::string& stage, double seconds) { stages[stage] = seconds; };
   const Measured found = measured(device::on_card<3>(), particles, Variant::plain, 5.0, free_memory, keep);
+  const Measured one_by_one =
+      measured(device::on_card<3>(device::Launching::one_by_one), particles, Variant::plain, 5.0, free_memory);
   std::printf("3D, %zu particles, %.0f %% yielding: %.4g million particle-steps a second, %.4g ms a step\n",
               found.particles, 100 * found.yielding, static_cast<double>(found.particles) / found.seconds_a_step / 1e6,
               1e3 * found.seconds_a_step);
+  std::printf("  %.4g ms a step where each kernel is launched by itself, not in graphs\n",
+              1e3 * one_by_one.seconds_a_step);
   for (const auto& [stage, seconds] : stages) {
     std::printf("  %-28s %.4g ms\n", stage.c_str(), 1e3 * seconds);
   }
 }
 
-// make: what takes the place of `on a card`.
+// make: what takes the place of `on a card`; make_again: the same in another way, whose bits must be the same.
 template <int Dim>
-bool compare_all(const device::MakeStep<Dim, Real>& make, const Size& size) {
-  bool well = compare_slides<Dim>(make, size);
+bool compare_all(const device::MakeStep<Dim, Real>& make, const device::MakeStep<Dim, Real>& make_again,
+                 const Size& size) {
+  bool well = compare_slides<Dim>(make, make_again, size);
   for (const NamedVariant& variant : variants) {
     well = (variant.variant == Variant::plain || compare_variant<Dim>(make, size, variant)) && well;
   }
   return well;
 }
-bool compare_all(const device::MakeStep<2, Real>& make_2d, const device::MakeStep<3, Real>& make_3d) {
-  const bool well = compare_all<2>(make_2d, {20, 1, 8});
-  return compare_all<3>(make_3d, {8, 5, 4}) && well;
+
+// One of whose runs launches its kernels as graphs, and another each by itself.
+bool compare_cards() {
+  constexpr auto one_by_one = device::Launching::one_by_one;
+  const bool well = compare_all<2>(device::on_card<2>(), device::on_card<2>(one_by_one), in_plane);
+  return compare_all<3>(device::on_card<3>(), device::on_card<3>(one_by_one), in_space) && well;
 }
 
 int run(const std::string& what, std::size_t particles) {
   if (what == "--rehearse") {
     constexpr auto order = device::ThreadOrder::shuffled;
-    const bool well = compare_all(device::on_processor<2>(order), device::on_processor<3>(order));
+    constexpr auto other = device::ThreadOrder::backward;
+    const bool well_2d = compare_all<2>(device::on_processor<2>(order), device::on_processor<2>(other), in_plane);
+    const bool well =
+        compare_all<3>(device::on_processor<3>(order), device::on_processor<3>(other), in_space) && well_2d;
     print_table(device::on_processor<3>(order), {2000}, 0.0, [] { return 0.0; });
     return well ? 0 : 1;
   }
@@ -238,7 +251,7 @@ int run(const std::string& what, std::size_t particles) {
                 free_memory);
     return 0;
   }
-  const bool well = what == "--speed" || compare_all(device::on_card<2>(), device::on_card<3>());
+  const bool well = what == "--speed" || compare_cards();
   if (what.empty()) {
     measure(100'000);
     measure(10'000'000);

@@ -7,11 +7,11 @@
 namespace thawslide::device {
 
 template <int Dim>
-MakeStep<Dim, double> on_card() {
+MakeStep<Dim, double> on_card(Launching /*launching*/) {
   return on_processor<Dim>(ThreadOrder::shuffled);
 }
-template MakeStep<2, double> on_card<2>();
-template MakeStep<3, double> on_card<3>();
+template MakeStep<2, double> on_card<2>(Launching);
+template MakeStep<3, double> on_card<3>(Launching);
 
 Card find_card() { return {true, "the processor in a card's place", "", 8e9}; }
 

@@ -1,0 +1,69 @@
+// Sums over many parts on a device (device/add_up.hpp) against those of the processor: the same bits.
+#include "device/add_up.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "device/array.hpp"
+#include "device/host_backend.hpp"
+
+namespace thawslide::device {
+namespace {
+
+// Of all magnitudes, so that another order gives other bits.
+std::vector<double> parts_of(std::size_t count) {
+  std::mt19937 random(7);
+  std::vector<double> parts(count);
+  for (double& part : parts) {
+    part = std::normal_distribution<double>(0.0, 1.0)(random) *
+           std::pow(10.0, std::uniform_int_distribution(-8, 8)(random));
+  }
+  return parts;
+}
+
+double on_processor(const std::vector<double>& parts) {
+  return parallel_sum<double>(parts.size(), [&](std::size_t k, double& sum) { sum = parts[k]; });
+}
+
+double on_device(const std::vector<double>& parts, ThreadOrder order) {
+  Host host(order);
+  Array<double, Host> sums(host);
+  std::vector<double> with_room = parts;
+  with_room.resize(room_to_add_up(parts.size()));
+  sums.set(with_room);
+  const double* sum = add_up(host, sums.data(), parts.size());
+  double found = 0.0;
+  host.copy_out(&found, sum, 1);
+  EXPECT_EQ(host.launches(), runs_of(parts.size()) == 1 ? 1u : 2u);
+  return found;
+}
+
+TEST(AddUp, HasTheBitsOfTheProcessor) {
+  const std::size_t run = parts_of_a_run;
+  for (const std::size_t count :
+       {std::size_t{0}, std::size_t{1}, run - 1, run, run + 1, 2 * run, 5 * run + 3, run * run, run * run + run + 1}) {
+    const std::vector<double> parts = parts_of(count);
+    for (const ThreadOrder order : {ThreadOrder::forward, ThreadOrder::shuffled}) {
+      EXPECT_EQ(on_device(parts, order), on_processor(parts)) << count;
+    }
+  }
+}
+
+// What the test above looks at: another order would show.
+TEST(AddUp, DependsOnItsOrder) {
+  const std::vector<double> parts = parts_of(5 * parts_of_a_run);
+  double one_after_the_other = 0.0;
+  for (const double part : parts) {
+    one_after_the_other += part;
+  }
+  EXPECT_NE(on_processor(parts), one_after_the_other);
+  EXPECT_NEAR(on_processor(parts), one_after_the_other, 1e-6);
+}
+
+}  // namespace
+}  // namespace thawslide::device
