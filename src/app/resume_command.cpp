@@ -5,6 +5,7 @@
 #include "app/commands.hpp"
 #include "app/device_choice.hpp"
 #include "app/map_files.hpp"
+#include "app/resume_checks.hpp"
 #include "app/run_loop.hpp"
 #include "app/say.hpp"
 #include "app/signals.hpp"
@@ -32,47 +33,6 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return fmt::format("{}", fmt::join(words, between));
 }
 
-// The copies that the run reads must be those it began with. Reported values, with which only figures compare, may
-// change.
-void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile>& inputs,
-                         const fs::path& reported_values) {
-  std::vector<std::string> changed;
-  for (const io::InputFile& input : inputs) {
-    const fs::path copy = folder / input.copy;
-    if (fs::path(input.copy).parent_path() != "inputs") {
-      throw UserError(fmt::format("{}: damaged: it names {} as the copy of an input; those lie in inputs/.",
-                                  (folder / "run.json").string(), input.copy));
-    }
-    if (copy.filename() == reported_values.filename()) {
-      continue;
-    }
-    if (!fs::exists(copy)) {
-      changed.push_back(copy.string() + " is missing");
-    } else if (io::sha256_of_file(copy) != input.sha256) {
-      changed.push_back(copy.string() + " has changed");
-    }
-  }
-  if (!changed.empty()) {
-    throw UserError(fmt::format(
-        "{}. A run goes on with the inputs it began with (run.json has their SHA-256): put them back, or run "
-        "the case anew.",
-        joined(changed, "; ")));
-  }
-}
-
-// Of the files that the user gave: a run goes on with its copies, whatever has become of them.
-void tell_changed_originals(const std::vector<io::InputFile>& inputs) {
-  for (const io::InputFile& input : inputs) {
-    std::error_code unreadable;
-    const bool same_size = fs::file_size(input.path, unreadable) == input.bytes;
-    if (!unreadable && (!same_size || io::sha256_of_file(input.path) != input.sha256)) {
-      say("note: {} has changed since the run began, which goes on with its copy, {}\n", input.path, input.copy);
-    }
-  }
-}
-
-std::string sha256_of_text(const std::string& text) { return io::sha256_hex(text.data(), text.size()); }
-
 // What changes of the case, with --end among it.
 std::vector<std::string> sets_of(const ResumeOptions& options) {
   std::vector<std::string> sets = options.sets;
@@ -83,88 +43,6 @@ std::vector<std::string> sets_of(const ResumeOptions& options) {
     sets.push_back("time.end=" + options.end);
   }
   return sets;
-}
-
-// What to do about changes of case.toml; otherwise: than for a later end.
-std::string advice_on(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& changes,
-                      const std::string& otherwise) {
-  const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
-  if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
-    return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.", folder.string(),
-                       config::read_case(folder).time.end);
-  }
-  return otherwise;
-}
-
-[[noreturn]] void ask_again(const fs::path& folder, const std::vector<std::string>& changes) {
-  throw UserError(
-      fmt::format("the last resume was cut off before its change took hold. Give it again: thawslide resume {} --set "
-                  "{}",
-                  folder.string(), joined(changes, " --set ")));
-}
-
-// One of another run may have been put there.
-void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& facts, const std::string& now,
-                               const std::string& of_checkpoint) {
-  const std::string sha256 = sha256_of_text(of_checkpoint);
-  const bool is_known = std::any_of(facts.parts.begin(), facts.parts.end(),
-                                    [&](const io::RunPart& part) { return part.case_sha256 == sha256; });
-  if (!is_known) {
-    const std::vector<std::string> differences = config::differences(of_checkpoint, now);
-    throw UserError(fmt::format(
-        "the checkpoint of {} was not written by this run: run.json tells of no part with its case{}{}. Put back the "
-        "run's own checkpoint.bin or checkpoint.previous.bin, or run the case anew.",
-        folder.string(), differences.empty() ? "" : ", in which ", joined(differences, "; ")));
-  }
-}
-
-// case.toml must be what the run's checkpoint was written with, or what a resume that was cut off has put there; what
-// `sets` replaces may be anything.
-void require_same_case(const fs::path& folder, const io::Provenance& facts, const std::string& before,
-                       const std::vector<std::string>& sets) {
-  const fs::path file = folder / "case.toml";
-  if (!fs::exists(file)) {
-    io::write_file_atomically(file, before);
-    say("note: {} was missing; it is written anew from the checkpoint\n", file.string());
-  }
-  const std::string now = io::read_file(file);
-  const io::RunPart& last = facts.parts.back();
-  require_checkpoint_of_run(folder, facts, now, before);
-  if (sha256_of_text(now) == last.case_sha256) {
-    return;
-  }
-  const std::vector<std::string> changes = config::differences(now, before, config::keys_of(sets));
-  if (!changes.empty()) {
-    const std::string usual = fmt::format(
-        "Put that back, or remove the file, which then is written anew; what should change is told on the command "
-        "line: thawslide resume {} --set KEY=VALUE, or --end T.",
-        folder.string());
-    throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
-                                joined(changes, "; "), advice_on(folder, facts, changes, usual)));
-  }
-  if (!last.changes.empty() && sets.empty()) {
-    ask_again(folder, last.changes);
-  }
-}
-
-// The same before the first checkpoint, when nothing but its SHA-256 tells what the case was.
-void require_case_of_start(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& sets) {
-  const fs::path file = folder / "case.toml";
-  const char* lost = fs::exists(file) ? "has changed since the run began (run.json has its SHA-256)" : "is missing";
-  const std::string now = fs::exists(file) ? io::sha256_of_file(file) : "";
-  const io::RunPart& last = facts.parts.back();
-  if (now == last.case_sha256) {
-    return;
-  }
-  if (!last.changes.empty() && facts.parts.size() > 1 && now == facts.parts[facts.parts.size() - 2].case_sha256) {
-    if (sets.empty()) {
-      ask_again(folder, last.changes);
-    }
-    return;
-  }
-  throw UserError(fmt::format(
-      "{} {}, and there is no checkpoint to tell what it was. Put back what was there, or run the case anew.",
-      file.string(), lost));
 }
 
 // A run at its end stays as it is, and in a folder that cannot be written too.
@@ -193,15 +71,6 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
     say("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
   }
   return static_cast<int>(ExitCode::done);
-}
-
-// Called for an error of reading the case: where it is of a copy that has changed, it is told as that change.
-void tell_of_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {
-  for (const io::InputFile& input : inputs) {
-    if (error.find(input.copy) != std::string::npos) {
-      require_same_inputs(folder, {input}, {});
-    }
-  }
 }
 
 // What the run goes on with.
@@ -294,7 +163,8 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
       return false;
     }
     simulation.wait_for_rest_anew();
-  } else if (simulation.time() < next.earlier_end - 0.5 * simulation.last_step() && !falls_back &&
+  } else if (next.earlier.message.rfind(sim::at_rest, 0) != 0 &&
+             simulation.time() < next.earlier_end - 0.5 * simulation.last_step() && !falls_back &&
              !next.earlier.message.empty()) {
     throw UserError(
         fmt::format("{} has ended, and nothing is left of the slide to go on with: {}. Run the case anew, "
@@ -374,6 +244,7 @@ int resume_run(const ResumeOptions& options) {
     checkpoint = io::newest_checkpoint(folder);
     require_same_case(folder, facts, io::case_of(checkpoint), sets);
   } else {
+    require_no_more_than_a_start(folder, facts);
     require_case_of_start(folder, facts, sets);
   }
   for (const char* place : {".", "inputs", "snapshots", "maps"}) {

@@ -160,12 +160,14 @@ class Loop {
     output_.after_step(simulation_);
   }
 
+  // At rest the run ends: its last row and snapshot stand before a checkpoint tells that it is.
   void write_what_is_due() {
     const double time = simulation_.time(), dt = simulation_.last_step();
-    if (times_.history_interval <= 0.0 || history_.reached(time, dt)) {
+    const bool rests = simulation_.is_at_rest();
+    if (rests || times_.history_interval <= 0.0 || history_.reached(time, dt)) {
       output_.write_history(simulation_);
     }
-    if (snapshots_.reached(time, dt)) {
+    if (rests || snapshots_.reached(time, dt)) {
       output_.write_snapshot(simulation_);
       tell(boiling_.note<Dim>(simulation_));
     }
@@ -220,10 +222,6 @@ class Loop {
 
   int end_in_time() {
     const std::string rest = simulation_.is_at_rest() ? simulation_.rest_text() : "";
-    if (!rest.empty()) {
-      output_.write_history(simulation_);
-      output_.write_snapshot(simulation_);
-    }
     output_.write_checkpoint(simulation_);
     close("done", rest);
     if (!rest.empty()) {

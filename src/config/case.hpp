@@ -68,7 +68,7 @@ struct Time {
   double safety = 0.8;            // of the limits, adaptive
   double output_interval = 1.0;   // s between snapshots
   double history_interval = 0.0;  // s between history rows; 0: every step
-  double stop_at_rest = 0.0;      // m/s that the slide may move at and is at rest; 0: it runs to the end
+  double stop_at_rest = -1.0;     // m/s that the slide may move at and is at rest; 0, or not given: it runs to the end
   double rest_time = 10.0;        // s that it has to be at rest
 };
 

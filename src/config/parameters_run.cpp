@@ -58,9 +58,9 @@ std::vector<Parameter<Time>> time_parameters() {
       parameter(&Time::stop_at_rest,
                 {.key = "stop_at_rest",
                  .unit = "m/s",
-                 .range = above(0),
+                 .range = at_least(0),
                  .text = "the run ends before time.end when, for time.rest_time, no more than 0.5 % of the slide's "
-                         "mass has been faster than this; never before more of it has"})
+                         "mass has been faster than this; never before more of it has; 0: it does not"})
           .otherwise("the run goes on to time.end"),
       parameter(&Time::rest_time,
                 {.key = "rest_time",
@@ -68,7 +68,7 @@ std::vector<Parameter<Time>> time_parameters() {
                  .range = at_least(0),
                  .text = "how long the slide has to be slower than time.stop_at_rest for the run to end"})
           .only_if("when time.stop_at_rest is given", "stop_at_rest",
-                   [](const Case&, const Time& time) { return time.stop_at_rest > 0.0; }),
+                   [](const Case&, const Time& time) { return time.stop_at_rest >= 0.0; }),
   };
 }
 

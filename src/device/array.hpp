@@ -42,8 +42,9 @@ class Array {
       if (numbers_ != nullptr) {
         backend_->release(std::exchange(numbers_, nullptr));
       }
-      room_ = room_ == 0 ? count : count + count / 4;
-      numbers_ = backend_->template allocate<T>(room_);
+      const std::size_t room = std::exchange(room_, 0) == 0 ? count : count + count / 4;
+      numbers_ = backend_->template allocate<T>(room);
+      room_ = room;
     }
     count_ = count;
   }

@@ -47,7 +47,6 @@ struct FindKey {
   const std::uint32_t* by_id;
   Real inverse_cell;
   std::uint64_t* keys;
-  std::uint32_t* order;
   std::uint32_t* any_changed;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
@@ -61,7 +60,6 @@ struct FindKey {
     int local = 0;
     T::split(node, tile, local);
     const std::uint64_t key = (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
-    order[k] = particle;
     if (keys[k] != key) {
       keys[k] = key;
       *any_changed = 1;  // all who write it write the same

@@ -27,17 +27,14 @@ class Cells {
       keys_by_id_.resize(count);
       fill(keys_by_id_, no_key);
     }
-    order_in_id_.resize(count);
     fill(mark_, std::uint32_t{0});
-    backend_.for_each(count, FindKey<Dim, Real>{particles, by_id, inverse_cell_, keys_by_id_.data(),
-                                                order_in_id_.data(), mark_.data()});
+    backend_.for_each(count, FindKey<Dim, Real>{particles, by_id, inverse_cell_, keys_by_id_.data(), mark_.data()});
     if (mark_.get(0) == 0) {
       return;
     }
     keys_.resize(count);
-    backend_.copy(keys_.data(), keys_by_id_.data(), count);
-    order_.swap(order_in_id_);
-    backend_.sort(keys_.data(), order_.data(), count);
+    order_.resize(count);
+    backend_.sort(keys_by_id_.data(), by_id, keys_.data(), order_.data(), count);
     former_tile_keys_.swap(tile_keys_);
     first_.find(keys_, T::node_bits, tile_keys_, &first_of_tile_);
     if (tiles_changed()) {
@@ -87,10 +84,10 @@ class Cells {
 
   void list_blocks() {
     const std::size_t tiles = tile_keys_.size();
+    unsorted_.resize(tiles * stencil);
     neighbour_keys_.resize(tiles * stencil);
-    unused_.resize(tiles * stencil);
-    backend_.for_each(tiles * stencil, ListNeighbours<Dim>{tile_keys_.data(), neighbour_keys_.data()});
-    backend_.sort(neighbour_keys_.data(), unused_.data(), tiles * stencil);
+    backend_.for_each(tiles * stencil, ListNeighbours<Dim>{tile_keys_.data(), unsorted_.data()});
+    backend_.sort(unsorted_.data(), neighbour_keys_.data(), tiles * stencil);
     first_.find(neighbour_keys_, 0, block_keys_, nullptr);
     find_neighbours(tile_keys_, block_keys_, blocks_about_tile_);
     find_neighbours(block_keys_, tile_keys_, tiles_about_block_);
@@ -106,13 +103,12 @@ class Cells {
   Backend& backend_;
   Real inverse_cell_;
   Array<std::uint64_t, Backend> keys_by_id_{backend_}, keys_{backend_};
-  Array<std::uint32_t, Backend> order_in_id_{backend_}, order_{backend_}, mark_{backend_, 1};
+  Array<std::uint32_t, Backend> order_{backend_}, mark_{backend_, 1};
   Array<std::uint64_t, Backend> tile_keys_{backend_}, former_tile_keys_{backend_}, block_keys_{backend_};
-  Array<std::uint64_t, Backend> neighbour_keys_{backend_};
+  Array<std::uint64_t, Backend> unsorted_{backend_}, neighbour_keys_{backend_};
   Array<std::uint32_t, Backend> first_of_tile_{backend_}, first_of_cell_{backend_};
   Array<std::int32_t, Backend> blocks_about_tile_{backend_}, tiles_about_block_{backend_};
   Array<std::int32_t, Backend> blocks_about_block_{backend_};
-  Array<std::uint32_t, Backend> unused_{backend_};
   FirstOfKeys<Backend> first_{backend_};
   bool blocks_changed_ = true;
 };

@@ -4,7 +4,7 @@
 // terrain at those that the slide comes to.
 #pragma once
 
-#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "band/at_columns.hpp"
@@ -12,6 +12,7 @@
 #include "device/body_sizes.hpp"
 #include "device/column_works.hpp"
 #include "device/first_of_keys.hpp"
+#include "device/former_places.hpp"
 
 namespace thawslide::device {
 
@@ -34,10 +35,12 @@ class Columns {
   void update(const TileTables<Dim>& tables) {
     keys_of_seen_.resize(tables.tiles * band::columns_per_tile<Dim>);
     seen_.resize(keys_of_seen_.size());
+    keys_listed_.resize(keys_of_seen_.size());
+    listed_.resize(keys_of_seen_.size());
     column_.resize(keys_of_seen_.size());
     parts_.resize(keys_of_seen_.size());
-    backend_.for_each(seen_.size(), ListColumns<Dim>{tables.tile_keys, keys_of_seen_.data(), seen_.data()});
-    backend_.sort(keys_of_seen_.data(), seen_.data(), seen_.size());
+    backend_.for_each(seen_.size(), ListColumns<Dim>{tables.tile_keys, keys_listed_.data(), listed_.data()});
+    backend_.sort(keys_listed_.data(), listed_.data(), keys_of_seen_.data(), seen_.data(), seen_.size());
     first_.find(keys_of_seen_, 0, keys_, &first_seen_);
     backend_.for_each(seen_.size(), NumberColumns{seen_.data(), first_.is_first(), first_.number(), column_.data()});
     beside_.resize(keys_.size() * band::column_sides<Dim>);
@@ -74,21 +77,23 @@ class Columns {
   // What the processor asks of the terrain at columns, and the answers.
   struct Asked {
     band::OfPlace<Dim, Real> ask;
-    band::AtColumns<Dim, Real> known;
+    std::vector<Real> known;
     Array<Real, Backend> values;
   };
 
   void ask_terrain() {
     const std::vector<std::uint64_t> keys = keys_.get();
+    const std::vector<std::int32_t> before = places_in(known_keys_, keys);
     for (Asked* asked : {&slope_cosine_, &normal_gravity_}) {
       std::vector<Real> values(keys.size(), Real(1));
-      asked->known.forget_if_many(keys.size());
-      if (asked->ask) {
-        std::transform(keys.begin(), keys.end(), values.begin(),
-                       [&](std::uint64_t key) { return asked->known.at(key, cell_, asked->ask); });
+      for (std::size_t k = 0; asked->ask && k < keys.size(); ++k) {
+        values[k] = before[k] != absent ? asked->known[static_cast<std::size_t>(before[k])]
+                                        : asked->ask(band::middle_of_column<Dim, Real>(keys[k], cell_));
       }
       asked->values.set(values);
+      asked->known = std::move(values);
     }
+    known_keys_ = keys;
   }
 
   [[nodiscard]] ColumnsByTile<Dim, Real> seen_with(const TileTables<Dim>& tables,
@@ -99,10 +104,11 @@ class Columns {
   Backend& backend_;
   Real cell_;
   Asked slope_cosine_, normal_gravity_;
-  BodySizes<Backend, Real> sizes_;  // of particles [m]
+  std::vector<std::uint64_t> known_keys_;  // of the columns
+  BodySizes<Backend, Real> sizes_;         // of particles [m]
   FirstOfKeys<Backend> first_{backend_};
-  Array<std::uint64_t, Backend> keys_of_seen_{backend_}, keys_{backend_};
-  Array<std::uint32_t, Backend> seen_{backend_}, first_seen_{backend_};
+  Array<std::uint64_t, Backend> keys_listed_{backend_}, keys_of_seen_{backend_}, keys_{backend_};
+  Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};
   Array<std::int32_t, Backend> column_{backend_}, beside_{backend_};
   Array<Part, Backend> parts_{backend_}, sums_{backend_};
   Array<Real, Backend> thickness_{backend_}, top_{backend_}, load_per_depth_{backend_};

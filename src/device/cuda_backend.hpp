@@ -31,6 +31,7 @@ class CardError : public Failure {
 
 inline void expect_done(cudaError_t code, const char* doing) {
   if (code != cudaSuccess) {
+    static_cast<void>(cudaGetLastError());  // or the next call would tell of it again
     throw CardError(code, doing);
   }
 }
@@ -94,11 +95,7 @@ class Cuda {
   }
   Cuda(const Cuda&) = delete;
   Cuda& operator=(const Cuda&) = delete;
-  ~Cuda() {
-    for (Room* room : {&sorted_keys_, &sorted_values_, &working_}) {
-      release(room->memory);
-    }
-  }
+  ~Cuda() { release(working_); }
 
   template <class T>
   [[nodiscard]] T* allocate(std::size_t count) {
@@ -138,30 +135,34 @@ class Cuda {
 
   template <class Work>
   void for_groups(std::size_t groups, std::size_t threads, std::size_t shared_bytes, const Work& work) {
-    constexpr std::size_t unasked = 48 * 1024;  // what a group has without being asked
-    if (shared_bytes > unasked) {
+    static std::size_t has = 48 * 1024;  // what a group of this work may have; without asking at first
+    if (shared_bytes > has) {
       expect_done(cudaFuncSetAttribute(run_groups<Work>, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                        static_cast<int>(shared_bytes)),
                   "asking the card for shared memory");
+      has = shared_bytes;
     }
     if (groups > 0) {
       launch(run_groups<Work>, groups, threads, shared_bytes, work);
     }
   }
 
-  void sort(std::uint64_t* keys, std::uint32_t* values, std::size_t count) {
-    auto* sorted_keys = room_for<std::uint64_t>(sorted_keys_, count);
-    auto* sorted_values = room_for<std::uint32_t>(sorted_values_, count);
+  void sort(const std::uint64_t* keys, const std::uint32_t* values, std::uint64_t* sorted_keys,
+            std::uint32_t* sorted_values, std::size_t count) {
     with_working_room("sorting", [&](void* memory, std::size_t& bytes) {
-      return cub::DeviceRadixSort::SortPairs(memory, bytes, keys, sorted_keys, values, sorted_values, count);
+      return cub::DeviceRadixSort::SortPairs(memory, bytes, keys, sorted_keys, values, sorted_values,
+                                             static_cast<std::uint32_t>(count));
     });
-    copy(keys, sorted_keys, count);
-    copy(values, sorted_values, count);
+  }
+  void sort(const std::uint64_t* keys, std::uint64_t* sorted_keys, std::size_t count) {
+    with_working_room("sorting", [&](void* memory, std::size_t& bytes) {
+      return cub::DeviceRadixSort::SortKeys(memory, bytes, keys, sorted_keys, static_cast<std::uint32_t>(count));
+    });
   }
 
   void sum_before(const std::uint32_t* numbers, std::uint32_t* sums, std::size_t count) {
     with_working_room("summing", [&](void* memory, std::size_t& bytes) {
-      return cub::DeviceScan::ExclusiveSum(memory, bytes, numbers, sums, count);
+      return cub::DeviceScan::ExclusiveSum(memory, bytes, numbers, sums, static_cast<int>(count));
     });
   }
 
@@ -188,22 +189,6 @@ class Cuda {
   [[nodiscard]] const std::map<std::string, double>& seconds() const { return seconds_; }
 
  private:
-  // Memory that is kept between calls.
-  struct Room {
-    void* memory = nullptr;
-    std::size_t bytes = 0;
-  };
-
-  template <class T>
-  T* room_for(Room& room, std::size_t count) {
-    if (count * sizeof(T) > room.bytes) {
-      release(room.memory);
-      room = {};
-      room.memory = allocate<std::byte>(count * sizeof(T));
-      room.bytes = count * sizeof(T);
-    }
-    return static_cast<T*>(room.memory);
-  }
   template <class Argument>
   void launch(void (*kernel)(Argument), std::size_t groups, std::size_t threads, std::size_t shared_bytes,
               const Argument& argument) {
@@ -225,8 +210,12 @@ class Cuda {
     launch_waiting();
     std::size_t bytes = 0;
     expect_done(work(nullptr, bytes), doing);
-    void* memory = room_for<std::byte>(working_, bytes > 0 ? bytes : 1);
-    expect_done(work(memory, bytes), doing);
+    if (working_ == nullptr || bytes > bytes_of_working_) {
+      release(std::exchange(working_, nullptr));
+      working_ = allocate<std::byte>(bytes > 0 ? bytes : 1);
+      bytes_of_working_ = bytes;
+    }
+    expect_done(work(working_, bytes), doing);
   }
 
   using Clock = std::chrono::steady_clock;
@@ -238,7 +227,8 @@ class Cuda {
   bool times_stages_ = false;
   Clock::time_point last_;
   std::map<std::string, double> seconds_;
-  Room sorted_keys_, sorted_values_, working_;
+  std::byte* working_ = nullptr;  // memory of sorts and sums, kept between them
+  std::size_t bytes_of_working_ = 0;
 };
 
 }  // namespace thawslide::device

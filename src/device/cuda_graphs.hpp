@@ -112,6 +112,10 @@ class CudaGraphs {
     if (code == cudaSuccess) {
       code = cudaGraphInstantiate(&made.executable, made.graph, 0);
     }
+    if (code != cudaSuccess) {
+      static_cast<void>(cudaGraphDestroy(made.graph));
+      made = {};
+    }
     made.known = waiting_;
     return code;
   }

@@ -2,12 +2,11 @@
 // processor learns of blocks that the slide comes to; the device finds which tiles and cells see candidate nodes.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "device/array.hpp"
+#include "device/former_places.hpp"
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/vectors_in_records.hpp"
@@ -57,6 +56,50 @@ struct FindNearTile {
   }
 };
 
+// What a node knows, from the blocks before or from those that the processor was asked for; its record, and whether
+// it is a candidate. A thread a node.
+template <int Dim, class Real>
+struct TakeGround {
+  using AtNode = terrain::GroundAtNode<Dim, Real>;
+
+  const std::int32_t* block_before;  // by block; from `before` on: of those that were asked for
+  std::size_t before;
+  const AtNode *known_before, *asked_for;
+  AtNode* known;
+  Real* records;
+  std::uint32_t* is_candidate;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    constexpr auto nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+    constexpr std::size_t size = mpm::record_size(mpm::components_of<terrain::Ground, Dim>);
+    const auto block = static_cast<std::size_t>(block_before[k / nodes]);
+    const AtNode* from = block < before ? known_before + block * nodes : asked_for + (block - before) * nodes;
+    const AtNode node = from[k % nodes];
+    known[k] = node;
+    Real* record = records + k * size;
+    for (std::size_t c = 0; c < size; ++c) {
+      record[c] = Real(0);
+    }
+    record[terrain::Ground::distance] = node.distance;
+    mpm::set_vector<Dim>(record, terrain::Ground::normal, node.normal);
+    is_candidate[k] = node.candidate ? 1 : 0;
+  }
+};
+// Lists the candidates; by node, which of them it is, or absent.
+struct ListCandidates {
+  const std::uint32_t *is_candidate, *before;
+  std::uint32_t* candidates;
+  std::int32_t* number;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    number[k] = absent;
+    if (is_candidate[k] != 0) {
+      candidates[before[k]] = static_cast<std::uint32_t>(k);
+      number[k] = static_cast<std::int32_t>(before[k]);
+    }
+  }
+};
+
 // The tiles, and of these the particles by their cell, that see candidate nodes.
 template <int Dim>
 struct SeesCandidates {
@@ -82,41 +125,15 @@ class Ground {
 
   // To be called after blocks or tiles changed.
   void update(const TileTables<Dim>& tables, const std::vector<std::uint64_t>& blocks) {
-    std::vector<AtNode> known(blocks.size() * nodes);
-    std::vector<Real> records(known.size() * size);
-    std::vector<std::uint32_t> candidates;
-    std::vector<std::int32_t> number(known.size(), absent);
-    std::vector<std::uint8_t> partly_unknown(blocks.size());
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const auto [place, is_new] = known_.try_emplace(blocks[b]);
-      Block& block = place->second;
-      if (is_new) {
-        block.is_known = ask_(blocks[b], block.at.data());
-      }
-      std::copy(block.at.begin(), block.at.end(), known.begin() + static_cast<std::ptrdiff_t>(b * nodes));
-      partly_unknown[b] = block.is_known ? 0 : 1;
-    }
-    for (std::size_t k = 0; k < known.size(); ++k) {
-      Real* record = &records[k * size];
-      record[terrain::Ground::distance] = known[k].distance;
-      mpm::set_vector<Dim>(record, terrain::Ground::normal, known[k].normal);
-      if (known[k].candidate) {
-        number[k] = static_cast<std::int32_t>(candidates.size());
-        candidates.push_back(static_cast<std::uint32_t>(k));
-      }
-    }
-    known_of_node_.set(known);
-    records_.set(records);
-    candidates_.set(candidates);
-    number_.set(number);
-    partly_unknown_.set(partly_unknown);
+    take_blocks(blocks);
+    list_candidates_of(blocks.size() * nodes);
     near_.resize(tables.tiles * nodes);
     any_near_.resize(tables.tiles);
-    backend_.for_each(near_.size(), FindNear<Dim, Real>{tables, known_of_node_.data(), near_.data()});
+    backend_.for_each(near_.size(), FindNear<Dim, Real>{tables, known_.data(), near_.data()});
     backend_.for_each(any_near_.size(), FindNearTile<Dim>{near_.data(), any_near_.data()});
   }
 
-  [[nodiscard]] const AtNode* known() const { return known_of_node_.data(); }
+  [[nodiscard]] const AtNode* known() const { return known_.data(); }
   [[nodiscard]] const Real* records() const { return records_.data(); }
   // Nodes with a candidate; by node, which of them it is, or absent.
   [[nodiscard]] const std::uint32_t* candidates() const { return candidates_.data(); }
@@ -128,17 +145,51 @@ class Ground {
   [[nodiscard]] SeesCandidates<Dim> sees_candidates() const { return {near_.data(), any_near_.data()}; }
 
  private:
-  struct Block {
-    std::array<AtNode, nodes> at;
-    bool is_known = true;  // everywhere
-  };
+  // The processor is asked for the blocks that are new.
+  void take_blocks(const std::vector<std::uint64_t>& blocks) {
+    std::vector<std::int32_t> before = places_in(blocks_, blocks);
+    std::vector<AtNode> asked_for;
+    std::vector<std::uint8_t> partly_unknown(blocks.size());
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      if (before[b] != absent) {
+        partly_unknown[b] = is_partly_unknown_[static_cast<std::size_t>(before[b])];
+        continue;
+      }
+      before[b] = static_cast<std::int32_t>(blocks_.size() + asked_for.size() / nodes);
+      asked_for.resize(asked_for.size() + nodes);
+      partly_unknown[b] = ask_(blocks[b], &asked_for[asked_for.size() - nodes]) ? 0 : 1;
+    }
+    block_before_.set(before);
+    asked_for_.set(asked_for);
+    partly_unknown_.set(partly_unknown);
+    known_before_.swap(known_);
+    known_.resize(blocks.size() * nodes);
+    records_.resize(known_.size() * size);
+    is_candidate_.resize(known_.size());
+    backend_.for_each(known_.size(),
+                      TakeGround<Dim, Real>{block_before_.data(), blocks_.size(), known_before_.data(),
+                                            asked_for_.data(), known_.data(), records_.data(), is_candidate_.data()});
+    blocks_ = blocks;
+    is_partly_unknown_ = std::move(partly_unknown);
+  }
+
+  void list_candidates_of(std::size_t count) {
+    candidates_before_.resize(count);
+    number_.resize(count);
+    backend_.sum_before(is_candidate_.data(), candidates_before_.data(), count);
+    candidates_.resize(count > 0 ? candidates_before_.get(count - 1) + is_candidate_.get(count - 1) : 0);
+    backend_.for_each(
+        count, ListCandidates{is_candidate_.data(), candidates_before_.data(), candidates_.data(), number_.data()});
+  }
 
   Backend& backend_;
   AskGround<Dim, Real> ask_;
-  std::unordered_map<std::uint64_t, Block> known_;  // by key; blocks once seen are kept
-  Array<AtNode, Backend> known_of_node_{backend_};
+  std::vector<std::uint64_t> blocks_;            // that are known
+  std::vector<std::uint8_t> is_partly_unknown_;  // by block
+  Array<std::int32_t, Backend> block_before_{backend_};
+  Array<AtNode, Backend> asked_for_{backend_}, known_before_{backend_}, known_{backend_};
   Array<Real, Backend> records_{backend_};
-  Array<std::uint32_t, Backend> candidates_{backend_};
+  Array<std::uint32_t, Backend> is_candidate_{backend_}, candidates_before_{backend_}, candidates_{backend_};
   Array<std::int32_t, Backend> number_{backend_};
   Array<std::uint8_t, Backend> near_{backend_}, any_near_{backend_}, partly_unknown_{backend_};
 };

@@ -156,6 +156,9 @@ struct SolveRates {
     const bool changes = changing_blocks != nullptr && changing_blocks[node / block_nodes] != 0;
     const Real* rates = (changes ? secant_rates : tangent_rates) + node * size;
     const Real* tangent = tangent_rates + node * size;
+    for (std::size_t c = 1; c < orphan_size; ++c) {
+      orphan_heat[node * orphan_size + c] = Real(0);  // a pass that reads the record reads all of it
+    }
     band::solve_temperature_rate<Dim>(
         tangent, rates[HeatRates::capacity], rates[HeatRates::subgrid],
         nodes.contact_at(node)[mpm::Contact::friction_heat], static_cast<const Real*>(nodes.momentum_at(node)), dt,

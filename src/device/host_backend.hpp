@@ -165,17 +165,20 @@ class Host {
   [[nodiscard]] std::size_t waits() const { return waits_; }
 
   // Sorts keys and what belongs to them; equal keys keep their order.
-  void sort(std::uint64_t* keys, std::uint32_t* values, std::size_t count) {
+  void sort(const std::uint64_t* keys, const std::uint32_t* values, std::uint64_t* sorted_keys,
+            std::uint32_t* sorted_values, std::size_t count) {
     wait();
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return keys[a] < keys[b]; });
-    const std::vector<std::uint64_t> old_keys(keys, keys + count);
-    const std::vector<std::uint32_t> old_values(values, values + count);
     for (std::size_t k = 0; k < count; ++k) {
-      keys[k] = old_keys[order[k]];
-      values[k] = old_values[order[k]];
+      sorted_keys[k] = keys[order[k]];
+      sorted_values[k] = values[order[k]];
     }
+  }
+  void sort(const std::uint64_t* keys, std::uint64_t* sorted_keys, std::size_t count) {
+    wait();
+    std::partial_sort_copy(keys, keys + count, sorted_keys, sorted_keys + count);
   }
 
   // sums[k] = numbers[0] + ... + numbers[k-1], for k = 0 .. count-1.

@@ -56,9 +56,11 @@ class Maps {
                places_along(cells.inverse_cell_y)};
     keys_of_seen_.resize(tables.tiles * places_.of_tile());
     seen_.resize(keys_of_seen_.size());
+    keys_listed_.resize(keys_of_seen_.size());
+    listed_.resize(keys_of_seen_.size());
     parts_.resize(keys_of_seen_.size());
-    backend_.for_each(seen_.size(), ListMapCells{places_, tables.tile_keys, keys_of_seen_.data(), seen_.data()});
-    backend_.sort(keys_of_seen_.data(), seen_.data(), seen_.size());
+    backend_.for_each(seen_.size(), ListMapCells{places_, tables.tile_keys, keys_listed_.data(), listed_.data()});
+    backend_.sort(keys_listed_.data(), listed_.data(), keys_of_seen_.data(), seen_.data(), seen_.size());
     first_.find(keys_of_seen_, 0, keys_, &first_seen_);
     sums_.resize(keys_.size());
   }
@@ -70,8 +72,8 @@ class Maps {
   bool knows_tiles_ = false;
   std::vector<std::uint64_t> known_keys_;  // of cells below some tile
   FirstOfKeys<Backend> first_{backend_};
-  Array<std::uint64_t, Backend> keys_of_seen_{backend_}, keys_{backend_};
-  Array<std::uint32_t, Backend> seen_{backend_}, first_seen_{backend_};
+  Array<std::uint64_t, Backend> keys_listed_{backend_}, keys_of_seen_{backend_}, keys_{backend_};
+  Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};
   Array<mpm::MapSums, Backend> parts_{backend_}, sums_{backend_};
 };
 

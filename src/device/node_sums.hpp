@@ -45,21 +45,21 @@ struct SumPatches {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     using T = mpm::Tile<Dim>;
-    constexpr auto nodes = static_cast<std::size_t>(T::nodes), stencil = static_cast<std::size_t>(T::stencil);
-    constexpr std::size_t own = stencil / 2;
+    constexpr auto nodes = static_cast<std::size_t>(T::nodes);
+    constexpr std::size_t own = static_cast<std::size_t>(T::stencil) / 2;
     const std::size_t component = k % size, node = k / size % nodes, block = k / size / nodes;
     const bool lowered = is_lowered(component);
     Real sum = lowered ? std::numeric_limits<Real>::max() : Real(0);
     if (!lowered) {
       take(block, node, own, component, [&](Real part) { sum = part; });
     }
-    for (std::size_t d = 0; d < stencil; ++d) {
+    for_directions_that_see(node, [&](std::size_t d) {
       if (lowered) {
         take(block, node, d, component, [&](Real part) { sum = min(sum, part); });
       } else if (d != own) {
         take(block, node, d, component, [&](Real part) { sum += part; });
       }
-    }
+    });
     records[k] = sum;
   }
 
@@ -72,6 +72,25 @@ struct SumPatches {
              component < mpm::part_of<Lowered, Dim>.from + mpm::part_of<Lowered, Dim>.count;
     }
   }
+  // Calls visit(direction) for those, in order, in which a tile's patch reaches a node of a block: along each axis the
+  // block's own, and that on the side on which the node is the last one.
+  template <class Visit>
+  THAWSLIDE_HD static void for_directions_that_see(std::size_t node, const Visit& visit) {
+    constexpr auto edge = static_cast<std::size_t>(mpm::Tile<Dim>::edge);
+    const std::size_t along[3] = {node % edge, node / edge % edge, node / edge / edge};
+    std::size_t from[3] = {1, 0, 0}, to[3] = {1, 0, 0};
+    for (int a = 0; a < Dim; ++a) {
+      from[a] = along[a] == 0 ? 0 : 1;
+      to[a] = along[a] + 1 == edge ? 2 : 1;
+    }
+    for (std::size_t z = from[2]; z <= to[2]; ++z) {
+      for (std::size_t y = from[1]; y <= to[1]; ++y) {
+        for (std::size_t x = from[0]; x <= to[0]; ++x) {
+          visit((z * 3 + y) * 3 + x);
+        }
+      }
+    }
+  }
   // Calls with(number) with what the tile in some direction holds.
   template <class With>
   THAWSLIDE_HD void take(std::size_t block, std::size_t node, std::size_t direction, std::size_t component,
@@ -81,11 +100,9 @@ struct SumPatches {
     if (tile == absent || !takes(static_cast<std::size_t>(tile))) {
       return;
     }
-    const PlaceInPatch place = place_in_patch<Dim>(node, direction);
-    if (place.is_seen) {
-      with(patches[(static_cast<std::size_t>(tile) * static_cast<std::size_t>(T::patch_nodes) + place.node) * size +
-                   component]);
-    }
+    const std::size_t place = place_in_patch<Dim>(node, direction);
+    with(patches[(static_cast<std::size_t>(tile) * static_cast<std::size_t>(T::patch_nodes) + place) * size +
+                 component]);
   }
 };
 

@@ -237,10 +237,10 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     }
     for (std::size_t p = part.first; p < part.last; ++p) {
       const auto& slot = room.slots()[p - chunk.first];
-      const auto& stencil = slot.template stencil<Name>();
+      const mpm::OneAtNode<Dim, Real> at = mpm::at_node<Dim>(slot.template stencil<Name>(), along);
       const auto& brought = slot.carried.template of<Name>();
-      for (std::size_t c = 0; c < carried; ++c) {
-        sum[c] = mpm::add_particle(stencil, along, brought, has_flux<Name>, c, sum[c]);
+      for (std::size_t c = 0; c < carried && at.is_seen; ++c) {
+        sum[c] = mpm::add_particle(at, brought, c, sum[c]);
       }
     }
     Real* to = part.ends ? room.cell_sums() + k * carried : room.template open<Name>(chunk.number + 1) + node * carried;
@@ -265,9 +265,6 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       }
     });
   }
-
-  template <class Name>
-  static constexpr bool has_flux = Name::flux != mpm::no_flux;
 
   // Calls visit(cell, node of the cell) for the cells, in order, that see a node of the patch.
   template <class Visit>

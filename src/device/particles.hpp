@@ -19,10 +19,11 @@ template <class T, int Components>
 struct GatherField {
   mpm::FieldView<T, Components> from, to;
   const std::uint32_t* order;
+  std::size_t count;  // after which numbers are kept, of the last block
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     for (int c = 0; c < Components; ++c) {
-      to(k, c) = from(order[k], c);
+      to(k, c) = from(k < count ? order[k] : k, c);
     }
   }
 };
@@ -101,7 +102,7 @@ class Particles {
   void gather(mpm::FieldView<T, Components>& field, Array<std::byte, Backend>& numbers, const std::uint32_t* order) {
     gathered_.resize(numbers.size());
     const mpm::FieldView<T, Components> to{reinterpret_cast<T*>(gathered_.data())};
-    backend_.for_each(count_, GatherField<T, Components>{field, to, order});
+    backend_.for_each(numbers_of(field) / Components, GatherField<T, Components>{field, to, order, count_});
     backend_.copy(field.numbers, to.numbers, numbers_of(field));
   }
 

@@ -212,23 +212,30 @@ class Step {
 
   // And what the processor asks of the particles at their new places.
   void take_positions() {
-    using Kernel = mpm::TakePosition<Dim, Real>;
-    using Extremes = FindExtremes<Dim, Real>;
-    using Strays = CountStrays<Dim, Real>;
-    const auto all = passes_.linear();
-    passes_.keep(&passes_.run(all, Kernel{passes_.model.lower, passes_.model.upper})->template of<Kernel>(),
-                 &sums_.data()->bad);
-    if (passes_.model.tells_extremes) {
-      passes_.keep(&passes_.run(all, Extremes{passes_.model.band, band_.hydraulic()})->template of<Extremes>(),
-                   &sums_.data()->extremes);
-    }
-    if (passes_.model.tells_strays) {
-      const Strays strays{passes_.cells.tables().blocks_about_tile,
-                          passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr,
-                          passes_.model.faces.extent};
-      passes_.keep(&passes_.run(all, strays)->template of<Strays>(), &sums_.data()->strays);
+    const mpm::TakePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
+    const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic()};
+    const CountStrays<Dim, Real> strays{passes_.cells.tables().blocks_about_tile,
+                                        passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr,
+                                        passes_.model.faces.extent};
+    if (passes_.model.tells_extremes && passes_.model.tells_strays) {
+      take_positions(take, extremes, strays);
+    } else if (passes_.model.tells_extremes) {
+      take_positions(take, extremes);
+    } else if (passes_.model.tells_strays) {
+      take_positions(take, strays);
+    } else {
+      take_positions(take);
     }
   }
+  template <class... Kernels>
+  void take_positions(const Kernels&... kernels) {
+    const auto* all = passes_.run(passes_.linear(), kernels...);
+    (passes_.keep(&all->template of<Kernels>(), place_of(&all->template of<Kernels>())), ...);
+  }
+  // Where in the device's memory what the last pass sums is kept.
+  mpm::BadParticle* place_of(const mpm::BadParticle* /*sum*/) { return &sums_.data()->bad; }
+  band::StepExtremes* place_of(const band::StepExtremes* /*sum*/) { return &sums_.data()->extremes; }
+  std::uint64_t* place_of(const std::uint64_t* /*sum*/) { return &sums_.data()->strays; }
 
   Passes passes_;
   Array<Sums, Backend> sums_;

@@ -49,23 +49,17 @@ THAWSLIDE_HD PlaceInBlock<Dim> place_in_block(std::size_t in_patch) {
   return place;
 }
 
-// Whether the tile in some direction from a block sees a node of the block; then its place in that tile's patch.
-struct PlaceInPatch {
-  bool is_seen;
-  std::size_t node;
-};
+// The place of a node of a block in the patch of the tile in some direction, which sees it.
 template <int Dim>
-THAWSLIDE_HD PlaceInPatch place_in_patch(std::size_t in_block, std::size_t direction) {
+THAWSLIDE_HD std::size_t place_in_patch(std::size_t in_block, std::size_t direction) {
   using T = mpm::Tile<Dim>;
-  PlaceInPatch place{true, 0};
-  std::size_t nodes = 1;
+  std::size_t place = 0, nodes = 1;
   for (int a = 0; a < Dim; ++a) {
     const int tile = static_cast<int>(direction % 3) - 1;
     const int along = static_cast<int>(in_block % T::edge) - tile * T::edge + 1;
     direction /= 3;
     in_block /= T::edge;
-    place.is_seen = place.is_seen && along >= 0 && along < T::patch_edge;
-    place.node += static_cast<std::size_t>(along) * nodes;
+    place += static_cast<std::size_t>(along) * nodes;
     nodes *= T::patch_edge;
   }
   return place;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 #include "base/linear.hpp"
@@ -15,12 +16,17 @@
 namespace thawslide::mpm {
 
 // What one particle carries to a record: weight * value, and in its first numbers also gradient . flux.
-template <class Real, int Dim, std::size_t Components>
-struct OneContribution {
+template <class Real, int Dim, bool HasFlux>
+struct OneFlux {};
+template <class Real, int Dim>
+struct OneFlux<Real, Dim, true> {
+  Real flux[Dim][record_step] = {};
+};
+template <class Real, int Dim, std::size_t Components, bool HasFlux>
+struct OneContribution : OneFlux<Real, Dim, HasFlux> {
   static constexpr std::size_t size = record_size(static_cast<int>(Components));
 
   Real value[size] = {};
-  Real flux[Dim][record_step] = {};
 };
 
 // The same of what it lowers.
@@ -30,7 +36,7 @@ struct OneBounds : Bounds<Real, Count> {};
 // What one particle carries to a record of some name.
 template <class Name, int Dim, class Real>
 using CarriedByOne = std::conditional_t<IsLowered<Name>, OneBounds<Real, carried_numbers<Name, Dim>>,
-                                        OneContribution<Real, Dim, carried_numbers<Name, Dim>>>;
+                                        OneContribution<Real, Dim, carried_numbers<Name, Dim>, Name::flux != no_flux>>;
 
 // Where a particle stands: from its nearest node, in cells; the lowest node that it sees, by its place in the tile's
 // patch; whether the nearest node lies, along each axis, on a side of the domain that prescribes velocity.
@@ -45,8 +51,8 @@ struct OnePlace {
 template <class Real, int Dim, std::size_t Width>
 struct OneStencil {
   std::array<AxisWeights<Real, Width>, static_cast<std::size_t>(Dim)> axis;
-  std::size_t first = 0;
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> in_cell{};  // of that node among the 3 an axis of its cell
+  std::uint32_t first = 0;
+  std::array<std::uint8_t, static_cast<std::size_t>(Dim)> in_cell{};  // of that node among the 3 an axis of its cell
 };
 
 // The weights of one particle; those of momentum and of APIC where the pass has them.
@@ -60,19 +66,19 @@ struct OneWeights {
 
   // At the corners of the cell of nodes in which the particle lies.
   THAWSLIDE_HD void set_linear(const OnePlace<Dim, Real>& place, Real inverse_cell) {
-    linear.first = place.first_node;
+    linear.first = static_cast<std::uint32_t>(place.first_node);
     for (std::size_t a = 0; a < Dim; ++a) {
       const Real along = place.offset[static_cast<int>(a)];
       const bool right = along >= Real(0);
       linear.in_cell[a] = right ? 1 : 0;
-      linear.first += right ? static_cast<std::size_t>(power(Tile<Dim>::patch_edge, static_cast<int>(a))) : 0;
+      linear.first += right ? static_cast<std::uint32_t>(power(Tile<Dim>::patch_edge, static_cast<int>(a))) : 0u;
       linear.axis[a] = {{right ? Real(1) - along : -along, right ? along : Real(1) + along},
                         {-inverse_cell, inverse_cell}};
     }
   }
   template <class Shape>
   THAWSLIDE_HD void set_momentum(const OnePlace<Dim, Real>& place, const HalfSize<Real>& size, Real inverse_cell) {
-    momentum.first = place.first_node;
+    momentum.first = static_cast<std::uint32_t>(place.first_node);
     for (std::size_t a = 0; a < Dim; ++a) {
       momentum.axis[a] = Shape::weights(place.offset[static_cast<int>(a)], size, place.at_side[a], inverse_cell);
     }
@@ -124,62 +130,65 @@ struct SeenByOne {
   }
 };
 
-// A node of a particle's cell, numbered along each axis: k is its number among those that the particle sees. False if
-// it sees another.
+// What a particle has at a node: weights and slopes along each axis, none where it does not see it.
+template <int Dim, class Real>
+struct OneAtNode {
+  bool is_seen = true;
+  Real weight[Dim], slope[Dim];
+};
+// node: of the particle's cell, numbered along each axis.
 template <int Dim, class Real, std::size_t Width>
-THAWSLIDE_HD bool find_in_stencil(const OneStencil<Real, Dim, Width>& stencil, const std::array<std::size_t, 3>& node,
-                                  std::array<std::size_t, static_cast<std::size_t>(Dim)>& k) {
+THAWSLIDE_HD OneAtNode<Dim, Real> at_node(const OneStencil<Real, Dim, Width>& stencil,
+                                          const std::array<std::size_t, 3>& node) {
+  OneAtNode<Dim, Real> at;
   for (std::size_t a = 0; a < Dim; ++a) {
-    if (node[a] < stencil.in_cell[a] || node[a] >= stencil.in_cell[a] + Width) {
-      return false;
-    }
-    k[a] = node[a] - stencil.in_cell[a];
+    const std::size_t k = node[a] - stencil.in_cell[a];  // beyond all where it would be below 0
+    at.is_seen = at.is_seen && k < Width;
+    at.weight[a] = stencil.axis[a].weight[k < Width ? k : 0];
+    at.slope[a] = stencil.axis[a].slope[k < Width ? k : 0];
   }
-  return true;
+  return at;
 }
 
-// Component c of such a node after the particle, `sum` before it.
-template <int Dim, class Real, std::size_t Width, std::size_t Components>
-THAWSLIDE_HD Real add_particle(const OneStencil<Real, Dim, Width>& stencil, const std::array<std::size_t, 3>& node,
-                               const OneContribution<Real, Dim, Components>& carried, bool has_flux, std::size_t c,
+// Component c of a node after a particle that sees it, `sum` before it.
+template <int Dim, class Real, std::size_t Components, bool HasFlux>
+THAWSLIDE_HD Real add_particle(const OneAtNode<Dim, Real>& at,
+                               const OneContribution<Real, Dim, Components, HasFlux>& carried, std::size_t c,
                                Real sum) {
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> k{};
-  if (!find_in_stencil(stencil, node, k)) {
-    return sum;
-  }
-  const auto& axis = stencil.axis;
-  const bool with_flux = has_flux && c < record_step;
+  const bool with_flux = HasFlux && c < record_step;
   Real in_layer = carried.value[c];
-  Real along_0 = with_flux ? carried.flux[0][c] : Real(0), along_1 = with_flux ? carried.flux[1][c] : Real(0);
+  Real along_0 = 0, along_1 = 0;
+  if constexpr (HasFlux) {
+    along_0 = with_flux ? carried.flux[0][c] : Real(0);
+    along_1 = with_flux ? carried.flux[1][c] : Real(0);
+  }
   if constexpr (Dim == 3) {
-    in_layer *= axis[2].weight[k[2]];
-    if (with_flux) {
-      in_layer += axis[2].slope[k[2]] * carried.flux[2][c];
-      along_0 *= axis[2].weight[k[2]];
-      along_1 *= axis[2].weight[k[2]];
+    in_layer *= at.weight[2];
+    if constexpr (HasFlux) {
+      if (with_flux) {
+        in_layer += at.slope[2] * carried.flux[2][c];
+        along_0 *= at.weight[2];
+        along_1 *= at.weight[2];
+      }
     }
   }
-  Real in_row = axis[1].weight[k[1]] * in_layer;
+  Real in_row = at.weight[1] * in_layer;
   if (with_flux) {
-    in_row += axis[1].slope[k[1]] * along_1;
+    in_row += at.slope[1] * along_1;
   }
-  const Real along = axis[1].weight[k[1]] * along_0;
-  sum += axis[0].weight[k[0]] * in_row;
+  const Real along = at.weight[1] * along_0;
+  sum += at.weight[0] * in_row;
   if (with_flux) {
-    sum += axis[0].slope[k[0]] * along;
+    sum += at.slope[0] * along;
   }
   return sum;
 }
-template <int Dim, class Real, std::size_t Width, std::size_t Count>
-THAWSLIDE_HD Real add_particle(const OneStencil<Real, Dim, Width>& stencil, const std::array<std::size_t, 3>& node,
-                               const OneBounds<Real, Count>& carried, bool /*has_flux*/, std::size_t c, Real smallest) {
-  std::array<std::size_t, static_cast<std::size_t>(Dim)> k{};
-  if (!find_in_stencil(stencil, node, k)) {
-    return smallest;
-  }
+template <int Dim, class Real, std::size_t Count>
+THAWSLIDE_HD Real add_particle(const OneAtNode<Dim, Real>& at, const OneBounds<Real, Count>& carried, std::size_t c,
+                               Real smallest) {
   Real weight = Real(1);
   for (std::size_t a = 0; a < Dim; ++a) {
-    weight *= stencil.axis[a].weight[k[a]];
+    weight *= at.weight[a];
   }
   return weight > round_off<Real> ? min(smallest, carried.value[c]) : smallest;
 }

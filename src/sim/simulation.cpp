@@ -41,11 +41,23 @@ void Simulation<Dim, Real>::step(double dt) {
     take_step_here();
   }
   ++step_number_;
-  const bool fixed = parameters_.time.stepping == config::Stepping::fixed && dt == parameters_.time.step;
-  time_ =
-      fixed ? static_cast<double>(step_number_) * dt : time_ + dt;  // no round-off gathers in the time of fixed steps
+  time_ = time_after(dt);
   last_step_ = dt;
   look_after_step();
+}
+
+// The time at the end of the step that was taken. No round-off gathers in that of fixed steps, which are counted from
+// where there first was one of their size.
+template <int Dim, class Real>
+double Simulation<Dim, Real>::time_after(double dt) {
+  if (parameters_.time.stepping != config::Stepping::fixed || dt != parameters_.time.step) {
+    even_steps_ = {};
+    return time_ + dt;
+  }
+  if (dt != even_steps_.step) {
+    even_steps_ = {dt, time_, step_number_ - 1};
+  }
+  return even_steps_.from_time + static_cast<double>(step_number_ - even_steps_.from_number) * dt;
 }
 
 template <int Dim, class Real>
@@ -266,6 +278,7 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::begin() {
   time_ = last_step_ = 0.0;
   step_number_ = 0;
+  even_steps_ = {};
   contact_ = {};
   find_particles_cells();
   if (model_.ground) {
@@ -335,9 +348,15 @@ double Simulation<Dim, Real>::band_thickness() const {
 
 template <int Dim, class Real>
 std::vector<double> Simulation<Dim, Real>::scalars() const {
-  std::vector<double> numbers{
-      time_,       last_step_, rear_at_start_, static_cast<double>(step_number_), static_cast<double>(next_id_),
-      column_time_};
+  std::vector<double> numbers{time_,
+                              last_step_,
+                              rear_at_start_,
+                              static_cast<double>(step_number_),
+                              static_cast<double>(next_id_),
+                              column_time_,
+                              even_steps_.step,
+                              even_steps_.from_time,
+                              static_cast<double>(even_steps_.from_number)};
   Ledger<Dim, Real> ledger = ledger_;
   ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
   Watch watch = watch_;
@@ -357,6 +376,9 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   step_number_ = state.whole(largest_whole);
   next_id_ = state.whole(largest_whole);
   column_time_ = state.next_finite();
+  even_steps_.step = state.next_finite();
+  even_steps_.from_time = state.next_finite();
+  even_steps_.from_number = state.whole(step_number_);
   ledger_.for_each([&](Real& account) { account = static_cast<Real>(state.next()); });
   watch_.for_each([&](double& number) { number = state.next(); });
   for (std::int64_t* count : {&removed_.left, &removed_.not_finite, &removed_.volume}) {
@@ -369,6 +391,9 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
     particles_.previous_temperature(p) = particles_.temperature(p);
   }
   find_particles_cells();
+  if (parameters_.time.stepping == config::Stepping::adaptive && watch_.first_step == 0.0) {
+    watch_.first_step = adaptive_step();  // steps were fixed so far
+  }
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real) template class Simulation<Dim, Real>;

@@ -155,6 +155,7 @@ class Simulation {
   void book_heat(const band::HeatGain<Real>& gain);
 
   // The stages of a step, in order (simulation.cpp).
+  [[nodiscard]] double time_after(double dt);
   void take_step_here();
   void look_after_step();
   void find_particles_cells();
@@ -253,6 +254,11 @@ class Simulation {
   double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, thickness_in_force_ = -1.0,
          column_time_ = 0.0;  // since the last step of the band columns
   std::int64_t step_number_ = 0, next_id_ = 0;
+  // Fixed steps of one size: that size, and the time and the number of steps when the first of them began.
+  struct EvenSteps {
+    double step = 0.0, from_time = 0.0;
+    std::int64_t from_number = 0;
+  } even_steps_;
   std::size_t particles_at_start_ = 0;
   int sorting_interval_ = 64;
   Real dt_ = 0;

@@ -124,7 +124,7 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::WatchedSums<Real>& s
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>& seen) {
-  if (parameters_.time.stop_at_rest == 0.0) {
+  if (parameters_.time.stop_at_rest <= 0.0) {
     watch_.has_moved = not_looked_at;
     return;
   }
@@ -167,9 +167,8 @@ std::string Simulation<Dim, Real>::energy_note() const {
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::rest_text() const {
   return fmt::format(
-      "the slide is at rest: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s "
-      "(time.stop_at_rest)",
-      watch_.rest_since, 100.0 * stray_share, parameters_.time.stop_at_rest);
+      "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",
+      at_rest, watch_.rest_since, 100.0 * stray_share, parameters_.time.stop_at_rest);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                    \

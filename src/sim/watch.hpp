@@ -17,11 +17,14 @@ inline constexpr std::int64_t watch_interval = 10;
 // particle keeps no deposit from being one.
 inline constexpr double stray_share = 0.005;
 
+// How a run tells that it has ended at rest.
+inline constexpr const char* at_rest = "the slide is at rest";
+
 struct Watch {
   double held_at_start = 0.0;   // elastic energy at t = 0 [J]
   double largest_energy = 0.0;  // largest so far of all that was held, moved or dissipated [J]
   double lowest_made = 0.0;     // lowest of late of the energy that nothing accounts for [J]
-  double first_step = 0.0;      // the adaptive one at t = 0 [s]
+  double first_step = 0.0;      // the adaptive one at t = 0, or at which steps became adaptive [s]; 0: they are not
   double rest_since = -1.0;     // [s]; negative: it moves
   double has_moved = 0.0;       // 1: more than the stray share has been faster than time.stop_at_rest; -1: not looked
   // At the last look: energy that nothing accounts for since t = 0, as a share of all so far. In no checkpoint.

@@ -289,8 +289,9 @@ __global__ void sum_in_cell(const mpm::OneWeights<Dim, Real>* weights, const Car
   const std::size_t node = threadIdx.x, component = threadIdx.y;
   Real sum = sums[node * blockDim.y + component];
   for (std::size_t k = first; k < last; ++k) {
-    sum = mpm::add_particle(weights[k].template of<typename Name::Functions>(), {node % 3, node / 3 % 3, node / 9},
-                            carried[k], Name::flux != mpm::no_flux, component, sum);
+    const std::array<std::size_t, 3> along{node % 3, node / 3 % 3, node / 9};
+    const auto at = mpm::at_node<Dim>(weights[k].template of<typename Name::Functions>(), along);
+    sum = at.is_seen ? mpm::add_particle(at, carried[k], component, sum) : sum;
   }
   sums[node * blockDim.y + component] = sum;
 }

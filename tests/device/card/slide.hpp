@@ -96,13 +96,13 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
     p.id(k) = static_cast<std::int64_t>((k * 7919) % memory.size() * 3);  // in no order, with gaps
     for (int a = 0; a < Dim; ++a) {
       const Real from = a == Dim - 1 ? static_cast<Real>(ground_index) * cell : Real(16) * cell;
-      // A little out of line, so that no two particles do the same.
-      const Real off = 0.05 * std::sin(static_cast<Real>(k % 1009) + a);
+      // Out of line, so that no two particles do the same, nor come to another cell in the same step.
+      const Real off = 0.45 * std::sin(static_cast<Real>(k % 1009) + 2.4 * a);
       p.position(k, a) = from + (static_cast<Real>(place[static_cast<std::size_t>(a)]) + 0.5 + off) * spacing;
     }
     p.volume(k) = p.initial_volume(k) = volume;
     p.mass(k) = density * volume;
-    p.velocity(k, 0) = 6.0;
+    p.velocity(k, 0) = 3.0 + 6.0 * static_cast<Real>(place[Dim - 1]) / static_cast<Real>(count[2]);  // it shears
     p.velocity(k, Dim - 1) = -0.3;
     const Real depth = static_cast<Real>(size.height) * cell - (p.position(k, Dim - 1) - ground_index * cell);
     for (int c = 0; c < 3; ++c) {

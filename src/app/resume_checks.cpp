@@ -1,0 +1,185 @@
+#include "app/resume_checks.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "app/say.hpp"
+#include "base/error.hpp"
+#include "config/case_changes.hpp"
+#include "config/read_case.hpp"
+#include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/history_writer.hpp"
+#include "io/sha256.hpp"
+
+namespace thawslide::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  return fmt::format("{}", fmt::join(words, between));
+}
+
+// What resumes were to change of the case with this SHA-256, in order: they were cut off after run.json told of it and
+// before case.toml had it. Nothing where no part of the run had that case.
+std::optional<std::vector<std::string>> changes_cut_off(const io::Provenance& facts, const std::string& case_sha256) {
+  std::vector<std::string> changes;
+  for (auto part = facts.parts.rbegin(); part != facts.parts.rend(); ++part) {
+    if (part->case_sha256 == case_sha256) {
+      return changes;
+    }
+    changes.insert(changes.begin(), part->changes.begin(), part->changes.end());
+  }
+  return std::nullopt;
+}
+
+// They must be told again: run.json tells of them already. Another value of their keys will do.
+void require_told_again(const fs::path& folder, const std::vector<std::string>& changes,
+                        const std::vector<std::string>& sets) {
+  const std::set<std::string> told = config::keys_of(sets);
+  std::vector<std::string> missing;
+  for (const std::string& change : changes) {
+    const std::string key = *config::keys_of({change}).begin();
+    // Of what changed a key more than once the last one holds.
+    missing.erase(std::remove_if(missing.begin(), missing.end(),
+                                 [&](const std::string& other) { return *config::keys_of({other}).begin() == key; }),
+                  missing.end());
+    if (told.count(key) == 0) {
+      missing.push_back(change);
+    }
+  }
+  if (!missing.empty()) {
+    missing.insert(missing.end(), sets.begin(), sets.end());
+    throw UserError(
+        fmt::format("the last resume was cut off before its change took hold. Give it again: thawslide resume {} --set "
+                    "{}",
+                    folder.string(), joined(missing, " --set ")));
+  }
+}
+
+// One of another run may have been put there.
+void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& facts, const std::string& now,
+                               const std::string& of_checkpoint) {
+  const std::string sha256 = sha256_of_text(of_checkpoint);
+  const bool is_known = std::any_of(facts.parts.begin(), facts.parts.end(),
+                                    [&](const io::RunPart& part) { return part.case_sha256 == sha256; });
+  if (!is_known) {
+    const std::vector<std::string> differences = config::differences(of_checkpoint, now);
+    throw UserError(fmt::format(
+        "the checkpoint of {} was not written by this run: run.json tells of no part with its case{}{}. Put back the "
+        "run's own checkpoint.bin or checkpoint.previous.bin, or run the case anew.",
+        folder.string(), differences.empty() ? "" : ", in which ", joined(differences, "; ")));
+  }
+}
+
+}  // namespace
+
+std::string sha256_of_text(const std::string& text) { return io::sha256_hex(text.data(), text.size()); }
+
+std::string advice_on(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& changes,
+                      const std::string& otherwise) {
+  const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
+  if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
+    return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.", folder.string(),
+                       config::read_case(folder).time.end);
+  }
+  return otherwise;
+}
+
+void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile>& inputs,
+                         const fs::path& reported_values) {
+  std::vector<std::string> changed;
+  for (const io::InputFile& input : inputs) {
+    const fs::path copy = folder / input.copy;
+    if (fs::path(input.copy).parent_path() != "inputs") {
+      throw UserError(fmt::format("{}: damaged: it names {} as the copy of an input; those lie in inputs/.",
+                                  (folder / "run.json").string(), input.copy));
+    }
+    if (copy.filename() == reported_values.filename()) {
+      continue;
+    }
+    if (!fs::exists(copy)) {
+      changed.push_back(copy.string() + " is missing");
+    } else if (io::sha256_of_file(copy) != input.sha256) {
+      changed.push_back(copy.string() + " has changed");
+    }
+  }
+  if (!changed.empty()) {
+    throw UserError(fmt::format(
+        "{}. A run goes on with the inputs it began with (run.json has their SHA-256): put them back, or run "
+        "the case anew.",
+        joined(changed, "; ")));
+  }
+}
+
+void tell_changed_originals(const std::vector<io::InputFile>& inputs) {
+  for (const io::InputFile& input : inputs) {
+    std::error_code unreadable;
+    const bool same_size = fs::file_size(input.path, unreadable) == input.bytes;
+    if (!unreadable && (!same_size || io::sha256_of_file(input.path) != input.sha256)) {
+      say("note: {} has changed since the run began, which goes on with its copy, {}\n", input.path, input.copy);
+    }
+  }
+}
+
+void tell_of_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {
+  for (const io::InputFile& input : inputs) {
+    if (error.find(input.copy) != std::string::npos) {
+      require_same_inputs(folder, {input}, {});
+    }
+  }
+}
+
+void require_same_case(const fs::path& folder, const io::Provenance& facts, const std::string& before,
+                       const std::vector<std::string>& sets) {
+  const fs::path file = folder / "case.toml";
+  if (!fs::exists(file)) {
+    io::write_file_atomically(file, before);
+    say("note: {} was missing; it is written anew from the checkpoint\n", file.string());
+  }
+  const std::string now = io::read_file(file);
+  require_checkpoint_of_run(folder, facts, now, before);
+  std::optional<std::vector<std::string>> cut_off = changes_cut_off(facts, sha256_of_text(now));
+  if (!cut_off) {
+    const std::vector<std::string> changes = config::differences(now, before, config::keys_of(sets));
+    if (!changes.empty()) {
+      const std::string usual = fmt::format(
+          "Put that back, or remove the file, which then is written anew; what should change is told on the command "
+          "line: thawslide resume {} --set KEY=VALUE, or --end T.",
+          folder.string());
+      throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
+                                  joined(changes, "; "), advice_on(folder, facts, changes, usual)));
+    }
+    cut_off = changes_cut_off(facts, sha256_of_text(before));  // what it says is that of the checkpoint
+  }
+  require_told_again(folder, *cut_off, sets);
+}
+
+void require_case_of_start(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& sets) {
+  const fs::path file = folder / "case.toml";
+  const bool is_there = fs::exists(file);
+  const auto cut_off = changes_cut_off(facts, is_there ? io::sha256_of_file(file) : "");
+  if (!cut_off) {
+    throw UserError(fmt::format(
+        "{} {}, and there is no checkpoint to tell what it was. Put back what was there, or run the case anew.",
+        file.string(), is_there ? "has changed since the run began (run.json has its SHA-256)" : "is missing"));
+  }
+  require_told_again(folder, *cut_off, sets);
+}
+
+void require_no_more_than_a_start(const fs::path& folder, const io::Provenance& facts) {
+  const double had_come_to =
+      std::max(facts.simulated_time, io::last_time_in_history(folder / "history.csv").value_or(0.0));
+  if (facts.steps > 0 || had_come_to > 0.0) {
+    throw UserError(fmt::format(
+        "{0} had come to {1:g} s, and neither checkpoint.bin nor checkpoint.previous.bin is there to go on from: begun "
+        "anew it would write over what it has. Put one of them back, or run the case anew in another folder: thawslide "
+        "run {0} --output OTHER.",
+        folder.string(), had_come_to));
+  }
+}
+
+}  // namespace thawslide::app

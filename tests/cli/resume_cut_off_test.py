@@ -1,0 +1,166 @@
+"""Resumes that were cut off before what they change took hold, runs without checkpoints, and the end at rest."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from conftest import Program, content_of, run_facts, sets
+from faults import as_killed
+
+RESTS = sets(
+    time__end=5,
+    time__history_interval=0.1,
+    time__output_interval=1,
+    body__block__velocity="[3,0]",
+    time__stop_at_rest=0.1,
+    time__rest_time=0.4,
+)
+
+
+def cut_off(thawslide: Program, run: Path, *words: object) -> None:
+    """Leave a run as a resume does that is killed between telling of its changes and making them."""
+    told = run.with_name(run.name + "-told")
+    shutil.copytree(run, told)
+    outcome = thawslide("resume", told, *words)
+    assert outcome.returncode == 0, outcome.stderr
+    as_killed(told)
+    shutil.copy(told / "run.json", run / "run.json")
+    shutil.rmtree(told)
+
+
+def taken(thawslide: Program, run: Path, *words: object) -> None:
+    """Leave a run as a resume does that is killed after its changes are in case.toml, before its first checkpoint."""
+    told = run.with_name(run.name + "-told")
+    shutil.copytree(run, told)
+    assert thawslide("resume", told, *words).returncode == 0
+    as_killed(told)
+    for name in ("run.json", "case.toml"):
+        shutil.copy(told / name, run / name)
+    shutil.rmtree(told)
+
+
+def changes_asked_for(thawslide: Program, run: Path, *words: object) -> str:
+    before = content_of(run)
+    outcome = thawslide("resume", run, *words)
+    assert outcome.returncode == 2
+    start = (
+        f"error: the last resume was cut off before its change took hold. Give it again: thawslide resume {run} --set "
+    )
+    assert outcome.stderr.startswith(start), outcome.stderr
+    assert content_of(run) == before
+    return outcome.stderr[len(start) : -1]
+
+
+def test_a_change_that_was_cut_off_is_not_lost_by_another(thawslide: Program, done: Path) -> None:
+    cut_off(thawslide, done, *sets(basal__friction_angle=5, time__end=0.3))
+    assert changes_asked_for(thawslide, done) == "basal.friction_angle=5 --set time.end=0.3"
+    asked = changes_asked_for(thawslide, done, "--end", 0.25)
+    assert asked == "basal.friction_angle=5 --set time.end=0.25"
+    words = asked.split(" --set ")
+    outcome = thawslide("resume", done, "--set", words[0], "--set", words[1])
+    assert outcome.returncode == 0, outcome.stderr
+    text = (done / "case.toml").read_text()
+    assert "friction_angle = 5.0 " in text and "end = 0.25 " in text
+    assert run_facts(done)["simulated_time_s"] == 0.25
+
+
+def test_a_change_that_was_cut_off_may_be_taken_back(thawslide: Program, done: Path) -> None:
+    cut_off(thawslide, done, *sets(basal__friction_angle=5, time__end=0.3))
+    outcome = thawslide("resume", done, *sets(basal__friction_angle=10, time__end=0.25))
+    assert outcome.returncode == 0, outcome.stderr
+    assert "friction_angle = 10.0 " in (done / "case.toml").read_text()
+
+
+def test_a_change_on_a_change_is_asked_for_alone(thawslide: Program, done: Path) -> None:
+    """The first has taken hold, and no checkpoint tells of it yet."""
+    taken(thawslide, done, *sets(basal__friction_angle=5, time__end=0.3))
+    changed = (done / "case.toml").read_text()
+    told = done.with_name("second")
+    shutil.copytree(done, told)
+    assert thawslide("resume", told, "--end", 0.4).returncode == 0
+    as_killed(told)
+    shutil.copy(told / "run.json", done / "run.json")
+    assert changes_asked_for(thawslide, done) == "time.end=0.4"
+    # Without the file, which is written anew from the checkpoint, both are.
+    (done / "case.toml").unlink()
+    outcome = thawslide("resume", done, "--end", 0.4)
+    assert outcome.returncode == 2
+    assert outcome.stderr.endswith(" --set basal.friction_angle=5 --set time.end=0.4\n")
+    (done / "case.toml").write_text(changed)
+    outcome = thawslide("resume", done, "--end", 0.4)
+    assert outcome.returncode == 0, outcome.stderr
+    assert "friction_angle = 5.0 " in (done / "case.toml").read_text()
+
+
+def test_changes_cut_off_twice_before_the_first_checkpoint(thawslide: Program, done: Path) -> None:
+    facts = json.loads((done / "run.json").read_text())
+    part = {**facts["parts"][0], "changes": ["basal.friction_angle=5"], "case_sha256": "0" * 64}
+    facts["parts"] += [part, part]
+    facts.update(status="running", steps=0, simulated_time_s=0.0)
+    (done / "run.json").write_text(json.dumps(facts))
+    for name in ("checkpoint.bin", "checkpoint.previous.bin", "history.csv"):
+        (done / name).unlink()
+    assert changes_asked_for(thawslide, done) == "basal.friction_angle=5"
+    outcome = thawslide("resume", done, *sets(basal__friction_angle=5))
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout.startswith(f"{done} was cut off before its first checkpoint; it starts again\n")
+
+
+@pytest.mark.parametrize("killed", [True, False])
+def test_a_run_that_lost_its_checkpoints_is_not_begun_anew(thawslide: Program, done: Path, killed: bool) -> None:
+    if killed:
+        as_killed(done)
+    for name in ("checkpoint.bin", "checkpoint.previous.bin"):
+        (done / name).unlink()
+    before = content_of(done)
+    outcome = thawslide("resume", done, "--end", 0.3)
+    assert outcome.returncode == 2
+    assert outcome.stderr == (
+        f"error: {done} had come to 0.2 s, and neither checkpoint.bin nor checkpoint.previous.bin is there to go on "
+        "from: begun anew it would write over what it has. Put one of them back, or run the case anew in another "
+        f"folder: thawslide run {done} --output OTHER.\n"
+    )
+    assert content_of(done) == before
+    other = done.with_name("other")
+    assert thawslide("run", done, "--output", other).returncode == 0
+    assert (other / "history.csv").read_bytes() == (done / "history.csv").read_bytes()
+
+
+def test_what_a_run_at_rest_advises_works(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
+    rest = run_facts(run)["simulated_time_s"]
+    told = thawslide("resume", run, "--end", 5.5).stdout
+    assert told.endswith("nothing to do. It goes on with --set time.stop_at_rest=0\n")
+    outcome = thawslide("resume", run, "--end", rest + 0.5, "--set", "time.stop_at_rest=0")
+    assert outcome.returncode == 0, outcome.stderr
+    assert run_facts(run)["simulated_time_s"] == pytest.approx(rest + 0.5)
+    assert run_facts(run)["message"] == ""
+    text = (run / "case.toml").read_text()
+    assert "stop_at_rest = 0.0 " in text and "rest_time = 0.4 " in text
+
+
+def test_a_run_at_rest_takes_another_time_of_rest(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
+    rest = run_facts(run)["simulated_time_s"]
+    outcome = thawslide("resume", run, *sets(time__rest_time=0.6))
+    assert outcome.returncode == 0, outcome.stderr
+    assert run_facts(run)["simulated_time_s"] == pytest.approx(rest + 0.2, abs=0.02)
+    assert run_facts(run)["message"].startswith("the slide is at rest")
+
+
+def test_a_run_at_rest_without_its_last_checkpoint_comes_to_rest_again(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    words = [*RESTS, *sets(checkpoint__interval=0.3)]
+    assert thawslide("run", small_case, "--output", run, *words).returncode == 0
+    rows = (run / "history.csv").read_bytes()
+    (run / "checkpoint.bin").unlink()
+    outcome = thawslide("resume", run, "--end", 5.5)
+    assert outcome.returncode == 0, outcome.stderr
+    assert (run / "history.csv").read_bytes() == rows
