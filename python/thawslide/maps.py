@@ -16,6 +16,7 @@ from rasterio.errors import NotGeoreferencedWarning, RasterioError
 
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.run import Numbers, Run
+from thawslide.text_files import is_file
 
 Box = tuple[float, float, float, float]  # west, east, south, north [m]
 
@@ -204,6 +205,8 @@ def on_map(run: Run) -> bool:
 
 
 def _open(path: Path) -> rasterio.DatasetReader:
+    if not is_file(path) and path.exists():  # a pipe would wait for ever
+        raise ReportError(f"{path}: not a file; run the case again")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", NotGeoreferencedWarning)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from thawslide.arrays import Numbers
 from thawslide.errors import NotInRunError, ReportError, quoted
+from thawslide.text_files import is_file
 
 _COMPONENTS = {"velocity": {3}, "displacement": {3}, "stress": {6}, "mass": {1}, "volume": {1}, "in_band": {1}}
 _ANY = {1, 3, 6}  # of other fields: scalars, vectors and tensors
@@ -143,6 +144,8 @@ class _SnapshotFile:
 @contextmanager
 def _opened(path: Path) -> Iterator[_SnapshotFile]:
     """Open a snapshot; what h5py says of damage, also while it is read, becomes a ReportError."""
+    if not is_file(path) and path.exists():  # a pipe would wait for ever
+        raise ReportError(f"{path}: not a file; {_AGAIN}")
     try:
         with h5py.File(path, "r") as file:
             yield _SnapshotFile(file, path)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/point_window.hpp"
@@ -160,10 +161,7 @@ void make_new_folder(const fs::path& folder) {
 }
 
 void print_next_commands(const std::string& program, const fs::path& folder) {
-  const auto quoted = [](const std::string& word) {
-    return word.find_first_of(" '()&;$") == std::string::npos ? word : "\"" + word + "\"";
-  };
-  const std::string called = quoted(program), made = quoted(folder.string());
+  const std::string called = shell_word(program), made = shell_word(folder.string());
   fmt::print("look at it:  {} check {} --picture\nrun it:      {} run {}\n", called, made, called, made);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "app/map_output.hpp"
 #include "config/input_files.hpp"
@@ -11,6 +12,7 @@
 #include "io/run_folder.hpp"
 #include "io/snapshot.hpp"
 #include "sim/history.hpp"
+#include "sim/memory_need.hpp"
 
 namespace thawslide::app {
 
@@ -22,15 +24,17 @@ constexpr double bytes_of_number = 19.0;     // in history.csv, with its comma: 
 constexpr double columns_of_probe = 4.0;     // in probes.csv, of a section; a point has fewer
 constexpr double generations = 3.0;          // of checkpoints: two, and the one that is being written
 constexpr double ground_map_count = 2.0;     // terrain and release, on the DEM's points
-constexpr double bytes_beside_points = 1e4;  // of a snapshot
+constexpr double bytes_beside_points = 1e4;  // of a snapshot, and of a checkpoint, which holds the case
 constexpr double most_of_free = 0.9;         // what a run may take of the free disk without a word
 constexpr double gigabyte = 1e9;
 
-// Whole intervals until the end, and the start; where steps are fixed, no more than they are. Adaptive ones are cut to
-// the intervals.
+// Whole intervals until the end, and the start; where steps are fixed, no more than they are, and the last of them may
+// stop short of the end. Adaptive ones are cut to the intervals.
 double count_of(const config::Time& time, double interval, double steps) {
-  const double intervals = std::ceil(time.end / interval * (1.0 - 1e-12));
-  return (time.stepping == config::Stepping::fixed ? std::min(intervals, steps) : intervals) + 1.0;
+  const bool is_fixed = time.stepping == config::Stepping::fixed;
+  const double last = is_fixed ? std::min(time.end, steps * time.step) : time.end;
+  const double intervals = std::ceil(last / interval * (1.0 - 1e-12));
+  return (is_fixed ? std::min(intervals, steps) : intervals) + 1.0;
 }
 
 double bytes_of_files(const config::Case& parameters) {
@@ -43,6 +47,38 @@ double bytes_of_files(const config::Case& parameters) {
   return bytes;
 }
 
+// What a checkpoint holds for each cell of the maps that the slide has been in: its number, and what it keeps.
+constexpr double bytes_of_map_cell = (1.0 + sim::map_cell_numbers) * sizeof(double);
+
+double bytes_of_maps(const sim::FlowMaps& maps) {
+  double cells = 0.0;
+  maps.for_cells([&cells](int, int, const sim::MapCell&) { ++cells; });
+  return cells * bytes_of_map_cell;
+}
+
+double bytes_of_all_maps(const sim::MapGrid& grid) {
+  return static_cast<double>(grid.columns) * grid.rows * bytes_of_map_cell;
+}
+
+double bytes_of(const std::vector<double>& numbers) { return static_cast<double>(numbers.size() * sizeof(double)); }
+
+// Sets how large checkpoints are. Bed and particles stay as many as they are.
+template <int Dim>
+void count_checkpoint(const sim::Simulation<Dim, double>& simulation, const sim::FlowMaps* maps, DiskNeed& need) {
+  const double lasting = bytes_beside_points +
+                         static_cast<double>(simulation.particles().size()) *
+                             static_cast<double>(io::checkpoint_bytes_of_particle<Dim>()) +
+                         (simulation.bed() == nullptr ? 0.0 : bytes_of(simulation.bed()->state()));
+  // Columns are laid by the first step: as many as there is room for, and about as large there as in memory.
+  const sim::BodiesAtStart bodies = sim::bodies_at_start<Dim>(simulation.parameters(), simulation.site());
+  const double columns = sim::memory_need<Dim>(simulation.parameters(), simulation.site(), bodies).columns;
+  const double of_maps = maps == nullptr ? 0.0 : bytes_of_maps(*maps);
+  const double most_of_maps = maps == nullptr ? 0.0 : bytes_of_all_maps(maps->map_grid());
+  need.checkpoints = generations;
+  need.checkpoint_at_start = lasting + columns / sim::usual_spread + of_maps;
+  need.checkpoint = lasting + columns + std::min(sim::usual_spread * of_maps, most_of_maps);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -53,11 +89,7 @@ DiskNeed disk_need(const sim::Simulation<Dim, double>& simulation, const sim::Fl
   DiskNeed need;
   need.snapshots = count_of(time, time.output_interval, steps);
   need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_beside_points;
-  need.checkpoints = generations;
-  need.checkpoint = particles * static_cast<double>(io::checkpoint_bytes_of_particle<Dim>());
-  if (simulation.bed() != nullptr) {
-    need.checkpoint += static_cast<double>(simulation.bed()->state().size() * sizeof(double));
-  }
+  count_checkpoint(simulation, maps, need);
   need.history_rows = time.history_interval > 0.0 ? count_of(time, time.history_interval, steps) : steps + 1.0;
   const double columns = static_cast<double>(sim::history_row(simulation).size()) +
                          columns_of_probe * static_cast<double>(parameters.probes.size());

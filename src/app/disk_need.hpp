@@ -9,10 +9,12 @@
 
 namespace thawslide::app {
 
-// [bytes], as if nothing could be compressed.
+// [bytes], as if nothing could be compressed. What a checkpoint holds of maps and of columns of the base grows with the
+// ground that the slide has been on: an allowance is made for that, sim::usual_spread.
 struct DiskNeed {
   double snapshots = 0.0, snapshot = 0.0;      // how many, and one of them
-  double checkpoints = 0.0, checkpoint = 0.0;  // with the one that is being written
+  double checkpoints = 0.0, checkpoint = 0.0;  // with the one that is being written; once the slide has spread
+  double checkpoint_at_start = 0.0;            // before it has
   double history_rows = 0.0, history = 0.0;    // how many rows, and all of them
   double maps = 0.0, map = 0.0;                // as the slide leaves them
   double ground_maps = 0.0, ground_map = 0.0;  // on the points of the terrain model

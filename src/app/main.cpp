@@ -1,13 +1,17 @@
 // The command line: what can be asked, and how it ends (exit codes in ARCHITECTURE.md).
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "app/commands.hpp"
+#include "app/say.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/problems.hpp"
@@ -83,6 +87,24 @@ void require_known_command(const CLI::App& program, int count, char** arguments)
   throw thawslide::UserError(
       fmt::format("there is no command '{}'{} Commands: {}. Run with --help for more information.", arguments[1],
                   hint.empty() ? "." : hint, thawslide::config::list_words(commands)));
+}
+
+// A reader that closes its pipe has read enough; what cannot be written otherwise is lost, and that is told. Returns
+// the exit code, `code` where there is nothing to tell.
+int end_without_output(std::error_code reason, int code) {
+  if (reason == std::errc::broken_pipe) {
+    return code;
+  }
+  say_error("error: the output cannot be written: {}. Send it to where there is room for it.\n", reason.message());
+  return static_cast<int>(ExitCode::not_written);
+}
+
+// Returns the exit code of a command that returned `code`: its results have to be where they were sent before it ends.
+int with_output_written(int code) {
+  errno = 0;
+  const bool is_flushed = std::fflush(stdout) == 0;
+  const std::error_code reason(errno != 0 ? errno : EIO, std::generic_category());
+  return is_flushed && std::ferror(stdout) == 0 ? code : end_without_output(reason, code);
 }
 
 int run_program(int count, char** arguments) {
@@ -192,11 +214,12 @@ int run_program(int count, char** arguments) {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
-      return program.exit(error);  // --help
+      return with_output_written(program.exit(error));  // --help
     }
     throw thawslide::UserError(fmt::format("{}. Run with --help for more information.", error.what()));
   }
-  return exit_code;
+  // A run goes on without a terminal: its results are files.
+  return run->parsed() || resume->parsed() ? exit_code : with_output_written(exit_code);
 }
 
 }  // namespace
@@ -218,25 +241,30 @@ int main(int count, char** arguments) {
   try {
     return run_program(count, arguments);
   } catch (const thawslide::WriteError& error) {
-    fmt::print(stderr, "error: {}\n", printable(error.what()));
+    say_error("error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::not_written);
   } catch (const thawslide::UserError& error) {
-    fmt::print(stderr, "error: {}\n", printable(error.what()));
+    say_error("error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const thawslide::RunError& error) {
-    fmt::print(stderr, "error: {}\n", printable(error.what()));
+    say_error("error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::run_went_bad);
   } catch (const std::filesystem::filesystem_error& error) {
-    fmt::print(stderr, "error: {}{}: {}\n", error.path1().string(),
-               error.path2().empty() ? "" : " and " + error.path2().string(), error.code().message());
+    const std::string paths = error.path1().string() + (error.path2().empty() ? "" : " and " + error.path2().string());
+    say_error("error: {}: {}\n", printable(paths), error.code().message());
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "error: the memory of this machine, or what a limit allows of it (ulimit -v), is not enough. Make "
-               "grid.cell larger: twice the cell takes an eighth of the memory in 3D and a quarter in 2D.\n");
+    say_error(
+        "error: the memory of this machine, or what a limit allows of it (ulimit -v), is not enough. Make "
+        "grid.cell larger: twice the cell takes an eighth of the memory in 3D and a quarter in 2D.\n");
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error, please report it: {}\n", error.what());
+    // Of what is printed amid a command fmt tells in this way that it could not be written.
+    const auto* of_system = dynamic_cast<const std::system_error*>(&error);
+    if (of_system != nullptr && std::ferror(stdout) != 0) {
+      return end_without_output(of_system->code(), static_cast<int>(ExitCode::done));
+    }
+    say_error("internal error, please report it: {}\n", error.what());
     return 1;
   }
 }

@@ -8,6 +8,7 @@
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
+#include "app/names_in_case.hpp"
 #include "base/error.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
@@ -111,10 +112,27 @@ void copy_release(const fs::path& folder, const config::Case& trial) {
   }
 }
 
+// Stands in a folder until its case is whole.
+constexpr const char* unfinished_mark = ".unfinished-case";
+
+// What a command that was killed has left is told as that: nobody else knows it for what it is.
+void require_nothing_unfinished(const fs::path& folder) {
+  if (fs::exists(folder / unfinished_mark)) {
+    throw UserError(fmt::format(
+        "{}: a `thawslide new` was cut off while it made this folder, or is at it now: its mark {} is there, and no "
+        "whole case. Remove the folder, or give the name of another one.",
+        folder.string(), unfinished_mark));
+  }
+}
+
 // A folder that is made, of which nothing stays if the case in it turns out not to run.
 class NewFolder {
  public:
-  explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) { make_new_folder(path_); }
+  explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) {
+    require_nothing_unfinished(path_);
+    make_new_folder(path_);
+    io::write_file_atomically(path_ / unfinished_mark, "");
+  }
   ~NewFolder() {
     std::error_code ignored;
     if (!keeps_ && !was_there_) {
@@ -134,12 +152,26 @@ class NewFolder {
   NewFolder& operator=(const NewFolder&) = delete;
 
   [[nodiscard]] const fs::path& path() const { return path_; }
-  void keep() { keeps_ = true; }
+  void keep() {
+    std::error_code ignored;
+    fs::remove(path_ / unfinished_mark, ignored);
+    keeps_ = true;
+  }
 
  private:
   fs::path path_;
   bool was_there_, keeps_ = false;
 };
+
+// A message without places in a file that does not stay: "case.toml:28:15: ".
+std::string without_places(std::string message, const std::string& file) {
+  for (std::size_t at = message.find(file); at != std::string::npos; at = message.find(file, at)) {
+    const std::size_t end = message.find_first_not_of(":0123456789", at + file.size());
+    const bool is_place = end != std::string::npos && end > at + file.size() && message[end] == ' ';
+    message.replace(at, is_place ? end + 1 - at : file.size(), is_place ? "" : "the case");
+  }
+  return message;
+}
 
 // Whatever would refuse the case before its first step.
 void require_runnable(const fs::path& folder) {
@@ -148,13 +180,18 @@ void require_runnable(const fs::path& folder) {
     const sim::Simulation<3, double> simulation(made, gis::load_site(made).site);
     const sim::RunRecords<3> records(simulation, simulation.site());
   } catch (const UserError& error) {
-    throw UserError(fmt::format("no case was made, as it would not run: {}", error.what()));
+    throw UserError(fmt::format("no case was made, as it would not run: {}",
+                                without_places(error.what(), (folder / "case.toml").string())));
   }
 }
 
 }  // namespace
 
 int make_new_case(const NewOptions& options) {
+  const std::string release_name = fs::path(options.maps.release).filename().string();
+  require_utf8("the folder to make", title_of(options.folder));
+  require_utf8("--release", release_name);
+  require_nothing_unfinished(options.folder);
   config::Case trial = trial_case(options.folder, options.maps);
   config::Site site = look_at_files(trial);
   require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
@@ -168,7 +205,6 @@ int make_new_case(const NewOptions& options) {
   require_resolvable(proposal, options.cell > 0.0);
   require_memory(proposal, options.cell > 0.0);
   input.title = title_of(options.folder);
-  const std::string release_name = fs::path(options.maps.release).filename().string();
   input.dem_file = release_name == "dem.tif" ? "terrain.tif" : "dem.tif";
   input.thickness = trial.bodies.at(body_name).thickness;
   if (input.thickness.from == config::MapValue::From::raster) {
@@ -191,7 +227,7 @@ int make_new_case(const NewOptions& options) {
   fmt::print("{}: a release of {:.4g} m3, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
              (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
   if (const std::string note =
-          config::resolution_note(body_name, proposal.thickness, proposal.cell, proposal.particles_per_axis);
+          config::resolution_note(body_name, proposal.median_thickness, proposal.cell, proposal.particles_per_axis);
       !note.empty()) {
     fmt::print("note: {}\n", note);
   }

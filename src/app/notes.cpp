@@ -1,6 +1,6 @@
 #include "app/notes.hpp"
 
-#include <fmt/format.h>
+#include "app/say.hpp"
 
 namespace thawslide::app {
 
@@ -9,7 +9,7 @@ void Notes::add(const std::string& text) {
     return;
   }
   if (form_ == Form::printed) {
-    fmt::print("note: {}\n", text);
+    say("note: {}\n", text);
   }
   all_.push_back(text);
 }

@@ -1,5 +1,6 @@
 #include "app/notes_of_setup.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "config/notices.hpp"
@@ -22,8 +23,10 @@ void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const st
 
 template <int Dim>
 double steps_to_end(const sim::Simulation<Dim, double>& simulation) {
-  const double end = simulation.parameters().time.end;
-  return std::ceil(end / simulation.next_step(end) * (1.0 - 1e-12));
+  const config::Time& time = simulation.parameters().time;
+  const double steps = time.end / simulation.next_step(time.end) * (1.0 - 1e-12);
+  // Fixed steps end the run half a step before its end already; adaptive ones are cut to meet it.
+  return time.stepping == config::Stepping::fixed ? std::max(1.0, std::ceil(steps - 0.5)) : std::ceil(steps);
 }
 
 template void add_notes_of_setup<2>(const sim::Simulation<2, double>&, const std::vector<sim::BodyFigures>&,

@@ -6,7 +6,9 @@
 
 #include "app/say.hpp"
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "config/case_changes.hpp"
+#include "config/input_limits.hpp"
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
@@ -53,10 +55,12 @@ void require_told_again(const fs::path& folder, const std::vector<std::string>& 
   }
   if (!missing.empty()) {
     missing.insert(missing.end(), sets.begin(), sets.end());
+    std::vector<std::string> words(missing.size());
+    std::transform(missing.begin(), missing.end(), words.begin(), shell_word);
     throw UserError(
         fmt::format("the last resume was cut off before its change took hold. Give it again: thawslide resume {} --set "
                     "{}",
-                    folder.string(), joined(missing, " --set ")));
+                    shell_word(folder.string()), joined(words, " --set ")));
   }
 }
 
@@ -83,8 +87,8 @@ std::string advice_on(const fs::path& folder, const io::Provenance& facts, const
                       const std::string& otherwise) {
   const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
   if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
-    return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.", folder.string(),
-                       config::read_case(folder).time.end);
+    return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.",
+                       shell_word(folder.string()), config::read_case(folder).time.end);
   }
   return otherwise;
 }
@@ -120,7 +124,8 @@ void tell_changed_originals(const std::vector<io::InputFile>& inputs) {
     std::error_code unreadable;
     const bool same_size = fs::file_size(input.path, unreadable) == input.bytes;
     if (!unreadable && (!same_size || io::sha256_of_file(input.path) != input.sha256)) {
-      say("note: {} has changed since the run began, which goes on with its copy, {}\n", input.path, input.copy);
+      say("note: {} has changed since the run began, which goes on with its copy, {}\n", config::shown(input.path),
+          config::shown(input.copy));
     }
   }
 }
@@ -149,7 +154,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
       const std::string usual = fmt::format(
           "Put that back, or remove the file, which then is written anew; what should change is told on the command "
           "line: thawslide resume {} --set KEY=VALUE, or --end T.",
-          folder.string());
+          shell_word(folder.string()));
       throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
                                   joined(changes, "; "), advice_on(folder, facts, changes, usual)));
     }
@@ -177,8 +182,8 @@ void require_no_more_than_a_start(const fs::path& folder, const io::Provenance& 
     throw UserError(fmt::format(
         "{0} had come to {1:g} s, and neither checkpoint.bin nor checkpoint.previous.bin is there to go on from: begun "
         "anew it would write over what it has. Put one of them back, or run the case anew in another folder: thawslide "
-        "run {0} --output OTHER.",
-        folder.string(), had_come_to));
+        "run {2} --output OTHER.",
+        folder.string(), had_come_to, shell_word(folder.string())));
   }
 }
 

@@ -174,6 +174,23 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
   return true;
 }
 
+// The next checkpoint must not push the good one out and keep the damaged one. Says under which name that is kept.
+std::string keep_damaged(const fs::path& damaged) {
+  if (damaged.empty()) {
+    return "";
+  }
+  const fs::path aside = io::name_for_damaged(damaged);
+  std::error_code error;
+  fs::rename(damaged, aside, error);
+  if (error) {
+    throw WriteError(
+        fmt::format("{} cannot be renamed to {}: {}. Make the run's folder one that can be written, then resume "
+                    "again.",
+                    damaged.string(), aside.filename().string(), error.message()));
+  }
+  return fmt::format("it is kept as {}, and ", aside.filename().string());
+}
+
 template <int Dim>
 int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
   Notes notes;
@@ -198,12 +215,8 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
     return static_cast<int>(ExitCode::done);
   }
   if (!checkpoint.note.empty()) {
-    // The next checkpoint must not push the good one out and keep the damaged one.
-    const fs::path damaged = folder / io::checkpoint_name, aside = io::name_for_damaged(damaged);
-    fs::rename(damaged, aside);
-    next.earlier.parts.back().notes.push_back(
-        fmt::format("{}; it is kept as {}, and the run goes on from the checkpoint before", checkpoint.note,
-                    aside.filename().string()));
+    next.earlier.parts.back().notes.push_back(fmt::format("{}; {}the run goes on from the checkpoint before",
+                                                          checkpoint.note, keep_damaged(checkpoint.damaged)));
   }
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
   say("going on from t = {:g} s{}\n", simulation.time(),

@@ -10,6 +10,7 @@
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/shell_word.hpp"
 #include "base/thread_choice.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/history.hpp"
@@ -84,7 +85,7 @@ int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& 
   } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): it is told below what could not be written first
   }
   say_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
-            simulation.time(), folder.string(),
+            simulation.time(), shell_word(folder.string()),
             io::has_checkpoint(folder) ? "goes on from the last checkpoint" : "starts it again");
   return static_cast<int>(code);
 }
@@ -216,7 +217,7 @@ class Loop {
     output_.write_checkpoint(simulation_);
     close("stopped", fmt::format("signal {}", caught_signal()));
     say_error("stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),
-              simulation_.time(), folder_.string());
+              simulation_.time(), shell_word(folder_.string()));
     return static_cast<int>(ExitCode::stopped_by_signal);
   }
 
@@ -263,7 +264,7 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
     if (!settle<Dim>(simulation, output)) {
       output.write_provenance(simulation, "stopped", fmt::format("signal {}", caught_signal()), 0.0);
       say_error("stopped by signal {} while it settled; `thawslide resume {}` begins anew\n", caught_signal(),
-                folder.string());
+                shell_word(folder.string()));
       return static_cast<int>(ExitCode::stopped_by_signal);
     }
     output.begin(simulation);

@@ -71,6 +71,18 @@ void write_terrain(const fs::path& folder, const sim::Simulation<Dim, double>& s
   io::write_profile_csv(folder / "terrain.csv", {std::move(x), std::move(height), {}});
 }
 
+// What stands from the start of a run, where it is there no more.
+template <int Dim>
+void write_what_is_missing(const fs::path& folder, const sim::Simulation<Dim, double>& simulation) {
+  if (!fs::exists(folder / "terrain.csv")) {
+    write_terrain(folder, simulation);
+  }
+  const auto is_there = [&](const char* name) { return fs::exists(folder / "maps" / name); };
+  if (!is_there("terrain.tif") || !is_there("release.tif") || !is_there("release.qml")) {
+    write_ground_maps(folder, simulation.site());
+  }
+}
+
 // Fills in what this process knows by itself; `provenance` has what earlier ones told, and the part that begins.
 template <int Dim>
 void complete(io::Provenance& provenance, const sim::Simulation<Dim, double>& simulation) {
@@ -157,8 +169,8 @@ RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation)
 template <int Dim>
 RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation, io::Provenance earlier,
                           std::string case_text)
-    : RunOutput(folder, sim::RunRecords<Dim>(simulation, simulation.site()), io::HistoryWriter(folder / "history.csv"),
-                io::SnapshotSeries(folder)) {
+    : RunOutput(folder, sim::RunRecords<Dim>(simulation, simulation.site()),
+                io::HistoryWriter::start_in_run(folder / "history.csv"), io::SnapshotSeries(folder)) {
   provenance_ = std::move(earlier);
   case_text_ = std::move(case_text);
   complete(provenance_, simulation);
@@ -171,7 +183,7 @@ template <int Dim>
 void RunOutput<Dim>::write_first_state(const Simulation& simulation) {
   records_.start(simulation);
   if (records_.has_probes()) {
-    probes_.emplace(folder_ / "probes.csv");
+    probes_.emplace(io::HistoryWriter::start_in_run(folder_ / "probes.csv"));
   }
   write_history(simulation);
   write_snapshot(simulation);
@@ -203,6 +215,7 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
   for (const std::string& note : notes) {
     say("note: {}\n", note);
   }
+  write_what_is_missing(folder, simulation);
   output.provenance_ = std::move(earlier);
   output.case_text_ = std::move(case_text);
   complete(output.provenance_, simulation);

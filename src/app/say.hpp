@@ -1,4 +1,5 @@
-// What a run tells the terminal. Where nobody reads it any more (a closed pipe, a full disk) the run goes on.
+// What is told as the work goes on. Where nobody reads it any more (a closed pipe, a full disk) the work goes on; of
+// commands whose results are what they print, main.cpp tells at their end that these were lost.
 #pragma once
 
 #include <fmt/format.h>

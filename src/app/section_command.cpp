@@ -4,10 +4,12 @@
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
+#include "app/names_in_case.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 #include "config/section_proposal.hpp"
 #include "io/atomic_file.hpp"
 #include "io/terrain_csv.hpp"
@@ -22,7 +24,8 @@ namespace {
 constexpr const char* profile_name = "profile.csv";
 constexpr const char* line_option = "--line";
 
-std::string name_of(const std::string& file) { return fs::path(file).filename().string(); }
+// As a line of comments can hold it.
+std::string name_of(const std::string& file) { return config::shown(fs::path(file).filename().string()); }
 
 // The profile along a line that runs downhill, or was turned round for that.
 struct Cut {
@@ -71,7 +74,7 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
       fmt::format("Cut by `thawslide section` out of {} along {}{}: its triangles below the line.",
                   name_of(options.maps.dem), name_of(options.line), cut.turned ? ", turned round to run downhill" : ""),
       fmt::format("From x = {:.10g}, y = {:.10g} to x = {:.10g}, y = {:.10g}{}{}.", cut.begin[0], cut.begin[1],
-                  cut.end[0], cut.end[1], site.crs_name.empty() ? "" : " in ", site.crs_name)};
+                  cut.end[0], cut.end[1], site.crs_name.empty() ? "" : " in ", config::shown(site.crs_name))};
   if (!options.maps.release.empty()) {
     comments.push_back(options.maps.cut
                            ? fmt::format("The surface is that of the terrain model; the terrain is lower by the "
@@ -108,6 +111,7 @@ void check_body(const SectionOptions& options, const config::ProfileTable& profi
 }  // namespace
 
 int make_section(const SectionOptions& options) {
+  require_utf8("the folder to make", title_of(options.folder));
   config::Case trial = trial_case(options.folder, options.maps);
   trial.maps.path = options.line;
   trial.places["maps.path"] = line_option;

@@ -41,6 +41,16 @@ std::string text_of(const SubstrateFacts& substrate, int dimension) {
                      substrate.covered, dimension == 3 ? "m2" : "m", 100.0 * substrate.share, substrate.strength);
 }
 
+// "3 checkpoints of 1.2 MB", and how they grow where they do.
+std::string checkpoints_text(const DiskNeed& need) {
+  std::string text =
+      fmt::format("{:.0f} checkpoints of {:.1f} MB", need.checkpoints, need.checkpoint_at_start / megabyte);
+  return need.checkpoint > need.checkpoint_at_start
+             ? text +
+                   fmt::format(" at the start and some {:.1f} MB once the slide has spread", need.checkpoint / megabyte)
+             : text;
+}
+
 std::string text_of(const DiskNeed& need, double free) {
   std::string of_maps;
   if (need.maps > 0.0) {
@@ -53,11 +63,9 @@ std::string text_of(const DiskNeed& need, double free) {
   const double history = need.history / megabyte;
   const std::string history_text = history < 1e6 ? fmt::format("{:.1f} MB", history) : size_text(need.history);
   return fmt::format(
-      "  disk        {} {}: {:.6g} snapshots of {:.1f} MB, {:.0f} checkpoints of {:.1f} MB, history {}, inputs {:.1f} "
-      "MB{}; {} are free\n",
-      of_maps.empty() ? "about" : "at most", size_text(need.total()), need.snapshots, need.snapshot / megabyte,
-      need.checkpoints, need.checkpoint / megabyte, history_text, need.inputs / megabyte, of_maps,
-      std::isfinite(free) ? size_text(free) : "unknown amounts");
+      "  disk        about {}: {:.6g} snapshots of {:.1f} MB, {}, history {}, inputs {:.1f} MB{}; {} are free\n",
+      size_text(need.total()), need.snapshots, need.snapshot / megabyte, checkpoints_text(need), history_text,
+      need.inputs / megabyte, of_maps, std::isfinite(free) ? size_text(free) : "unknown amounts");
 }
 
 Json json_of(const sim::BodyFigures& body) {
@@ -104,6 +112,7 @@ Json json_of(const DiskNeed& need, double free, const std::string& folder) {
           {"snapshot_bytes", need.snapshot},
           {"checkpoints", need.checkpoints},
           {"checkpoint_bytes", need.checkpoint},
+          {"checkpoint_bytes_at_start", need.checkpoint_at_start},
           {"history_rows", need.history_rows},
           {"history_bytes", need.history},
           {"maps", need.maps},

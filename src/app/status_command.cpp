@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
@@ -24,10 +25,11 @@ namespace {
 struct RunStatus {
   std::string state;  // running, killed, done, stopped, failed; unknown: running or killed, without locks to tell by
   std::string message;
-  std::string process;                                              // that is at work; empty: none
+  std::string process;                                              // that is at work, or may be; empty: none
   double time = 0.0;                                                // simulated [s]
   std::optional<double> end;                                        // [s]; nothing where the case cannot be read
   std::string case_error;                                           // why not
+  std::string history_error;                                        // why its rows cannot be read; empty: they can
   std::optional<double> checkpoint_age, last_write_age, time_left;  // wall-clock [s]
 };
 
@@ -47,7 +49,7 @@ std::optional<double> age_of(const fs::path& file) {
                : std::optional(std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count());
 }
 
-// Whether a run is alive is to be known whatever has become of its case.
+// Whether a run is alive is to be known whatever has become of its case, or of its disk.
 void add_end(const fs::path& folder, RunStatus& status) {
   try {
     status.end = config::read_case(folder).time.end;
@@ -56,33 +58,62 @@ void add_end(const fs::path& folder, RunStatus& status) {
   }
 }
 
+// The same of its history; run.json tells a time too, of when it was written.
+void add_time(const fs::path& folder, double told, RunStatus& status) {
+  status.time = told;
+  try {
+    status.time = std::max(told, io::last_time_in_history(folder / "history.csv").value_or(0.0));
+  } catch (const UserError& error) {
+    status.history_error = error.what();
+  }
+}
+
+// The last checkpoint may be lost, or a kill has come between, and the one before is there.
+std::optional<double> checkpoint_age(const fs::path& folder) {
+  for (const char* name : {io::checkpoint_name, io::previous_checkpoint_name}) {
+    std::error_code unknown;
+    if (fs::is_regular_file(folder / name, unknown)) {
+      return age_of(folder / name);
+    }
+  }
+  return std::nullopt;
+}
+
 // Of the file of the run that was written last.
 std::optional<double> last_write_age(const fs::path& folder) {
   std::optional<double> least;
   for (const fs::path& place : {folder, folder / "snapshots"}) {
     std::error_code error;
     for (fs::directory_iterator entry(place, error), end; !error && entry != end; entry.increment(error)) {
-      const std::optional<double> age = fs::is_regular_file(entry->path()) ? age_of(entry->path()) : std::nullopt;
+      std::error_code unknown;
+      const std::optional<double> age =
+          fs::is_regular_file(entry->path(), unknown) ? age_of(entry->path()) : std::nullopt;
       least = age && least ? std::min(*age, *least) : age ? age : least;
     }
   }
   return least;
 }
 
+// Of a run that has a process, or may have, and no run.json yet.
+RunStatus status_at_start(const fs::path& folder, const io::AtWork& at_work) {
+  RunStatus status;
+  status.state = at_work.is_known ? "running" : "unknown";
+  status.process = at_work.process;
+  status.last_write_age = last_write_age(folder);
+  status.case_error = "the run is setting up and has not written run.json yet";
+  return status;
+}
+
 RunStatus status_of(const fs::path& folder) {
   const io::AtWork at_work = io::process_at_work(folder);
   if (!fs::exists(folder / "run.json")) {
     if (!at_work.process.empty()) {
-      RunStatus status;
-      status.state = "running";
-      status.process = at_work.process;
-      status.case_error = "the run is setting up and has not written run.json yet";
-      return status;
+      return status_at_start(folder, at_work);
     }
     throw UserError(
         fmt::format("{} holds no run: there is no run.json, which a run writes when it begins.", folder.string()));
   }
-  const bool is_at_work = !at_work.process.empty();
+  const bool is_at_work = at_work.is_known && !at_work.process.empty();
   const io::Provenance facts = io::read_provenance(folder);
   RunStatus status;
   status.process = at_work.process;
@@ -91,10 +122,10 @@ RunStatus status_of(const fs::path& folder) {
                  : at_work.is_known          ? "killed"
                                              : "unknown";
   status.message = is_at_work ? "" : facts.message;
-  status.time = std::max(facts.simulated_time, io::last_time_in_history(folder / "history.csv").value_or(0.0));
+  add_time(folder, facts.simulated_time, status);
   status.last_write_age = last_write_age(folder);
   add_end(folder, status);
-  status.checkpoint_age = age_of(folder / io::checkpoint_name);
+  status.checkpoint_age = checkpoint_age(folder);
   const io::RunPart& part = facts.parts.back();
   const std::optional<double> elapsed = seconds_since(part.started);
   const bool is_known = elapsed && *elapsed >= 1.0 && status.time > part.from_time;  // run.json tells whole seconds
@@ -129,8 +160,9 @@ std::string words_for(const RunStatus& status) {
   }
   if (status.state == "unknown") {
     return fmt::format(
-        "whether it runs cannot be told, as its file system has no locks; its last file was written {} "
+        "whether it runs cannot be told, as its file system has no locks{}; its last file was written {} "
         "ago",
+        status.process.empty() ? "" : fmt::format(" and {} has begun to write it", status.process),
         duration_text(status.last_write_age.value_or(0.0)));
   }
   if (status.state == "failed") {
@@ -139,40 +171,45 @@ std::string words_for(const RunStatus& status) {
   return status.message.empty() ? status.state : status.state + ": " + status.message;
 }
 
-void print_status(const fs::path& folder, const RunStatus& status) {
-  fmt::print("{}: {}\n", folder.string(), words_for(status));
+std::string words_on_going_on(const fs::path& folder, const RunStatus& status) {
+  if (status.state == "killed" || status.state == "stopped") {
+    return fmt::format("  to go on: thawslide resume {}\n", shell_word(folder.string()));
+  }
+  if (status.state == "unknown") {
+    return status.process.empty()
+               ? fmt::format("  if nothing writes there any more: thawslide resume {}\n", shell_word(folder.string()))
+               : fmt::format("  if that has surely ended: remove {}, then thawslide resume {}\n",
+                             (folder / io::lock_name).string(), shell_word(folder.string()));
+  }
+  return status.state == "failed" ? "  the message above says what to change; then run the case anew\n" : "";
+}
+
+std::string text_of(const fs::path& folder, const RunStatus& status) {
+  std::string text = fmt::format("{}: {}\n", folder.string(), words_for(status));
   if (status.end) {
     const double share = std::floor(100.0 * std::min(1.0, status.time / *status.end));
-    fmt::print("  {:g} of {:g} s simulated{}{}\n", status.time, *status.end,
-               status.state == "done" ? "" : fmt::format(" ({:.0f} %)", share),
-               status.time_left ? fmt::format(", about {} left", duration_text(*status.time_left)) : "");
+    text += fmt::format("  {:g} of {:g} s simulated{}{}\n", status.time, *status.end,
+                        status.state == "done" ? "" : fmt::format(" ({:.0f} %)", share),
+                        status.time_left ? fmt::format(", about {} left", duration_text(*status.time_left)) : "");
   } else {
-    fmt::print("  {:g} s simulated; its end is not known: {}\n", status.time, status.case_error);
+    text += fmt::format("  {:g} s simulated; its end is not known: {}\n", status.time, status.case_error);
+  }
+  if (!status.history_error.empty()) {
+    text += fmt::format("  it may have come further: {}\n", status.history_error);
   }
   if (status.state == "done") {
-    return;
+    return text;
   }
-  fmt::print("  {}\n", status.checkpoint_age
-                           ? fmt::format("last checkpoint {} ago", duration_text(*status.checkpoint_age))
-                           : "no checkpoint yet");
-  if (status.state == "killed" || status.state == "stopped") {
-    fmt::print("  to go on: thawslide resume {}\n", folder.string());
-  } else if (status.state == "unknown") {
-    fmt::print("  if nothing writes there any more: thawslide resume {}\n", folder.string());
-  } else if (status.state == "failed") {
-    fmt::print("  the message above says what to change; then run the case anew\n");
-  }
+  text += status.checkpoint_age ? fmt::format("  last checkpoint {} ago\n", duration_text(*status.checkpoint_age))
+                                : "  no checkpoint yet\n";
+  return text + words_on_going_on(folder, status);
 }
 
 }  // namespace
 
 int tell_status(const StatusOptions& options) {
   const RunStatus status = status_of(options.folder);
-  if (options.json) {
-    fmt::print("{}\n", json_text(status));
-  } else {
-    print_status(options.folder, status);
-  }
+  fmt::print("{}", options.json ? json_text(status) + "\n" : text_of(options.folder, status));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "config/fitting_cell.hpp"
 #include "config/rule.hpp"
+#include "config/values.hpp"
 
 namespace thawslide::config {
 
@@ -26,6 +28,7 @@ constexpr double snapshots = 40.0;   // about as many
 // The release in numbers. Its edge and its top are those of the DEM's points about it, as both lie between points.
 struct ReleaseExtent {
   double volume = 0.0, thickness = 0.0;  // [m3], [m]: half of the volume is where the release is thinner
+  double median_thickness = 0.0;         // [m]: half of the area is where it is thinner
   double west = HUGE_VAL, east = -HUGE_VAL, south = HUGE_VAL, north = -HUGE_VAL;
   double bottom = HUGE_VAL;  // also of one that is cut out of the DEM
   double top = -HUGE_VAL, top_x = 0.0, top_y = 0.0;
@@ -51,7 +54,8 @@ Heights heights_about(const Raster& dem, double x, double y) {
   return heights;
 }
 
-double median_of(std::vector<double> thicknesses) {
+// Half of the volume is where it is thinner.
+double thickness_of_half_the_volume(std::vector<double> thicknesses) {
   std::sort(thicknesses.begin(), thicknesses.end());
   const double half = 0.5 * std::accumulate(thicknesses.begin(), thicknesses.end(), 0.0);
   double below = 0.0;
@@ -62,6 +66,16 @@ double median_of(std::vector<double> thicknesses) {
     }
   }
   return 0.0;
+}
+
+// Half of the area is where it is thinner.
+double median_of(std::vector<double> thicknesses) {
+  if (thicknesses.empty()) {
+    return 0.0;
+  }
+  const auto middle = thicknesses.begin() + static_cast<std::ptrdiff_t>((thicknesses.size() - 1) / 2);
+  std::nth_element(thicknesses.begin(), middle, thicknesses.end());
+  return *middle;
 }
 
 ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
@@ -89,7 +103,8 @@ ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
       }
     }
   }
-  extent.thickness = median_of(std::move(thicknesses));
+  extent.thickness = thickness_of_half_the_volume(thicknesses);
+  extent.median_thickness = median_of(std::move(thicknesses));
   return extent;
 }
 
@@ -126,66 +141,6 @@ Stretch domain_along(const Stretch& held, const Stretch& release, const Stretch&
 
 }  // namespace
 
-double round_down(double x) {
-  const double power = std::pow(10.0, std::floor(std::log10(x)));
-  double best = tidy(power);
-  for (const double digit : {1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-    best = digit * power <= x * (1.0 + 1e-12) ? tidy(digit * power) : best;
-  }
-  return best;
-}
-
-constexpr double leeway = 1.5;  // to come by a cell of few digits
-
-// Cells: all lengths are whole multiples of so many, and of a whole part of them.
-double common_cells(double cell, const std::vector<double>& lengths) {
-  long common = 0;
-  for (const double length : lengths) {
-    common = std::gcd(common, std::lround(length / cell));
-  }
-  return static_cast<double>(common);
-}
-
-// A cell of at most so much, of which a domain of these lengths has a whole number along each axis, as it has of
-// `cell`.
-double fitting_cell(double most, double cell, const std::vector<double>& lengths) {
-  if (lengths.empty()) {
-    return round_down(most);
-  }
-  const double largest = cell * common_cells(cell, lengths);
-  const double fewest = std::ceil(largest / most * (1.0 - 1e-9));
-  for (double parts = fewest; parts <= leeway * fewest; ++parts) {
-    const double found = largest / parts, of_few_digits = std::stod(fmt::format("{:.2g}", found));
-    if (std::abs(found - of_few_digits) < 1e-9 * found) {
-      return of_few_digits;
-    }
-  }
-  return largest / fewest;
-}
-
-double fitting_cell_from(double least, double cell, const std::vector<double>& lengths) {
-  const double largest = cell * common_cells(cell, lengths);
-  const double most = std::floor(largest / least * (1.0 + 1e-9));
-  if (most < 1.0) {
-    return least;
-  }
-  for (double parts = most; parts >= 1.0 && parts * leeway >= most; --parts) {
-    const double found = largest / parts, of_few_digits = std::stod(fmt::format("{:.2g}", found));
-    if (std::abs(found - of_few_digits) < 1e-9 * found) {
-      return of_few_digits;
-    }
-  }
-  return largest / most;
-}
-
-std::vector<double> lengths_of_domain(const Case& parameters) {
-  std::vector<double> lengths;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(parameters.general.dimension); ++a) {
-    lengths.push_back(parameters.grid.max[a] - parameters.grid.min[a]);
-  }
-  return lengths;
-}
-
 double median_thickness(const Raster& thickness) {
   std::vector<double> known;
   std::copy_if(thickness.values.begin(), thickness.values.end(), std::back_inserter(known),
@@ -211,6 +166,7 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle,
   Proposal proposal;
   proposal.volume = release.volume;
   proposal.thickness = release.thickness;
+  proposal.median_thickness = release.median_thickness;
   propose_cell(proposal, 3, cell);
 
   Stretch x{release.west, release.east}, y{release.south, release.north};
@@ -257,7 +213,7 @@ std::string thickness_text(const MapValue& thickness) {
     return number_text(thickness.number);
   }
   const char* const kind = thickness.from == MapValue::From::attribute ? "attribute" : "raster";
-  return fmt::format("{{ {} = \"{}\" }}", kind, thickness.source);
+  return fmt::format("{{ {} = {} }}", kind, quoted(thickness.source));
 }
 
 double degrees_of(double rise) { return std::atan(rise) / degree; }
@@ -289,7 +245,7 @@ std::string case_text(const ProposalInput& input, const Proposal& proposal) {
       R"(# Made by `thawslide new`. Every number may be changed; `thawslide describe` tells what keys there are.
 
 [case]
-title = "{title}"
+title = {title}
 dimension = 3  # x is east, y is north, z is up
 
 {time}
@@ -303,7 +259,7 @@ leaving = "stop"  # what reaches the edge of the domain or of the DEM ends the r
 
 [terrain]
 type = "dem"
-file = "{dem}"
+file = {dem}
 
 [body.slide]
 material = "rock_ice"
@@ -317,16 +273,17 @@ placement = "{placement}"  # {placement_text}
 [maps]
 arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
 )",
-      fmt::arg("title", input.title), fmt::arg("time", time_text(proposal)), fmt::arg("angle", input.reach_angle),
-      fmt::arg("cell", number_text(proposal.cell)), fmt::arg("across", cell_comment(proposal)),
+      fmt::arg("title", quoted(input.title)), fmt::arg("time", time_text(proposal)),
+      fmt::arg("angle", input.reach_angle), fmt::arg("cell", number_text(proposal.cell)),
+      fmt::arg("across", cell_comment(proposal)),
       fmt::arg("confirmed", input.largest_volume > 0.0
                                 ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
                                 : std::string()),
       fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()),
       fmt::arg("taper", is_cut ? taper_text(input.taper) : std::string()), fmt::arg("min", point_text(proposal.min)),
-      fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", input.dem_file),
+      fmt::arg("max", point_text(proposal.max)), fmt::arg("dem", quoted(input.dem_file)),
       fmt::arg("release",
-               input.release_file.empty() ? std::string() : fmt::format("release = \"{}\"\n", input.release_file)),
+               input.release_file.empty() ? std::string() : fmt::format("release = {}\n", quoted(input.release_file))),
       fmt::arg("given", thickness_text(input.thickness)), fmt::arg("placement", is_cut ? "cut" : "on_top"),
       fmt::arg("placement_text", is_cut ? "out of the DEM, which is the surface before the slide; \"on_top\": onto it"
                                         : "the DEM is what it slides on; \"cut\": out of the DEM"));

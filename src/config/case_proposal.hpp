@@ -27,20 +27,18 @@ struct ProposalInput {
 struct Proposal {
   double cell = 0.0;  // [m]
   int particles_per_axis = 2;
-  Point min{}, max{};            // of the domain [m]
-  double end = 0.0;              // [s]
-  double output_interval = 0.0;  // [s]
-  double thickness = 0.0;        // [m]: half of the volume is where the release is thinner
-  double volume = 0.0;           // [m3], per metre of width in 2D
-  double particles = 0.0;        // about as many
+  Point min{}, max{};             // of the domain [m]
+  double end = 0.0;               // [s]
+  double output_interval = 0.0;   // [s]
+  double thickness = 0.0;         // [m], that the cell follows from: half of the volume is where the release is thinner
+  double median_thickness = 0.0;  // [m]: half of the area is where the release is thinner; 0 in 2D
+  double volume = 0.0;            // [m3], per metre of width in 2D
+  double particles = 0.0;         // about as many
 };
-
-// Largest number of one or two digits (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten) that is at most x.
-[[nodiscard]] double round_down(double x);
 
 // The domain holds every point of the DEM that lies below a line that falls by the reach angle from the release's
 // highest point, and all of the release, which may reach a cell of the DEM beyond the points that have a thickness. The
-// cell gives at least six particles across the mean thickness. dem: NaN where there is no data; thickness: vertical
+// cell gives at least six particles across the thickness. dem: NaN where there is no data; thickness: vertical
 // [m], on points of the same places. `cell`: of the grid [m], where the user gives it; 0: none.
 [[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell = 0.0);
 
@@ -58,15 +56,8 @@ void propose_times(Proposal& proposal, double farthest);
 // The table [time], without an empty line after it.
 [[nodiscard]] std::string time_text(const Proposal& proposal);
 
-// Of a raster of thickness [m]: half of the volume is where it is thinner.
+// Of a raster of thickness [m] on points of one area each: half of the area is where it is thinner.
 [[nodiscard]] double median_thickness(const Raster& thickness);
-
-// The extent of the domain along each axis [m].
-[[nodiscard]] std::vector<double> lengths_of_domain(const Case& parameters);
-
-// A cell of at least so much, of which a domain of these lengths has a whole number along each axis, as it has of
-// `cell`; `least` itself where there is none.
-[[nodiscard]] double fitting_cell_from(double least, double cell, const std::vector<double>& lengths);
 
 // What the user should know of cells that put too few particles across the median thickness of a body [m]; empty where
 // they are enough. The cell that it names fits a domain of these `lengths` [m], a whole number of cells each; empty:

@@ -8,6 +8,8 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
+#include "config/fitting_cell.hpp"
 
 namespace thawslide::config {
 
@@ -50,10 +52,13 @@ void check_grid(const Case& checked, Reading& reading) {
       return;
     }
     if (std::abs(cells - std::round(cells)) > 1e-6 * cells) {
+      // One that fits this axis alone would be refused for another.
+      const double fitting = fitting_cell_near(grid.cell, lengths_of_domain(checked));
       reading.report_misfit({"grid.max", "grid.cell", "grid.min"},
                             fmt::format("the domain is {} m long along {}, which is {:.6g} cells of {} m; allowed: a "
-                                        "whole number. Make grid.cell {:.9g}, or move grid.max along {} to {:.9g}.",
-                                        length, axis_names[a], cells, grid.cell, length / std::round(cells),
+                                        "whole number. {} grid.max along {} to {:.9g}.",
+                                        length, axis_names[a], cells, grid.cell,
+                                        fitting > 0.0 ? fmt::format("Make grid.cell {:.9g}, or move", fitting) : "Move",
                                         axis_names[a], grid.min[a] + std::round(cells) * grid.cell));
     }
   }
@@ -289,8 +294,8 @@ void check_times(const Case& checked, Reading& reading) {
           {is_given ? key : "time.end", is_given ? "time.end" : key},
           fmt::format("{} is {} s, and the run of {} s has {:.4g} times as much; allowed: {:.4g} s and more, {:g} of "
                       "them in the run{}. Make it longer, or the run shorter.",
-                      key, interval, time.end, time.end / interval, time.end / most_intervals, most_intervals,
-                      or_none));
+                      key, interval, time.end, time.end / interval, rounded_up(time.end / most_intervals, 4),
+                      most_intervals, or_none));
     }
   }
 }

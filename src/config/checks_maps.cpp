@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/rounding.hpp"
 #include "config/checks.hpp"
 #include "config/input_limits.hpp"
 #include "physics/freezing.hpp"
@@ -126,7 +127,8 @@ void check_ice_content(const Case& checked, const Body& body, const std::string&
         {key, water_key},
         fmt::format("{} is {}, and the saturation is {:.4g}; the porosity, ice_content / (1 - saturation), must not "
                     "exceed {}. Allowed with it: at most {:.4g}. Give less ice, or less water.",
-                    key, ice, saturation, physics::largest_porosity<double>, most));
+                    key, ice, saturation, physics::largest_porosity<double>,
+                    most > 0.0 ? rounded_down(most, 4) : most));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "config/rule.hpp"
+#include "config/values.hpp"
 
 namespace thawslide::config {
 
@@ -52,7 +53,7 @@ std::string section_text(const std::string& title, const std::string& profile_fi
 # same at every place across it. A valley that narrows or widens it, or turns it, is not in this case.
 
 [case]
-title = "{title}"
+title = {title}
 dimension = 2  # x is the distance along the line, y is up; masses, forces and energies are per metre of width
 
 {time}
@@ -65,18 +66,19 @@ leaving = "stop"  # what reaches the edge of the domain ends the run; "remove" c
 
 [terrain]
 type = "profile"
-file = "{profile}"
+file = {profile}
 
 [body.slide]
 material = "rock_ice"
 shape = "surface"  # between terrain_elevation_m and surface_elevation_m of the profile
 {state}
 {physics})",
-      fmt::arg("title", title), fmt::arg("time", time_text(proposal)), fmt::arg("cell", number_text(proposal.cell)),
-      fmt::arg("across", cell_comment(proposal)), fmt::arg("min_x", number_text(proposal.min[0])),
-      fmt::arg("min_y", number_text(proposal.min[1])), fmt::arg("max_x", number_text(proposal.max[0])),
-      fmt::arg("max_y", number_text(proposal.max[1])), fmt::arg("profile", profile_file),
-      fmt::arg("state", body_state_text(proposal)), fmt::arg("physics", physics_text()));
+      fmt::arg("title", quoted(title)), fmt::arg("time", time_text(proposal)),
+      fmt::arg("cell", number_text(proposal.cell)), fmt::arg("across", cell_comment(proposal)),
+      fmt::arg("min_x", number_text(proposal.min[0])), fmt::arg("min_y", number_text(proposal.min[1])),
+      fmt::arg("max_x", number_text(proposal.max[0])), fmt::arg("max_y", number_text(proposal.max[1])),
+      fmt::arg("profile", quoted(profile_file)), fmt::arg("state", body_state_text(proposal)),
+      fmt::arg("physics", physics_text()));
 }
 
 }  // namespace thawslide::config

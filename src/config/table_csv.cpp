@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 #include "base/error.hpp"
 #include "config/input_limits.hpp"
+#include "config/text_file.hpp"
 
 namespace thawslide::config {
 
@@ -66,11 +65,7 @@ std::string with_plain_line_ends(std::string_view text) {
 
 std::string read_text(const std::string& file, double most_bytes) {
   require_size(file, most_bytes, "Is it the right file?");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) {
-    throw UserError(fmt::format("{}: cannot be read", file));
-  }
+  std::string text = read_text_file(file);
   const auto begins_with = [&](std::string_view mark) { return text.compare(0, mark.size(), mark) == 0; };
   using namespace std::string_view_literals;
   if (begins_with("\xFF\xFE\0\0"sv) || begins_with("\0\0\xFE\xFF"sv)) {

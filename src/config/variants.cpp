@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "config/declaration.hpp"
 #include "config/input_limits.hpp"
 #include "config/reading.hpp"
+#include "config/text_file.hpp"
 
 namespace thawslide::config {
 
@@ -23,12 +22,7 @@ namespace fs = std::filesystem;
 
 std::string read_text(const fs::path& file) {
   require_size(file, largest_case_file, "A profile, polygons and rasters stand in files of their own.");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (!stream) {
-    throw UserError(fmt::format("{}: the file cannot be read. Check its permissions.", file.string()));
-  }
-  return text;
+  return read_text_file(file);
 }
 
 bool is_of_key(char letter) {

@@ -9,6 +9,7 @@
 
 #include "base/available_memory.hpp"
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/spatial_reference.hpp"
@@ -67,7 +68,7 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
     throw UserError(
         fmt::format("{}: the raster is rotated or mirrored (geotransform {:g}); allowed: columns from west to east, "
                     "rows from north to south or back. Straighten it: gdalwarp -r bilinear {} straight.tif",
-                    file, fmt::join(transform, ", "), file));
+                    file, fmt::join(transform, ", "), shell_word(file)));
   }
   Raster layout;
   layout.columns = dataset.GetRasterXSize();

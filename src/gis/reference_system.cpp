@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/reprojection.hpp"
@@ -47,11 +48,6 @@ std::string wkt_from_reference(const OGRSpatialReference* reference) {
 
 namespace {
 
-std::string quoted_path(const std::filesystem::path& path) {
-  const std::string text = path.string();
-  return text.find_first_of(" '()&;$") == std::string::npos ? text : "\"" + text + "\"";
-}
-
 // The zone of the Universal Transverse Mercator projection: 6 degrees wide, numbered from 180 degrees west (Snyder
 // 1987, Map projections: a working manual, p. 57).
 int utm_number(double longitude, double latitude) {
@@ -72,7 +68,7 @@ std::string warp_command(const Located& raster, const std::string& source_option
   const std::filesystem::path target = file.parent_path() / fmt::format("{}-EPSG{}.tif", file.stem().string(), number);
   const double cell = two_digits(raster.cell_y * metres_per_unit);
   return fmt::format("gdalwarp {}-t_srs EPSG:{} -tr {:g} {:g} -r bilinear {} {}", source_option, number, cell, cell,
-                     quoted_path(file), quoted_path(target));
+                     shell_word(file.string()), shell_word(target.string()));
 }
 
 std::string warp_of_degrees(const Located& raster, const std::string& source_option) {

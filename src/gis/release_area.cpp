@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/shell_word.hpp"
 #include "gis/coverage.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/reference_system.hpp"
@@ -68,7 +69,7 @@ void check_taper(const config::Case& parameters, const std::string& body, const 
     if (!beyond.empty()) {
       fail_at(parameters, key_of(body, "taper"),
               fmt::format("a taper of {:g} m spreads the release {:g} m beyond its outline, and outside {} by {}; "
-                          "allowed: up to {:g} m. Set a narrower one, or {}.",
+                          "allowed: up to {:.9g} m. Set a narrower one, or {}.",
                           taper, 0.5 * taper, what, beyond, widest_taper(extent, outer, points), remedy));
     }
   };
@@ -87,7 +88,7 @@ void check_size(const config::Case& parameters, const std::string& body, double 
         fmt::format("{}: the release has {:.4g} m2, less than one cell of the terrain model, {:.4g} m2: it would be "
                     "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model "
                     "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
-                    parameters.bodies.at(body).release, size, cell, finer, finer, parameters.terrain.file));
+                    parameters.bodies.at(body).release, size, cell, finer, finer, shell_word(parameters.terrain.file)));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/shell_word.hpp"
 #include "gis/coverage.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
@@ -87,13 +88,13 @@ class ThicknessMaker {
       fail("taper",
            fmt::format("a taper of {:g} m spreads the release of {} over nodata of the terrain model at {} points, "
                        "such as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
-                       body_.taper, file_of_place(case_, name_), without, first, case_.terrain.file));
+                       body_.taper, file_of_place(case_, name_), without, first, shell_word(case_.terrain.file)));
     }
     if (without > 0) {
       fail(body_.release.empty() ? "thickness" : "release",
            fmt::format("{}: the release lies over nodata of the terrain model at {} of its points, such as {}. "
                        "Fill the holes (gdal_fillnodata.py {} filled.tif), or move the release.",
-                       file_of_place(case_, name_), without, first, case_.terrain.file));
+                       file_of_place(case_, name_), without, first, shell_word(case_.terrain.file)));
     }
   }
 

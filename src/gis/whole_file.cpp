@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 WholeFile::WholeFile(const std::string& file) : file_(file) {
   const fs::path path(file);
-  temporary_ =
-      (path.parent_path() / fmt::format("{}.{}.part{}", path.stem().string(), getpid(), path.extension().string()))
-          .string();
+  temporary_ = (path.parent_path() / fmt::format(".{}.{}.thawslide-part{}", path.stem().string().substr(0, 200),
+                                                 getpid(), path.extension().string()))
+                   .string();
   std::error_code ignored;
   fs::remove(temporary_, ignored);
 }

@@ -3,15 +3,16 @@
 #include <fcntl.h>
 #include <linux/fs.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 
 namespace thawslide::io {
 
@@ -28,7 +29,20 @@ namespace fs = std::filesystem;
                   file.string(), std::strerror(reason)));
 }
 
-constexpr const char* unfinished = ".part";
+constexpr std::string_view unfinished = ".thawslide-part";
+
+// Where a file is written before it takes its place: .NAME.PROCESS.thawslide-part beside it.
+fs::path name_beside(const fs::path& file) {
+  constexpr std::size_t longest_name = 200;  // letters: file systems take 255, of the whole
+  return file.parent_path() /
+         fmt::format(".{}.{}{}", file.filename().string().substr(0, longest_name), getpid(), unfinished);
+}
+
+// Whatever has that name is of a process that is gone, or a trap: a link, or a pipe that nobody reads.
+int open_anew(const fs::path& file) {
+  unlink(file.c_str());
+  return open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
 
 // That a file has its name must reach the disk too.
 bool synchronise_folder(const fs::path& folder) {
@@ -37,11 +51,29 @@ bool synchronise_folder(const fs::path& folder) {
   return (descriptor < 0 || close(descriptor) == 0) && done;
 }
 
+// Appends what is left of a file of about so many bytes. Returns the system's reason where that fails, 0 otherwise.
+int read_to_end(int descriptor, std::size_t bytes, std::string& text) {
+  constexpr std::size_t piece = 65536;
+  std::size_t length = 0;
+  text.resize(bytes + 1);  // so that its end is seen without another piece
+  while (true) {
+    const ssize_t got = read(descriptor, text.data() + length, text.size() - length);
+    if (got == 0 || (got < 0 && errno != EINTR)) {
+      text.resize(length);
+      return got == 0 ? 0 : errno;
+    }
+    length += got > 0 ? static_cast<std::size_t>(got) : 0;
+    if (length == text.size()) {
+      text.resize(length + std::max(piece, length / 2));
+    }
+  }
+}
+
 }  // namespace
 
 void write_file_atomically(const fs::path& file, const void* data, std::size_t bytes, const fs::path& previous) {
-  const fs::path temporary = file.string() + fmt::format(".{}{}", getpid(), unfinished);
-  const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW, 0666);
+  const fs::path temporary = name_beside(file);
+  const int descriptor = open_anew(temporary);
   if (descriptor < 0) {
     fail(file, temporary, errno);
   }
@@ -79,11 +111,16 @@ void make_folder(const fs::path& folder) {
 }
 
 bool is_unfinished(const fs::path& file) {
-  // Files of maps keep their own ending, by which they are told: NAME.123.part.tif.
-  const fs::path part = file.extension() == unfinished ? file.stem() : file.stem().stem();
-  const bool is_part = file.extension() == unfinished || file.stem().extension() == unfinished;
-  const std::string process = part.extension().string();
-  return is_part && process.size() > 1 && process.find_first_not_of("0123456789", 1) == std::string::npos;
+  const std::string name = file.filename().string();
+  const std::size_t mark = name.rfind(unfinished);
+  if (mark == std::string::npos || mark == 0 || name.front() != '.') {
+    return false;
+  }
+  // Files of maps keep their own ending behind it, by which they are told: .NAME.123.thawslide-part.tif.
+  const std::size_t end = mark + unfinished.size();
+  const std::size_t before_number = name.find_last_not_of("0123456789", mark - 1);
+  return (end == name.size() || name[end] == '.') && before_number > 0 && before_number + 1 < mark &&
+         name[before_number] == '.';
 }
 
 fs::path name_for_damaged(const fs::path& file) {
@@ -106,14 +143,23 @@ void remove_unfinished_files(const fs::path& folder) {
     }
   }
   for (const fs::path& file : found) {
-    fs::remove(file);
+    remove_or_throw(file);
+  }
+}
+
+void remove_or_throw(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) {
+    throw WriteError(
+        fmt::format("cannot remove {}: {}. Check that the folder may be written to.", file.string(), error.message()));
   }
 }
 
 void copy_file_atomically(const fs::path& file, const fs::path& copy, std::string_view content) {
-  const fs::path temporary = copy.string() + fmt::format(".{}{}", getpid(), unfinished);
-  const int from = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  const int to = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+  const fs::path temporary = name_beside(copy);
+  const int from = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  const int to = open_anew(temporary);
   bool is_cloned = from >= 0 && to >= 0 && ioctl(to, FICLONE, from) == 0 && fsync(to) == 0;
   for (const int descriptor : {from, to}) {
     is_cloned = (descriptor < 0 || close(descriptor) == 0) && is_cloned;
@@ -127,13 +173,31 @@ void copy_file_atomically(const fs::path& file, const fs::path& copy, std::strin
 }
 
 std::string read_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  const bool is_empty = stream.peek() == std::ifstream::traits_type::eof() && stream.eof() && !stream.bad();
-  if (!is_empty && !(stream && text << stream.rdbuf())) {
-    throw UserError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
+  const auto fail_to_read = [&file](int reason) {
+    throw UserError(fmt::format("cannot read {}: {}", file.string(), std::strerror(reason)));
+  };
+  require_regular(file);
+  const int descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) {
+    fail_to_read(errno);
   }
-  return text.str();
+  struct stat facts {};
+  const bool is_regular = fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode);
+  std::string text;
+  const int reason = is_regular ? read_to_end(descriptor, static_cast<std::size_t>(facts.st_size), text) : EINVAL;
+  close(descriptor);
+  if (reason != 0) {
+    fail_to_read(reason);
+  }
+  return text;
+}
+
+void require_regular(const fs::path& file) {
+  if (const std::string found = config::what_stands_at(file); !found.empty()) {
+    throw UserError(fmt::format(
+        "{} is {}, where a regular file is needed. Put the file itself there, or remove what stands in its place.",
+        file.string(), found));
+  }
 }
 
 }  // namespace thawslide::io

@@ -22,17 +22,25 @@ void make_folder(const std::filesystem::path& folder);
 void copy_file_atomically(const std::filesystem::path& file, const std::filesystem::path& copy,
                           std::string_view content);
 
-// Whether the name is that of a file beside its place, as a process writes it: with the number of that process.
+// Whether the name is that of a file beside its place, as a process writes it: .NAME.PROCESS.thawslide-part, with the
+// number of that process. No file of a user is called so: copy_inputs refuses it.
 [[nodiscard]] bool is_unfinished(const std::filesystem::path& file);
 
 // A name beside a damaged file that is free to keep it under: NAME.damaged.EXTENSION, or with a number.
 [[nodiscard]] std::filesystem::path name_for_damaged(const std::filesystem::path& file);
 
 // Removes what a process that was killed while it wrote has left beside its files; nothing where there is no
-// folder, or a link to one: what is there is not of this run.
+// folder, or a link to one: what is there is not of this run. Throws WriteError.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
-// A whole file. Throws UserError if it cannot be read.
+// Removes a file, a link or an empty folder, if it is there. Throws WriteError with the path and the system's reason.
+void remove_or_throw(const std::filesystem::path& file);
+
+// A whole file. Throws UserError if it cannot be read, or is no regular file: a pipe may keep a reader waiting for
+// ever, and a device may have no end.
 std::string read_file(const std::filesystem::path& file);
+
+// Throws UserError where a folder, a pipe or a device stands; what is not there is no such.
+void require_regular(const std::filesystem::path& file);
 
 }  // namespace thawslide::io

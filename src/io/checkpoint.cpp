@@ -13,7 +13,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" in bytes
-constexpr std::uint64_t format_version = 6;
+constexpr std::uint64_t format_version = 7;
 
 class Writer {
  public:
@@ -123,6 +123,26 @@ std::string damage_of(const std::filesystem::path& file, const std::string& byte
   return fmt::format("{} is damaged: its checksum does not fit its {} bytes", file.string(), bytes.size());
 }
 
+// Whether anything has the name, be it a link that leads nowhere.
+bool is_there(const std::filesystem::path& file) {
+  std::error_code unknown;
+  return std::filesystem::exists(std::filesystem::symlink_status(file, unknown));
+}
+
+// Reads a checkpoint. Returns what is wrong with it, empty where it is whole: what cannot be read is as good as
+// damaged.
+std::string fault_of(const std::filesystem::path& file, std::string& bytes) {
+  if (const std::string found = config::what_stands_at(file); !found.empty()) {
+    return fmt::format("{} is {}, no file", file.string(), found);
+  }
+  try {
+    bytes = read_file(file);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return damage_of(file, bytes);
+}
+
 // At the case's text.
 Reader reader_of(const WholeCheckpoint& checkpoint) {
   Reader reader(std::string_view(checkpoint.bytes).substr(0, checkpoint.bytes.size() - sizeof(Digest)),
@@ -150,33 +170,30 @@ void read_field(Reader& reader, const std::filesystem::path& file, std::size_t p
 }  // namespace
 
 bool has_checkpoint(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / checkpoint_name) ||
-         std::filesystem::exists(folder / previous_checkpoint_name);
+  return is_there(folder / checkpoint_name) || is_there(folder / previous_checkpoint_name);
 }
 
 std::string case_of(const WholeCheckpoint& checkpoint) { return reader_of(checkpoint).text(); }
 
 WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
-  std::string passed_over;
-  for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
-    const std::filesystem::path file = folder / name;
-    if (!std::filesystem::exists(file)) {
-      continue;
-    }
-    std::string bytes = read_file(file);
-    const std::string damage = damage_of(file, bytes);
-    if (damage.empty()) {
-      return {file, std::move(bytes), passed_over};
-    }
-    passed_over += (passed_over.empty() ? "" : "; ") + damage;
-  }
-  if (passed_over.empty()) {
+  if (!has_checkpoint(folder)) {
     throw UserError(
         fmt::format("{} holds no {} to go on from. A run writes it before its first step, so this is not a run's "
                     "folder, or the run was stopped while it set up. Run the case again.",
                     folder.string(), checkpoint_name));
   }
-  throw UserError(passed_over + ". Use another copy, or run the case from its start.");
+  WholeCheckpoint found;
+  for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
+    found.file = folder / name;
+    const bool has_name = is_there(found.file);
+    const std::string fault = has_name ? fault_of(found.file, found.bytes) : found.file.string() + " is missing";
+    if (fault.empty()) {
+      return found;
+    }
+    found.note += (found.note.empty() ? "" : "; ") + fault;
+    found.damaged = has_name ? found.file : std::filesystem::path();
+  }
+  throw UserError(found.note + ". Use another copy, or run the case from its start.");
 }
 
 template <int Dim, class Real>

@@ -31,13 +31,14 @@ template <int Dim>
 struct WholeCheckpoint {
   std::filesystem::path file;
   std::string bytes;
-  std::string note;  // of one that was passed over because it is damaged or absent; empty: none
+  std::string note;  // of one that was passed over because it is damaged, cannot be read or is absent; empty: none
+  std::filesystem::path damaged = {};  // the one that was passed over, if it is there; empty: there is nothing to keep
 };
 
 // Whether a run folder holds a checkpoint, whole or not.
 [[nodiscard]] bool has_checkpoint(const std::filesystem::path& folder);
 
-// The newest checkpoint of a run folder that is whole. Throws UserError where there is none.
+// The newest checkpoint of a run folder that is whole and can be read. Throws UserError where there is none.
 [[nodiscard]] WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder);
 
 // The resolved case that the run had when it wrote the checkpoint. Throws UserError for one of another program.

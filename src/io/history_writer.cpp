@@ -19,7 +19,7 @@ namespace thawslide::io {
 namespace {
 
 int open_or_throw(const std::filesystem::path& file, int flags) {
-  const int descriptor = open(file.c_str(), flags | O_WRONLY | O_APPEND, 0666);
+  const int descriptor = open(file.c_str(), flags | O_WRONLY | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     throw WriteError(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
   }
@@ -162,6 +162,11 @@ HistoryWriter::HistoryWriter(const std::filesystem::path& file, int descriptor, 
 HistoryWriter::HistoryWriter(const std::filesystem::path& file)
     : HistoryWriter(file, open_or_throw(file, O_CREAT | O_TRUNC), "") {}
 
+HistoryWriter HistoryWriter::start_in_run(const std::filesystem::path& file) {
+  remove_or_throw(file);
+  return {file, open_or_throw(file, O_CREAT | O_EXCL), ""};
+}
+
 HistoryWriter HistoryWriter::continue_after(const std::filesystem::path& file, const std::string& header,
                                             const HistoryExtent& then, std::vector<std::string>& notes) {
   const bool is_there = std::filesystem::exists(file);
@@ -176,7 +181,7 @@ HistoryWriter HistoryWriter::continue_after(const std::filesystem::path& file, c
     notes.push_back(std::move(note));
   }
   write_file_atomically(file, kept.text());
-  HistoryWriter writer(file, open_or_throw(file, 0), header);
+  HistoryWriter writer(file, open_or_throw(file, O_NOFOLLOW), header);
   writer.extent_ = kept.extent();
   return writer;
 }

@@ -20,8 +20,12 @@ class HistoryWriter {
  public:
   using Row = std::vector<std::pair<std::string, double>>;  // column, value
 
-  // Starts the file anew. Throws WriteError if it cannot be written.
+  // Starts the file anew, which a user has named: a link is followed, and it may be a terminal. Throws WriteError if it
+  // cannot be written.
   explicit HistoryWriter(const std::filesystem::path& file);
+  // The same for a file of a run: what stands in its place, be it a link or a pipe, is replaced, and what a link leads
+  // to stays.
+  static HistoryWriter start_in_run(const std::filesystem::path& file);
   // Goes on with a file that once held `then`, with these columns: keeps whole rows up to there and appends. Where some
   // of them are not there any more the file is kept beside, and a note says which.
   static HistoryWriter continue_after(const std::filesystem::path& file, const std::string& header,
@@ -50,7 +54,7 @@ class HistoryWriter {
 // Its columns, as the first line of the file names them.
 std::string header_of(const HistoryWriter::Row& row);
 
-// The time of the last whole row of a file; nothing before there is one.
+// The time of the last whole row of a file; nothing before there is one. Throws UserError if it cannot be read.
 std::optional<double> last_time_in_history(const std::filesystem::path& file);
 
 // The shortest decimal text that reads back as the same number.

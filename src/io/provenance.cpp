@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "version.hpp"
@@ -94,11 +96,18 @@ RunPart part_of(const Json& json) {
   return part;
 }
 
+// Of what is told on terminals, which control letters would steer.
+std::string without_control_letters(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, '?');
+  return text;
+}
+
 [[noreturn]] void fail_as_damaged(const fs::path& file, const std::string& what) {
   throw UserError(
       fmt::format("{} is damaged: {}. Without it a run cannot go on: put back a copy of it, or run the case anew into "
                   "another folder: thawslide run {} --output OTHER.",
-                  file.string(), what, file.parent_path().string()));
+                  file.string(), what, shell_word(file.parent_path().string())));
 }
 
 }  // namespace
@@ -167,6 +176,12 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
   std::set<std::string> names;
   for (const fs::path& file : files) {
     const std::string name = file.filename().string();
+    if (is_unfinished(file)) {
+      throw UserError(
+          fmt::format("{} has a name that the program gives to files while it writes them, and that it removes. Give "
+                      "the file another name.",
+                      file.string()));
+    }
     THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which a case may not have", name);
     const std::string content = read_file(file);
     const fs::path copy = folder / "inputs" / name;
@@ -192,8 +207,8 @@ Provenance read_provenance(const fs::path& folder) {
     for (const Json& input : facts.at("inputs")) {
       provenance.inputs.push_back({input.at("path"), input.at("copy"), input.at("sha256"), input.at("bytes")});
     }
-    provenance.status = facts.at("status");
-    provenance.message = facts.at("message");
+    provenance.status = without_control_letters(facts.at("status"));
+    provenance.message = without_control_letters(facts.at("message"));
     provenance.simulated_time = facts.at("simulated_time_s");
     provenance.steps = facts.at("steps");
   } catch (const Json::parse_error& error) {

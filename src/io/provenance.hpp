@@ -52,13 +52,13 @@ RunPart part_of_this_process();
 
 void write_provenance(const std::filesystem::path& file, const Provenance& provenance);
 
-// Copies inputs into folder/inputs, one of each name. Throws UserError for two files of one name, or what cannot be
-// read.
+// Copies inputs into folder/inputs, one of each name. Throws UserError for what cannot be read, and for a file that is
+// called as the program's own unfinished ones, which a resume would remove.
 std::vector<InputFile> copy_inputs(const std::filesystem::path& folder,
                                    const std::vector<std::filesystem::path>& files);
 
-// What folder/run.json tells of the run so far: parts, inputs, status, message, simulated time and steps; the rest is
-// left empty. Throws UserError where it cannot be read or understood.
+// What folder/run.json tells of the run so far: parts, inputs, status, message (control letters in these two as '?'),
+// simulated time and steps; the rest is left empty. Throws UserError where it cannot be read or understood.
 Provenance read_provenance(const std::filesystem::path& folder);
 
 // SHA-256 of a file, in hexadecimal digits. Throws UserError if it cannot be read.

@@ -2,14 +2,8 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <iterator>
-#include <string_view>
-#include <vector>
-
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/checkpoint.hpp"
+#include "io/run_files.hpp"
 
 namespace thawslide::io {
 
@@ -17,39 +11,29 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view files_of_a_run[] = {"run.json",      "history.csv", "probes.csv",
-                                               "case.toml",     "terrain.csv", "particles.vtkhdf",
-                                               checkpoint_name, "report.html", previous_checkpoint_name,
-                                               "snapshots",     "inputs",      "figures",
-                                               "maps"};
-
-// What a resume keeps beside a file that it found damaged, by name_for_damaged.
-bool is_damaged_one(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return name.rfind("history.damaged.", 0) == 0 || name.rfind("probes.damaged.", 0) == 0 ||
-         name.rfind("checkpoint.damaged.", 0) == 0;
-}
-
-bool holds_a_run(const fs::path& folder) {
-  return fs::exists(folder / "run.json") || fs::exists(folder / "history.csv") || fs::exists(folder / "snapshots");
-}
-
-// A process that ended before it had written run.json has left its lock, and nothing that anyone would miss.
-bool holds_no_more_than_a_start(const fs::path& folder) {
-  if (!fs::exists(folder / lock_name) || fs::exists(folder / "run.json")) {
-    return false;
+// Throws UserError where the folder holds what is not to be replaced.
+void require_replaceable(const fs::path& folder, bool overwrite) {
+  if (!holds_a_run(folder)) {
+    throw UserError(
+        fs::exists(folder / "run.json")
+            ? fmt::format("the output folder {} cannot be told for that of a run: its run.json is damaged, or of "
+                          "another program. Give another --output, or remove yourself what is there.",
+                          folder.string())
+            : fmt::format("the output folder {} holds other files and no run. Give another --output.",
+                          folder.string()));
   }
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    const bool is_known =
-        name == lock_name || is_unfinished(entry.path()) ||
-        std::find(std::begin(files_of_a_run), std::end(files_of_a_run), name) != std::end(files_of_a_run);
-    const bool has_rows = name == "history.csv" && fs::file_size(entry.path()) > 0;
-    if (!is_known || has_rows) {
-      return false;
-    }
+  if (overwrite) {
+    return;
   }
-  return true;
+  const AtWork at_work = process_at_work(folder);
+  if (!at_work.process.empty()) {
+    throw UserError(fmt::format("the output folder {} {} written by {}. Give another --output.", folder.string(),
+                                at_work.is_known ? "is being" : "may be being", at_work.process));
+  }
+  throw UserError(
+      fmt::format("the output folder {} holds another run. Give another --output, or --overwrite to replace "
+                  "that run.",
+                  folder.string()));
 }
 
 }  // namespace
@@ -79,20 +63,7 @@ void require_usable(const fs::path& folder, bool overwrite) {
                                 folder.string(), part.string()));
   }
   if (fs::exists(folder) && !fs::is_empty(folder) && !holds_no_more_than_a_start(folder)) {
-    if (!holds_a_run(folder)) {
-      throw UserError(
-          fmt::format("the output folder {} holds other files and no run. Give another --output.", folder.string()));
-    }
-    if (const std::string process = process_at_work(folder).process; !process.empty() && !overwrite) {
-      throw UserError(
-          fmt::format("the output folder {} is being written by {}. Give another --output.", folder.string(), process));
-    }
-    if (!overwrite) {
-      throw UserError(
-          fmt::format("the output folder {} holds another run. Give another --output, or --overwrite to replace "
-                      "that run.",
-                      folder.string()));
-    }
+    require_replaceable(folder, overwrite);
   }
 }
 
@@ -116,18 +87,7 @@ RunLock make_run_folder(const fs::path& folder, bool overwrite) {
   }
   RunLock lock(folder);
   require_usable(folder, overwrite);
-  for (const std::string_view name : files_of_a_run) {
-    fs::remove_all(folder / name, error);
-    if (error) {
-      throw UserError(fmt::format("cannot remove {}: {}", (folder / name).string(), error.message()));
-    }
-  }
-  std::vector<fs::path> damaged;
-  std::copy_if(fs::directory_iterator(folder), fs::directory_iterator(), std::back_inserter(damaged), is_damaged_one);
-  for (const fs::path& file : damaged) {
-    fs::remove(file);
-  }
-  remove_unfinished_files(folder);
+  remove_files_of_run(folder);
   return lock;
 }
 

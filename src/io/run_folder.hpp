@@ -20,7 +20,7 @@ void require_usable(const std::filesystem::path& folder, bool overwrite);
 void require_own_folders(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 // Makes the folder and its parents, and takes its lock; with `overwrite` removes the files of the run it holds, and
-// nothing else.
+// nothing else: not what others have put into it, or into snapshots/, inputs/, figures/ and maps/.
 RunLock make_run_folder(const std::filesystem::path& folder, bool overwrite);
 
 }  // namespace thawslide::io

@@ -6,10 +6,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 
 namespace thawslide::io {
 
@@ -27,63 +31,142 @@ Lock ask(int descriptor, int kind) {
   return errno == EWOULDBLOCK ? Lock::of_another : Lock::unknown;
 }
 
-// Who only asks holds the lock for a moment, so one refusal tells nothing. Where there are no locks nobody is refused.
-bool take(int descriptor) {
+// Who only asks holds the lock for a moment, so one refusal tells nothing.
+Lock take(int descriptor) {
   constexpr int attempts = 20;
   constexpr useconds_t pause = 5000;  // microseconds
-  for (int k = 0; k < attempts; ++k) {
-    if (ask(descriptor, LOCK_EX) != Lock::of_another) {
-      return true;
-    }
+  Lock lock = ask(descriptor, LOCK_EX);
+  for (int k = 1; k < attempts && lock == Lock::of_another; ++k) {
     usleep(pause);
+    lock = ask(descriptor, LOCK_EX);
   }
-  return false;
+  return lock;
+}
+
+// What stands in the place of a lock and is no file of its folder; empty: a file, or nothing.
+std::string what_is_no_lock(const fs::path& file) {
+  std::error_code unknown;
+  return fs::is_symlink(fs::symlink_status(file, unknown)) ? "a link" : config::what_stands_at(file);
+}
+
+// Returns -1 and leaves the reason in errno where it cannot be opened. A link could lead to a file that is not the
+// run's, and be written over; a pipe would wait for ever.
+int open_lock(const fs::path& file, int flags) {
+  const int descriptor = open(file.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
+  const int reason = errno;
+  struct stat facts {};
+  if (descriptor >= 0 && fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode)) {
+    return descriptor;
+  }
+  if (descriptor >= 0) {
+    close(descriptor);
+  }
+  if (const std::string found = what_is_no_lock(file); !found.empty()) {
+    throw UserError(
+        fmt::format("{} is {}, where a run keeps its lock, a regular file. Remove it once no run is at work in {}.",
+                    file.string(), found, file.parent_path().string()));
+  }
+  errno = reason;
+  return -1;
 }
 
 // Whether the file is still that of the name: whoever gives the lock back removes it.
 bool is_of_name(int descriptor, const fs::path& file) {
   struct stat opened {};
   struct stat named {};
-  return fstat(descriptor, &opened) == 0 && stat(file.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+  return fstat(descriptor, &opened) == 0 && lstat(file.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
          opened.st_dev == named.st_dev;
 }
 
-// What the holder has written into the file, which it may have removed since.
-std::string holder_of(int descriptor) {
+// What the holder has written into the file, which it may have taken out since.
+std::string line_in(int descriptor) {
   char text[512];
   const ssize_t length = pread(descriptor, text, sizeof text, 0);
   std::string words(text, length > 0 ? static_cast<std::size_t>(length) : 0);
   while (!words.empty() && words.back() == '\n') {
     words.pop_back();
   }
-  return words.empty() ? "another process" : words;
+  return config::shown(words);
 }
 
-std::string this_process() {
+std::string host_name() {
   char host[256] = "";
   gethostname(host, sizeof host - 1);
-  return fmt::format("process {} on {}\n", getpid(), host);
+  return host;
+}
+
+std::string words_of_process(pid_t number) { return fmt::format("process {} on {}", number, host_name()); }
+
+// The number in "process 123 on HOST" where HOST is this machine; 0: it is another, or this is no such line.
+pid_t process_of_this_machine(const std::string& line) {
+  constexpr std::string_view begin = "process ";
+  pid_t number = 0;
+  if (line.rfind(begin, 0) == 0) {
+    std::from_chars(line.data() + begin.size(), line.data() + line.size(), number);
+  }
+  return number > 0 && line == config::shown(words_of_process(number)) ? number : 0;
+}
+
+// Who is at work by what the file says, where there are no locks. A process with our own number has left it behind.
+AtWork at_work_by(const std::string& line) {
+  const pid_t number = process_of_this_machine(line);
+  if (number == 0) {
+    return {false, line};
+  }
+  const bool lives = number != getpid() && (kill(number, 0) == 0 || errno == EPERM);
+  return {true, lives ? line : ""};
+}
+
+AtWork at_work_by(int descriptor, Lock lock) {
+  const std::string line = lock == Lock::ours ? "" : line_in(descriptor);
+  if (lock == Lock::unknown) {
+    return at_work_by(line);
+  }
+  return {true, lock == Lock::of_another && line.empty() ? "another process" : line};
+}
+
+std::string refusal(const fs::path& file, const AtWork& at_work, Lock lock) {
+  const std::string folder = file.parent_path().string();
+  if (!at_work.is_known) {
+    return fmt::format(
+        "{} may be being written by {}: its file system has no locks, and from this machine it cannot be told whether "
+        "that lives. If it has surely ended, remove {}.",
+        folder, at_work.process, file.string());
+  }
+  const std::string without_locks =
+      lock == Lock::unknown
+          ? fmt::format(" Its file system has no locks: if that process is no run any more, remove {}.", file.string())
+          : "";
+  return fmt::format("{} is being written by {}. Wait until that has ended, or stop it.{}", folder, at_work.process,
+                     without_locks);
+}
+
+// Returns a descriptor that holds the lock, or -1 where the file that was opened has lost its name since.
+int take_lock(const fs::path& file) {
+  const int descriptor = open_lock(file, O_RDWR | O_CREAT);
+  if (descriptor < 0) {
+    throw WriteError(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
+  }
+  const Lock lock = take(descriptor);
+  const AtWork at_work = at_work_by(descriptor, lock);
+  const bool is_free = at_work.process.empty();
+  if (is_free && is_of_name(descriptor, file)) {
+    return descriptor;
+  }
+  close(descriptor);
+  if (!is_free) {
+    throw UserError(refusal(file, at_work, lock));
+  }
+  return -1;
 }
 
 }  // namespace
 
 RunLock::RunLock(const fs::path& folder) : file_(folder / lock_name), descriptor_(-1) {
-  do {
-    if (descriptor_ >= 0) {
-      close(descriptor_);
-    }
-    descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) {
-      throw WriteError(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
-    }
-    if (!take(descriptor_)) {
-      const std::string holder = holder_of(descriptor_);
-      close(descriptor_);
-      throw UserError(
-          fmt::format("{} is being written by {}. Wait until that has ended, or stop it.", folder.string(), holder));
-    }
-  } while (!is_of_name(descriptor_, file_));
-  const std::string text = this_process();
+  while (descriptor_ < 0) {
+    descriptor_ = take_lock(file_);
+  }
+  const std::string text = words_of_process(getpid()) + "\n";
   if (ftruncate(descriptor_, 0) != 0 || write(descriptor_, text.data(), text.size()) < 0) {
     const int reason = errno;
     close(descriptor_);
@@ -97,7 +180,8 @@ RunLock::RunLock(RunLock&& other) noexcept
 RunLock::~RunLock() {
   if (descriptor_ >= 0) {
     std::error_code ignored;
-    if (fs::exists(file_.parent_path() / "run.json", ignored)) {
+    (void)!ftruncate(descriptor_, 0);  // without locks the name alone would keep others out
+    if (fs::exists(file_.parent_path() / "run.json", ignored) && is_of_name(descriptor_, file_)) {
       fs::remove(file_, ignored);
     }
     close(descriptor_);
@@ -106,12 +190,15 @@ RunLock::~RunLock() {
 
 AtWork process_at_work(const fs::path& folder) {
   const fs::path file = folder / lock_name;
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = open_lock(file, O_RDONLY);
   if (descriptor < 0) {
+    if (errno != ENOENT && errno != ENOTDIR) {
+      throw UserError(fmt::format("cannot read {}: {}. It tells whether a run is at work there.", file.string(),
+                                  std::strerror(errno)));
+    }
     return {};
   }
-  const Lock lock = ask(descriptor, LOCK_SH);
-  const AtWork found{lock != Lock::unknown, lock == Lock::of_another ? holder_of(descriptor) : ""};
+  const AtWork found = at_work_by(descriptor, ask(descriptor, LOCK_SH));
   close(descriptor);
   return found;
 }

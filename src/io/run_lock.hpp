@@ -1,5 +1,6 @@
 // Who writes a run's folder: a process holds the lock as long as it lives, however it ends. On a file system without
-// locks a run goes on all the same, and whether one is at work cannot be told.
+// locks its name in the file decides: of a process of this machine it is known whether it lives, one of another machine
+// is taken to. A process that ends by itself takes its name out.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,8 @@ inline constexpr const char* lock_name = "run.lock";
 
 class RunLock {
  public:
-  // Throws UserError where another process holds the folder's lock, WriteError where the file cannot be made.
+  // Throws UserError where another process holds the folder's lock, or may, and where what stands in its place is a
+  // link or no regular file; WriteError where the file cannot be made.
   explicit RunLock(const std::filesystem::path& folder);
   RunLock(RunLock&& other) noexcept;
   RunLock& operator=(RunLock&&) = delete;
@@ -25,9 +27,10 @@ class RunLock {
 };
 
 struct AtWork {
-  bool is_known = true;  // false: there is a lock file, and its file system has no locks
-  std::string process;   // "process 123 on HOST" that is at work in the folder; empty: none is known to be
+  bool is_known = true;  // false: there is a lock file, its file system has no locks, and what it says does not tell
+  std::string process;   // "process 123 on HOST" that is at work in the folder, or that may be; empty: none is known to
 };
+// Throws UserError where a link, or no regular file, stands in the place of the lock, or it cannot be read.
 [[nodiscard]] AtWork process_at_work(const std::filesystem::path& folder);
 
 }  // namespace thawslide::io

@@ -1,9 +1,15 @@
 #include "io/snapshot_series.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <cmath>
+#include <cstring>
 #include <ctime>
+#include <iterator>
 #include <map>
 
+#include "config/input_limits.hpp"
 #include "io/atomic_file.hpp"
 #include "io/vtkhdf.hpp"
 
@@ -17,19 +23,78 @@ constexpr double seconds_between_indices = 5.0;
 
 std::string file_name(std::size_t number) { return fmt::format("snapshots/{:06d}.vtkhdf", number); }
 
+// The type of a dataset or attribute of one value. What is asked of the file must fit into the room made for it: the
+// library writes as much as the file says.
+hdf5::Handle type_of_one_value(hid_t attribute, const char* name) {
+  const hdf5::Handle space(H5Aget_space(attribute), H5Sclose, name);
+  THAWSLIDE_ASSERT(H5Sget_simple_extent_type(space) == H5S_SCALAR, "attribute {} is not one value", name);
+  return {H5Aget_type(attribute), H5Tclose, name};
+}
+
 double read_number(hid_t object, const char* name) {
   const hdf5::Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, name);
+  const hdf5::Handle type = type_of_one_value(attribute, name);
+  THAWSLIDE_ASSERT(H5Tget_class(type) == H5T_FLOAT, "attribute {} is no number", name);
   double value = 0.0;
   THAWSLIDE_ASSERT(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) >= 0, "attribute {} cannot be read", name);
+  THAWSLIDE_ASSERT(std::isfinite(value), "attribute {} is {}", name, value);
   return value;
 }
 
 std::string read_unit(hid_t dataset) {
+  constexpr std::size_t longest = 64;
   const hdf5::Handle attribute(H5Aopen(dataset, "unit", H5P_DEFAULT), H5Aclose, "unit");
-  const hdf5::Handle type(H5Aget_type(attribute), H5Tclose, "unit's type");
-  std::string text(H5Tget_size(type), '\0');
+  const hdf5::Handle type = type_of_one_value(attribute, "unit");
+  // Of a text of variable length the library hands out a pointer.
+  THAWSLIDE_ASSERT(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0,
+                   "attribute unit is no plain text");
+  const std::size_t size = H5Tget_size(type);
+  THAWSLIDE_ASSERT(size > 0 && size <= longest, "attribute unit has {} letters", size);
+  std::string text(size, '\0');
   THAWSLIDE_ASSERT(H5Aread(attribute, type, text.data()) >= 0, "attribute unit cannot be read");
   return text;
+}
+
+// What a group of a snapshot holds itself: a link could lead into any other file, or to a pipe.
+void require_own(hid_t group, const std::string& name) {
+  H5L_info_t link{};
+  THAWSLIDE_ASSERT(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD,
+                   "{} is not in the snapshot itself", name);
+}
+
+hdf5::Handle own_group(hid_t parent, const char* name) {
+  require_own(parent, name);
+  return {H5Gopen2(parent, name, H5P_DEFAULT), H5Gclose, name};
+}
+
+// Of the link with this number. Fields are called by plain words; other signs mean something in the names of virtual
+// datasets.
+std::string name_of_field(hid_t group, hsize_t number) {
+  char name[256] = "";
+  const ssize_t length =
+      H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, number, name, sizeof name, H5P_DEFAULT);
+  const bool is_plain = std::all_of(std::begin(name), std::begin(name) + std::strlen(name),
+                                    [](unsigned char letter) { return std::isalnum(letter) != 0 || letter == '_'; });
+  THAWSLIDE_ASSERT(length > 0 && static_cast<std::size_t>(length) < sizeof name && is_plain, "field {} of a snapshot",
+                   number);
+  return name;
+}
+
+struct FieldShape {
+  hsize_t rows, components;
+};
+
+// As it stands in the file, which holds all of it: so that no sum of rows runs over.
+FieldShape shape_of(hid_t dataset, std::uintmax_t file_bytes) {
+  const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "space");
+  hsize_t shape[2] = {0, 1};
+  const int rank = H5Sget_simple_extent_ndims(space);
+  THAWSLIDE_ASSERT(rank == 1 || rank == 2, "a field of {} dimensions", rank);
+  H5Sget_simple_extent_dims(space, shape, nullptr);
+  const std::uintmax_t most = file_bytes / sizeof(double);
+  THAWSLIDE_ASSERT(shape[1] > 0 && shape[1] <= most && shape[0] <= most / shape[1], "{} rows of {} numbers in {} bytes",
+                   shape[0], shape[1], file_bytes);
+  return {shape[0], shape[1]};
 }
 
 // Files NNNNNN.vtkhdf by their number.
@@ -45,14 +110,6 @@ std::map<std::size_t, fs::path> numbered_files(const fs::path& folder) {
     }
   }
   return files;
-}
-
-void remove_or_throw(const fs::path& file) {
-  std::error_code error;
-  fs::remove(file, error);
-  if (error) {
-    throw WriteError(fmt::format("cannot remove {}: {}", file.string(), error.message()));
-  }
 }
 
 }  // namespace
@@ -93,25 +150,28 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_
 // Returns whether the file could be read.
 bool SnapshotSeries::take(std::size_t number, const fs::path& file) {
   const hdf5::Silence silence;
+  if (!config::what_stands_at(file).empty()) {
+    return false;
+  }
   try {
     const hdf5::Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, file.c_str());
-    const hdf5::Handle root(H5Gopen2(opened, "VTKHDF", H5P_DEFAULT), H5Gclose, "VTKHDF");
+    const hdf5::Handle root = own_group(opened, "VTKHDF");
     Entry entry{number, read_number(root, "time"), 0};
-    const hdf5::Handle data(H5Gopen2(root, "PointData", H5P_DEFAULT), H5Gclose, "PointData");
+    const hdf5::Handle data = own_group(root, "PointData");
+    std::error_code unknown;
+    const std::uintmax_t bytes = fs::file_size(file, unknown);
     H5G_info_t info{};
-    THAWSLIDE_ASSERT(H5Gget_info(data, &info) >= 0, "PointData cannot be read");
+    THAWSLIDE_ASSERT(!unknown && H5Gget_info(data, &info) >= 0, "PointData cannot be read");
     std::vector<Column> columns;
     for (hsize_t field = 0; field < info.nlinks; ++field) {
-      char name[256];
-      H5Lget_name_by_idx(data, ".", H5_INDEX_NAME, H5_ITER_INC, field, name, sizeof name, H5P_DEFAULT);
-      const hdf5::Handle dataset(H5Dopen2(data, name, H5P_DEFAULT), H5Dclose, name);
-      const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "space");
+      const std::string name = name_of_field(data, field);
+      require_own(data, name);
+      const hdf5::Handle dataset(H5Dopen2(data, name.c_str(), H5P_DEFAULT), H5Dclose, name.c_str());
       const hdf5::Handle type(H5Dget_type(dataset), H5Tclose, "type");
-      hsize_t shape[2] = {0, 1};
-      THAWSLIDE_ASSERT(H5Sget_simple_extent_ndims(space) <= 2, "{} has more than two dimensions", name);
-      H5Sget_simple_extent_dims(space, shape, nullptr);
-      entry.particles = shape[0];
-      columns.push_back({name, read_unit(dataset), shape[1], H5Tget_class(type) == H5T_INTEGER});
+      const FieldShape shape = shape_of(dataset, bytes);
+      THAWSLIDE_ASSERT(field == 0 || shape.rows == entry.particles, "{} rows of {}", shape.rows, name);
+      entry.particles = shape.rows;
+      columns.push_back({name, read_unit(dataset), shape.components, H5Tget_class(type) == H5T_INTEGER});
     }
     entries_.push_back(entry);
     columns_ = std::move(columns);

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/rounding.hpp"
 #include "physics/bend.hpp"
 #include "physics/contact.hpp"
 #include "sim/block_band_column.hpp"
@@ -292,7 +293,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   } else if (dt > limit.step) {
     throw UserError(
         fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step.",
-                    config::place_of(parameters, "time.step"), dt, limit.step, limit.what));
+                    config::place_of(parameters, "time.step"), dt, rounded_down(limit.step, 4), limit.what));
   }
   const double interval = std::max(parameters.time.history_interval, dt);
   const auto steps = static_cast<long>(std::ceil(parameters.time.end / dt * (1.0 - 1e-12)));

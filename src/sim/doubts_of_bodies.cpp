@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
 #include "config/case_proposal.hpp"
+#include "config/fitting_cell.hpp"
 #include "config/plausibility.hpp"
 
 namespace thawslide::sim {
 
 namespace {
 
-constexpr double most_strain = 0.05;      // by its own weight, at the base
+constexpr double most_strain = 0.05;      // by its own weight, at the base of the thickest column
 constexpr double most_volume_off = 0.02;  // share that particles may have more or less than the shape
 constexpr double least_standing = 0.5;    // share of a body's area
 constexpr double touching = 0.5;          // spacings: particles stand on a lattice, and the ground need not
@@ -65,16 +67,17 @@ std::string doubt_of_standing(const config::Case& parameters, const BodyFigures&
 std::string doubt_of_stiffness(const config::Case& parameters, const BodyFigures& body) {
   const std::string& material = parameters.bodies.at(body.name).material;
   const double modulus = parameters.materials.at(material).youngs_modulus;
-  const double load = body.mass / body.volume * parameters.general.gravity * body.median_thickness;
+  const double load = body.mass / body.volume * parameters.general.gravity * body.largest_thickness;
   const bool deforms = parameters.mechanics.enabled && parameters.mechanisms.deformation;
   if (!deforms || modulus < config::softest_modulus || !(load > most_strain * modulus)) {
     return "";
   }
   const std::string key = "material." + material + ".youngs_modulus";
   return fmt::format(
-      "{}: {} is {} Pa: the weight of body {}, {:.2g} Pa at its base, squeezes it by {:.0f} %. Give it {:.1g} Pa or "
-      "more.",
-      config::place_of(parameters, key), key, modulus, body.name, load, 100.0 * load / modulus, 20.0 * load);
+      "{}: {} is {} Pa: the weight of body {}, {:.2g} Pa where it is thickest, squeezes it by {:.0f} % there. Give it "
+      "{:.1g} Pa or more.",
+      config::place_of(parameters, key), key, modulus, body.name, load, 100.0 * load / modulus,
+      rounded_up(load / most_strain, 1));
 }
 
 std::string doubt_of_band(const config::Case& parameters, const BodyFigures& body) {

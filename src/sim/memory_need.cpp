@@ -6,7 +6,8 @@
 
 #include "band/base_piece.hpp"
 #include "base/error.hpp"
-#include "config/case_proposal.hpp"
+#include "base/rounding.hpp"
+#include "config/fitting_cell.hpp"
 #include "sim/body_shape.hpp"
 #include "sim/flow_maps.hpp"
 #include "sim/map_grid.hpp"
@@ -54,11 +55,24 @@ std::string parts_of(const MemoryNeed& need) {
   add("bed", need.bed);
   add("maps", need.maps);
   add("ground", need.ground);
+  add("the program", bytes_of_program);
   return text;
 }
 
-[[noreturn]] void refuse_fixed_part(const config::Case& parameters, const MemoryNeed& need,
-                                    const std::string& amounts) {
+// No cell helps, as what does not depend on cells takes too much by itself: what takes most is blamed.
+[[noreturn]] void refuse_whatever_the_cell(const config::Case& parameters, const BodiesAtStart& bodies,
+                                           const MemoryNeed& need, const std::string& amounts) {
+  const double fixed = bytes_of_program + need.maps + need.ground;
+  if (need.total() > 2.0 * fixed) {
+    throw UserError(fmt::format(
+        "{}: grid.cell is {} m, which makes {:.3g} particles: {}. Make grid.cell larger; the rest, {:.3g} GB, needs "
+        "more memory, or a higher limit of it, whatever the cell.",
+        config::place_of(parameters, "grid.cell"), parameters.grid.cell, bodies.particles, amounts, fixed / gigabyte));
+  }
+  if (bytes_of_program >= std::max(need.maps, need.ground)) {
+    throw UserError(fmt::format("{}: {}. The program alone takes {:.2g} GB: give it more memory, or a higher limit.",
+                                parameters.file, amounts, bytes_of_program / gigabyte));
+  }
   if (need.maps >= need.ground) {
     throw UserError(fmt::format("{}: maps.cell: {}. Make maps.cell larger, or the domain smaller.",
                                 config::place_of(parameters, "maps.cell"), amounts));
@@ -137,9 +151,7 @@ double smallest_cell(const MemoryNeed& need, double cell, double bytes) {
     const double middle = 0.5 * (low + high);
     (fits(middle) ? high : low) = middle;
   }
-  const double least = high * cell;
-  const double digit = std::pow(10.0, std::floor(std::log10(least)) - 1.0);
-  return std::ceil(least / digit * (1.0 - 1e-12)) * digit;
+  return rounded_up(high * cell, 2);
 }
 
 template <int Dim>
@@ -153,7 +165,7 @@ const config::Case& require_memory(const config::Case& parameters, const config:
   if (bodies.particles > most_particles) {
     const double countable = 1.05 * cell * std::pow(bodies.particles / most_particles, 1.0 / Dim);
     throw UserError(fmt::format(
-        "{}: grid.cell is {} m, which makes {:.3g} particles; allowed: {:.3g}. Make grid.cell {:g} m or more, or "
+        "{}: grid.cell is {} m, which makes {:.3g} particles; allowed: {:.3g}. Make grid.cell {:.9g} m or more, or "
         "particles_per_axis smaller.",
         config::place_of(parameters, "grid.cell"), cell, bodies.particles, most_particles,
         config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
@@ -165,10 +177,10 @@ const config::Case& require_memory(const config::Case& parameters, const config:
       fmt::format("the run needs about {:.3g} GB of memory ({}), and {:.3g} GB {}", need.total() / gigabyte,
                   parts_of(need), available.bytes / gigabyte, available.bound);
   if (smallest == 0.0) {
-    refuse_fixed_part(parameters, need, amounts);
+    refuse_whatever_the_cell(parameters, bodies, need, amounts);
   }
   throw UserError(fmt::format(
-      "{}: grid.cell is {} m, which makes {:.3g} particles: {}. Make grid.cell {:g} m or more, or particles_per_axis "
+      "{}: grid.cell is {} m, which makes {:.3g} particles: {}. Make grid.cell {:.9g} m or more, or particles_per_axis "
       "smaller.",
       config::place_of(parameters, "grid.cell"), cell, bodies.particles, amounts,
       config::fitting_cell_from(smallest, cell, lengths)));

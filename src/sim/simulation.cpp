@@ -6,12 +6,12 @@
 #include "band/averages.hpp"
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "base/rounding.hpp"
 #include "mpm/velocity_filter.hpp"
 #include "sim/bodies.hpp"
 #include "sim/entrainment.hpp"
 #include "sim/filter_times.hpp"
 #include "sim/memory_need.hpp"
-#include "sim/restored_state.hpp"
 #include "sim/terrain_at_columns.hpp"
 #include "terrain/band_marks.hpp"
 #include "terrain/map_back.hpp"
@@ -260,8 +260,8 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
       throw UserError(
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}{}. Use a smaller time.step, or "
                       "time.stepping = \"adaptive\".",
-                      config::place_of(parameters_, "time.step"), parameters_.time.step, limit.step, limit.what,
-                      matter_text(parameters_, model_, particles_, limit)));
+                      config::place_of(parameters_, "time.step"), parameters_.time.step, rounded_down(limit.step, 4),
+                      limit.what, matter_text(parameters_, model_, particles_, limit)));
     }
   }
   begin();
@@ -344,56 +344,6 @@ void Simulation<Dim, Real>::start_ledger() {
 template <int Dim, class Real>
 double Simulation<Dim, Real>::band_thickness() const {
   return parameters_.band.thickness.value.empty() ? 0.0 : parameters_.band.thickness.at(time_);
-}
-
-template <int Dim, class Real>
-std::vector<double> Simulation<Dim, Real>::scalars() const {
-  std::vector<double> numbers{time_,
-                              last_step_,
-                              rear_at_start_,
-                              static_cast<double>(step_number_),
-                              static_cast<double>(next_id_),
-                              column_time_,
-                              even_steps_.step,
-                              even_steps_.from_time,
-                              static_cast<double>(even_steps_.from_number)};
-  Ledger<Dim, Real> ledger = ledger_;
-  ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
-  Watch watch = watch_;
-  watch.for_each([&](double number) { numbers.push_back(number); });
-  for (const std::int64_t count : {removed_.left, removed_.not_finite, removed_.volume}) {
-    numbers.push_back(static_cast<double>(count));
-  }
-  return numbers;
-}
-
-template <int Dim, class Real>
-void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
-  StateNumbers state(scalars, "run");
-  time_ = state.next_finite();
-  last_step_ = state.next_finite();
-  rear_at_start_ = state.next_finite();
-  step_number_ = state.whole(largest_whole);
-  next_id_ = state.whole(largest_whole);
-  column_time_ = state.next_finite();
-  even_steps_.step = state.next_finite();
-  even_steps_.from_time = state.next_finite();
-  even_steps_.from_number = state.whole(step_number_);
-  ledger_.for_each([&](Real& account) { account = static_cast<Real>(state.next()); });
-  watch_.for_each([&](double& number) { number = state.next(); });
-  for (std::int64_t* count : {&removed_.left, &removed_.not_finite, &removed_.volume}) {
-    *count = state.whole(largest_whole);
-  }
-  require_sound(particles_, model_, next_id_, state);
-  // Rows came back in order of id: nothing of the former order may be trusted.
-  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    particles_.previous_temperature(p) = particles_.temperature(p);
-  }
-  find_particles_cells();
-  if (parameters_.time.stepping == config::Stepping::adaptive && watch_.first_step == 0.0) {
-    watch_.first_step = adaptive_step();  // steps were fixed so far
-  }
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real) template class Simulation<Dim, Real>;

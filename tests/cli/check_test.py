@@ -163,3 +163,15 @@ def test_a_cell_that_is_proposed_fits_the_domain(thawslide: Program, small_case:
     assert note.endswith("A cell of 0.25 m has 6 and more")
     finer = thawslide("check", small_case, *words, *sets(grid__cell=0.25))
     assert finer.returncode == 0 and "particles across its median" not in finer.stdout
+
+
+@pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="the system has no file whose first byte is an error")
+def test_an_error_amid_reading_is_told_with_file_and_reason(thawslide: Program, small_case: Path) -> None:
+    broken = small_case / "broken.csv"
+    broken.symlink_to("/proc/self/mem")
+    said = f"{broken}: cannot be read: Input/output error. Check that the file is whole and may be read.\n"
+    outcome = thawslide("check", small_case, *sets(report__targets=broken))
+    assert outcome.returncode == 2
+    assert outcome.stderr == f"error: --set report.targets={broken}: report.targets: {said}"
+    outcome = thawslide("check", broken)
+    assert (outcome.returncode, outcome.stderr) == (2, f"error: {said}")

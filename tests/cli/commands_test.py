@@ -100,7 +100,7 @@ def test_check_says_what_a_run_will_take(thawslide: Program) -> None:
     )
     assert "              3371 particles 5 m apart; 18 across in the median and 18 at most; -10 C\n" in outcome.stdout
     assert re.fullmatch(
-        r"about 181 MB: 201 snapshots of 0\.9 MB, 3 checkpoints of 1\.2 MB, history 2\.5 MB, inputs 0\.0 MB; \S+ [MG]B "
+        r"about 182 MB: 201 snapshots of 0\.9 MB, 3 checkpoints of 1\.2 MB, history 2\.5 MB, inputs 0\.0 MB; \S+ [MG]B "
         r"are free",
         said["disk"],
     )

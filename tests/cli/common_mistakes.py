@@ -183,7 +183,7 @@ COMMON_MISTAKES = [
         new="max = [20.5, 10.0]",
         said=(
             "error: {case}/case.toml:13:7: the domain is 20.5 m long along x, which is 20.5 cells of 1 m; "
-            "allowed: a whole number. Make grid.cell 0.976190476, or move grid.max along x to 21.\n"
+            "allowed: a whole number. Move grid.max along x to 21.\n"
         ),
     ),
     CommonMistake(

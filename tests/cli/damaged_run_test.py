@@ -189,9 +189,10 @@ def test_resume_removes_what_a_run_left_half_written_and_nothing_else(
 ) -> None:
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
-    foreign = elsewhere / "data.12.part"
-    own = [killed / "notes.part", killed / "inputs" / "a.b.part", killed / "inputs" / "dem.part.tif"]
-    torn = [killed / "history.csv.17.part", killed / "inputs" / "dem.17.part.tif", killed / "inputs" / "a.csv.9.part"]
+    foreign = elsewhere / ".data.12.thawslide-part"
+    own = [killed / "notes.part", killed / "inputs" / "a.9.part", killed / "inputs" / "valley.1.part.csv"]
+    names = [".history.csv.17.thawslide-part", "inputs/.dem.17.thawslide-part.tif", "inputs/.a.csv.9.thawslide-part"]
+    torn = [killed / name for name in names]
     (killed / "maps").symlink_to(elsewhere)
     for file in (foreign, *own, *torn):
         file.write_text("half")

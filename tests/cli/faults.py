@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import random
 import resource
@@ -67,6 +68,18 @@ def as_killed(run: Path) -> None:
     text = (run / "run.json").read_text()
     assert text.count('"status": "done"') == 1
     (run / "run.json").write_text(text.replace('"status": "done"', '"status": "running"'))
+
+
+def before_its_first_checkpoint(run: Path) -> None:
+    """Make a finished run one that was killed when all but its first checkpoint had been written."""
+    as_killed(run)
+    facts = json.loads((run / "run.json").read_text())
+    facts.update(steps=0, simulated_time_s=0.0)
+    (run / "run.json").write_text(json.dumps(facts))
+    for name in ("checkpoint.bin", "checkpoint.previous.bin"):
+        (run / name).unlink()
+    rows = (run / "history.csv").read_text().splitlines(keepends=True)
+    (run / "history.csv").write_text("".join(rows[:2]))  # the header, and the row at t = 0
 
 
 def command_of(program: Path, subject: Subject, run: Path) -> list[str]:

@@ -151,4 +151,4 @@ def test_options_that_exclude_each_other(thawslide: Program, tmp_path: Path, slo
 def test_next_commands(thawslide: Program, binary: Path, tmp_path: Path, slope: Slope, release: Path) -> None:
     folder = tmp_path / "a slide"
     outcome = made(thawslide, folder, slope(), release, "--thickness", 24)
-    assert f'look at it:  {binary} check "{folder}" --picture\nrun it:      {binary} run "{folder}"\n' in outcome.stdout
+    assert f"look at it:  {binary} check '{folder}' --picture\nrun it:      {binary} run '{folder}'\n" in outcome.stdout

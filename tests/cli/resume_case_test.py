@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Program, content_of, run_facts, sets
-from faults import as_killed
+from faults import as_killed, before_its_first_checkpoint
 
 
 def edit(run: Path, old: str, new: str) -> Path:
@@ -17,12 +17,6 @@ def edit(run: Path, old: str, new: str) -> Path:
     assert text.count(old) == 1
     file.write_text(text.replace(old, new))
     return file
-
-
-def before_its_first_checkpoint(run: Path) -> None:
-    as_killed(run)
-    for name in ("checkpoint.bin", "checkpoint.previous.bin"):
-        (run / name).unlink()
 
 
 def test_a_case_changed_before_the_first_checkpoint_is_refused(thawslide: Program, done: Path) -> None:

@@ -21,7 +21,7 @@ from conftest import (
     sets,
     snapshot_files,
 )
-from faults import as_killed, digest
+from faults import as_killed, before_its_first_checkpoint, digest
 
 # Neither rows nor snapshots nor checkpoints fall together.
 WORDS = sets(time__end=3, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.4)
@@ -218,7 +218,7 @@ def test_a_run_killed_before_its_first_checkpoint_is_due_starts_again(
         while not (run / "checkpoint.bin").exists():
             assert process.poll() is None
         process.kill()
-    torn = run / "snapshots" / "000007.vtkhdf.17.part"
+    torn = run / "snapshots" / ".000007.vtkhdf.17.thawslide-part"
     torn.write_bytes(b"half a file")
     outcome = thawslide("resume", run, "--threads", 1)
     assert outcome.returncode == 0, outcome.stderr
@@ -260,9 +260,8 @@ def test_a_run_killed_before_its_first_checkpoint_begins_again(
     run, whole = tmp_path / "run", tmp_path / "whole"
     for folder in (run, whole):
         assert thawslide("run", small_case, "--output", folder).returncode == 0
-    as_killed(run)
-    for name in ("checkpoint.bin", "checkpoint.previous.bin", "history.csv", "terrain.csv"):
-        (run / name).unlink()
+    before_its_first_checkpoint(run)
+    (run / "terrain.csv").unlink()
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(f"{run} was cut off before its first checkpoint; it starts again\n")
@@ -277,7 +276,7 @@ def test_a_run_killed_before_it_knew_its_case_is_run_again(
     run = tmp_path / "run"
     (run / "inputs").mkdir(parents=True)
     (run / "run.lock").write_text("process 1 on elsewhere\n")
-    (run / "inputs" / "case.toml.12.part").write_text("half")
+    (run / "inputs" / ".case.toml.12.thawslide-part").write_text("half")
     outcome = thawslide("run", small_case, "--output", run)
     assert outcome.returncode == 0, outcome.stderr
     assert sorted(file.name for file in (run / "inputs").iterdir()) == ["case.toml"]

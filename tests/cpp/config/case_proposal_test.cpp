@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "config/section_proposal.hpp"
+
 namespace thawslide::config {
 namespace {
 
@@ -56,6 +58,40 @@ TEST(CaseProposal, HoldsAReleaseThinnerThanASlopeAcrossACellOfTheDem) {
     EXPECT_GE(proposal.max[2], 500.0 - 0.8 * 190.0 + thickness + margin);
     EXPECT_LE(proposal.min[2], 500.0 - 0.8 * 300.0 - thickness - margin) << "room for one that is cut out";
   }
+}
+
+// Half of 80 points are 4 m thick, the others 20 m: five sixths of the volume lie where it is thicker.
+TEST(CaseProposal, TheCellFollowsTheVolumeAndTheMedianTheArea) {
+  Raster release = release_at(20, 15, 20.0);
+  for (int row = 15; row < 19; ++row) {
+    for (int column = 20; column < 30; ++column) {
+      release.values[release.index(column, row)] = 4.0;
+    }
+  }
+  release.values[0] = std::nan("");
+  const Proposal proposal = propose(dem_points(), release, 20.0);
+  EXPECT_EQ(proposal.thickness, 20.0);
+  EXPECT_EQ(proposal.median_thickness, 4.0);
+  EXPECT_EQ(median_thickness(release), 4.0);
+  EXPECT_EQ(proposal.cell, 6.0) << "six particles across 20 m";
+}
+
+// What a case says of a file's name, whatever letters it has.
+TEST(CaseProposal, NamesAreTextsOfToml) {
+  const std::string name = "x\"\n[time]\nend = 5\n#\\.geojson";
+  ProposalInput input;
+  input.title = input.release_file = name;
+  input.dem_file = "dem.tif";
+  input.thickness = {MapValue::From::attribute, 0.0, "thick\"ness"};
+  const std::string escaped = R"("x\"\u000a[time]\u000aend = 5\u000a#\\.geojson")";
+  const std::string text = case_text(input, propose(dem_points(), release_at(20, 15, 20.0), 20.0));
+  EXPECT_NE(text.find("\ntitle = " + escaped + "\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nrelease = " + escaped + "\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nthickness = { attribute = \"thick\\\"ness\" }  # m\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("\nend = 5\n"), std::string::npos) << "no key comes of a name";
+  const std::string section = section_text(name, name, Proposal());
+  EXPECT_NE(section.find("\ntitle = " + escaped + "\n"), std::string::npos) << section;
+  EXPECT_NE(section.find("\nfile = " + escaped + "\n"), std::string::npos) << section;
 }
 
 TEST(CaseProposal, BeginsAtTheEdgeOfTheDemWhereAMultipleOfTheCellWouldCutTheRelease) {

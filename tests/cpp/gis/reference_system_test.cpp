@@ -74,7 +74,7 @@ TEST(ReferenceSystemTest, Degrees) {
       "alps/dem-EPSG32632.tif");
   const Located andes{"my dem.tif", {-77.7, -9.2, -77.6, -9.0}, 0.0001, 0.0001};
   EXPECT_NE(error_of_system(andes, "EPSG:4326")
-                .find("gdalwarp -t_srs EPSG:32718 -tr 11 11 -r bilinear \"my dem.tif\" \"my dem-EPSG32718.tif\""),
+                .find("gdalwarp -t_srs EPSG:32718 -tr 11 11 -r bilinear 'my dem.tif' 'my dem-EPSG32718.tif'"),
             std::string::npos);
 }
 

@@ -1,11 +1,32 @@
 #include "io/run_lock.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <fstream>
+#include <utility>
 
 #include "base/error.hpp"
+
+namespace {
+
+bool has_locks = true;
+
+}  // namespace
+
+// Stands before that of the system: some network disks have no locks.
+extern "C" int flock(int descriptor, int kind) noexcept {
+  if (!has_locks) {
+    errno = ENOLCK;
+    return -1;
+  }
+  return static_cast<int>(syscall(SYS_flock, descriptor, kind));
+}
 
 namespace thawslide::io {
 namespace {
@@ -51,6 +72,116 @@ TEST_F(RunLockTest, MovesWithItsOwner) {
 }
 
 TEST_F(RunLockTest, AFolderThatIsNotThereIsTold) { EXPECT_THROW(RunLock{folder_ / "none"}, WriteError); }
+
+// Another process, which waits until it is killed.
+class Waiting {
+ public:
+  Waiting() : number_(fork()) {
+    if (number_ == 0) {
+      while (true) {
+        pause();
+      }
+    }
+  }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  ~Waiting() { kill_and_wait(); }
+  void kill_and_wait() {
+    if (number_ > 0) {
+      kill(number_, SIGKILL);
+      waitpid(std::exchange(number_, 0), nullptr, 0);
+    }
+  }
+  [[nodiscard]] std::string words() const {
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    return fmt::format("process {} on {}", number_, host);
+  }
+
+ private:
+  pid_t number_;
+};
+
+class WithoutLocks : public RunLockTest {
+ protected:
+  WithoutLocks() { has_locks = false; }
+  ~WithoutLocks() override { has_locks = true; }
+
+  void write(const std::string& line) const { std::ofstream(file()) << line << "\n"; }
+  fs::path file() const { return folder_ / lock_name; }
+  // Empty: the lock can be taken.
+  std::string refusal() const {
+    try {
+      const RunLock lock(folder_);
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(WithoutLocks, AProcessOfThisMachineKeepsOthersOutWhileItLives) {
+  Waiting other;
+  const std::string words = other.words();
+  write(words);
+  EXPECT_TRUE(process_at_work(folder_).is_known);
+  EXPECT_EQ(process_at_work(folder_).process, words);
+  EXPECT_EQ(refusal(), folder_.string() + " is being written by " + words +
+                           ". Wait until that has ended, or stop it. Its file system has no locks: if that process is "
+                           "no run any more, remove " +
+                           file().string() + ".");
+  other.kill_and_wait();
+  EXPECT_TRUE(process_at_work(folder_).is_known);
+  EXPECT_EQ(process_at_work(folder_).process, "");
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(WithoutLocks, AProcessOfAnotherMachineIsTakenToLive) {
+  for (const char* line : {"process 12 on elsewhere", "proc"}) {
+    write(line);
+    EXPECT_FALSE(process_at_work(folder_).is_known);
+    EXPECT_EQ(process_at_work(folder_).process, line);
+    EXPECT_EQ(refusal(), folder_.string() + " may be being written by " + line +
+                             ": its file system has no locks, and from this machine it cannot be told whether that "
+                             "lives. If it has surely ended, remove " +
+                             file().string() + ".");
+  }
+  fs::remove(file());
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(WithoutLocks, AProcessThatEndsTakesItsNameOut) {
+  {
+    const RunLock lock(folder_);
+    EXPECT_GT(fs::file_size(file()), 0U);
+  }
+  EXPECT_EQ(fs::file_size(file()), 0U);
+  EXPECT_FALSE(process_at_work(folder_).is_known) << "nothing tells of anyone";
+  EXPECT_EQ(process_at_work(folder_).process, "");
+}
+
+TEST_F(WithoutLocks, ANameOfOurOwnNumberIsOfAnEarlierProcess) {
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  write(fmt::format("process {} on {}", getpid(), host));
+  EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(RunLockTest, WhereThereAreLocksTheNameAloneKeepsNobodyOut) {
+  std::ofstream(folder_ / lock_name) << "process 12 on elsewhere\n";
+  EXPECT_EQ(process_at_work(folder_).process, "");
+  EXPECT_NO_THROW(RunLock{folder_});
+}
+
+TEST_F(RunLockTest, TheFileOfAnotherIsNotTakenAway) {
+  std::ofstream(folder_ / "run.json") << "{}";
+  {
+    const RunLock lock(folder_);
+    fs::remove(folder_ / lock_name);  // by hand
+    std::ofstream(folder_ / lock_name) << "process 12 on elsewhere\n";
+  }
+  EXPECT_TRUE(fs::exists(folder_ / lock_name));
+}
 
 }  // namespace
 }  // namespace thawslide::io

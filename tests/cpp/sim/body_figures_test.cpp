@@ -55,7 +55,7 @@ TEST(BodyFigures, AreThoseOfTheBody) {
   EXPECT_NEAR(body.mass, 40.0 * (0.6 * 2750.0 + 0.4 * 917.0), 1.0) << "some of the ice is water";
   EXPECT_NEAR(body.area, 12.0, 1e-12);
   EXPECT_NEAR(body.mean_thickness, 40.0 / 12.0, 1e-12);
-  EXPECT_NEAR(body.median_thickness, 4.0, 1e-12) << "half of the volume is where it is thinner";
+  EXPECT_NEAR(body.median_thickness, 4.0, 1e-12) << "half of the area is where it is thinner";
   EXPECT_NEAR(body.largest_thickness, 4.0, 1e-12);
   EXPECT_EQ(body.spacing, 0.5);
   EXPECT_NEAR(body.particles_across, 8.0, 1e-12);
@@ -64,6 +64,28 @@ TEST(BodyFigures, AreThoseOfTheBody) {
   EXPECT_NEAR(body.clearance, 0.0, 1e-12);
   EXPECT_EQ(body.standing_share, 1.0);
   EXPECT_TRUE(doubts_of_bodies(case_from_text(step), bodies).empty());
+}
+
+// A heap of 5 m x 8 m with a blanket of 25 m x 1 m before it, from where on it is squeezed too.
+TEST(BodyFigures, TheMedianIsByAreaAndANoteLooksAtIt) {
+  const std::vector<std::string> sets{
+      "grid.max=[50.0,20.0]", "material.rock.youngs_modulus=2e6",
+      "body.step.vertices=[[5.0,1.0],[35.0,1.0],[35.0,2.0],[10.0,2.0],[10.0,9.0],[5.0,9.0]]"};
+  const std::vector<BodyFigures> bodies = figures_of(step, sets);
+  EXPECT_NEAR(bodies.front().mean_thickness, 65.0 / 30.0, 1e-12);
+  EXPECT_NEAR(bodies.front().median_thickness, 1.0, 1e-12) << "not the 8 m of most of its volume";
+  EXPECT_NEAR(bodies.front().particles_across, 2.0, 1e-12);
+  EXPECT_NEAR(bodies.front().most_particles_across, 16.0, 1e-12);
+  const auto doubts = doubts_of_bodies(case_from_text(step, sets), bodies);
+  ASSERT_EQ(doubts.size(), 2U);
+  EXPECT_NE(doubts[0].find("the weight of body step, 1.6e+05 Pa where it is thickest, squeezes it by 8 % there. Give "
+                           "it 4e+06 Pa or more."),
+            std::string::npos)
+      << doubts[0];
+  EXPECT_NE(doubts[1].find("the body step has 2 particles across its median thickness of 1 m; fewer than 4 do not tell "
+                           "how it shears and thins. A cell of 0.25 m has 6 and more"),
+            std::string::npos)
+      << doubts[1];
 }
 
 TEST(BodyFigures, TellHowFarABodyIsAboveTheGround) {

@@ -1,0 +1,122 @@
+#include "config/fitting_cell.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace thawslide::config {
+
+namespace {
+
+constexpr double leeway = 1.5;          // how much finer or coarser, to come by a cell at all
+constexpr double little = 1.25;         // and to come by one of few digits, where others fit better
+constexpr double finest_unit = 1e-6;    // [m], of lengths: what is no multiple of it has no common measure
+constexpr double fewest_cells = 2.0;    // of the domain along each axis
+constexpr double longest_count = 1e15;  // units, that are exact as numbers
+
+// Without the round-off of a product, which nobody wants to read.
+double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
+
+double of_few_digits(double number) { return std::stod(fmt::format("{:.2g}", number)); }
+
+bool has_few_digits(double number) { return std::abs(number - of_few_digits(number)) < 1e-9 * number; }
+
+// Cells: all lengths are whole multiples of so many, and of a whole part of them.
+double common_cells(double cell, const std::vector<double>& lengths) {
+  long common = 0;
+  for (const double length : lengths) {
+    common = std::gcd(common, std::lround(length / cell));
+  }
+  return static_cast<double>(common);
+}
+
+bool are_whole(const std::vector<double>& lengths, double unit) {
+  return std::all_of(lengths.begin(), lengths.end(), [unit](double length) {
+    const double units = length / unit;
+    return units >= 1.0 && units < longest_count && std::abs(units - std::round(units)) < 1e-9 * units;
+  });
+}
+
+// The largest length [m] of which all are whole multiples; 0 where they are not decimal numbers above 0.
+double common_length(const std::vector<double>& lengths) {
+  for (double unit = 1.0; unit > 0.5 * finest_unit; unit = tidy(0.1 * unit)) {
+    if (are_whole(lengths, unit)) {
+      return unit * common_cells(unit, lengths);
+    }
+  }
+  return 0.0;
+}
+
+double times_off(double one, double other) { return std::max(one / other, other / one); }
+
+}  // namespace
+
+double round_down(double x) {
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  double best = tidy(power);
+  for (const double digit : {1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    best = digit * power <= x * (1.0 + 1e-12) ? tidy(digit * power) : best;
+  }
+  return best;
+}
+
+std::vector<double> lengths_of_domain(const Case& parameters) {
+  std::vector<double> lengths;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(parameters.general.dimension); ++a) {
+    lengths.push_back(parameters.grid.max[a] - parameters.grid.min[a]);
+  }
+  return lengths;
+}
+
+double fitting_cell(double most, double cell, const std::vector<double>& lengths) {
+  if (lengths.empty()) {
+    return round_down(most);
+  }
+  const double largest = cell * common_cells(cell, lengths);
+  const double fewest = std::ceil(largest / most * (1.0 - 1e-9));
+  for (double parts = fewest; parts <= leeway * fewest; ++parts) {
+    if (has_few_digits(largest / parts)) {
+      return of_few_digits(largest / parts);
+    }
+  }
+  return largest / fewest;
+}
+
+double fitting_cell_from(double least, double cell, const std::vector<double>& lengths) {
+  const double largest = cell * common_cells(cell, lengths);
+  const double most = std::floor(largest / least * (1.0 + 1e-9));
+  if (most < 1.0) {
+    return least;
+  }
+  for (double parts = most; parts >= 1.0 && parts * leeway >= most; --parts) {
+    if (has_few_digits(largest / parts)) {
+      return of_few_digits(largest / parts);
+    }
+  }
+  return largest / most;
+}
+
+double fitting_cell_near(double cell, const std::vector<double>& lengths) {
+  const double largest = common_length(lengths), shortest = *std::min_element(lengths.begin(), lengths.end());
+  double nearest = 0.0, nearest_of_few_digits = 0.0;
+  const auto take = [cell](double& best, double found) {
+    best = best == 0.0 || times_off(found, cell) < times_off(best, cell) ? found : best;
+  };
+  const double first = std::max(1.0, std::ceil(largest / (leeway * cell)));
+  for (double parts = first; parts <= leeway * largest / cell * (1.0 + 1e-9); ++parts) {
+    const double found = largest / parts;
+    if (found * fewest_cells > shortest * (1.0 + 1e-9)) {
+      continue;
+    }
+    take(nearest, found);
+    if (has_few_digits(found) && times_off(found, cell) <= little) {
+      take(nearest_of_few_digits, of_few_digits(found));
+    }
+  }
+  return nearest_of_few_digits > 0.0 ? nearest_of_few_digits : nearest;
+}
+
+}  // namespace thawslide::config

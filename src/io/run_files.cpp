@@ -1,0 +1,176 @@
+#include "io/run_files.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/run_lock.hpp"
+
+namespace thawslide::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::json;
+using IsOwn = std::function<bool(const fs::path& file)>;
+
+// But for run.json.
+constexpr std::string_view files_of_a_run[] = {
+    "history.csv",      "probes.csv",    "case.toml",   "terrain.csv",
+    "particles.vtkhdf", checkpoint_name, "report.html", previous_checkpoint_name};
+// In maps/, as GeoTIFF with a style (sim/map_kinds.cpp, app/map_output.cpp).
+constexpr std::string_view maps_of_a_run[] = {
+    "terrain",      "release",      "max_thickness",    "final_thickness",       "max_speed", "max_momentum_flux",
+    "max_pressure", "arrival_time", "elevation_change", "max_basal_temperature", "max_melt",  "max_pore_pressure"};
+// In figures/, as images or films (python/thawslide/figures/__init__.py).
+constexpr std::string_view figures_of_a_run[] = {"extent_maps",
+                                                 "animation",
+                                                 "slide_speed",
+                                                 "slide_thickness",
+                                                 "slide_temperature",
+                                                 "base_temperature",
+                                                 "base_pressure",
+                                                 "cross_sections",
+                                                 "impact_maps",
+                                                 "probes",
+                                                 "motion",
+                                                 "velocity",
+                                                 "plastic_strain",
+                                                 "temperature",
+                                                 "pore_pressure",
+                                                 "force",
+                                                 "band",
+                                                 "base_along",
+                                                 "energy",
+                                                 "water",
+                                                 "entrainment"};
+
+template <class List>
+bool is_among(const std::string& name, const List& names) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+// What a resume keeps beside a file that it found damaged, by name_for_damaged: history.damaged.csv,
+// history.damaged.2.csv.
+bool is_damaged_one(const fs::path& file) {
+  const fs::path number = file.stem().extension();  // or ".damaged" itself
+  const fs::path stem = number == ".damaged" ? file.stem() : file.stem().stem();
+  const bool is_number = number.string().find_first_not_of("0123456789", 1) == std::string::npos;
+  const std::string name = stem.stem().string() + file.extension().string();
+  return stem.extension() == ".damaged" && (number == ".damaged" || is_number) &&
+         (name == "history.csv" || name == "probes.csv" || name == "checkpoint.bin");
+}
+
+bool is_in_run(const fs::path& file) {
+  return is_among(file.filename().string(), files_of_a_run) || is_damaged_one(file);
+}
+
+bool is_snapshot(const fs::path& file) {
+  const std::string number = file.stem().string();
+  return file.extension() == ".vtkhdf" && number.size() >= 6 &&
+         number.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// With what a GIS has gathered from a map: it is not true of the next run's.
+bool is_map(const fs::path& file) {
+  const std::string name = file.filename().string(), kind = name.substr(0, name.find('.'));
+  const std::string ending = name.substr(kind.size());
+  return name == "results.gpkg" ||
+         (is_among(kind, maps_of_a_run) && (ending == ".tif" || ending == ".qml" || ending == ".tif.aux.xml"));
+}
+
+bool is_figure(const fs::path& file) {
+  return is_among(file.stem().string(), figures_of_a_run) && (file.extension() == ".png" || file.extension() == ".mp4");
+}
+
+// What run.json tells; discarded: it is no JSON.
+Json told_of(const fs::path& folder) {
+  const fs::path file = folder / "run.json";
+  return fs::exists(file) ? Json::parse(read_file(file), nullptr, false) : Json(Json::value_t::discarded);
+}
+
+// The names of the copies in inputs/.
+std::set<std::string> inputs_of(const Json& facts) {
+  std::set<std::string> names;
+  if (!facts.is_object() || !facts.contains("inputs") || !facts["inputs"].is_array()) {
+    return names;
+  }
+  for (const Json& input : facts["inputs"]) {
+    if (input.is_object() && input.contains("copy") && input["copy"].is_string()) {
+      const fs::path copy = input["copy"].get<std::string>();
+      if (copy.parent_path() == "inputs") {
+        names.insert(copy.filename().string());
+      }
+    }
+  }
+  return names;
+}
+
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    entries.push_back(entry.path());
+  }
+  return entries;
+}
+
+bool is_real_folder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
+
+void remove_own_of(const fs::path& folder, const IsOwn& is_own) {
+  for (const fs::path& file : entries_of(folder)) {
+    if (!is_real_folder(file) && (is_own(file) || is_unfinished(file))) {
+      remove_or_throw(file);
+    }
+  }
+}
+
+}  // namespace
+
+bool holds_a_run(const fs::path& folder) {
+  const Json facts = told_of(folder);
+  return facts.is_object() && facts.contains("program") && facts["program"] == "thawslide";
+}
+
+bool holds_no_more_than_a_start(const fs::path& folder) {
+  if (!fs::exists(folder / lock_name) || fs::exists(folder / "run.json")) {
+    return false;
+  }
+  const std::vector<fs::path> entries = entries_of(folder);
+  return std::all_of(entries.begin(), entries.end(), [](const fs::path& entry) {
+    const std::string name = entry.filename().string();
+    if (name == "snapshots" || name == "inputs") {
+      const std::vector<fs::path> within = is_real_folder(entry) ? entries_of(entry) : std::vector{entry};
+      return name == "inputs" || std::all_of(within.begin(), within.end(), is_unfinished);
+    }
+    return name == lock_name || name == "case.toml" || is_unfinished(entry) ||
+           (name == "history.csv" && fs::is_regular_file(entry) && fs::file_size(entry) == 0);
+  });
+}
+
+void remove_files_of_run(const fs::path& folder) {
+  const std::set<std::string> inputs = inputs_of(told_of(folder));
+  const auto is_input = [&inputs](const fs::path& file) { return inputs.count(file.filename().string()) > 0; };
+  const std::pair<const char*, IsOwn> places[] = {
+      {"snapshots", is_snapshot}, {"inputs", is_input}, {"figures", is_figure}, {"maps", is_map}};
+  for (const auto& [name, is_own] : places) {
+    const fs::path place = folder / name;
+    if (is_real_folder(place)) {
+      remove_own_of(place, is_own);
+    }
+    if (fs::is_symlink(place) || (is_real_folder(place) && fs::is_empty(place))) {
+      remove_or_throw(place);
+    }
+  }
+  remove_own_of(folder, is_in_run);
+  remove_or_throw(folder / "run.json");
+}
+
+}  // namespace thawslide::io

@@ -1,0 +1,65 @@
+// The numbers of a run that checkpoints keep beside its particles, and how it goes on from them.
+#include "base/instances.hpp"
+#include "base/state_numbers.hpp"
+#include "sim/restored_state.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim, class Real>
+std::vector<double> Simulation<Dim, Real>::scalars() const {
+  std::vector<double> numbers{time_,
+                              last_step_,
+                              rear_at_start_,
+                              static_cast<double>(step_number_),
+                              static_cast<double>(next_id_),
+                              column_time_,
+                              even_steps_.step,
+                              even_steps_.from_time,
+                              static_cast<double>(even_steps_.from_number)};
+  Ledger<Dim, Real> ledger = ledger_;
+  ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
+  Watch watch = watch_;
+  watch.for_each([&](double number) { numbers.push_back(number); });
+  for (const std::int64_t count : {removed_.left, removed_.not_finite, removed_.volume}) {
+    numbers.push_back(static_cast<double>(count));
+  }
+  return numbers;
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
+  StateNumbers state(scalars, "run");
+  time_ = state.next_finite();
+  last_step_ = state.next_finite();
+  rear_at_start_ = state.next_finite();
+  step_number_ = state.whole(largest_whole);
+  next_id_ = state.whole(largest_whole);
+  column_time_ = state.next_finite();
+  even_steps_.step = state.next_finite();
+  even_steps_.from_time = state.next_finite();
+  even_steps_.from_number = state.whole(step_number_);
+  ledger_.for_each([&](Real& account) { account = static_cast<Real>(state.next()); });
+  watch_.for_each([&](double& number) { number = state.next(); });
+  for (std::int64_t* count : {&removed_.left, &removed_.not_finite, &removed_.volume}) {
+    *count = state.whole(largest_whole);
+  }
+  require_sound(particles_, model_, next_id_, state);
+  // Rows came back in order of id: nothing of the former order may be trusted.
+  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    particles_.previous_temperature(p) = particles_.temperature(p);
+  }
+  find_particles_cells();
+  if (parameters_.time.stepping == config::Stepping::adaptive && watch_.first_step == 0.0) {
+    watch_.first_step = adaptive_step();  // steps were fixed so far
+  }
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                               \
+  template std::vector<double> Simulation<Dim, Real>::scalars() const; \
+  template void Simulation<Dim, Real>::restore(const std::vector<double>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,98 @@
+"""What `check` tells and advises, followed to the letter: it holds, and is not refused in its turn."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, Program, run_facts, sets, snapshot_files
+
+VALLEY = ROOT / "cases" / "valley3d"
+# A heap 5 m long and 8 m high, and a blanket 25 m long and 1 m thick before it.
+HEAP_AND_BLANKET = sets(
+    grid__max="[40,20]",
+    body__block__shape="polygon",
+    body__block__vertices="[[5,0],[35,0],[35,1],[10,1],[10,8],[5,8]]",
+)
+
+
+@pytest.mark.parametrize("modulus", [1e7, 1.2e7])
+def test_a_modulus_that_is_advised_is_enough(thawslide: Program, small_case: Path, modulus: float) -> None:
+    tall = sets(grid__max="[60,40]", body__block__max="[34,30]")
+    said = thawslide("check", small_case, *tall, *sets(material__rock__youngs_modulus=modulus)).stdout
+    told = re.search(r"squeezes it by \d % there\. Give it (\S+) Pa or more\.\n", said)
+    assert told and float(told[1]) > modulus, said
+    enough = thawslide("check", small_case, *tall, *sets(material__rock__youngs_modulus=told[1]))
+    assert enough.returncode == 0 and "squeezes it" not in enough.stdout
+
+
+def test_the_median_is_by_area_and_so_is_the_note(thawslide: Program, small_case: Path) -> None:
+    said = thawslide("check", small_case, *HEAP_AND_BLANKET).stdout
+    assert "; 2.17 m thick in the mean, 1 m in the median and 8 m at most (vertical)\n" in said
+    assert "; 2 across in the median and 16 at most; " in said
+    assert "the body block has 2 particles across its median thickness of 1 m; fewer than 4 do not tell" in said
+
+
+@pytest.mark.parametrize(("end", "steps", "rows"), [(0.2005, 200, 5), (0.2006, 201, 6), (0.2503, 250, 6)])
+def test_steps_that_are_told_are_taken(
+    thawslide: Program,
+    small_case: Path,
+    tmp_path: Path,
+    end: float,
+    steps: int,
+    rows: int,
+) -> None:
+    """A fixed step that would end more than half a step after the end is not taken."""
+    told = json.loads(thawslide("check", small_case, "--json", *sets(time__end=end)).stdout)
+    run = tmp_path / "run"
+    assert thawslide("run", small_case, "--output", run, *sets(time__end=end)).returncode == 0
+    assert told["steps"] == run_facts(run)["steps"] == steps
+    assert told["disk"]["snapshots"] == len(snapshot_files(run)) == rows
+
+
+def test_checkpoints_that_are_told_hold_maps_and_columns(thawslide: Program, tmp_path: Path) -> None:
+    """Of cells so coarse that particles are few; the first step lays the columns."""
+    run = tmp_path / "run"
+    words = sets(grid__cell=40, maps__cell=10, body__slide__particles_per_axis=1, time__end=0.1)
+    case = VALLEY / "columns.toml"
+    said = thawslide("check", case, *words).stdout
+    told = re.search(
+        r", 3 checkpoints of (\S+) MB at the start and some (\S+) MB once the slide has spread, ",
+        said,
+    )
+    assert told, said
+    assert thawslide("run", case, "--output", run, *words).returncode == 0
+    written = (run / "checkpoint.bin").stat().st_size / 1e6
+    assert float(told[1]) == pytest.approx(written, rel=0.15)
+    assert float(told[2]) > 2.5 * float(told[1])
+
+
+def test_particles_are_blamed_for_what_they_take(binary: Path, plain_environment: dict[str, str]) -> None:
+    """Also under a limit that terrain and program would not fit into by themselves."""
+    words = [
+        "bash",
+        "-c",
+        'ulimit -v 300000; exec "$@"',
+        "bash",
+        str(binary),
+        "check",
+        str(VALLEY),
+    ]
+    environment = plain_environment | {"OMP_NUM_THREADS": "1"}
+    outcome = subprocess.run(
+        [*words, *sets(grid__cell=2)],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert outcome.returncode == 2, outcome.stderr
+    assert "terrain.file" not in outcome.stderr
+    assert re.search(
+        r"(grid\.cell is 2 m, which makes 5\.19e\+07 particles: the run needs about 81\.6 GB|memory of this machine)",
+        outcome.stderr,
+    ), outcome.stderr

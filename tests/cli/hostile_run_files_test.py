@@ -1,0 +1,254 @@
+"""Links, pipes, folders and files of others in the place of a run's: nothing outside is touched, nothing waits."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from conftest import Program, content_of, run_facts, sets, snapshot_files
+from faults import as_killed
+from slope_files import SOUTH, THICKNESS, WEST, Slope, made
+
+SOON = 20.0  # s, in which is answered what would wait for ever
+NO_FILE = "where a regular file is needed. Put the file itself there, or remove what stands in its place.\n"
+
+
+@pytest.fixture
+def killed(done: Path) -> Path:
+    """Return the folder of a run that was killed after its last checkpoint."""
+    as_killed(done)
+    return done
+
+
+@pytest.fixture
+def victim(tmp_path: Path) -> Path:
+    """Return a file that is no run's, and that links lead to."""
+    path = tmp_path / "victim"
+    path.write_text("mine\n")
+    return path
+
+
+def begin_anew(run: Path) -> None:
+    """Leave of a run what a kill leaves that comes before the first checkpoint."""
+    facts = run_facts(run) | {"simulated_time_s": 0.0, "steps": 0}
+    (run / "run.json").write_text(json.dumps(facts))
+    for name in ("checkpoint.bin", "checkpoint.previous.bin", "history.csv", "probes.csv"):
+        (run / name).unlink(missing_ok=True)
+
+
+@pytest.mark.parametrize("leads_to", ["victim", "nothing"])
+def test_a_link_in_place_of_the_lock_is_refused(
+    thawslide: Program, small_case: Path, killed: Path, victim: Path, leads_to: str
+) -> None:
+    lock = killed / "run.lock"
+    lock.symlink_to(victim.with_name(leads_to))
+    said = (
+        f"error: {lock} is a link, where a run keeps its lock, a regular file. Remove it once no run is at work in "
+        f"{killed}.\n"
+    )
+    for words in (["resume", killed], ["run", small_case, "--output", killed, "--overwrite"], ["status", killed]):
+        outcome = thawslide(*words)
+        assert (outcome.returncode, outcome.stderr) == (2, said)
+    assert victim.read_text() == "mine\n" and not victim.with_name("nothing").exists()
+    assert (killed / "history.csv").exists()
+
+
+def test_a_link_in_place_of_the_rows_is_replaced(
+    thawslide: Program, small_case: Path, killed: Path, victim: Path
+) -> None:
+    begin_anew(killed)
+    rows = killed / "history.csv"
+    rows.symlink_to(victim)
+    outcome = thawslide("resume", killed)
+    assert outcome.returncode == 0, outcome.stderr
+    assert "it starts again" in outcome.stdout
+    assert victim.read_text() == "mine\n" and not rows.is_symlink() and rows.read_text().count("\n") > 10
+    whole = rows.read_bytes()
+    as_killed(killed)
+    rows.rename(victim)
+    rows.symlink_to(victim)
+    assert thawslide("resume", killed).returncode == 0
+    assert victim.read_bytes() == whole and not rows.is_symlink() and rows.read_bytes() == whole
+    rows.unlink()
+    rows.symlink_to(victim)
+    assert thawslide("run", small_case, "--output", killed, "--overwrite").returncode == 0
+    assert victim.read_bytes() == whole and not rows.is_symlink()
+
+
+def test_a_run_in_space_touches_no_files_of_others(
+    thawslide: Program, small_case: Path, tmp_path: Path, slope: Slope, release: Path, victim: Path
+) -> None:
+    """A link in the place of probes is replaced; a run that is replaced takes all its maps with it, and no others."""
+    folder, run = tmp_path / "slide", tmp_path / "run"
+    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    with (folder / "case.toml").open("a") as case:
+        case.write(f"\n[probe.gauge]\npoint = [{WEST + 330.0}, {SOUTH + 300.0}]\n")
+    words = sets(time__end=0.2, time__output_interval=0.1)
+    assert thawslide("run", folder, "--output", run, *words).returncode == 0
+    as_killed(run)
+    begin_anew(run)
+    (run / "probes.csv").symlink_to(victim)
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert victim.read_text() == "mine\n" and not (run / "probes.csv").is_symlink()
+    assert len(list((run / "maps").iterdir())) > 20
+    alps = run / "maps" / "alps.tif"
+    alps.write_text("mine\n")
+    assert thawslide("run", small_case, "--output", run, "--overwrite").returncode == 0
+    assert list((run / "maps").iterdir()) == [alps] and not (run / "probes.csv").exists()
+    alps.unlink()
+    (run / "maps").rmdir()
+    assert sorted(path.name for path in (run / "inputs").iterdir()) == ["case.toml"]
+
+
+def test_names_alone_make_no_run(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "pictures"
+    for name in ("snapshots/photo.jpg", "maps/alps.tif", "case.toml", "history.csv"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text("mine\n")
+    before = content_of(folder)
+    outcome = thawslide("run", small_case, "--output", folder, "--overwrite")
+    assert outcome.returncode == 2
+    assert outcome.stderr == (
+        f"error: the output folder {folder} holds other files and no run. Give another --output.\n"
+    )
+    (folder / "run.json").write_text('{"km": 12}')
+    outcome = thawslide("run", small_case, "--output", folder, "--overwrite")
+    assert outcome.returncode == 2
+    assert "its run.json is damaged, or of another program. Give another --output, or remove yourself" in outcome.stderr
+    (folder / "run.json").unlink()
+    assert content_of(folder) == before
+
+
+def test_a_run_that_is_replaced_leaves_what_is_not_its_own(thawslide: Program, small_case: Path, done: Path) -> None:
+    mine = [done / name for name in ("snapshots/photo.jpg", "inputs/notes.txt", "maps/alps.tif", "figures/photo.png")]
+    for file in mine:
+        file.parent.mkdir(exist_ok=True)
+        file.write_text("mine\n")
+    outcome = thawslide("run", small_case, "--output", done, "--overwrite", *sets(time__end=0.05))
+    assert outcome.returncode == 0, outcome.stderr
+    assert all(file.read_text() == "mine\n" for file in mine)
+    assert len(snapshot_files(done)) == 2
+
+
+@pytest.mark.parametrize("name", ["valley.1.part.csv", "x.7.part"])
+def test_an_input_may_be_called_a_part(thawslide: Program, small_case: Path, tmp_path: Path, name: str) -> None:
+    (small_case / name).write_text("distance_m,terrain_elevation_m\n0,0\n20,0\n")
+    case = small_case / "case.toml"
+    case.write_text(case.read_text().replace('type = "flat"\nelevation = 0.0', f'type = "profile"\nfile = "{name}"'))
+    run = tmp_path / "run"
+    outcome = thawslide("run", small_case, "--output", run)
+    assert outcome.returncode == 0, outcome.stderr
+    as_killed(run)
+    outcome = thawslide("resume", run)
+    assert outcome.returncode == 0, outcome.stderr
+    assert (run / "inputs" / name).is_file()
+
+
+def test_a_checkpoint_that_cannot_be_read_gives_way_to_the_one_before(thawslide: Program, killed: Path) -> None:
+    last = killed / "checkpoint.bin"
+    last.unlink()
+    last.mkdir()
+    outcome = thawslide("resume", killed)
+    assert outcome.returncode == 0, outcome.stderr
+    note = (
+        f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run goes on from the checkpoint "
+        "before"
+    )
+    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["notes"] == [note]
+    assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
+
+
+def test_a_checkpoint_that_is_missing_is_told(thawslide: Program, killed: Path) -> None:
+    last = killed / "checkpoint.bin"
+    last.unlink()
+    said = thawslide("status", killed).stdout
+    assert "  last checkpoint " in said and "no checkpoint yet" not in said
+    outcome = thawslide("resume", killed)
+    assert outcome.returncode == 0, outcome.stderr
+    note = f"{last} is missing; the run goes on from the checkpoint before"
+    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["notes"] == [note]
+    assert last.is_file() and not list(killed.glob("*.damaged*"))
+
+
+@pytest.mark.parametrize("damage", ["times", "units", "pipe"])
+def test_snapshots_that_no_run_wrote_are_left_out(thawslide: Program, killed: Path, damage: str) -> None:
+    """The library that reads them writes as many numbers as a file claims to have, and waits for a pipe."""
+    file = killed / "snapshots" / "000001.vtkhdf"
+    if damage == "pipe":
+        file.unlink()
+        os.mkfifo(file)
+    else:
+        with h5py.File(file, "a") as opened:
+            if damage == "times":
+                opened["VTKHDF"].attrs["time"] = np.ones(4000)
+            else:
+                opened["VTKHDF/PointData/mass"].attrs["unit"] = np.full(4000, b"kilogram")
+    outcome = thawslide("resume", killed, limit=SOON)
+    assert outcome.returncode == 0, outcome.stderr
+    assert (
+        "note: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves them "
+        "out\n"
+    ) in outcome.stdout
+
+
+@pytest.mark.parametrize(("name", "kind"), [("pipe", "a pipe"), ("/dev/zero", "a device")])
+@pytest.mark.parametrize("file", ["run.json", "case.toml", "history.csv", "checkpoint.bin"])
+def test_pipes_and_devices_keep_nobody_waiting(
+    thawslide: Program, killed: Path, tmp_path: Path, file: str, name: str, kind: str
+) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    (killed / file).unlink()
+    (killed / file).symlink_to(tmp_path / name)  # of an absolute path that alone
+    status, resume = thawslide("status", killed, limit=SOON), thawslide("resume", killed, limit=SOON)
+    if file == "checkpoint.bin":
+        assert (status.returncode, resume.returncode) == (0, 0), resume.stderr
+        assert f"note: {killed / file} is {kind}, no file; it is kept as " in resume.stdout
+        return
+    assert resume.returncode == 2
+    assert f"{killed / file} is {kind}" in resume.stderr
+    assert status.returncode == (2 if file == "run.json" else 0)
+    assert f"{killed / file} is {kind}" in status.stdout + status.stderr
+
+
+def test_status_tells_what_it_can_where_rows_cannot_be_read(thawslide: Program, killed: Path) -> None:
+    rows = killed / "history.csv"
+    rows.unlink()
+    rows.mkdir()
+    outcome = thawslide("status", killed)
+    assert (outcome.returncode, outcome.stderr) == (0, "")
+    first, second, third, fourth, fifth = outcome.stdout.splitlines(keepends=True)
+    assert first == f"{killed}: its process is gone without a word: it was killed, or the machine went down\n"
+    assert second == "  0.2 of 0.2 s simulated (100 %)\n"
+    assert third == f"  it may have come further: {rows} is a folder, {NO_FILE}"
+    assert fourth.startswith("  last checkpoint ") and fifth == f"  to go on: thawslide resume {killed}\n"
+    assert json.loads(thawslide("status", killed, "--json").stdout)["state"] == "killed"
+
+
+def test_status_steers_no_terminal(thawslide: Program, done: Path) -> None:
+    facts = run_facts(done) | {"status": "stopped\x1b[2J", "message": "a\x1b]0;b\x07\nc"}
+    (done / "run.json").write_text(json.dumps(facts))
+    said = thawslide("status", done).stdout
+    assert said.startswith(f"{done}: stopped?[2J: a?]0;b??c\n") and "\x1b" not in said
+
+
+def test_an_answer_that_is_lost_is_a_failure(binary: Path, done: Path) -> None:
+    shell = f'"{binary}" status "{done}" > /dev/full'
+    assert os.waitstatus_to_exitcode(os.system(shell + " 2>/dev/null")) == 5
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_a_part_that_cannot_be_removed_is_told_as_a_failure_to_write(thawslide: Program, killed: Path) -> None:
+    torn = killed / "snapshots" / ".000001.vtkhdf.7.thawslide-part"
+    torn.write_text("half")
+    (killed / "snapshots").chmod(0o555)
+    outcome = thawslide("resume", killed)
+    (killed / "snapshots").chmod(0o755)
+    assert outcome.returncode == 5
+    assert outcome.stderr == (
+        f"error: cannot remove {torn}: Permission denied. Check that the folder may be written to.\n"
+    )

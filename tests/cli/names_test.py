@@ -1,0 +1,165 @@
+"""Names of files and folders that hold what TOML, a comment or a shell would take for more than a name."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+import tomllib
+from pathlib import Path
+
+import pytest
+from conftest import Program, sets
+from slope_files import SOUTH, THICKNESS, WEST, Slope, made, write_release
+from terrain_files import write_dem, write_line
+from terrain_files import write_release as write_release_on_plane
+
+NAMES = [
+    'quo"te',
+    "back\\slash",
+    'x"\n[time]\nend = 5\n#',
+    "it's $(id) `id`",
+    "tab\there",
+]
+PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_is_a_text_of_the_case(thawslide: Program, tmp_path: Path, slope: Slope, name: str) -> None:
+    """Of the folder, the terrain model and the release: all they become is the value of their keys."""
+    release = write_release(tmp_path / f"{name}.geojson", WEST + 200.0, SOUTH + 250.0)
+    folder = tmp_path / name
+    outcome = made(thawslide, folder, slope(f"{name}.tif"), release, "--thickness", THICKNESS)
+    assert outcome.returncode == 0, outcome.stderr
+    case = tomllib.loads((folder / "case.toml").read_text())
+    assert case["case"]["title"] == name
+    assert case["body"]["slide"]["release"] == f"{name}.geojson"
+    assert case["time"]["end"] == 60.0
+    run = tmp_path / "run"
+    done = thawslide("run", folder, "--output", run, *sets(time__end=0.01))
+    assert done.returncode == 0, done.stderr
+    resolved = tomllib.loads((run / "case.toml").read_text())
+    assert resolved["case"]["title"] == name and resolved["time"]["end"] == 0.01
+    assert resolved["body"]["slide"]["release"] == f"inputs/{name}.geojson"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_next_commands_can_be_pasted(
+    thawslide: Program,
+    binary: Path,
+    plain_environment: dict[str, str],
+    tmp_path: Path,
+    slope: Slope,
+    name: str,
+) -> None:
+    release = write_release(tmp_path / "release.geojson", WEST + 200.0, SOUTH + 250.0)
+    folder = tmp_path / name
+    outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
+    assert outcome.returncode == 0, outcome.stderr
+    look = next(line for line in outcome.stdout.splitlines() if line.startswith("look at it:"))
+    command = look.removeprefix("look at it:").removesuffix("--picture").strip()
+    if "\n" not in name and "\t" not in name:
+        assert shlex.split(command) == [str(binary), "check", str(folder)]
+    pasted = subprocess.run(
+        ["bash", "-c", f"{command} --json"],
+        env=plain_environment,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert pasted.returncode == 0 and '"particles": 4512' in pasted.stdout, pasted.stderr
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_section_of_files_of_any_name_can_be_run(thawslide: Program, tmp_path: Path, name: str) -> None:
+    dem = write_dem(tmp_path / f"{name}.tif", lambda x, _y: 1000.0 - 0.5 * x)
+    release = write_release_on_plane(
+        tmp_path / f"{name}.geojson",
+        [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)],
+        thickness=20.0,
+    )
+    line = write_line(tmp_path / f"{name} line.geojson", [(15.0, 200.0), (775.0, 200.0)])
+    folder = tmp_path / name
+    outcome = thawslide("section", folder, "--dem", dem, "--line", line, "--release", release)
+    assert outcome.returncode == 0, outcome.stderr
+    assert tomllib.loads((folder / "case.toml").read_text())["case"]["title"] == name
+    comments = [each for each in (folder / "profile.csv").read_text().splitlines() if each.startswith("#")]
+    plain = name.replace("\n", "?").replace("\t", "?")
+    assert comments[0].startswith(f"# Cut by `thawslide section` out of {plain}.tif along {plain} line.geojson")
+    assert len(comments) == 3
+    checked = thawslide("check", folder)
+    assert checked.returncode == 0, checked.stderr
+
+
+def test_a_name_that_is_no_utf8_is_refused_before_anything_is_made(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    folder = os.fsdecode(os.fsencode(str(tmp_path)) + b"/sl\xffide")
+    outcome = subprocess.run(
+        [
+            *thawslide("new", "--help").args[:1],
+            "new",
+            folder,
+            "--dem",
+            slope(),
+            "--release",
+            release,
+            "--thickness",
+            "9",
+        ],
+        capture_output=True,
+        timeout=60,
+        check=False,
+    )
+    assert outcome.returncode == 2
+    assert b"is not UTF-8, which a case file is written in" in outcome.stderr
+    assert not Path(folder).exists()
+
+
+def test_what_a_command_that_was_killed_left_is_called_that(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    folder = tmp_path / "slide"
+    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    assert sorted(file.name for file in folder.iterdir()) == [
+        "case.toml",
+        "dem.tif",
+        "release.geojson",
+    ]
+    (folder / "case.toml").unlink()
+    (folder / ".unfinished-case").write_text("")
+    again = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
+    assert again.returncode == 2
+    assert again.stderr == (
+        f"error: {folder}: a `thawslide new` was cut off while it made this folder, or is at it now: its mark "
+        ".unfinished-case is there, and no whole case. Remove the folder, or give the name of another one.\n"
+    )
+
+
+def test_no_place_in_a_file_that_was_not_made_is_told(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    release = write_release(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
+    outcome = made(
+        thawslide,
+        tmp_path / "slide",
+        slope(),
+        release,
+        "--thickness",
+        20,
+        "--cell",
+        200,
+    )
+    assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
+    assert outcome.stderr.startswith("error: no case was made, as it would not run: "), outcome.stderr
+    assert "case.toml" not in outcome.stderr
+
+
+def test_a_name_as_long_as_file_systems_take_is_checked_and_run(thawslide: Program, small_case: Path) -> None:
+    """Its copy has no longer name while it is written."""
+    profile = small_case / ("a" * 251 + ".csv")
+    profile.write_text(PROFILE)
+    words = sets(terrain__type="profile", terrain__file=profile, time__end=0.01)
+    for command in ("check", "run"):
+        outcome = thawslide(command, small_case, *words, folder=small_case)
+        assert outcome.returncode == 0, outcome.stderr
+    assert (small_case / "runs" / "small" / "inputs" / profile.name).read_text() == PROFILE

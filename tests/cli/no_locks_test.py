@@ -1,0 +1,112 @@
+"""Runs on a file system without locks, as some network disks are: the lock file says who is at work."""
+
+from __future__ import annotations
+
+import json
+import signal
+import socket
+import subprocess
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from conftest import LAMPLUGH, LIMIT, Program, assert_same_bits, run_facts, sets
+from faults import FAILING_WRITES, as_killed
+
+LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
+
+
+@pytest.fixture
+def without_locks(plain_environment: dict[str, str]) -> dict[str, str]:
+    if not FAILING_WRITES.exists():
+        pytest.skip(f"there is no {FAILING_WRITES}: build it")
+    return plain_environment | {"LD_PRELOAD": str(FAILING_WRITES), "FAULT_LOCKS": "absent"}
+
+
+@pytest.fixture
+def at_work(binary: Path, without_locks: dict[str, str], tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
+    """Yield the process of a run into tmp_path / run that has taken some steps and has far to go."""
+    run = tmp_path / "run"
+    command = [str(binary), "run", str(LAMPLUGH), "--output", str(run), *LONG]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, env=without_locks, stdout=pipe, stderr=pipe, text=True) as process:
+        history = run / "history.csv"
+        while not history.exists() or history.read_text().count("\n") < 4:
+            assert process.poll() is None
+            time.sleep(0.01)
+        yield process
+        process.kill()
+
+
+def test_a_second_process_is_refused_while_the_first_lives(
+    thawslide: Program, at_work: subprocess.Popen[str], without_locks: dict[str, str], tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    process = f"process {at_work.pid} on {socket.gethostname()}"
+    message = (
+        f"error: {run} is being written by {process}. Wait until that has ended, or stop it. Its file system has no "
+        f"locks: if that process is no run any more, remove {run / 'run.lock'}.\n"
+    )
+    for words in (["resume", run], ["run", LAMPLUGH, "--output", run, "--overwrite"]):
+        outcome = thawslide(*words, environment=without_locks)
+        assert (outcome.returncode, outcome.stderr) == (2, message)
+    outcome = thawslide("run", LAMPLUGH, "--output", run, environment=without_locks)
+    assert outcome.returncode == 2 and f"{run} is being written by {process}. Give another" in outcome.stderr
+    assert at_work.poll() is None and (run / "history.csv").exists()
+    assert thawslide("status", run, environment=without_locks).stdout.startswith(f"{run}: running, by {process}\n")
+
+    at_work.kill()
+    at_work.communicate(timeout=LIMIT)
+    told = json.loads(thawslide("status", run, "--json", environment=without_locks).stdout)
+    assert (told["state"], told["process"]) == ("killed", "")
+    end = run_facts(run)["parts"][0]
+    assert end["from_s"] == 0
+    outcome = thawslide(
+        "run", LAMPLUGH, "--output", run, "--overwrite", *sets(time__end=0.1), environment=without_locks
+    )
+    assert outcome.returncode == 0, outcome.stderr
+
+
+def test_a_run_that_is_stopped_takes_its_name_out(
+    thawslide: Program, at_work: subprocess.Popen[str], without_locks: dict[str, str], tmp_path: Path
+) -> None:
+    at_work.send_signal(signal.SIGTERM)
+    at_work.communicate(timeout=LIMIT)
+    assert at_work.returncode == 4
+    assert not (tmp_path / "run" / "run.lock").exists()
+    told = json.loads(thawslide("status", tmp_path / "run", "--json", environment=without_locks).stdout)
+    assert told["state"] == "stopped"
+
+
+def test_a_process_of_another_machine_is_taken_to_live(
+    thawslide: Program, without_locks: dict[str, str], small_case: Path, done: Path, tmp_path: Path
+) -> None:
+    """Until somebody who knows that it has ended removes the lock; where there are locks, they decide."""
+    as_killed(done)
+    lock = done / "run.lock"
+    lock.write_text("process 12 on elsewhere\n")
+    before = (done / "history.csv").read_bytes()
+    message = (
+        f"error: {done} may be being written by process 12 on elsewhere: its file system has no locks, and from this "
+        f"machine it cannot be told whether that lives. If it has surely ended, remove {lock}.\n"
+    )
+    for words in (["resume", done], ["run", small_case, "--output", done, "--overwrite"]):
+        outcome = thawslide(*words, environment=without_locks)
+        assert (outcome.returncode, outcome.stderr) == (2, message)
+    assert (done / "history.csv").read_bytes() == before
+    said = thawslide("status", done, environment=without_locks).stdout
+    assert said.startswith(
+        f"{done}: whether it runs cannot be told, as its file system has no locks and process 12 on elsewhere has "
+        "begun to write it; its last file was written "
+    )
+    assert said.endswith(f"  if that has surely ended: remove {lock}, then thawslide resume {done}\n")
+    told = json.loads(thawslide("status", done, "--json", environment=without_locks).stdout)
+    assert (told["state"], told["process"]) == ("unknown", "process 12 on elsewhere")
+    lock.unlink()
+    outcome = thawslide("resume", done, environment=without_locks)
+    assert outcome.returncode == 0, outcome.stderr
+    assert not lock.exists()
+    whole = tmp_path / "whole"
+    assert thawslide("run", small_case, "--output", whole).returncode == 0
+    assert_same_bits(done, whole)

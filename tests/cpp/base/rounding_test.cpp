@@ -1,0 +1,27 @@
+// Bounds in few digits stay on their side.
+#include "base/rounding.hpp"
+
+#include <gtest/gtest.h>
+
+namespace thawslide {
+namespace {
+
+TEST(Rounding, KeepsToItsSideOfTheNumber) {
+  EXPECT_DOUBLE_EQ(rounded_up(1.3e7, 1), 2e7);
+  EXPECT_DOUBLE_EQ(rounded_up(1.234e-5, 3), 1.24e-5);
+  EXPECT_DOUBLE_EQ(rounded_down(1.9e7, 1), 1e7);
+  EXPECT_DOUBLE_EQ(rounded_down(0.014069, 4), 0.01406);
+  EXPECT_DOUBLE_EQ(rounded_up(9.6, 1), 10.0) << "and comes to another digit";
+}
+
+TEST(Rounding, LeavesWhatHasNoMoreDigitsAsItIs) {
+  for (const double number : {3e-9, 0.3, 1.0, 20.0, 7e12}) {
+    EXPECT_DOUBLE_EQ(rounded_up(number, 1), number);
+    EXPECT_DOUBLE_EQ(rounded_down(number, 1), number);
+    EXPECT_DOUBLE_EQ(rounded_up(number * (1.0 + 1e-15), 2), number) << "round-off is no more";
+    EXPECT_DOUBLE_EQ(rounded_down(number * (1.0 - 1e-15), 2), number) << "nor less";
+  }
+}
+
+}  // namespace
+}  // namespace thawslide

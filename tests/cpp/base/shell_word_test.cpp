@@ -1,0 +1,46 @@
+// A shell takes each text for one word, and for that text.
+#include "base/shell_word.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+namespace thawslide {
+namespace {
+
+// What bash makes of it.
+std::string as_bash_reads(const std::string& word) {
+  const std::string command = "bash -c \"$(cat <<'END'\nprintf %s " + word + "\nEND\n)\"";
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
+  std::array<char, 256> read{};
+  const std::size_t bytes = pipe ? std::fread(read.data(), 1, read.size(), pipe.get()) : 0;
+  return {read.data(), bytes};
+}
+
+TEST(ShellWord, LeavesPlainPathsAsTheyAre) {
+  for (const std::string path : {"runs/small", "../a_b-c.toml", "/tmp/x,y@z+1%", "time.end=5", "h\xC3\xBCtte"}) {
+    EXPECT_EQ(shell_word(path), path);
+  }
+}
+
+TEST(ShellWord, QuotesWhatMeansSomethingToAShell) {
+  EXPECT_EQ(shell_word("o/a b"), "'o/a b'");
+  EXPECT_EQ(shell_word("o/$(id)"), "'o/$(id)'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("~"), "'~'");
+  EXPECT_EQ(shell_word("-x"), "./-x") << "no option";
+  EXPECT_EQ(shell_word("two\nlines"), "$'two\\012lines'") << "nothing that would steer a terminal";
+}
+
+TEST(ShellWord, IsReadAsTheTextItWas) {
+  for (const std::string text : {"a b", "$(id)", "`id`", "it's", "a\"b", "back\\slash", "a;b&c|d<e>f*?[g]{h,i}!#~",
+                                 "two\nlines", "tab\tand ' and \\ and \x1b[2J"}) {
+    EXPECT_EQ(as_bash_reads(shell_word(text)), text);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide

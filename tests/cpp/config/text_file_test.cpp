@@ -1,0 +1,38 @@
+// Texts of files, and files that cannot be read.
+#include "config/text_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "case_messages.hpp"
+
+namespace thawslide::config {
+namespace {
+
+std::string refusal_of(const std::filesystem::path& file) {
+  try {
+    (void)read_text_file(file);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(TextFile, IsReadAsItStands) {
+  const std::string text = std::string("one\r\ntwo") + '\0' + "\xFF";
+  case_messages::write_beside_the_case("text.txt", text);
+  case_messages::write_beside_the_case("empty.txt", "");
+  EXPECT_EQ(read_text_file(case_messages::folder_of_this_test() / "text.txt"), text);
+  EXPECT_EQ(read_text_file(case_messages::folder_of_this_test() / "empty.txt"), "");
+}
+
+TEST(TextFile, ThatCannotBeReadIsNamedWithTheReason) {
+  EXPECT_EQ(refusal_of("/nowhere/case.toml"),
+            "/nowhere/case.toml: cannot be read: No such file or directory. Check that the file is whole and may be "
+            "read.");
+  EXPECT_EQ(refusal_of("/proc/self/mem"),
+            "/proc/self/mem: cannot be read: Input/output error. Check that the file is whole and may be read.")
+      << "it opens, and its first byte is an error";
+}
+
+}  // namespace
+}  // namespace thawslide::config

@@ -1,0 +1,230 @@
+// Links, pipes, devices and folders in the place of a run's files: refused or replaced, never followed, never waited
+// for.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "folder_of_test.hpp"
+#include "io/atomic_file.hpp"
+#include "io/checkpoint.hpp"
+#include "io/history_writer.hpp"
+#include "io/provenance.hpp"
+#include "io/run_lock.hpp"
+
+namespace thawslide::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class HostileFiles : public FolderOfTest {};
+
+TEST_F(HostileFiles, ReadingTakesRegularFilesAlone) {
+  const fs::path pipe = folder_ / "pipe", endless = folder_ / "endless", damaged = folder_ / "damaged";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", endless);
+  fs::create_symlink("/proc/self/mem", damaged);  // whose first byte cannot be read
+  const auto refusal = [](const fs::path& file, const std::string& found) {
+    return file.string() + " is " + found +
+           ", where a regular file is needed. Put the file itself there, or remove what stands in its place.";
+  };
+  EXPECT_EQ(failure_of([&] { read_file(pipe); }), refusal(pipe, "a pipe"));
+  EXPECT_EQ(failure_of([&] { read_file(endless); }), refusal(endless, "a device"));
+  EXPECT_EQ(failure_of([&] { read_file(folder_); }), refusal(folder_, "a folder"));
+  EXPECT_EQ(failure_of([&] { read_file(damaged); }), "cannot read " + damaged.string() + ": Input/output error");
+  EXPECT_EQ(failure_of([&] { (void)last_time_in_history(pipe); }), refusal(pipe, "a pipe"));
+}
+
+TEST_F(HostileFiles, ReadingTakesFilesOfAnySize) {
+  EXPECT_GT(read_file("/proc/self/maps").size(), 1000U) << "which tells no size";
+  const std::string large(3'000'001, 'x');
+  put(folder_ / "large", large);
+  EXPECT_EQ(read_file(folder_ / "large"), large);
+}
+
+TEST_F(HostileFiles, UnfinishedOnesAreToldFromWhatAUserMayHave) {
+  for (const char* name :
+       {".a.csv.12.thawslide-part", ".a.12.thawslide-part.tif", ".a.12.thawslide-part.gpkg-journal"}) {
+    EXPECT_TRUE(is_unfinished(folder_ / name)) << name;
+  }
+  for (const char* name :
+       {"valley.1.part.csv", "x.7.part", "a.csv.12.thawslide-part", ".a.thawslide-part", ".a.b.thawslide-part",
+        ".12.thawslide-part", ".thawslide-part", ".a.12.thawslide-parts", ".a12.thawslide-part", ""}) {
+    EXPECT_FALSE(is_unfinished(folder_ / name)) << name;
+  }
+}
+
+TEST_F(HostileFiles, CopiesOfInputsAreNeverTakenForUnfinishedOnes) {
+  const fs::path valley = folder_ / "from" / "valley.1.part.csv", taken = folder_ / "from" / ".a.1.thawslide-part";
+  put(valley, "0,1\n");
+  put(taken, "0,1\n");
+  copy_inputs(folder_, {valley});
+  remove_unfinished_files(folder_ / "inputs");
+  EXPECT_EQ(content(folder_ / "inputs" / "valley.1.part.csv"), "0,1\n");
+  EXPECT_EQ(failure_of([&] { copy_inputs(folder_, {taken}); }),
+            taken.string() +
+                " has a name that the program gives to files while it writes them, and that it removes. "
+                "Give the file another name.");
+}
+
+TEST_F(HostileFiles, ALongNameIsWrittenAllTheSame) {
+  const fs::path file = folder_ / std::string(250, 'n');
+  write_file_atomically(file, "text");
+  EXPECT_EQ(content(file), "text");
+}
+
+TEST_F(HostileFiles, WhatWaitsInThePlaceOfAnUnfinishedOneIsReplaced) {
+  const fs::path beside = folder_ / fmt::format(".a.txt.{}.thawslide-part", getpid()), victim = folder_ / "victim";
+  put(victim, "mine");
+  const auto expect_replaced = [&] {
+    write_file_atomically(folder_ / "a.txt", "text");
+    EXPECT_EQ(content(folder_ / "a.txt"), "text");
+    EXPECT_EQ(content(victim), "mine");
+    EXPECT_FALSE(fs::exists(fs::symlink_status(beside)));
+  };
+  fs::create_symlink(victim, beside);
+  expect_replaced();
+  ASSERT_EQ(mkfifo(beside.c_str(), 0600), 0);
+  expect_replaced();
+}
+
+TEST_F(HostileFiles, AHistoryReplacesWhatStandsInItsPlace) {
+  const fs::path file = folder_ / "history.csv", victim = folder_ / "victim";
+  put(victim, "mine");
+  fs::create_symlink(victim, file);
+  HistoryWriter::start_in_run(file).add({{"time_s", 0.0}});
+  EXPECT_EQ(content(victim), "mine");
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(file)));
+  EXPECT_EQ(content(file), "time_s\n0\n");
+  fs::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  HistoryWriter::start_in_run(file).add({{"time_s", 1.0}});
+  EXPECT_EQ(content(file), "time_s\n1\n");
+  // One that goes on takes the rows from where the link leads.
+  fs::rename(file, victim);
+  fs::create_symlink(victim, file);
+  std::vector<std::string> notes;
+  HistoryWriter::continue_after(file, "time_s", {1, 9, 1.0}, notes).add({{"time_s", 2.0}});
+  EXPECT_TRUE(notes.empty());
+  EXPECT_EQ(content(victim), "time_s\n1\n");
+  EXPECT_EQ(content(file), "time_s\n1\n2\n");
+}
+
+TEST_F(HostileFiles, AHistoryThatAUserHasNamedGoesWhereALinkLeads) {
+  const fs::path file = folder_ / "rows.csv", disk = folder_ / "disk.csv";
+  fs::create_symlink(disk, file);
+  HistoryWriter(file).add({{"time_s", 0.0}});
+  EXPECT_TRUE(fs::is_symlink(file));
+  EXPECT_EQ(content(disk), "time_s\n0\n");
+}
+
+TEST_F(HostileFiles, ALockIsAFileOfItsFolder) {
+  const fs::path lock = folder_ / lock_name, victim = folder_ / "victim";
+  const auto expect_refusal = [&](const std::string& found) {
+    const std::string message = lock.string() + " is " + found +
+                                ", where a run keeps its lock, a regular file. Remove it once no run is at work in " +
+                                folder_.string() + ".";
+    EXPECT_EQ(failure_of([&] { const RunLock taken(folder_); }), message);
+    EXPECT_EQ(failure_of([&] { (void)process_at_work(folder_); }), message);
+    fs::remove(lock);
+  };
+  put(victim, "mine");
+  fs::create_symlink(victim, lock);
+  expect_refusal("a link");
+  EXPECT_EQ(content(victim), "mine");
+  fs::create_symlink(folder_ / "nothing", lock);
+  expect_refusal("a link");
+  EXPECT_FALSE(fs::exists(folder_ / "nothing"));
+  ASSERT_EQ(mkfifo(lock.c_str(), 0600), 0);
+  expect_refusal("a pipe");
+  fs::create_directory(lock);
+  expect_refusal("a folder");
+}
+
+class HostileCheckpoints : public HostileFiles {
+ protected:
+  void SetUp() override {
+    HostileFiles::SetUp();
+    for (const double number : {1.0, 2.0}) {
+      write_checkpoint<2, double>(folder_, mpm::Particles<2, double>(), 0, {number});
+    }
+  }
+  fs::path last() const { return folder_ / checkpoint_name; }
+  fs::path before() const { return folder_ / previous_checkpoint_name; }
+};
+
+TEST_F(HostileCheckpoints, WhatCannotBeReadGivesWayToTheOneBefore) {
+  const auto expect_passed_over = [&](const std::string& fault) {
+    const WholeCheckpoint found = newest_checkpoint(folder_);
+    EXPECT_EQ(found.file, before());
+    EXPECT_EQ(found.note, fault);
+    EXPECT_EQ(found.damaged, last());
+    EXPECT_EQ(read_file(before()), found.bytes);
+    fs::remove(last());
+  };
+  fs::remove(last());
+  fs::create_directory(last());
+  expect_passed_over(last().string() + " is a folder, no file");
+  ASSERT_EQ(mkfifo(last().c_str(), 0600), 0);
+  expect_passed_over(last().string() + " is a pipe, no file");
+  fs::create_symlink("/proc/self/mem", last());
+  expect_passed_over("cannot read " + last().string() + ": Input/output error");
+  fs::create_symlink("nothing", last());  // the next checkpoint may not push the good one out for it
+  expect_passed_over("cannot read " + last().string() + ": No such file or directory");
+}
+
+TEST_F(HostileCheckpoints, AMissingOneIsToldAndNothingIsToBeKept) {
+  EXPECT_EQ(newest_checkpoint(folder_).damaged, "");
+  fs::remove(last());
+  const WholeCheckpoint found = newest_checkpoint(folder_);
+  EXPECT_EQ(found.file, before());
+  EXPECT_EQ(found.note, last().string() + " is missing");
+  EXPECT_EQ(found.damaged, "");
+  put(before(), "torn");
+  EXPECT_EQ(
+      failure_of([&] { (void)newest_checkpoint(folder_); }),
+      last().string() + " is missing; " + before().string() +
+          " is damaged: its checksum does not fit its 4 bytes. Use another copy, or run the case from its start.");
+}
+
+// Root may remove everything: while it lives, root is somebody else.
+class Nobody {
+ public:
+  Nobody() : was_root_(geteuid() == 0) { EXPECT_TRUE(!was_root_ || seteuid(65534) == 0); }
+  Nobody(const Nobody&) = delete;
+  Nobody& operator=(const Nobody&) = delete;
+  ~Nobody() { EXPECT_TRUE(!was_root_ || seteuid(0) == 0); }
+
+ private:
+  bool was_root_;
+};
+
+TEST_F(HostileFiles, WhatCannotBeRemovedIsAFailureToWrite) {
+  const fs::path torn = folder_ / ".history.csv.17.thawslide-part";
+  put(torn, "half");
+  const auto all_may_read = static_cast<fs::perms>(0555);
+  fs::permissions(folder_, all_may_read);
+  std::string message;
+  try {
+    const Nobody nobody;
+    remove_unfinished_files(folder_);
+  } catch (const WriteError& error) {
+    message = error.what();
+  }
+  fs::permissions(folder_, fs::perms::owner_all);
+  EXPECT_EQ(message,
+            "cannot remove " + torn.string() + ": Permission denied. Check that the folder may be written to.");
+}
+
+TEST_F(HostileFiles, ProvenanceSteersNoTerminal) {
+  Provenance provenance;
+  provenance.parts.push_back(part_of_this_process());
+  provenance.status = "do\x1b[2Jne";
+  provenance.message = "it\nis\x07 so";
+  write_provenance(folder_ / "run.json", provenance);
+  const Provenance told = read_provenance(folder_);
+  EXPECT_EQ(told.status, "do?[2Jne");
+  EXPECT_EQ(told.message, "it?is? so");
+}
+
+}  // namespace
+}  // namespace thawslide::io

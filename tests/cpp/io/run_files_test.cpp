@@ -1,0 +1,129 @@
+// Whose files are in a folder: a run that is replaced takes its own with it, and nothing else.
+#include "io/run_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "folder_of_test.hpp"
+#include "io/atomic_file.hpp"
+#include "io/run_folder.hpp"
+
+namespace thawslide::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunFiles : public FolderOfTest {
+ protected:
+  fs::path run() const { return folder_ / "run"; }
+  void put_all(const std::vector<std::string>& names) const {
+    for (const std::string& name : names) {
+      put(run() / name, "text of " + name);
+    }
+  }
+  void put_run_json() const {
+    put(run() / "run.json", R"({"program": "thawslide", "inputs": [{"copy": "inputs/valley.1.part.csv"}]})");
+  }
+  std::vector<std::string> left() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(run())) {
+      names.push_back(entry.path().lexically_relative(run()).string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+};
+
+TEST_F(RunFiles, ARunThatIsReplacedTakesItsFilesWithIt) {
+  put_run_json();
+  put_all({"history.csv",
+           "probes.csv",
+           "case.toml",
+           "terrain.csv",
+           "particles.vtkhdf",
+           "checkpoint.bin",
+           "checkpoint.previous.bin",
+           "report.html",
+           "history.damaged.csv",
+           "probes.damaged.12.csv",
+           "checkpoint.damaged.bin",
+           ".run.json.7.thawslide-part",
+           "snapshots/000000.vtkhdf",
+           "snapshots/1000000.vtkhdf",
+           "snapshots/.000001.vtkhdf.7.thawslide-part",
+           "inputs/valley.1.part.csv",
+           "maps/max_speed.tif",
+           "maps/max_speed.qml",
+           "maps/max_speed.tif.aux.xml",
+           "maps/results.gpkg",
+           "figures/motion.png",
+           "figures/animation.mp4",
+           "figures/.motion.7.thawslide-part.png"});
+  make_run_folder(run(), true);
+  EXPECT_EQ(left(), std::vector<std::string>{"run.lock"});
+}
+
+TEST_F(RunFiles, WhatOthersHavePutThereStays) {
+  const std::vector<std::string> foreign{"figures/motion.svg",      "figures/photo.jpg",   "history.damaged.xlsx",
+                                         "history.damaged.old.csv", "inputs/notes.txt",    "inputs/x.7.part",
+                                         "maps/alps.tif",           "maps/max_speed.pdf",  "notes.txt",
+                                         "snapshots/mine.vtkhdf",   "snapshots/photo.jpg", "thesis/maps/max_speed.tif"};
+  put_run_json();
+  put_all(foreign);
+  put_all({"maps/max_speed.tif", "snapshots/000000.vtkhdf", "history.csv"});
+  make_run_folder(run(), true);
+  std::vector<std::string> expected = foreign;
+  expected.insert(expected.end(), {"figures", "inputs", "maps", "run.lock", "snapshots", "thesis", "thesis/maps"});
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(left(), expected);
+}
+
+TEST_F(RunFiles, LinksGoAndWhatTheyLeadToStays) {
+  put_run_json();
+  put(folder_ / "elsewhere" / "max_speed.tif", "mine");
+  fs::create_symlink(folder_ / "elsewhere", run() / "maps");
+  fs::create_symlink(folder_ / "elsewhere" / "max_speed.tif", run() / "history.csv");
+  make_run_folder(run(), true);
+  EXPECT_EQ(left(), std::vector<std::string>{"run.lock"});
+  EXPECT_EQ(content(folder_ / "elsewhere" / "max_speed.tif"), "mine");
+}
+
+TEST_F(RunFiles, FoldersAndNamesAloneMakeNoRun) {
+  put_all({"snapshots/photo.jpg", "maps/alps.tif", "case.toml", "history.csv"});
+  const std::vector<std::string> before = left();
+  EXPECT_EQ(failure_of([&] { make_run_folder(run(), true); }),
+            "the output folder " + run().string() + " holds other files and no run. Give another --output.");
+  EXPECT_EQ(left(), before);
+}
+
+TEST_F(RunFiles, ARunJsonOfAnotherProgramMakesNoRun) {
+  for (const char* text : {"", "{", "[]", "3", R"({"program": 3})", R"({"program": "jogger"})", R"({"km": 12})"}) {
+    put(run() / "run.json", text);
+    EXPECT_EQ(failure_of([&] { make_run_folder(run(), true); }),
+              "the output folder " + run().string() +
+                  " cannot be told for that of a run: its run.json is damaged, or of another program. Give another "
+                  "--output, or remove yourself what is there.")
+        << text;
+    EXPECT_EQ(content(run() / "run.json"), text);
+  }
+}
+
+// Inputs, resolved case and an empty history are there before run.json (app/run_output.cpp).
+TEST_F(RunFiles, AStartIsTakenOverAndMoreThanThatIsNot) {
+  { const RunLock lock = make_run_folder(run(), false); }
+  put_all({"inputs/dem.tif", "case.toml", ".case.toml.7.thawslide-part", "snapshots/.000000.vtkhdf.7.thawslide-part"});
+  put(run() / "history.csv", "");
+  EXPECT_EQ(failure_of([&] { make_run_folder(run(), false); }), "no failure");
+  EXPECT_EQ(left(), (std::vector<std::string>{"inputs", "inputs/dem.tif", "run.lock"})) << "whose it is nobody knows";
+  for (const char* name : {"maps/alps.tif", "snapshots/photo.jpg", "notes.txt", "history.csv", "checkpoint.bin"}) {
+    put(run() / name, "mine");
+    EXPECT_NE(failure_of([&] { make_run_folder(run(), true); }).find("holds other files and no run"), std::string::npos)
+        << name;
+    EXPECT_EQ(content(run() / name), "mine");
+    fs::remove_all(run() / *fs::path(name).begin());
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::io
