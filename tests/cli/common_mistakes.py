@@ -210,7 +210,7 @@ COMMON_MISTAKES = [
         old="step = 0.001",
         new="step = 0.01",
         said=(
-            "error: {case}/case.toml:6:8: time.step is 0.01 s, above the limit of 0.00445 s set by the "
+            "error: {case}/case.toml:6:8: time.step is 0.01 s, above the limit of 0.004449 s set by the "
             "elastic wave of material 'rock' (224.7 m/s) on cells of 1 m, with a Young's modulus of 1e+08 Pa and "
             "2200 kg/m3. Use a smaller time.step, or "
             'time.stepping = "adaptive".\n'
