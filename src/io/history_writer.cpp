@@ -153,7 +153,7 @@ std::optional<double> last_time_in_history(const std::filesystem::path& file) {
   }
   double time = 0.0;
   const auto parsed = std::from_chars(text.data() + before + 1, text.data() + end, time);
-  return parsed.ec == std::errc() ? std::optional(time) : std::nullopt;
+  return parsed.ec == std::errc() && std::isfinite(time) ? std::optional(time) : std::nullopt;
 }
 
 HistoryWriter::HistoryWriter(const std::filesystem::path& file, int descriptor, std::string header)

@@ -13,10 +13,10 @@ namespace {
 
 using namespace thawslide;
 
-const std::string header = "time_s,step,speed_m_s\n";
+const std::string header = "time_s,step,speed_m_s";
 
 std::string sound_rows() {
-  std::string text = header;
+  std::string text = header + "\n";
   for (int k = 0; k < 12; ++k) {
     text += fmt::format("{},{},{}\n", 0.25 * k, 10 * k, 1.5 - 0.125 * k);
   }
@@ -28,7 +28,7 @@ void require_whole_rows(const std::string& text, std::size_t rows) {
   std::string line;
   std::size_t found = 0;
   for (bool first = true; std::getline(lines, line); first = false) {
-    if (first && line + "\n" != header) {
+    if (first && line != header) {
       fuzz::fail("another header: " + line);
     }
     found += first ? 0 : 1;
@@ -62,8 +62,8 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     std::vector<std::string> notes;
     const auto writer = io::HistoryWriter::continue_after(file, header, then, notes);
     require_whole_rows(io::read_file(file), writer.extent().rows);
-    if (writer.extent().rows > then.rows) {
-      fuzz::fail("more rows than the checkpoint knew");
+    if (writer.extent().rows != then.rows && notes.empty()) {
+      fuzz::fail("other rows than the checkpoint knew of, and no word of it");
     }
   });
   return 0;
