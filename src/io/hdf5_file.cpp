@@ -6,13 +6,10 @@ namespace {
 
 void require(herr_t result, const char* what) { THAWSLIDE_ASSERT(result >= 0, "HDF5 failed: {}", what); }
 
-// In the format of 1.8, which has checksums of what describes the numbers: the library then tells damage, where it
-// could crash on files of the older one.
 hid_t memory_access() {
   constexpr std::size_t growth = std::size_t{1} << 20;
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   require(H5Pset_fapl_core(access, growth, 0), "memory file");
-  require(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "format");
   return access;
 }
 
