@@ -11,6 +11,7 @@
 
 #include "config/input_limits.hpp"
 #include "io/atomic_file.hpp"
+#include "io/tried_in_child.hpp"
 #include "io/vtkhdf.hpp"
 
 namespace thawslide::io {
@@ -130,12 +131,21 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_
       lost += number - expected > 1 ? fmt::format(" to {:06d}", number - 1) : "";
     }
   };
+  std::vector<std::pair<std::size_t, fs::path>> earlier;
   for (const auto& [number, file] : numbered_files(folder / "snapshots")) {
     if (number >= count) {
       remove_or_throw(file);
-    } else if (series.take(number, file)) {
-      note_lost_before(number);
-      expected = number + 1;
+    } else {
+      earlier.emplace_back(number, file);
+    }
+  }
+  // HDF5 crashes on some damaged files.
+  const std::vector<bool> can_be_read =
+      tried_in_child(earlier.size(), [&](std::size_t k) { return series.take(earlier[k].first, earlier[k].second); });
+  for (std::size_t k = 0; k < earlier.size(); ++k) {
+    if (can_be_read[k] && series.take(earlier[k].first, earlier[k].second)) {
+      note_lost_before(earlier[k].first);
+      expected = earlier[k].first + 1;
     }
   }
   note_lost_before(count);
