@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 
 namespace thawslide::io {
 
@@ -17,9 +16,6 @@ using Work = std::function<bool(std::size_t)>;
   constexpr unsigned longest = 60;  // s
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  for (const int number : {SIGALRM, SIGSEGV, SIGBUS, SIGABRT}) {
-    std::signal(number, SIG_DFL);
-  }
   for (std::size_t k = first; k < count; ++k) {
     alarm(longest);
     char told = 0;
