@@ -21,10 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  return fmt::format("{}", fmt::join(words, between));
-}
-
 // What resumes were to change of the case with this SHA-256, in order: they were cut off after run.json told of it and
 // before case.toml had it. Nothing where no part of the run had that case.
 std::optional<std::vector<std::string>> changes_cut_off(const io::Provenance& facts, const std::string& case_sha256) {
@@ -60,7 +56,7 @@ void require_told_again(const fs::path& folder, const std::vector<std::string>& 
     throw UserError(
         fmt::format("the last resume was cut off before its change took hold. Give it again: thawslide resume {} --set "
                     "{}",
-                    shell_word(folder.string()), joined(words, " --set ")));
+                    shell_word(folder.string()), fmt::join(words, " --set ")));
   }
 }
 
@@ -75,7 +71,7 @@ void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& fac
     throw UserError(fmt::format(
         "the checkpoint of {} was not written by this run: run.json tells of no part with its case{}{}. Put back the "
         "run's own checkpoint.bin or checkpoint.previous.bin, or run the case anew.",
-        folder.string(), differences.empty() ? "" : ", in which ", joined(differences, "; ")));
+        folder.string(), differences.empty() ? "" : ", in which ", fmt::join(differences, "; ")));
   }
 }
 
@@ -115,7 +111,7 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
     throw UserError(fmt::format(
         "{}. A run goes on with the inputs it began with (run.json has their SHA-256): put them back, or run "
         "the case anew.",
-        joined(changed, "; ")));
+        fmt::join(changed, "; ")));
   }
 }
 
@@ -156,7 +152,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
           "line: thawslide resume {} --set KEY=VALUE, or --end T.",
           shell_word(folder.string()));
       throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
-                                  joined(changes, "; "), advice_on(folder, facts, changes, usual)));
+                                  fmt::join(changes, "; "), advice_on(folder, facts, changes, usual)));
     }
     cut_off = changes_cut_off(facts, sha256_of_text(before));  // what it says is that of the checkpoint
   }

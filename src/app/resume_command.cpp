@@ -29,10 +29,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  return fmt::format("{}", fmt::join(words, between));
-}
-
 // What changes of the case, with --end among it.
 std::vector<std::string> sets_of(const ResumeOptions& options) {
   std::vector<std::string> sets = options.sets;
@@ -55,7 +51,7 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
                  : std::vector<std::string>{"its SHA-256 is not that of run.json"};
     if (!changes.empty()) {
       throw UserError(fmt::format("{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(),
-                                  facts.simulated_time, file.string(), joined(changes, "; "),
+                                  facts.simulated_time, file.string(), fmt::join(changes, "; "),
                                   is_known ? advice_on(folder, facts, changes, "Put that back, or run the case anew.")
                                            : "There is no checkpoint to go on from: run the case anew."));
     }
@@ -113,7 +109,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
 void take_changes(const fs::path& folder, const Continuation& next) {
   if (const std::vector<std::string>& changes = next.earlier.parts.back().changes; !changes.empty()) {
     io::write_file_atomically(folder / "case.toml", next.case_text);
-    say("changed: {}\n", joined(changes, ", "));
+    say("changed: {}\n", fmt::join(changes, ", "));
   }
 }
 
@@ -151,7 +147,7 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
     if (!changes.empty() && !is_end_alone) {
       throw UserError(fmt::format(
           "{} has reached its end at {:g} s: no step is left that could take {}. Give a later end too: --end T.",
-          folder.string(), simulation.time(), joined(changes, ", ")));
+          folder.string(), simulation.time(), fmt::join(changes, ", ")));
     }
     say("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
     return false;

@@ -10,14 +10,17 @@ import resource
 import shutil
 import subprocess
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from conftest import datasets
+from conftest import LAMPLUGH, datasets, sets
 
 ROOT = Path(__file__).resolve().parents[2]
 FAILING_WRITES = ROOT / "build" / "release" / "tests" / "failing_writes.so"
 LEFT_OUT = ("run.json", "run.lock")  # what tells of processes, not of the slide
+LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
 NOT_BEGUN = "holds no run to go on from"
 
 
@@ -80,6 +83,20 @@ def before_its_first_checkpoint(run: Path) -> None:
         (run / name).unlink()
     rows = (run / "history.csv").read_text().splitlines(keepends=True)
     (run / "history.csv").write_text("".join(rows[:2]))  # the header, and the row at t = 0
+
+
+@contextmanager
+def at_work_in(run: Path, program: Path, environment: dict[str, str]) -> Iterator[subprocess.Popen[str]]:
+    """Have a run at work in a folder, which has taken some steps and has far to go."""
+    pipe = subprocess.PIPE
+    command = [str(program), "run", str(LAMPLUGH), "--output", str(run), *LONG]
+    with subprocess.Popen(command, env=environment, stdout=pipe, stderr=pipe, text=True) as process:
+        history = run / "history.csv"
+        while not history.exists() or history.read_text().count("\n") < 4:
+            assert process.poll() is None
+            time.sleep(0.01)
+        yield process
+        process.kill()
 
 
 def command_of(program: Path, subject: Subject, run: Path) -> list[str]:

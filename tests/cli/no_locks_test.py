@@ -6,15 +6,12 @@ import json
 import signal
 import socket
 import subprocess
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from conftest import LAMPLUGH, LIMIT, Program, assert_same_bits, run_facts, sets
-from faults import FAILING_WRITES, as_killed
-
-LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
+from faults import FAILING_WRITES, as_killed, at_work_in
 
 
 @pytest.fixture
@@ -26,17 +23,9 @@ def without_locks(plain_environment: dict[str, str]) -> dict[str, str]:
 
 @pytest.fixture
 def at_work(binary: Path, without_locks: dict[str, str], tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
-    """Yield the process of a run into tmp_path / run that has taken some steps and has far to go."""
-    run = tmp_path / "run"
-    command = [str(binary), "run", str(LAMPLUGH), "--output", str(run), *LONG]
-    pipe = subprocess.PIPE
-    with subprocess.Popen(command, env=without_locks, stdout=pipe, stderr=pipe, text=True) as process:
-        history = run / "history.csv"
-        while not history.exists() or history.read_text().count("\n") < 4:
-            assert process.poll() is None
-            time.sleep(0.01)
+    """Yield the process of a run into tmp_path / run."""
+    with at_work_in(tmp_path / "run", binary, without_locks) as process:
         yield process
-        process.kill()
 
 
 def test_a_second_process_is_refused_while_the_first_lives(

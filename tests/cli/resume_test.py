@@ -320,47 +320,6 @@ def test_figures_may_have_other_times(thawslide: Program, small_case: Path, tmp_
     assert file.read_text() == text
 
 
-def test_a_changed_input_is_refused_and_a_changed_original_told(
-    thawslide: Program, small_case: Path, tmp_path: Path
-) -> None:
-    run = tmp_path / "run"
-    assert thawslide("run", small_case, "--output", run).returncode == 0
-    as_killed(run)
-    original, copy = small_case / "case.toml", run / "inputs" / "case.toml"
-    original.write_text(original.read_text() + "# a remark\n")
-    outcome = thawslide("resume", run)
-    assert outcome.returncode == 0, outcome.stderr
-    told = f"note: {original} has changed since the run began, which goes on with its copy, inputs/case.toml\n"
-    assert told in outcome.stdout
-    as_killed(run)
-    copy.write_text("other")
-    outcome = thawslide("resume", run)
-    assert outcome.returncode == 2
-    assert outcome.stderr == (
-        f"error: {copy} has changed. A run goes on with the inputs it began with (run.json has their SHA-256): put "
-        "them back, or run the case anew.\n"
-    )
-
-
-def test_a_changed_input_that_is_no_profile_any_more_is_told_as_changed(
-    thawslide: Program, small_case: Path, tmp_path: Path
-) -> None:
-    file, run = small_case / "case.toml", tmp_path / "run"
-    text = file.read_text()
-    file.write_text(text.replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "profile.csv"'))
-    (small_case / "profile.csv").write_text("distance_m,terrain_elevation_m\n0,0\n20,0\n")
-    assert thawslide("run", small_case, "--output", run).returncode == 0
-    as_killed(run)
-    copy = run / "inputs" / "profile.csv"
-    copy.write_text("no profile")
-    outcome = thawslide("resume", run)
-    assert outcome.returncode == 2
-    assert outcome.stderr == (
-        f"error: {copy} has changed. A run goes on with the inputs it began with (run.json has their SHA-256): put "
-        "them back, or run the case anew.\n"
-    )
-
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [

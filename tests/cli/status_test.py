@@ -14,25 +14,15 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import LAMPLUGH, LIMIT, Program, run_facts, sets
-from faults import FAILING_WRITES
-
-LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
+from conftest import LAMPLUGH, LIMIT, Program, run_facts
+from faults import FAILING_WRITES, at_work_in
 
 
 @pytest.fixture
 def at_work(binary: Path, plain_environment: dict[str, str], tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
-    """Yield the process of a run into tmp_path / run that has taken some steps and has far to go."""
-    run = tmp_path / "run"
-    command = [str(binary), "run", str(LAMPLUGH), "--output", str(run), *LONG]
-    pipe = subprocess.PIPE
-    with subprocess.Popen(command, env=plain_environment, stdout=pipe, stderr=pipe, text=True) as process:
-        history = run / "history.csv"
-        while not history.exists() or history.read_text().count("\n") < 4:
-            assert process.poll() is None
-            time.sleep(0.01)
+    """Yield the process of a run into tmp_path / run."""
+    with at_work_in(tmp_path / "run", binary, plain_environment) as process:
         yield process
-        process.kill()
 
 
 def test_a_living_and_a_killed_run(thawslide: Program, at_work: subprocess.Popen[str], tmp_path: Path) -> None:

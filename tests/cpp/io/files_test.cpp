@@ -6,7 +6,7 @@
 #include <fstream>
 #include <random>
 
-#include "base/error.hpp"
+#include "folder_of_test.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/hdf5_file.hpp"
@@ -22,26 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Files : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-
-  template <class Work>
-  static std::string failure_of(const Work& work) {
-    try {
-      work();
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "no failure";
-  }
-
-  fs::path folder_;
-};
+class Files : public FolderOfTest {};
 
 TEST_F(Files, AreWholeOrAbsent) {
   write_file_atomically(folder_ / "a.txt", "first");
