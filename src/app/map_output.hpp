@@ -12,7 +12,7 @@ namespace thawslide::app {
 // Where the front was at a time [s].
 struct FrontAt {
   double time;
-  sim::Place2 place;
+  Place2 place;
 };
 
 // Whether this build can write maps: it needs GDAL.

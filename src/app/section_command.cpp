@@ -30,7 +30,7 @@ std::string name_of(const std::string& file) { return config::shown(fs::path(fil
 // The profile along a line that runs downhill, or was turned round for that.
 struct Cut {
   config::ProfileTable profile;
-  sim::Place2 begin{}, end{};
+  Place2 begin{}, end{};
   bool turned = false;
 };
 

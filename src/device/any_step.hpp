@@ -7,9 +7,12 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "band/body_sums.hpp"
 #include "device/failure.hpp"
 #include "device/step_model.hpp"
+#include "mpm/front.hpp"
 #include "mpm/particle_view.hpp"
 #include "mpm/watched_sums.hpp"
 
@@ -30,6 +33,12 @@ class AnyStep {
   virtual mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) = 0;
   // The same for maps, in space.
   virtual void look_at_map(const mpm::MapCells& cells, MapLook& look) = 0;
+  // What a row of the history sums.
+  virtual band::BodySums<Dim, Real> sum_over_body(const band::SumBody<Dim, Real>& sum) = 0;
+  // The particle at the front, of those whose mass together is so much [kg].
+  virtual mpm::OnWay front(const mpm::Way<Dim>& way, double mass) = 0;
+  // Where those stand that the last step told as strays [m].
+  virtual std::vector<Vector<Real, Dim>> places_of_strays() = 0;
   // Particles move in memory to stand in canonical order. Results do not depend on it.
   virtual void sort_in_memory() = 0;
   // To as many particles, in the order of the device's memory.

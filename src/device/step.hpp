@@ -8,10 +8,12 @@
 #include "device/band_stages.hpp"
 #include "device/base_laws.hpp"
 #include "device/erodible_bed.hpp"
+#include "device/front.hpp"
 #include "device/looks.hpp"
 #include "device/maps.hpp"
 #include "device/material_stress.hpp"
 #include "device/step_passes.hpp"
+#include "device/strays.hpp"
 #include "device/velocity_filter.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/position_kernel.hpp"
@@ -81,6 +83,16 @@ class Step {
   // Of the particles as they are after a step.
   mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) {
     return passes_.sum_over_particles(Watch<Dim, Real>{look}, watched_);
+  }
+  band::BodySums<Dim, Real> sum_over_body(const band::SumBody<Dim, Real>& sum) {
+    return passes_.sum_over_particles(SumOverBody<Dim, Real>{sum}, body_);
+  }
+  mpm::OnWay front(const mpm::Way<Dim>& way, double mass) {
+    return front_.find(way, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
+  }
+  // Where those stand that the last step told as strays [m].
+  std::vector<Vector<Real, Dim>> places_of_strays() {
+    return strays_.places(passes_, count_strays(), sums_.get(0).strays);
   }
   void look_at_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapLook& look) {
     if constexpr (Dim == 3) {
@@ -214,9 +226,7 @@ class Step {
   void take_positions() {
     const mpm::TakePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
     const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic()};
-    const CountStrays<Dim, Real> strays{passes_.cells.tables().blocks_about_tile,
-                                        passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr,
-                                        passes_.model.faces.extent};
+    const CountStrays<Dim, Real> strays = count_strays();
     if (passes_.model.tells_extremes && passes_.model.tells_strays) {
       take_positions(take, extremes, strays);
     } else if (passes_.model.tells_extremes) {
@@ -226,6 +236,10 @@ class Step {
     } else {
       take_positions(take);
     }
+  }
+  [[nodiscard]] CountStrays<Dim, Real> count_strays() const {
+    return {passes_.cells.tables().blocks_about_tile,
+            passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr, passes_.model.faces.extent};
   }
   template <class... Kernels>
   void take_positions(const Kernels&... kernels) {
@@ -244,7 +258,10 @@ class Step {
   BandColumns<Backend, Dim, Real> band_columns_;
   ErodibleBed<Backend, Dim, Real> bed_;
   Array<BaseOfNode<Real>, Backend> bases_{passes_.backend};
+  Strays<Backend, Dim, Real> strays_{passes_.backend};
+  Front<Backend, Dim, Real> front_{passes_.backend};
   Array<mpm::WatchedSums<Real>, Backend> watched_{passes_.backend, 1};
+  Array<band::BodySums<Dim, Real>, Backend> body_{passes_.backend, 1};
   Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};
 };
 

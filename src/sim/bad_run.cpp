@@ -244,7 +244,7 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   if (bad_.fault != mpm::Fault::left_domain) {
     return too_long;
   }
-  const BodySums<Dim, Real> sums = sum_over_body(*this);
+  const BodySums<Dim, Real> sums = sum_over_body();
   const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
   const std::string speeds =
       fmt::format("It moves at {:.4g} m/s{}, the slide at {:.4g} m/s in the mean. ", own, towards, mean);
@@ -279,7 +279,7 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_for_energy(double growth, double share) const {
   bring_particles_back();
   const std::size_t fastest = fastest_particle(particles_);
-  const BodySums<Dim, Real> sums = sum_over_body(*this);
+  const BodySums<Dim, Real> sums = sum_over_body();
   const std::string cause =
       parameters_.basal.distance_check || !model_.ground || is_too_soft(fastest)
           ? cause_in_material(fastest)

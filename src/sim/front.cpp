@@ -3,32 +3,45 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/instances.hpp"
+#include "base/parallel.hpp"
+#include "sim/simulation.hpp"
 
 namespace thawslide::sim {
 
-namespace {
-
-constexpr double front_share = 0.995;
-
-}  // namespace
-
-MassOnWay front_of(std::vector<MassOnWay>& masses) {
+MassOnWay front_of(std::vector<MassOnWay>& masses, double mass) {
   THAWSLIDE_ASSERT(!masses.empty(), "the front of {} particles", masses.size());
-  double mass = 0.0;
-  for (const MassOnWay& particle : masses) {
-    mass += particle.mass;
-  }
-  // The foremost few, one by one, until what lies behind is less than the share.
+  mpm::FrontSearch search(mass);
   std::make_heap(masses.begin(), masses.end());
-  double ahead = 0.0;
-  for (auto end = masses.end(); end - masses.begin() > 1; --end) {
-    ahead += masses.front().mass;
-    if (mass - ahead < front_share * mass) {
-      break;
-    }
+  for (auto end = masses.end(); end - masses.begin() > 1 && !search.is_at(masses.front().mass); --end) {
     std::pop_heap(masses.begin(), end);
   }
   return masses.front();
 }
+
+template <int Dim, class Real>
+mpm::OnWay Simulation<Dim, Real>::front(const LineView& line) const {
+  mpm::Way<Dim> way{line};
+  for (std::size_t a = 0; a + 1 < Dim; ++a) {
+    way.origin[a] = model_.origin[static_cast<int>(a)];
+  }
+  const auto mass = static_cast<double>(sum_over_body().mass);
+  if (device_step_) {
+    mpm::OnWay found;
+    on_device([&] { found = device_step_->front(way, mass); });
+    return found;
+  }
+  const std::vector<std::uint32_t>& order = grid_.order();
+  std::vector<MassOnWay> masses(order.size());
+  parallel_for(order.size(), [&](std::size_t rank) {
+    const mpm::OnWay one = way.of(particles_, order[rank]);
+    masses[rank] = {one.along, one.mass, rank};
+  });
+  return way.of(particles_, order[front_of(masses, mass).rank]);
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template mpm::OnWay Simulation<Dim, Real>::front(const LineView&) const;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

@@ -1,4 +1,4 @@
-// The front of a slide: how far all but the foremost 0.5 % of its mass has come.
+// The front of a slide (mpm/front.hpp) among particles in the processor's memory.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ struct MassOnWay {
   }
 };
 
-// The particle up to which 99.5 % of the mass has come. Changes the order of `masses`, which are not empty.
-[[nodiscard]] MassOnWay front_of(std::vector<MassOnWay>& masses);
+// The particle up to which 99.5 % of the mass [kg] has come, which is that of all together. Changes the order of
+// `masses`, which are not empty.
+[[nodiscard]] MassOnWay front_of(std::vector<MassOnWay>& masses, double mass);
 
 }  // namespace thawslide::sim

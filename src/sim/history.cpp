@@ -1,23 +1,14 @@
 #include "sim/history.hpp"
 
-#include <algorithm>
 #include <cmath>
-
-#include "sim/front.hpp"
 
 namespace thawslide::sim {
 
 namespace {
 
-struct Means {
-  double mass = 0.0, displacement = 0.0, plastic_strain = 0.0, largest_speed2 = 0.0;
-  double momentum[3] = {0.0, 0.0, 0.0};
-  double band_mass = 0.0, band_temperature = 0.0, band_saturation = 0.0, band_pore_pressure = 0.0;
-};
-
 // What the band's figures are: means over its particles, or over the base where it is of columns.
 template <int Dim, class Real>
-void add_band(const Simulation<Dim, Real>& simulation, const Means& means, HistoryRow& row) {
+void add_band(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Real>& sums, HistoryRow& row) {
   const auto add = [&](const char* name, double value) { row.emplace_back(name, value); };
   if (const auto* columns = simulation.band_columns()) {
     const band::BaseMeans<Real> base = columns->means();
@@ -33,10 +24,10 @@ void add_band(const Simulation<Dim, Real>& simulation, const Means& means, Histo
     add("band_largest_pressure_ratio", static_cast<double>(base.largest_pressure_ratio));
     return;
   }
-  const double mass = means.band_mass > 0.0 ? means.band_mass : std::nan("");
-  add("band_temperature_C", means.band_temperature / mass);
-  add("band_saturation", means.band_saturation / mass);
-  add("band_pore_pressure_Pa", means.band_pore_pressure / mass);
+  const double mass = sums.band_mass > Real(0) ? static_cast<double>(sums.band_mass) : std::nan("");
+  add("band_temperature_C", static_cast<double>(sums.band_temperature) / mass);
+  add("band_saturation", static_cast<double>(sums.band_saturation) / mass);
+  add("band_pore_pressure_Pa", static_cast<double>(sums.band_pore_pressure) / mass);
 }
 
 // The balances of heat and water in band columns; returns the heat that columns hold less what they got.
@@ -90,36 +81,9 @@ void add_bed(const Simulation<Dim, Real>& simulation, const Add& add) {
   add("bed_residual_J", ledger.bed_work - ledger.bed_joined_kinetic - ledger.bed_heat - sums.loose_work);
 }
 
-// Mass-weighted sums over the body and over the band, in canonical order.
 template <int Dim, class Real>
-Means means_over_body(const Simulation<Dim, Real>& simulation) {
-  const auto& particles = simulation.particles();
-  Means means;
-  for (const std::uint32_t p : simulation.grid().order()) {
-    const auto mass = static_cast<double>(particles.mass(p));
-    double speed2 = 0.0;
-    for (int a = 0; a < Dim; ++a) {
-      const auto v = static_cast<double>(particles.velocity(p, a));
-      means.momentum[a] += mass * v;
-      speed2 += v * v;
-    }
-    means.mass += mass;
-    means.largest_speed2 = std::max(means.largest_speed2, speed2);
-    means.displacement += mass * static_cast<double>(particles.path_length(p));
-    means.plastic_strain += mass * static_cast<double>(particles.plastic_strain(p));
-    if (particles.in_band(p) != 0) {
-      means.band_mass += mass;
-      means.band_temperature += mass * static_cast<double>(particles.temperature(p));
-      means.band_saturation += mass * static_cast<double>(particles.liquid_saturation(p));
-      means.band_pore_pressure += mass * static_cast<double>(particles.pore_pressure(p));
-    }
-  }
-  return means;
-}
-
-template <int Dim, class Real>
-void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRow& row) {
-  const BodySums<Dim, Real> sums = sum_over_body(simulation);
+void add_ledger(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Real>& sums, double width,
+                HistoryRow& row) {
   const Ledger<Dim, Real>& ledger = simulation.ledger();
   const auto add = [&](const char* name, Real value) { row.emplace_back(name, width * static_cast<double>(value)); };
   const Real strain = ledger.stress_work - ledger.plastic;
@@ -195,14 +159,7 @@ void add_ledger(const Simulation<Dim, Real>& simulation, double width, HistoryRo
 
 template <int Dim, class Real>
 double front_position(const Simulation<Dim, Real>& simulation) {
-  const auto& particles = simulation.particles();
-  std::vector<MassOnWay> by_x;
-  by_x.reserve(particles.size());
-  for (const std::uint32_t p : simulation.grid().order()) {
-    by_x.push_back(
-        {static_cast<double>(particles.position(p, 0)), static_cast<double>(particles.mass(p)), by_x.size()});
-  }
-  return front_of(by_x).along + simulation.model().origin[0];
+  return simulation.front().along;
 }
 
 template <int Dim, class Real>
@@ -214,25 +171,23 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation) {
 template <int Dim, class Real>
 HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow& front) {
   const config::Case& parameters = simulation.parameters();
-  const Means means = means_over_body(simulation);
+  const BodySums<Dim, Real> sums = simulation.sum_over_body();
   const auto& contact = simulation.contact();
   const double width = Dim == 2 && parameters.general.width > 0.0 ? parameters.general.width : 1.0;
   HistoryRow row;
   row.emplace_back("time_s", simulation.time());
   row.emplace_back("step", static_cast<double>(simulation.step_number()));
   row.emplace_back("dt_s", simulation.last_step());
-  row.emplace_back("mean_velocity_m_s",
-                   std::sqrt(means.momentum[0] * means.momentum[0] + means.momentum[1] * means.momentum[1] +
-                             means.momentum[2] * means.momentum[2]) /
-                       means.mass);
-  row.emplace_back("max_velocity_m_s", std::sqrt(means.largest_speed2));
-  row.emplace_back("mean_displacement_m", means.displacement / means.mass);
+  const auto mean = [&](Real sum) { return static_cast<double>(sum / sums.mass); };
+  row.emplace_back("mean_velocity_m_s", mean(sums.momentum.norm()));
+  row.emplace_back("max_velocity_m_s", std::sqrt(static_cast<double>(sums.largest_speed2)));
+  row.emplace_back("mean_displacement_m", mean(sums.displacement));
   row.emplace_back("front_position_m", front.position);
   row.emplace_back("runout_m", front.runout);
-  add_band(simulation, means, row);
+  add_band(simulation, sums, row);
   row.emplace_back("band_friction_coefficient",
                    contact.area > Real(0) ? static_cast<double>(contact.friction_area / contact.area) : std::nan(""));
-  row.emplace_back("mean_plastic_strain", means.plastic_strain / means.mass);
+  row.emplace_back("mean_plastic_strain", mean(sums.plastic_strain));
   const char* axes = Dim == 2 ? "xy" : "xyz";
   // Before the first step no force is known.
   const double known = simulation.step_number() > 0 ? width : std::nan("");
@@ -240,11 +195,11 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow
     row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), known * static_cast<double>(contact.force[a]));
   }
   for (int a = 0; a < Dim; ++a) {
-    const double weight = means.mass * static_cast<double>(simulation.model().motion.gravity[a]);
+    const Real weight = sums.mass * simulation.model().motion.gravity[a];
     row.emplace_back(fmt::format("seismic_force_{}_N", axes[a]),
-                     known * (static_cast<double>(contact.force[a]) - weight));
+                     known * static_cast<double>(contact.force[a] - weight));
   }
-  add_ledger(simulation, width, row);
+  add_ledger(simulation, sums, width, row);
   return row;
 }
 

@@ -69,7 +69,7 @@ void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& jo
   }
   std::vector<std::uint8_t> is_new(particles_.size(), 0);
   std::fill(is_new.begin() + static_cast<std::ptrdiff_t>(first), is_new.end(), std::uint8_t{1});
-  const BodySums<Dim, Real> sums = sum_over_body(*this, &is_new);
+  const BodySums<Dim, Real> sums = sum_over_marked(is_new);
   ledger_.joined_mass += sums.mass;
   ledger_.joined_mechanical += sums.kinetic + sums.potential;
   ledger_.joined_thermal += sums.sensible + sums.latent;

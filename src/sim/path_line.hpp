@@ -1,21 +1,12 @@
 // A line in the horizontal plane along which a slide's way is measured: given, or the way of its centre of mass.
 #pragma once
 
-#include <array>
-#include <limits>
 #include <vector>
 
+#include "base/line_view.hpp"
 #include "config/site.hpp"
 
 namespace thawslide::sim {
-
-using Place2 = std::array<double, 2>;  // x, y [m]
-
-// Where a place lies along a line.
-struct PlaceOnLine {
-  double along = 0.0;   // arc length from the line's first corner [m]; negative before it
-  double offset = 0.0;  // distance from the line [m], positive to the left of its direction
-};
 
 // Lines of no length have no direction, and nothing can be projected onto them: the line is empty.
 class PathLine {
@@ -30,8 +21,10 @@ class PathLine {
   // Arc length at each corner [m].
   [[nodiscard]] const std::vector<double>& distances() const { return along_; }
 
-  // The nearest point of the line, which goes on straight before its first corner and beyond its last one. Of points
-  // equally near the one closer to the first corner counts.
+  [[nodiscard]] LineView view() const {
+    return {corners_.data(), along_.data(), directions_.data(), boxes_.data(), directions_.size()};
+  }
+  // LineView::project, onto a line that is not empty.
   [[nodiscard]] PlaceOnLine project(const Place2& place) const;
   [[nodiscard]] Place2 point_at(double along) const;
 
@@ -42,25 +35,10 @@ class PathLine {
   void reserve(std::size_t corners);
 
  private:
-  // The rectangle about some segments that follow one another: one look tells that none of them is near.
-  struct Box {
-    Place2 lower, upper;
-
-    void add(const Place2& place);
-    [[nodiscard]] double distance2(const Place2& place) const;  // squared [m2]
-  };
-  static constexpr std::size_t segments_of_box = 8;
-
-  struct Nearest {
-    PlaceOnLine place;
-    double distance2 = std::numeric_limits<double>::infinity();  // squared [m2]
-  };
-  void project_onto(std::size_t segment, const Place2& place, Nearest& nearest) const;
-
   config::Polyline2 corners_;
   std::vector<double> along_;       // arc length at each corner [m]
   std::vector<Place2> directions_;  // unit vectors from each corner but the last to the next
-  std::vector<Box> boxes_;          // about so many segments each; larger than need be after a corner was removed
+  std::vector<BoxOfLine> boxes_;    // larger than need be after a corner was removed
 };
 
 // The way of a centre of mass: a corner wherever it is a spacing [m] away from the last one, so that its direction does

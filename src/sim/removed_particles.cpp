@@ -141,7 +141,7 @@ void Simulation<Dim, Real>::book_marked_particles() {
     }
     ledger_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_bad_volume ? particles_.mass(p) : Real(0);
   }
-  const BodySums<Dim, Real> sums = sum_over_body(*this, &known);
+  const BodySums<Dim, Real> sums = sum_over_marked(known);
   ledger_.left_mass += sums.mass;
   ledger_.left_mechanical += sums.kinetic + sums.potential;
   ledger_.left_thermal += sums.sensible + sums.latent;
@@ -189,7 +189,7 @@ void Simulation<Dim, Real>::remove_marked_particles() {
         "the whole slide has left the domain or the known ground at t = {:.6g} s (step {}); the last {:.4g} kg{} "
         "of it, which left in this step, still stand in mass_kg. Widen [grid] min and max, or give a DEM "
         "that reaches further, to follow it on.",
-        time_, step_number_, static_cast<double>(sum_over_body(*this).mass), Dim == 2 ? " per m of width" : ""));
+        time_, step_number_, static_cast<double>(sum_over_body().mass), Dim == 2 ? " per m of width" : ""));
   }
   if (now.not_finite > 0) {
     mend_ledger();

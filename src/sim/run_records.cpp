@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
-#include "sim/front.hpp"
 
 namespace thawslide::sim {
 
@@ -149,22 +148,11 @@ void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
 
 template <int Dim>
 std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const {
-  if (path().empty() || simulation.particles().size() == 0) {
+  if (path().empty() || simulation.particle_count() == 0) {
     return {};
   }
-  const auto& particles = simulation.particles();
-  const auto& order = simulation.grid().order();
-  const auto& origin = simulation.model().origin;
-  const auto place_of = [&](std::size_t rank) {
-    const std::size_t p = order[rank];
-    return Place2{particles.position(p, 0) + origin[0], particles.position(p, 1) + origin[1]};
-  };
-  std::vector<MassOnWay> masses(order.size());
-  parallel_for(order.size(), [&](std::size_t rank) {
-    masses[rank] = {path().project(place_of(rank)).along, particles.mass(order[rank]), rank};
-  });
-  const MassOnWay foremost = front_of(masses);
-  return Front{foremost.along, place_of(foremost.rank)};
+  const mpm::OnWay foremost = simulation.front(path().view());
+  return Front{foremost.along, foremost.place};
 }
 
 template <int Dim>

@@ -328,7 +328,7 @@ void Simulation<Dim, Real>::update_columns() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::start_ledger() {
-  const BodySums<Dim, Real> sums = sum_over_body(*this);
+  const BodySums<Dim, Real> sums = sum_over_body();
   ledger_ = {};
   ledger_.initial_mechanical = sums.kinetic + sums.potential;
   ledger_.initial_thermal = sums.sensible + sums.latent;

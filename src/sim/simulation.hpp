@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "band/base_columns.hpp"
+#include "band/body_sums.hpp"
 #include "band/heat.hpp"
 #include "band/pore_pressure.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "config/case.hpp"
 #include "device/any_step.hpp"
+#include "mpm/front.hpp"
 #include "mpm/motion.hpp"
 #include "sim/bed_of_device.hpp"
 #include "sim/grid_of_device.hpp"
@@ -37,6 +39,8 @@ struct NewParticle {
   SymmetricTensor<Real> stress = SymmetricTensor<Real>::Zero();  // total [Pa]
   Real heat = 0;  // that it has beyond what its temperature says [J]: it warms or melts it
 };
+
+using band::BodySums;
 
 template <int Dim, class Real>
 class Simulation {
@@ -102,6 +106,11 @@ class Simulation {
     return grid_;
   }
   [[nodiscard]] std::size_t particle_count() const { return particles_.size(); }
+  // Over all particles, wherever they stand, or over the marked ones, by particle.
+  [[nodiscard]] BodySums<Dim, Real> sum_over_body() const;
+  [[nodiscard]] BodySums<Dim, Real> sum_over_marked(const std::vector<std::uint8_t>& marked) const;
+  // The particle at the front along a line, or along the x axis where the line has no segments. There must be one.
+  [[nodiscard]] mpm::OnWay front(const LineView& line = {}) const;
   // What maps take of a step that a device took; null after one of the processor.
   [[nodiscard]] const device::MapLook* look_at_map(const mpm::MapCells& cells) const;
   // Of a step of the processor.
@@ -145,6 +154,9 @@ class Simulation {
   void bring_particles_back() const;
   // The same, and the next step on the device begins with those of the processor.
   void leave_device();
+  [[nodiscard]] BodySums<Dim, Real> sum_over_particles(const std::uint8_t* marked) const;
+  [[nodiscard]] band::SumBody<Dim, Real> summed_of_body() const;
+  [[nodiscard]] bool any_has_left(const std::vector<Vector<Real, Dim>>& places) const;
   // Whether a device took the step, and tells that no particle is bad or may have left.
   [[nodiscard]] bool nothing_befell_on_device() const;
 
@@ -234,10 +246,11 @@ class Simulation {
   mutable terrain::GroundOnGrid<Dim, Real> ground_;
   mutable bool particles_are_here_ = true;
   mpm::Nodes<Dim, Real> nodes_;
-  device::MakeStep<Dim, Real> make_step_;                    // empty: the processor takes the steps
-  std::unique_ptr<device::AnyStep<Dim, Real>> device_step_;  // null: particles have changed here since
-  device::StepSums<Dim, Real> device_sums_;                  // of its last step
-  mutable device::MapLook map_look_;                         // the last one
+  device::MakeStep<Dim, Real> make_step_;  // empty: the processor takes the steps
+  // Null: particles have changed here since, or the device has failed.
+  mutable std::unique_ptr<device::AnyStep<Dim, Real>> device_step_;
+  device::StepSums<Dim, Real> device_sums_;  // of its last step
+  mutable device::MapLook map_look_;         // the last one
   std::string device_name_;
   band::FlowDepth<Dim, Real> flow_depth_;
   std::optional<band::BaseColumns<Dim, Real>> band_columns_;
@@ -263,20 +276,5 @@ class Simulation {
   int sorting_interval_ = 64;
   Real dt_ = 0;
 };
-
-// Sums of energy, mass and momentum over particles [J, kg, kg m/s].
-template <int Dim, class Real>
-struct BodySums {
-  Real kinetic = 0, potential = 0, sensible = 0, latent = 0;
-  Real mass = 0, rock = 0, ice = 0, water = 0;
-  Real seeped = 0;  // water that seepage brought, less what it took [kg]
-  Real gas = 0;     // void in the pores of the band's own matter [m3]
-  Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();
-};
-
-// Over all particles, or over the marked ones.
-template <int Dim, class Real>
-BodySums<Dim, Real> sum_over_body(const Simulation<Dim, Real>& simulation,
-                                  const std::vector<std::uint8_t>* marked = nullptr);
 
 }  // namespace thawslide::sim

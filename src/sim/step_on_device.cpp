@@ -1,4 +1,6 @@
 // Steps that a device takes (src/device), and how its particles come back.
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "sim/device_model.hpp"
@@ -26,6 +28,7 @@ void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
     work();
   } catch (const device::Failure& error) {
     particles_are_here_ = true;
+    device_step_.reset();
     throw DeviceError(fmt::format("{} failed at step {}: {}", device_name_, step_number_, error.what()));
   }
 }
@@ -74,7 +77,23 @@ void Simulation<Dim, Real>::take_step_on_device() {
 
 template <int Dim, class Real>
 bool Simulation<Dim, Real>::nothing_befell_on_device() const {
-  return device_step_ && bad_.id < 0 && device_sums_.strays == 0;
+  if (!device_step_ || bad_.id >= 0) {
+    return false;
+  }
+  std::vector<Vector<Real, Dim>> strays;
+  if (device_sums_.strays > 0) {
+    on_device([&] { strays = device_step_->places_of_strays(); });
+  }
+  return !any_has_left(strays);
+}
+
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>& places) const {
+  const Vector<Real, Dim>& extent = model_.constraints.extent;
+  return std::any_of(places.begin(), places.end(), [&](const Vector<Real, Dim>& place) {
+    return (place.array() < Real(0)).any() || (place.array() > extent.array()).any() ||
+           (model_.ground && !model_.ground->is_known(place.template head<Dim - 1>().template cast<double>()));
+  });
 }
 
 // The grid becomes that of where they stand: what is summed in its order does not depend on when they came.
@@ -125,6 +144,7 @@ void Simulation<Dim, Real>::leave_device() {
   template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                        \
   template void Simulation<Dim, Real>::take_step_on_device();                                          \
   template bool Simulation<Dim, Real>::nothing_befell_on_device() const;                               \
+  template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;      \
   template void Simulation<Dim, Real>::bring_particles_back() const;                                   \
   template const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells&) const;      \
   template void Simulation<Dim, Real>::leave_device();

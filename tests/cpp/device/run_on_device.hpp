@@ -26,26 +26,42 @@ device::MakeStep<Dim, double> in_place_of_a_card(ThreadOrder order) {
   return device::on_processor<Dim>(order);
 }
 
-// The same, which counts how often particles come back.
+// Leaves all to other steps, for tests that change some of it.
 template <int Dim>
-class CountsCopies final : public device::AnyStep<Dim, double> {
+class PassesOn : public device::AnyStep<Dim, double> {
  public:
-  CountsCopies(std::unique_ptr<device::AnyStep<Dim, double>> steps, int& copies)
-      : steps_(std::move(steps)), copies_(copies) {}
+  explicit PassesOn(std::unique_ptr<device::AnyStep<Dim, double>> steps) : steps_(std::move(steps)) {}
 
   device::StepSums<Dim, double> step(double time, double dt) override { return steps_->step(time, dt); }
   mpm::WatchedSums<double> watch(const mpm::LookAtParticle<Dim, double>& look) override { return steps_->watch(look); }
   void look_at_map(const mpm::MapCells& cells, device::MapLook& look) override { steps_->look_at_map(cells, look); }
-  void sort_in_memory() override { steps_->sort_in_memory(); }
-  void copy_to(const mpm::ParticleView<Dim, double>& particles) const override {
-    ++copies_;
-    steps_->copy_to(particles);
+  band::BodySums<Dim, double> sum_over_body(const band::SumBody<Dim, double>& sum) override {
+    return steps_->sum_over_body(sum);
   }
+  mpm::OnWay front(const mpm::Way<Dim>& way, double mass) override { return steps_->front(way, mass); }
+  std::vector<Vector<double, Dim>> places_of_strays() override { return steps_->places_of_strays(); }
+  void sort_in_memory() override { steps_->sort_in_memory(); }
+  void copy_to(const mpm::ParticleView<Dim, double>& particles) const override { steps_->copy_to(particles); }
   void time_stages() override {}
   [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
 
  private:
   std::unique_ptr<device::AnyStep<Dim, double>> steps_;
+};
+
+// Counts how often particles come back.
+template <int Dim>
+class CountsCopies final : public PassesOn<Dim> {
+ public:
+  CountsCopies(std::unique_ptr<device::AnyStep<Dim, double>> steps, int& copies)
+      : PassesOn<Dim>(std::move(steps)), copies_(copies) {}
+
+  void copy_to(const mpm::ParticleView<Dim, double>& particles) const override {
+    ++copies_;
+    PassesOn<Dim>::copy_to(particles);
+  }
+
+ private:
   int& copies_;
 };
 template <int Dim>

@@ -191,7 +191,7 @@ struct Ringing {
 Ringing ring(const std::vector<std::string>& sets) {
   Simulation<2, double> simulation(paper_case(cornered, sets));
   simulation.settle();
-  const double weight = sum_over_body(simulation).mass * 9.81;
+  const double weight = simulation.sum_over_body().mass * 9.81;
   Ringing seen;
   for (int k = 0; k < 1000; ++k) {
     simulation.step(0.001);

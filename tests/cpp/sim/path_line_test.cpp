@@ -122,11 +122,11 @@ TEST(Front, LeavesHalfAPercentOfTheMassAhead) {
   }
   std::shuffle(masses.begin(), masses.end(), random);
   // Ahead of and at particle 994 there are 6 of 1000: less than 99.5 % lie behind it.
-  EXPECT_EQ(front_of(masses).along, 994.0);
+  EXPECT_EQ(front_of(masses, 2000.0).along, 994.0);
   masses.assign(1, {5.0, 1.0, 0});
-  EXPECT_EQ(front_of(masses).along, 5.0);
+  EXPECT_EQ(front_of(masses, 1.0).along, 5.0);
   masses = {{0.0, 1.0, 0}, {1.0, 1e-6, 1}, {2.0, 1e-6, 2}};
-  EXPECT_EQ(front_of(masses).along, 0.0);
+  EXPECT_EQ(front_of(masses, 1.0 + 2e-6).along, 0.0);
 }
 
 TEST(RunFigures, AngleOfReachIsTheSlopeFromTopToFront) {

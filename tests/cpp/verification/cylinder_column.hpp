@@ -45,11 +45,13 @@ inline double runout_of_lube(double aspect) { return aspect < 1.7 ? 1.24 * aspec
 inline double runout(const sim::Simulation<3, double>& simulation) {
   const auto& particles = simulation.particles();
   std::vector<sim::MassOnWay> by_radius;
+  double mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Position place = particles.position.get<Position>(p) + simulation.model().origin;
     by_radius.push_back({place.head<2>().norm(), particles.mass(p), p});
+    mass += particles.mass(p);
   }
-  return sim::front_of(by_radius).along / radius - 1.0;
+  return sim::front_of(by_radius, mass).along / radius - 1.0;
 }
 
 // The final runout of a quarter of the column, between smooth walls. aspect: height over radius.

@@ -70,7 +70,7 @@ TEST(ElasticImpact, GivesTheEnergyBack) {
   Curve curve{"time [s]", "pressure on the ground [MPa]", {}, {}, {}};
   for (const double cell : cells) {
     Simulation<2, double> simulation = falling_bar(cell, 0.0);
-    const auto before = sum_over_body(simulation);
+    const auto before = simulation.sum_over_body();
     const double width = 2.0 * cell, density = before.mass / (width * 20.0);
     const double pressure = physics::exact::impact_pressure(density, 5e8, 1.0);
     const double duration = physics::exact::impact_time(density, 5e8, 20.0);
@@ -89,7 +89,7 @@ TEST(ElasticImpact, GivesTheEnergyBack) {
         curve.exact.push_back(simulation.time() < duration ? pressure / 1e6 : 0.0);
       }
     }
-    const auto after = sum_over_body(simulation);
+    const auto after = simulation.sum_over_body();
     speed_error.push_back(1.0 - after.momentum[1] / before.mass);
     energy_error.push_back(1.0 - after.kinetic / before.kinetic);
     contact_loss.push_back(simulation.ledger().contact_loss / before.kinetic);
@@ -114,7 +114,7 @@ struct Landing {
 // The bar comes from two cells above the ground; its energy is taken when it has left again.
 Landing land(double cell, bool distance_check) {
   Simulation<2, double> simulation = falling_bar(cell, 2.0 * cell, distance_check);
-  const auto before = sum_over_body(simulation);
+  const auto before = simulation.sum_over_body();
   const double duration = physics::exact::impact_time(before.mass / (2.0 * cell * 20.0), 5e8, 20.0);
   Landing landing;
   bool felt = false;
@@ -125,7 +125,7 @@ Landing land(double cell, bool distance_check) {
       landing.height = 2.0 * cell - simulation.time();
     }
   }
-  landing.energy = sum_over_body(simulation).kinetic / before.kinetic;
+  landing.energy = simulation.sum_over_body().kinetic / before.kinetic;
   return landing;
 }
 

@@ -56,7 +56,7 @@ struct Pressing {
 Pressing press(const std::vector<std::string>& sets) {
   Simulation<2, double> simulation(paper_case(resting, sets));
   simulation.settle();
-  const double weight = sum_over_body(simulation).mass * 9.81;
+  const double weight = simulation.sum_over_body().mass * 9.81;
   const double mean = weight / 40.0;
   Pressing seen;
   while (simulation.time() < 2.0 - 1e-9) {

@@ -31,11 +31,13 @@ gaps_close_first = true
 double front_along(const Simulation<3, double>& simulation, const Place& direction) {
   const auto& particles = simulation.particles();
   std::vector<sim::MassOnWay> on_way;
+  double mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Position place = particles.position.get<Position>(p) + simulation.model().origin;
     on_way.push_back({direction.dot(place.head<2>()), particles.mass(p), p});
+    mass += particles.mass(p);
   }
-  return sim::front_of(on_way).along;
+  return sim::front_of(on_way, mass).along;
 }
 
 // A slope of 31 degrees that from x = 30 m on bends into a plain, level from 70 m on.

@@ -1,0 +1,146 @@
+// What a row of the history and the accounts sum over particles.
+#pragma once
+
+#include <cstdint>
+
+#include "base/exact_sum.hpp"
+#include "base/linear.hpp"
+#include "base/select.hpp"
+#include "physics/mixture.hpp"
+#include "physics/pore_water.hpp"
+
+namespace thawslide::band {
+
+template <int Dim, class Real>
+struct BodySums {
+  Real kinetic = 0, potential = 0, sensible = 0, latent = 0;  // [J]
+  ExactSum<Real> mass;                                        // [kg]: it stays what it is to the last bit
+  Real rock = 0, ice = 0, water = 0;                          // [kg]
+  Real seeped = 0;                                            // water that seepage brought, less what it took [kg]
+  Real gas = 0;                                               // void in the pores of the band's own matter [m3]
+  Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();     // [kg m/s]
+  Real largest_speed2 = 0;                                    // squared [m2/s2]
+  // Weighted by mass: the length of particles' ways [kg m] and their plastic strain [kg].
+  Real displacement = 0, plastic_strain = 0;
+  // The same of particles in the band: mass [kg], temperature [kg C], saturation [kg] and pore pressure [kg Pa].
+  Real band_mass = 0, band_temperature = 0, band_saturation = 0, band_pore_pressure = 0;
+
+  THAWSLIDE_HD BodySums& operator+=(const BodySums& part) {
+    kinetic += part.kinetic;
+    potential += part.potential;
+    sensible += part.sensible;
+    latent += part.latent;
+    mass += part.mass;
+    rock += part.rock;
+    ice += part.ice;
+    water += part.water;
+    seeped += part.seeped;
+    gas += part.gas;
+    for (int a = 0; a < Dim; ++a) {
+      momentum[a] += part.momentum[a];
+    }
+    largest_speed2 = part.largest_speed2 > largest_speed2 ? part.largest_speed2 : largest_speed2;
+    displacement += part.displacement;
+    plastic_strain += part.plastic_strain;
+    band_mass += part.band_mass;
+    band_temperature += part.band_temperature;
+    band_saturation += part.band_saturation;
+    band_pore_pressure += part.band_pore_pressure;
+    return *this;
+  }
+};
+
+// What one particle brings to them.
+template <int Dim, class Real>
+struct SumBody {
+  Vector<Real, Dim> gravity, origin;  // [m/s2]; of positions [m]
+  physics::Phases<Real> phases;
+  bool latent;          // melting takes heat
+  bool current_masses;  // heat is held by masses from the current porosity and volume, as printed
+  bool melt_contracts;  // melting leaves a void
+
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD BodySums<Dim, Real> operator()(const Particles& particles, std::uint32_t p) const {
+    const Real mass = particles.mass(p);
+    BodySums<Dim, Real> sums;
+    sums.mass = mass;
+    for (int a = 0; a < Dim; ++a) {
+      const Real velocity = particles.velocity(p, a);
+      sums.momentum[a] = mass * velocity;
+      sums.largest_speed2 += velocity * velocity;
+      sums.kinetic += Real(0.5) * mass * velocity * velocity;
+      sums.potential -= mass * gravity[a] * (particles.position(p, a) + origin[a]);
+    }
+    sums.displacement = mass * particles.path_length(p);
+    sums.plastic_strain = mass * particles.plastic_strain(p);
+    add_heat(particles, p, sums);
+    if (current_masses) {
+      add_current_phases(particles, p, sums);
+    } else {
+      add_initial_phases(particles, p, sums);
+    }
+    sums.seeped = particles.seeped_water.is_kept() ? particles.seeped_water(p) : Real(0);
+    sums.gas = void_in_pores(particles, p);
+    if (particles.in_band(p) != 0) {
+      sums.band_mass = mass;
+      sums.band_temperature = mass * particles.temperature(p);
+      sums.band_saturation = mass * particles.liquid_saturation(p);
+      sums.band_pore_pressure = mass * particles.pore_pressure(p);
+    }
+    return sums;
+  }
+
+ private:
+  template <class Particles>
+  THAWSLIDE_HD void add_heat(const Particles& particles, std::uint32_t p, BodySums<Dim, Real>& sums) const {
+    const Real pore = current_masses ? particles.volume(p) * particles.porosity(p)
+                                     : particles.initial_volume(p) * particles.initial_porosity(p);
+    const Real molten =
+        latent ? phases.ice_density * pore * phases.latent_heat * particles.liquid_saturation(p) : Real(0);
+    sums.latent = molten / particles.thermal_scaling(p);
+    sums.sensible = (particles.initial_volume(p) * particles.heat_content(p) - molten) / particles.thermal_scaling(p);
+  }
+
+  // The saturation that a particle's masses are counted with. Heat sees the volume V/xi of it, the band's own, and only
+  // that has melted: the rest stands for matter as it was at t = 0.
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD Real saturation_of_masses(const Particles& particles, std::uint32_t p) const {
+    const Real start = particles.initial_saturation(p);
+    return start + (particles.liquid_saturation(p) - start) / particles.thermal_scaling(p);
+  }
+
+  // Those of t = 0, of which ice and water change into each other at constant sum.
+  template <class Particles>
+  THAWSLIDE_HD void add_initial_phases(const Particles& particles, std::uint32_t p, BodySums<Dim, Real>& sums) const {
+    const Real start = particles.initial_saturation(p), saturation = saturation_of_masses(particles, p);
+    const Real pore_water = particles.initial_volume(p) * particles.initial_porosity(p) *
+                            (phases.water_density * start + phases.ice_density * (Real(1) - start));
+    sums.rock = sums.mass - pore_water;
+    sums.ice = (Real(1) - saturation) * pore_water;
+    sums.water = saturation * pore_water;
+  }
+
+  // Those of the current porosity and volume, as printed: their sum is not the particle's mass.
+  template <class Particles>
+  THAWSLIDE_HD void add_current_phases(const Particles& particles, std::uint32_t p, BodySums<Dim, Real>& sums) const {
+    const Real pore = particles.volume(p) * particles.porosity(p), saturation = saturation_of_masses(particles, p);
+    sums.rock = (particles.volume(p) - pore) * phases.rock_density;
+    sums.ice = pore * (Real(1) - saturation) * phases.ice_density;
+    sums.water = pore * saturation * phases.water_density;
+  }
+
+  // Void in the pores of a particle's own part of the band [m3]; what is still frozen leaves less of it than its water.
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD Real void_in_pores(const Particles& particles, std::uint32_t p) const {
+    if (!particles.pore_void.is_kept()) {
+      return Real(0);
+    }
+    const Real frozen = melt_contracts ? physics::melting_void(phases, particles.initial_porosity(p),
+                                                               Real(1) - particles.liquid_saturation(p))
+                                       : Real(0);
+    const Real open = particles.pore_void(p) - frozen;
+    return (open > Real(0) ? open : Real(0)) * particles.volume(p) / particles.thermal_scaling(p);
+  }
+};
+
+}  // namespace thawslide::band

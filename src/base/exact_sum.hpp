@@ -1,0 +1,31 @@
+// Sums whose order does not matter. For host and device.
+#pragma once
+
+#include "base/portability.hpp"
+
+namespace thawslide {
+
+// A sum and what rounding took from it: two numbers, so that sums of numbers of like size are exact, and no bit depends
+// on the order in which they are added. The error-free sum of two numbers: Knuth 1998, The Art of Computer Programming,
+// vol. 2, Section 4.2.2, Theorem B.
+template <class Real>
+class ExactSum {
+ public:
+  ExactSum() = default;
+  THAWSLIDE_HD ExactSum(Real number) : sum_(number) {}  // NOLINT(google-explicit-constructor)
+
+  THAWSLIDE_HD operator Real() const { return sum_; }  // NOLINT(google-explicit-constructor)
+
+  THAWSLIDE_HD ExactSum& operator+=(const ExactSum& part) {
+    const Real sum = sum_ + part.sum_, of_part = sum - sum_;
+    const Real rest = (sum_ - (sum - of_part)) + (part.sum_ - of_part) + (rest_ + part.rest_);
+    sum_ = sum + rest;
+    rest_ = rest - (sum_ - sum);
+    return *this;
+  }
+
+ private:
+  Real sum_ = 0, rest_ = 0;
+};
+
+}  // namespace thawslide

@@ -1,0 +1,108 @@
+// A line of straight segments in the horizontal plane, for host and device: where places lie along it.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "base/portability.hpp"
+
+namespace thawslide {
+
+using Place2 = std::array<double, 2>;  // x, y [m]
+
+// Where a place lies along a line.
+struct PlaceOnLine {
+  double along = 0.0;   // arc length from the line's first corner [m]; negative before it
+  double offset = 0.0;  // distance from the line [m], positive to the left of its direction
+};
+
+// The rectangle about some segments that follow one another: one look tells that none of them is near.
+struct BoxOfLine {
+  Place2 lower, upper;
+
+  [[nodiscard]] THAWSLIDE_HD double distance2(const Place2& place) const {  // squared [m2]
+    double sum = 0.0;
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double below = lower[a] - place[a], above = place[a] - upper[a];
+      const double away = below > 0.0 ? below : above > 0.0 ? above : 0.0;
+      sum += away * away;
+    }
+    return sum;
+  }
+};
+
+// Holds while the line lives and does not change.
+struct LineView {
+  static constexpr std::size_t segments_of_box = 8;
+
+  const Place2* corners = nullptr;     // one more than segments
+  const double* along = nullptr;       // arc length at each corner [m]
+  const Place2* directions = nullptr;  // unit vectors from each corner but the last to the next
+  const BoxOfLine* boxes = nullptr;    // about so many segments each
+  std::size_t segments = 0;            // none: the line has no direction, and nothing can be projected onto it
+
+  [[nodiscard]] THAWSLIDE_HD std::size_t boxes_count() const {
+    return (segments + segments_of_box - 1) / segments_of_box;
+  }
+
+  // The nearest point of the line, which goes on straight before its first corner and beyond its last one. Of points
+  // equally near the one closer to the first corner counts.
+  [[nodiscard]] THAWSLIDE_HD PlaceOnLine project(const Place2& place) const {
+    Nearest nearest;
+    project_onto(0, place, nearest);  // these two go on beyond the boxes
+    project_onto(segments - 1, place, nearest);
+    const std::size_t count = boxes_count();
+    std::size_t closest = 0;
+    double least2 = std::numeric_limits<double>::infinity();
+    for (std::size_t box = 0; box < count; ++box) {
+      const double distance2 = boxes[box].distance2(place);
+      if (distance2 < least2) {
+        least2 = distance2;
+        closest = box;
+      }
+    }
+    project_onto_box(closest, place, nearest);
+    for (std::size_t box = 0; box < count; ++box) {
+      if (box != closest && boxes[box].distance2(place) <= nearest.distance2) {
+        project_onto_box(box, place, nearest);
+      }
+    }
+    return nearest.place;
+  }
+
+ private:
+  struct Nearest {
+    PlaceOnLine place;
+    double distance2 = std::numeric_limits<double>::infinity();  // squared [m2]
+  };
+
+  THAWSLIDE_HD void project_onto_box(std::size_t box, const Place2& place, Nearest& nearest) const {
+    const std::size_t first = box * segments_of_box;
+    for (std::size_t k = first; k < first + segments_of_box && k < segments; ++k) {
+      project_onto(k, place, nearest);
+    }
+  }
+
+  THAWSLIDE_HD void project_onto(std::size_t k, const Place2& place, Nearest& nearest) const {
+    using std::sqrt, std::copysign;
+    const double x = place[0] - corners[k][0], y = place[1] - corners[k][1];
+    double way = x * directions[k][0] + y * directions[k][1];
+    if (k > 0 && way < 0.0) {
+      way = 0.0;
+    }
+    if (k + 1 < segments && way > along[k + 1] - along[k]) {
+      way = along[k + 1] - along[k];
+    }
+    const double away_x = x - way * directions[k][0], away_y = y - way * directions[k][1];
+    const double distance2 = away_x * away_x + away_y * away_y;
+    way += along[k];
+    if (distance2 < nearest.distance2 || (distance2 == nearest.distance2 && way < nearest.place.along)) {
+      nearest.distance2 = distance2;
+      nearest.place = {way, copysign(sqrt(distance2), directions[k][0] * y - directions[k][1] * x)};
+    }
+  }
+};
+
+}  // namespace thawslide

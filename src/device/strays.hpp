@@ -1,0 +1,116 @@
+// Particles that the processor has to look at: they are beyond the sides of the domain, or where the ground is not
+// known all about the block that their step began in. After a step they are counted; where there are some they are
+// listed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "device/array.hpp"
+#include "device/step_model.hpp"
+#include "device/tile_tables.hpp"
+#include "mpm/accounts.hpp"
+#include "mpm/kernel.hpp"
+#include "mpm/particle_view.hpp"
+
+namespace thawslide::device {
+
+// A kernel (mpm/kernel.hpp).
+template <int Dim, class Real>
+struct CountStrays {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Account = std::uint64_t;
+
+  const std::int32_t* blocks_about_tile;
+  const std::uint8_t* partly_unknown;  // by block; null: the ground is known everywhere, or there is none
+  Vector<Real, Dim> extent;            // of the domain [m]
+  bool all_stray = false;              // of the tile
+
+  [[nodiscard]] THAWSLIDE_HD CountStrays in_tile(std::size_t tile) const {
+    constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
+    CountStrays of_tile = *this;
+    of_tile.all_stray =
+        partly_unknown != nullptr && partly_unknown[blocks_about_tile[tile * stencil + stencil / 2]] != 0;
+    return of_tile;
+  }
+
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD bool strays(const Particles& particles, std::uint32_t p) const {
+    bool strays_off = all_stray;
+    for (int a = 0; a < Dim; ++a) {
+      const Real position = particles.position(p, a);
+      strays_off = strays_off || position < Real(0) || position > extent[a];
+    }
+    return strays_off;
+  }
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+                               Account& count) const {
+    count = strays(particles, at.particle[0]) ? 1 : 0;
+  }
+};
+
+// The same, of which each leaves a mark.
+template <int Dim, class Real>
+struct MarkStrays {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Account = mpm::NoAccount;
+
+  CountStrays<Dim, Real> count;
+  std::uint32_t* marks;  // by particle: 1 or 0
+
+  [[nodiscard]] THAWSLIDE_HD MarkStrays in_tile(std::size_t tile) const { return {count.in_tile(tile), marks}; }
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+                               Account& /*account*/) const {
+    marks[at.particle[0]] = count.strays(particles, at.particle[0]) ? 1 : 0;
+  }
+};
+
+// Where the marked ones stand, one after the other.
+template <int Dim, class Real>
+struct ListStrays {
+  mpm::ParticleView<Dim, Real> particles;
+  const std::uint32_t* marks;
+  const std::uint32_t* marked_before;
+  Vector<Real, Dim>* places;
+
+  THAWSLIDE_HD void operator()(std::size_t p) const {
+    if (marks[p] != 0) {
+      for (int a = 0; a < Dim; ++a) {
+        places[marked_before[p]][a] = particles.position(p, a);
+      }
+    }
+  }
+};
+
+template <class Backend, int Dim, class Real>
+class Strays {
+ public:
+  explicit Strays(Backend& backend) : marks_(backend), marked_before_(backend), places_(backend) {}
+
+  // Positions [m] of the strays, of which there are so many.
+  template <class Passes>
+  std::vector<Vector<Real, Dim>> places(Passes& passes, const CountStrays<Dim, Real>& count, std::size_t strays) {
+    const std::size_t particles = passes.particles.size();
+    marks_.resize(particles);
+    marked_before_.resize(particles);
+    places_.resize(strays);
+    passes.run(passes.linear(), MarkStrays<Dim, Real>{count, marks_.data()});
+    passes.backend.sum_before(marks_.data(), marked_before_.data(), particles);
+    passes.backend.for_each(particles, ListStrays<Dim, Real>{passes.particles.view(), marks_.data(),
+                                                             marked_before_.data(), places_.data()});
+    return places_.get();
+  }
+
+ private:
+  Array<std::uint32_t, Backend> marks_, marked_before_;
+  Array<Vector<Real, Dim>, Backend> places_;
+};
+
+}  // namespace thawslide::device
