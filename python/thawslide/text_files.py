@@ -141,7 +141,9 @@ def read_table(
     header = _cells(kept[0][1], f"{path}:{first}")
     for name in needed:
         if name not in header:
-            raise ReportError(f"{path}:{first}: no column {name}; found {_some(header)}")
+            by_semicolons = len(header) == 1 and ";" in header[0]
+            hint = ". Columns are parted by commas: write , in place of ;" if by_semicolons else ""
+            raise ReportError(f"{path}:{first}: no column {name}; found {_some(header)}{hint}")
     for place, name in enumerate(header):
         if name in header[:place]:
             raise ReportError(f"{path}:{first}: two columns {quoted(name)}")

@@ -51,6 +51,8 @@ CardFacts facts_of_card(sim::Simulation<Dim, double>& simulation, sim::RunRecord
     if (simulation.time() < end) {
       simulation.step(simulation.next_step(end));  // particles go to the card
       records.after_step(simulation);
+      static_cast<void>(records.history_row(simulation));  // which needs memory there too
+      static_cast<void>(simulation.front());
     }
     if (!(simulation.time() < end)) {
       facts.why_not = "the run ends before a step on it could be timed";

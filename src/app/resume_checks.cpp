@@ -14,6 +14,7 @@
 #include "io/checkpoint.hpp"
 #include "io/history_writer.hpp"
 #include "io/sha256.hpp"
+#include "io/snapshot_series.hpp"
 
 namespace thawslide::app {
 
@@ -115,15 +116,37 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
   }
 }
 
-void tell_changed_originals(const std::vector<io::InputFile>& inputs) {
+std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inputs) {
+  std::vector<std::string> notes;
   for (const io::InputFile& input : inputs) {
     std::error_code unreadable;
     const bool same_size = fs::file_size(input.path, unreadable) == input.bytes;
     if (!unreadable && (!same_size || io::sha256_of_file(input.path) != input.sha256)) {
-      say("note: {} has changed since the run began, which goes on with its copy, {}\n", config::shown(input.path),
-          config::shown(input.copy));
+      notes.push_back(fmt::format("{} has changed since the run began, which goes on with its copy, {}",
+                                  config::shown(input.path), config::shown(input.copy)));
     }
   }
+  return notes;
+}
+
+std::vector<std::string> gaps_in_results(const fs::path& folder, const io::Provenance& facts) {
+  std::vector<std::string> gaps;
+  for (const char* name : {"case.toml", "history.csv", "particles.vtkhdf"}) {
+    if (!fs::exists(folder / name)) {
+      gaps.push_back((folder / name).string() + " is missing");
+    }
+  }
+  if (const fs::path file = folder / "history.csv"; fs::exists(file)) {
+    const std::optional<double> last = io::last_time_in_history(file);
+    if (!last || *last < facts.simulated_time * (1.0 - 1e-9)) {
+      gaps.push_back(last ? fmt::format("{} ends at {:g} s, before the run", file.string(), *last)
+                          : file.string() + " holds no rows");
+    }
+  }
+  if (const std::string gap = io::gap_in_snapshots(folder); !gap.empty()) {
+    gaps.push_back(gap);
+  }
+  return gaps;
 }
 
 void tell_of_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {

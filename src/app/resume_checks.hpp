@@ -20,8 +20,13 @@ namespace thawslide::app {
 void require_same_inputs(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
                          const std::filesystem::path& reported_values);
 
-// Of the files that the user gave: a run goes on with its copies, whatever has become of them.
-void tell_changed_originals(const std::vector<io::InputFile>& inputs);
+// Of the files that the user gave, those that have changed, as notes: a run goes on with its copies, whatever has
+// become of them.
+[[nodiscard]] std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inputs);
+
+// What of the results of a run at its end is missing or cut off, as notes.
+[[nodiscard]] std::vector<std::string> gaps_in_results(const std::filesystem::path& folder,
+                                                       const io::Provenance& facts);
 
 // Called for an error of reading the case: where it is of a copy that has changed, it is told as that change.
 void tell_of_changed_copy(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,

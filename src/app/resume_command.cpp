@@ -1,5 +1,6 @@
 // thawslide resume.
 #include <algorithm>
+#include <memory>
 #include <set>
 
 #include "app/commands.hpp"
@@ -11,6 +12,7 @@
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/shell_word.hpp"
 #include "base/state_numbers.hpp"
 #include "config/case_changes.hpp"
 #include "config/describe.hpp"
@@ -58,10 +60,8 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   }
   say("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
       facts.message.empty() ? "" : ": " + facts.message);
-  for (const char* name : {"case.toml", "history.csv"}) {
-    if (!fs::exists(folder / name)) {
-      say("note: {} is missing\n", (folder / name).string());
-    }
+  for (const std::string& gap : gaps_in_results(folder, facts)) {
+    say("note: {}\n", gap);
   }
   if (!is_known) {
     say("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
@@ -124,12 +124,32 @@ void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>
   }
 }
 
+// What a change makes of a key that stays is told where that stands: in the run's case.toml, which is not for editing.
+template <int Dim>
+std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& folder, const Continuation& next,
+                                                            Notes& notes) {
+  try {
+    return std::make_unique<sim::Simulation<Dim, double>>(next.parameters, read_map_files(next.parameters, notes));
+  } catch (const UserError& error) {
+    if (std::string(error.what()).rfind((folder / "case.toml").string(), 0) != 0) {
+      throw;
+    }
+    throw UserError(
+        fmt::format("{} What should change of a run is told on the command line: thawslide resume {} --set "
+                    "KEY=VALUE.",
+                    error.what(), shell_word(folder.string())));
+  }
+}
+
 template <int Dim>
 int start_anew(const fs::path& folder, const Continuation& next) {
   Notes notes;
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
   take_steps_on<Dim>(next.device, simulation);
   say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
+  for (const std::string& note : next.earlier.parts.back().notes) {
+    say("note: {}\n", note);
+  }
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   take_changes(folder, next);
   notes.add(config::notices(next.parameters));
@@ -190,7 +210,8 @@ std::string keep_damaged(const fs::path& damaged) {
 template <int Dim>
 int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
   Notes notes;
-  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
+  const auto made = simulation_of<Dim>(folder, next, notes);
+  sim::Simulation<Dim, double>& simulation = *made;
   std::vector<double> scalars;
   const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
   try {
@@ -202,9 +223,16 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
   const double end = next.parameters.time.end, half_a_step = 0.5 * simulation.last_step();
   const double had_come_to = std::max(next.earlier.simulated_time,
                                       io::last_time_in_history(folder / "history.csv").value_or(simulation.time()));
-  if (end < next.earlier_end && end < had_come_to - half_a_step) {
+  // One that failed is simulated anew from its checkpoint on, and may end before it fails.
+  const bool failed = next.earlier.status == "failed";
+  const double has_come_to = failed ? simulation.time() : had_come_to;
+  if (end < next.earlier_end && end < has_come_to - half_a_step) {
     throw UserError(
-        fmt::format("the end of {:g} s has passed: the run had come to {:g} s. Give a later one.", end, had_come_to));
+        fmt::format("the end of {:g} s has passed: the run had come to {:g} s. Give a later one.", end, has_come_to));
+  }
+  if (failed && next.earlier.parts.back().changes.empty()) {
+    say("note: the run failed, and nothing is changed: it fails again unless what failed was not of the case. A key "
+        "is changed by --set KEY=VALUE, an end before that by --end T\n");
   }
   if (next.earlier.status == "done" &&
       !takes_changes_at_its_end<Dim>(folder, next, !checkpoint.note.empty(), simulation)) {
@@ -265,7 +293,7 @@ int resume_run(const ResumeOptions& options) {
     io::require_own_folders(folder, {"maps"});
   }
   require_same_inputs(folder, facts.inputs, next.parameters.report.targets);
-  tell_changed_originals(facts.inputs);
+  next.earlier.parts.back().notes = changed_originals(facts.inputs);
   return with_dimension(next.parameters.general.dimension,
                         [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
                           return has_checkpoint ? go_on<Dim>(folder, checkpoint, next) : start_anew<Dim>(folder, next);

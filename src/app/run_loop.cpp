@@ -81,6 +81,12 @@ template <int Dim>
 int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::exception& error,
                 ExitCode code, const std::filesystem::path& folder) {
   try {
+    output.require_own_folder();
+  } catch (const WriteError& lost) {
+    say_error("error: {}\nstopped at t = {:g} s\n", lost.what(), simulation.time());
+    return static_cast<int>(code);
+  }
+  try {
     output.write_provenance(simulation, "stopped", error.what(), output.wall_seconds());
   } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): it is told below what could not be written first
   }
@@ -153,7 +159,8 @@ class Loop {
     const double next_row = times_.history_interval > 0.0 ? history_.next() : times_.end;
     const double before = output_.wall_seconds();
     output_.before_step(simulation_);
-    simulation_.step(simulation_.next_step(std::min({snapshots_.next(), checkpoints_.next(), next_row, times_.end})));
+    // A checkpoint is taken after the first step that reaches its moment: what is written for safety changes no step.
+    simulation_.step(simulation_.next_step(std::min({snapshots_.next(), next_row, times_.end})));
     seconds_in_steps_ += output_.wall_seconds() - before;
     set_thread_count(threads_.after_step(seconds_in_steps_));
     tell(removal_.note(simulation_));

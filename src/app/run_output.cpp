@@ -159,7 +159,11 @@ FilesThen files_of(const std::vector<double>& numbers) {
 template <int Dim>
 RunOutput<Dim>::RunOutput(const fs::path& folder, sim::RunRecords<Dim> records, io::HistoryWriter history,
                           io::SnapshotSeries snapshots)
-    : folder_(folder), history_(std::move(history)), snapshots_(std::move(snapshots)), records_(std::move(records)) {}
+    : folder_(folder),
+      own_(folder),
+      history_(std::move(history)),
+      snapshots_(std::move(snapshots)),
+      records_(std::move(records)) {}
 
 template <int Dim>
 RunOutput<Dim>::RunOutput(const fs::path& folder, const Simulation& simulation)
@@ -271,6 +275,7 @@ template <int Dim>
 void RunOutput<Dim>::write_maps(const Simulation& /*simulation*/) {
   if constexpr (Dim == 3) {
     if (can_write_maps()) {
+      own_.require();
       stopwatch_.time("write_maps", [&] { app::write_maps(folder_, records_, fronts_); });
     }
   }
@@ -296,6 +301,7 @@ void RunOutput<Dim>::add_figures(const Simulation& simulation) {
 template <int Dim>
 void RunOutput<Dim>::write_snapshot(const Simulation& simulation) {
   if (snapshot_step_ != simulation.step_number()) {
+    own_.require();
     snapshot_step_ = simulation.step_number();
     if (const auto front = records_.front(simulation)) {
       fronts_.push_back({simulation.time(), front->place});
@@ -314,6 +320,7 @@ void RunOutput<Dim>::write_state(const Simulation& simulation) {
   if (checkpoint_step_ == simulation.step_number()) {
     return;
   }
+  own_.require();
   checkpoint_step_ = simulation.step_number();
   stopwatch_.time("write_checkpoint", [&] {
     // A run that goes on from here must find all that was written before.
@@ -355,6 +362,7 @@ Stopwatch::Seconds RunOutput<Dim>::seconds_per_stage(const Simulation& simulatio
 template <int Dim>
 void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::string& status,
                                       const std::string& message, double wall_seconds) {
+  own_.require();
   provenance_.status = status;
   provenance_.message = message;
   add_figures(simulation);

@@ -12,6 +12,7 @@
 #include "base/stopwatch.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"
+#include "io/run_lock.hpp"
 #include "io/snapshot_series.hpp"
 #include "sim/run_records.hpp"
 #include "sim/simulation.hpp"
@@ -39,7 +40,8 @@ class RunOutput {
  public:
   using Simulation = sim::Simulation<Dim, double>;
 
-  // A new run in a folder that is there and empty: writes the inputs, the resolved case, run.json and the ground.
+  // A new run in a folder that is there and empty, and whose lock the process holds: writes the inputs, the resolved
+  // case, run.json and the ground. What writes throws WriteError where the folder is not its own any more.
   RunOutput(const std::filesystem::path& folder, const Simulation& simulation);
   // The same of a run that was cut off before its first checkpoint: inputs and case stand; earlier: what run.json
   // tells, with the part that begins; case_text: resolved.
@@ -65,6 +67,8 @@ class RunOutput {
   void after_step(const Simulation& simulation);
   // In place of it, after a step that none of the slide stayed on (SlideLeft).
   void slide_left();
+  // Throws WriteError where the run's folder is not the one any more that it began in.
+  void require_own_folder() const { own_.require(); }
   // One row of history.csv, and of probes.csv where there are probes.
   void write_history(const Simulation& simulation);
   [[nodiscard]] sim::HistoryRow history_row(const Simulation& simulation) const {
@@ -77,6 +81,7 @@ class RunOutput {
   void write_snapshot(const Simulation& simulation);
   // particles.vtkhdf over all snapshots so far.
   void write_index() {
+    own_.require();
     stopwatch_.time("write_snapshot", [&] { snapshots_.write_index(); });
   }
   // What `resume` goes on from, and the maps so far.
@@ -100,6 +105,7 @@ class RunOutput {
   void write_state(const Simulation& simulation);
 
   std::filesystem::path folder_;
+  io::OwnFolder own_;
   io::HistoryWriter history_;
   io::SnapshotSeries snapshots_;
   sim::RunRecords<Dim> records_;

@@ -181,7 +181,14 @@ std::string words_on_going_on(const fs::path& folder, const RunStatus& status) {
                : fmt::format("  if that has surely ended: remove {}, then thawslide resume {}\n",
                              (folder / io::lock_name).string(), shell_word(folder.string()));
   }
-  return status.state == "failed" ? "  the message above says what to change; then run the case anew\n" : "";
+  if (status.state == "failed") {
+    return fmt::format(
+        "  the message above says what to change: run the case anew with it or, where the key may change amid a run, "
+        "go "
+        "on: thawslide resume {} --set KEY=VALUE\n",
+        shell_word(folder.string()));
+  }
+  return "";
 }
 
 std::string text_of(const fs::path& folder, const RunStatus& status) {

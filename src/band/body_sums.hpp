@@ -5,7 +5,6 @@
 
 #include "base/exact_sum.hpp"
 #include "base/linear.hpp"
-#include "base/select.hpp"
 #include "physics/mixture.hpp"
 #include "physics/pore_water.hpp"
 
@@ -13,12 +12,12 @@ namespace thawslide::band {
 
 template <int Dim, class Real>
 struct BodySums {
+  Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();     // [kg m/s]
   Real kinetic = 0, potential = 0, sensible = 0, latent = 0;  // [J]
   ExactSum<Real> mass;                                        // [kg]: it stays what it is to the last bit
   Real rock = 0, ice = 0, water = 0;                          // [kg]
   Real seeped = 0;                                            // water that seepage brought, less what it took [kg]
   Real gas = 0;                                               // void in the pores of the band's own matter [m3]
-  Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();     // [kg m/s]
   Real largest_speed2 = 0;                                    // squared [m2/s2]
   // Weighted by mass: the length of particles' ways [kg m] and their plastic strain [kg].
   Real displacement = 0, plastic_strain = 0;
@@ -52,7 +51,7 @@ struct BodySums {
 
 // What one particle brings to them.
 template <int Dim, class Real>
-struct SumBody {
+struct SumsOfParticle {
   Vector<Real, Dim> gravity, origin;  // [m/s2]; of positions [m]
   physics::Phases<Real> phases;
   bool latent;          // melting takes heat

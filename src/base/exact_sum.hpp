@@ -5,9 +5,9 @@
 
 namespace thawslide {
 
-// A sum and what rounding took from it: two numbers, so that sums of numbers of like size are exact, and no bit depends
-// on the order in which they are added. The error-free sum of two numbers: Knuth 1998, The Art of Computer Programming,
-// vol. 2, Section 4.2.2, Theorem B.
+// A sum and what rounding took from it: two numbers, which are exact while the sum is less than 2^51 times the smallest
+// part, in double precision, so that no bit depends on the order in which parts of one sign are added. The error-free
+// sum of two numbers: Knuth 1998, The Art of Computer Programming, vol. 2, Section 4.2.2, Theorem B.
 template <class Real>
 class ExactSum {
  public:

@@ -152,17 +152,18 @@ void doubt_step(const Case& parameters, Doubts& doubts) {
   const Time& time = parameters.time;
   const double steps = time.end / time.step;
   if (time.stepping == Stepping::fixed && steps > most_steps) {
-    doubts.add("time.step", time.step, " s",
-               fmt::format("that is {:.4g} steps, months of computing. `thawslide check` tells the limit, which a step "
-                           "may come close to.",
-                           steps));
+    doubts.add(
+        "time.step", time.step, " s",
+        fmt::format("that is {:.4g} steps, from days to years of computing. `thawslide check` tells how long, and "
+                    "the limit, which a step may come close to.",
+                    steps));
   }
 }
 
 void doubt_output(const Case& parameters, Doubts& doubts) {
   const Time& time = parameters.time;
   const bool is_fixed = time.stepping == Stepping::fixed;
-  // Nothing is written more than once a step, and adaptive steps are cut to what is to be written.
+  // Nothing is written more than once a step, and adaptive steps are cut to the moments of rows and snapshots.
   const double snapshots = std::min(time.end / time.output_interval, is_fixed ? time.end / time.step : infinity);
   if (time.output_interval > time.end) {
     doubts.add(
@@ -179,6 +180,15 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
                fmt::format("no longer than the step of {} s: a checkpoint every step takes longer than the step. "
                            "checkpoint.wall_interval writes them by the clock.",
                            time.step));
+  }
+  if (const double interval = parameters.checkpoint.interval; interval > time.end) {
+    doubts.add("checkpoint.interval", interval, " s",
+               fmt::format("longer than the run of {} s, which leaves the checkpoints of checkpoint.wall_interval.",
+                           time.end));
+  }
+  if (time.stop_at_rest > 0.0 && time.rest_time > time.end) {
+    doubts.add("time.rest_time", time.rest_time, " s",
+               fmt::format("longer than the run of {} s, which then never stops at rest.", time.end));
   }
   if (const double interval = parameters.checkpoint.wall_interval; interval > 0.0 && interval < least_wall_interval) {
     doubts.add("checkpoint.wall_interval", interval, " s",

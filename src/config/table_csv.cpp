@@ -131,8 +131,10 @@ void require_columns(const TableCsv& table, const std::string& where, const std:
           table.columns.begin(),
           table.columns.begin() + static_cast<std::ptrdiff_t>(std::min(table.columns.size(), most_columns_told)),
           std::back_inserter(found), quoted);
-      throw UserError(fmt::format("{}: no column {}; found {}{}", where, name, fmt::join(found, ", "),
-                                  found.size() < table.columns.size() ? ", ..." : ""));
+      const bool by_semicolons = table.columns.size() == 1 && table.columns[0].find(';') != std::string::npos;
+      throw UserError(fmt::format("{}: no column {}; found {}{}{}", where, name, fmt::join(found, ", "),
+                                  found.size() < table.columns.size() ? ", ..." : "",
+                                  by_semicolons ? ". Columns are parted by commas: write , in place of ;" : ""));
     }
   }
   for (auto name = table.columns.begin(); name != table.columns.end(); ++name) {

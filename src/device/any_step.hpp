@@ -34,15 +34,15 @@ class AnyStep {
   // The same for maps, in space.
   virtual void look_at_map(const mpm::MapCells& cells, MapLook& look) = 0;
   // What a row of the history sums.
-  virtual band::BodySums<Dim, Real> sum_over_body(const band::SumBody<Dim, Real>& sum) = 0;
+  virtual band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) = 0;
   // The particle at the front, of those whose mass together is so much [kg].
   virtual mpm::OnWay front(const mpm::Way<Dim>& way, double mass) = 0;
-  // Where those stand that the last step told as strays [m].
+  // Where those stand that the last step told as strays, from the domain's lower corner [m].
   virtual std::vector<Vector<Real, Dim>> places_of_strays() = 0;
   // Particles move in memory to stand in canonical order. Results do not depend on it.
   virtual void sort_in_memory() = 0;
-  // To as many particles, in the order of the device's memory.
-  virtual void copy_to(const mpm::ParticleView<Dim, Real>& particles) const = 0;
+  // To as many particles, in the order in which they came to the device.
+  virtual void copy_to(const mpm::ParticleView<Dim, Real>& particles) = 0;
   // From now on each stage is waited for and timed; seconds by stage, so far.
   virtual void time_stages() = 0;
   [[nodiscard]] virtual std::map<std::string, double> seconds() const = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/ordered_bits.hpp"
 #include "device/array.hpp"
 #include "device/tile_tables.hpp"
@@ -26,16 +27,15 @@ struct ListAlongWay {
   }
 };
 
-// The last ones of a list, the last one first.
+// Some of a list from its end on, the last one first.
 template <int Dim, class Real>
 struct TakeForemost {
   mpm::Way<Dim> way;
   mpm::ParticleView<Dim, Real> particles;
-  const std::uint32_t* sorted;
-  std::size_t count;
+  const std::uint32_t* end;
   mpm::OnWay* taken;
 
-  THAWSLIDE_HD void operator()(std::size_t k) const { taken[k] = way.of(particles, sorted[count - 1 - k]); }
+  THAWSLIDE_HD void operator()(std::size_t k) const { taken[k] = way.of(particles, *(end - 1 - k)); }
 };
 
 template <class Backend, int Dim, class Real>
@@ -48,27 +48,27 @@ class Front {
   mpm::OnWay find(const mpm::Way<Dim>& way, double mass, const TileTables<Dim>& tables,
                   const mpm::ParticleView<Dim, Real>& particles, std::size_t count) {
     const mpm::Way<Dim> here{copied(way.line), way.origin};
-    Array<std::uint64_t, Backend> keys(backend_, count), sorted_keys(backend_, count);
-    Array<std::uint32_t, Backend> sorted(backend_, count);
-    backend_.for_each(count, ListAlongWay<Dim, Real>{here, particles, tables.order, keys.data()});
-    backend_.sort(keys.data(), tables.order, sorted_keys.data(), sorted.data(), count);
+    keys_.resize(count);
+    sorted_keys_.resize(count);
+    sorted_.resize(count);
+    backend_.for_each(count, ListAlongWay<Dim, Real>{here, particles, tables.order, keys_.data()});
+    backend_.sort(keys_.data(), tables.order, sorted_keys_.data(), sorted_.data(), count);
     mpm::FrontSearch search(mass);
-    std::size_t looked_at = 0;
-    for (std::size_t take = std::min(count, first_look);; take = std::min(count, 2 * take)) {
-      Array<mpm::OnWay, Backend> taken(backend_, take);
-      backend_.for_each(take, TakeForemost<Dim, Real>{here, particles, sorted.data(), count, taken.data()});
-      const std::vector<mpm::OnWay> foremost = taken.get();
-      for (; looked_at < take; ++looked_at) {
-        if (search.is_at(foremost[looked_at].mass) || looked_at + 1 == count) {
-          return foremost[looked_at];
+    // Some more at a time than are ahead of the front where all have the same mass.
+    const std::size_t at_a_time = count / 150 + 1024;
+    for (std::size_t left = count;; left -= taken_.size()) {
+      taken_.resize(std::min(left, at_a_time));
+      backend_.for_each(taken_.size(), TakeForemost<Dim, Real>{here, particles, sorted_.data() + left, taken_.data()});
+      for (const mpm::OnWay& one : taken_.get()) {
+        if (search.is_at(one.mass)) {
+          return one;
         }
       }
+      THAWSLIDE_ASSERT(left > taken_.size(), "no front of {} particles and {} kg", count, mass);
     }
   }
 
  private:
-  static constexpr std::size_t first_look = 4096;  // particles
-
   LineView copied(const LineView& line) {
     if (line.segments == 0) {
       return {};
@@ -86,6 +86,9 @@ class Front {
   }
 
   Backend& backend_;
+  Array<std::uint64_t, Backend> keys_{backend_}, sorted_keys_{backend_};  // kept: what a row needs is there
+  Array<std::uint32_t, Backend> sorted_{backend_};
+  Array<mpm::OnWay, Backend> taken_{backend_};
   Array<Place2, Backend> corners_{backend_}, directions_{backend_};
   Array<double, Backend> along_{backend_};
   Array<BoxOfLine, Backend> boxes_{backend_};

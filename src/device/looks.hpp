@@ -48,12 +48,12 @@ struct SumOverBody {
   using Adds = mpm::RecordList<>;
   using Account = band::BodySums<Dim, Real>;
 
-  band::SumBody<Dim, Real> sum;
+  band::SumsOfParticle<Dim, Real> of_particle;
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
                                Account& sums) const {
-    sums = sum(particles, at.particle[0]);
+    sums = of_particle(particles, at.particle[0]);
   }
 };
 

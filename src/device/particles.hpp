@@ -57,7 +57,7 @@ class Particles {
         backend_.copy_in(here.numbers, there.numbers, numbers);
       }
     });
-    list_by_id(from);
+    list(from);
   }
 
   [[nodiscard]] std::size_t size() const { return count_; }
@@ -65,26 +65,26 @@ class Particles {
   // By ascending id.
   [[nodiscard]] const std::uint32_t* by_id() const { return by_id_.data(); }
 
-  // Copies all fields back, to as many particles.
-  void copy_to(const View& to) const {
+  // Copies all fields back, to as many particles, in the order in which they came.
+  void copy_to(const View& to) {
     mpm::for_fields_of(view_, to, [&](const auto& here, const auto& there) {
       if (here.is_kept()) {
-        backend_.copy_out(there.numbers, here.numbers, numbers_of(here));
+        backend_.copy_out(there.numbers, gathered(here, as_they_came_.data()).numbers, numbers_of(here));
       }
     });
   }
 
   // Particle k becomes the one that stood at order[k].
   void reorder(const std::uint32_t* order) {
-    std::size_t field = 0;
-    mpm::for_fields_of(view_, view_, [&](auto& here, const auto& /*same*/) {
+    mpm::for_fields_of(view_, view_, [&](const auto& here, const auto& /*same*/) {
       if (here.is_kept()) {
-        gather(here, fields_[field++], order);
+        backend_.copy(here.numbers, gathered(here, order).numbers, numbers_of(here));
       }
     });
     place_.resize(count_);
     backend_.for_each(count_, NotePlace{order, place_.data()});
     backend_.for_each(count_, TakePlace{place_.data(), by_id_.data()});
+    backend_.for_each(count_, TakePlace{place_.data(), as_they_came_.data()});
   }
 
  private:
@@ -99,18 +99,20 @@ class Particles {
     return reinterpret_cast<T*>(fields_.back().data());
   }
   template <class T, int Components>
-  void gather(mpm::FieldView<T, Components>& field, Array<std::byte, Backend>& numbers, const std::uint32_t* order) {
-    gathered_.resize(numbers.size());
+  [[nodiscard]] mpm::FieldView<T, Components> gathered(const mpm::FieldView<T, Components>& field,
+                                                       const std::uint32_t* order) {
+    gathered_.resize(numbers_of(field) * sizeof(T));
     const mpm::FieldView<T, Components> to{reinterpret_cast<T*>(gathered_.data())};
     backend_.for_each(numbers_of(field) / Components, GatherField<T, Components>{field, to, order, count_});
-    backend_.copy(field.numbers, to.numbers, numbers_of(field));
+    return to;
   }
 
-  void list_by_id(const View& from) {
-    std::vector<std::uint32_t> by_id(count_);
-    std::iota(by_id.begin(), by_id.end(), 0u);
-    std::sort(by_id.begin(), by_id.end(), [&](std::uint32_t p, std::uint32_t q) { return from.id(p) < from.id(q); });
-    by_id_.set(by_id);
+  void list(const View& from) {
+    std::vector<std::uint32_t> places(count_);
+    std::iota(places.begin(), places.end(), 0u);
+    as_they_came_.set(places);
+    std::sort(places.begin(), places.end(), [&](std::uint32_t p, std::uint32_t q) { return from.id(p) < from.id(q); });
+    by_id_.set(places);
   }
 
   Backend& backend_;
@@ -118,7 +120,7 @@ class Particles {
   View view_{};
   std::vector<Array<std::byte, Backend>> fields_;  // those that are kept, in order
   Array<std::byte, Backend> gathered_{backend_};
-  Array<std::uint32_t, Backend> by_id_{backend_}, place_{backend_};
+  Array<std::uint32_t, Backend> by_id_{backend_}, as_they_came_{backend_}, place_{backend_};
 };
 
 }  // namespace thawslide::device

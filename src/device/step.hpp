@@ -40,7 +40,8 @@ class Step {
     sums_.set(std::vector<Sums>(1));
   }
 
-  [[nodiscard]] const Particles<Backend, Dim, Real>& particles() const { return passes_.particles; }
+  // To as many particles, in the order in which they came.
+  void copy_to(const mpm::ParticleView<Dim, Real>& particles) { passes_.particles.copy_to(particles); }
   [[nodiscard]] TileTables<Dim> tables() const { return passes_.cells.tables(); }
 
   // Particles move in memory to stand in canonical order. Results do not depend on it.
@@ -84,15 +85,15 @@ class Step {
   mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) {
     return passes_.sum_over_particles(Watch<Dim, Real>{look}, watched_);
   }
-  band::BodySums<Dim, Real> sum_over_body(const band::SumBody<Dim, Real>& sum) {
-    return passes_.sum_over_particles(SumOverBody<Dim, Real>{sum}, body_);
+  band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) {
+    return passes_.sum_over_particles(SumOverBody<Dim, Real>{of_particle}, body_);
   }
   mpm::OnWay front(const mpm::Way<Dim>& way, double mass) {
     return front_.find(way, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
   }
-  // Where those stand that the last step told as strays [m].
+  // Where those stand that the last step told as strays, from the domain's lower corner [m].
   std::vector<Vector<Real, Dim>> places_of_strays() {
-    return strays_.places(passes_, count_strays(), sums_.get(0).strays);
+    return strays_.places(passes_, strays_kernel(), sums_.get(0).strays);
   }
   void look_at_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapLook& look) {
     if constexpr (Dim == 3) {
@@ -226,7 +227,7 @@ class Step {
   void take_positions() {
     const mpm::TakePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
     const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic()};
-    const CountStrays<Dim, Real> strays = count_strays();
+    const CountStrays<Dim, Real> strays = strays_kernel();
     if (passes_.model.tells_extremes && passes_.model.tells_strays) {
       take_positions(take, extremes, strays);
     } else if (passes_.model.tells_extremes) {
@@ -237,7 +238,7 @@ class Step {
       take_positions(take);
     }
   }
-  [[nodiscard]] CountStrays<Dim, Real> count_strays() const {
+  [[nodiscard]] CountStrays<Dim, Real> strays_kernel() const {
     return {passes_.cells.tables().blocks_about_tile,
             passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr, passes_.model.faces.extent};
   }

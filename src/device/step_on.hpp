@@ -21,13 +21,13 @@ class StepOn final : public AnyStep<Dim, Real> {
   StepSums<Dim, Real> step(Real time, Real dt) override { return step_.step(time, dt); }
   mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) override { return step_.watch(look); }
   void look_at_map(const mpm::MapCells& cells, MapLook& look) override { step_.look_at_map(cells, look); }
-  band::BodySums<Dim, Real> sum_over_body(const band::SumBody<Dim, Real>& sum) override {
-    return step_.sum_over_body(sum);
+  band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) override {
+    return step_.sum_over_body(of_particle);
   }
   mpm::OnWay front(const mpm::Way<Dim>& way, double mass) override { return step_.front(way, mass); }
   std::vector<Vector<Real, Dim>> places_of_strays() override { return step_.places_of_strays(); }
   void sort_in_memory() override { step_.sort_in_memory(); }
-  void copy_to(const mpm::ParticleView<Dim, Real>& particles) const override { step_.particles().copy_to(particles); }
+  void copy_to(const mpm::ParticleView<Dim, Real>& particles) override { step_.copy_to(particles); }
   void time_stages() override { backend_.time_stages(); }
   [[nodiscard]] std::map<std::string, double> seconds() const override { return backend_.seconds(); }
 

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "device/array.hpp"
-#include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
-#include "mpm/accounts.hpp"
 #include "mpm/kernel.hpp"
 #include "mpm/particle_view.hpp"
 

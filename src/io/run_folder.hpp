@@ -12,6 +12,9 @@ namespace thawslide::io {
 // The deepest part of the path that exists: where folders would be made.
 [[nodiscard]] std::filesystem::path existing_part(const std::filesystem::path& folder);
 
+// Throws UserError where a name of the path is longer than file systems take: before anything asks for it.
+void require_possible_names(const std::filesystem::path& folder);
+
 // Throws UserError where a run cannot go: a file of that name, a folder that holds another run (unless `overwrite`), a
 // folder with other things in it, a place that cannot be written.
 void require_usable(const std::filesystem::path& folder, bool overwrite);

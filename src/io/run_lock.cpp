@@ -188,6 +188,41 @@ RunLock::~RunLock() {
   }
 }
 
+OwnFolder::OwnFolder(const fs::path& folder) : lock_(folder / lock_name) {
+  struct stat facts {};
+  if (lstat(lock_.c_str(), &facts) == 0) {
+    device_ = facts.st_dev;
+    inode_ = facts.st_ino;
+  }
+}
+
+// A file system may give a file another number in the course of time: then what it says decides.
+bool OwnFolder::is_own() const {
+  struct stat facts {};
+  if (lstat(lock_.c_str(), &facts) != 0) {
+    return false;
+  }
+  if (facts.st_dev == device_ && facts.st_ino == inode_) {
+    return true;
+  }
+  const int descriptor = open(lock_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  const bool is_own = descriptor >= 0 && line_in(descriptor) == config::shown(words_of_process(getpid()));
+  if (descriptor >= 0) {
+    close(descriptor);
+  }
+  return is_own;
+}
+
+void OwnFolder::require() const {
+  if (!is_own()) {
+    throw WriteError(fmt::format(
+        "{} is not the folder any more that this run began in: that was moved or removed, its {} was, or another run "
+        "has taken its place. Nothing more is written there. From where the folder is now, `thawslide resume` goes on "
+        "from the last checkpoint.",
+        lock_.parent_path().string(), lock_name));
+  }
+}
+
 AtWork process_at_work(const fs::path& folder) {
   const fs::path file = folder / lock_name;
   const int descriptor = open_lock(file, O_RDONLY);

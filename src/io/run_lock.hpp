@@ -3,6 +3,7 @@
 // is taken to. A process that ends by itself takes its name out.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -24,6 +25,21 @@ class RunLock {
  private:
   std::filesystem::path file_;
   int descriptor_;
+};
+
+// The folder of a run whose lock this process holds. It may be moved or removed meanwhile, and another run begin under
+// its name, where this one then must not write.
+class OwnFolder {
+ public:
+  explicit OwnFolder(const std::filesystem::path& folder);
+  // Throws WriteError where it is not its own any more.
+  void require() const;
+
+ private:
+  [[nodiscard]] bool is_own() const;
+
+  std::filesystem::path lock_;
+  std::uint64_t device_ = 0, inode_ = 0;
 };
 
 struct AtWork {

@@ -11,6 +11,9 @@
 
 namespace thawslide::io {
 
+// What is missing among the snapshots of a run that has ended, by their numbers; empty: nothing that these tell.
+[[nodiscard]] std::string gap_in_snapshots(const std::filesystem::path& folder);
+
 class SnapshotSeries {
  public:
   // Starts with no snapshots; makes folder/snapshots.

@@ -1,6 +1,6 @@
 // Sums over the particles of a run: energies, masses, momentum, and what rows of the history tell the means of.
 #include "base/instances.hpp"
-#include "base/parallel.hpp"
+#include "mpm/sum_over_particles.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -11,7 +11,7 @@ BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_body() const {
     return sum_over_particles(nullptr);
   }
   BodySums<Dim, Real> sums;
-  on_device([&] { sums = device_step_->sum_over_body(summed_of_body()); });
+  on_device([&] { sums = device_step_->sum_over_body(sums_of_particle()); });
   return sums;
 }
 
@@ -25,19 +25,14 @@ BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_marked(const std::vector<std
 template <int Dim, class Real>
 BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_particles(const std::uint8_t* marked) const {
   using Sums = BodySums<Dim, Real>;
-  const band::SumBody<Dim, Real> sum_of = summed_of_body();
-  return parallel_sum<Sums>(grid_.tiles().size(), [&](std::size_t t, Sums& sums) {
-    for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
-      const std::uint32_t p = grid_.order()[k];
-      if (marked == nullptr || marked[p] != 0) {
-        sums += sum_of(particles_, p);
-      }
-    }
+  const band::SumsOfParticle<Dim, Real> of_particle = sums_of_particle();
+  return mpm::sum_over_particles<Sums>(grid_, [&](std::uint32_t p) {
+    return marked == nullptr || marked[p] != 0 ? of_particle(particles_, p) : Sums{};
   });
 }
 
 template <int Dim, class Real>
-band::SumBody<Dim, Real> Simulation<Dim, Real>::summed_of_body() const {
+band::SumsOfParticle<Dim, Real> Simulation<Dim, Real>::sums_of_particle() const {
   return {model_.motion.gravity,   model_.origin.template cast<Real>(), model_.motion.phases,
           parameters_.heat.latent, model_.band.current_masses,          model_.band.melt_contracts};
 }
@@ -46,7 +41,7 @@ band::SumBody<Dim, Real> Simulation<Dim, Real>::summed_of_body() const {
   template BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_body() const;                                   \
   template BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_marked(const std::vector<std::uint8_t>&) const; \
   template BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_particles(const std::uint8_t*) const;           \
-  template band::SumBody<Dim, Real> Simulation<Dim, Real>::summed_of_body() const;
+  template band::SumsOfParticle<Dim, Real> Simulation<Dim, Real>::sums_of_particle() const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

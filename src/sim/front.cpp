@@ -21,6 +21,7 @@ MassOnWay front_of(std::vector<MassOnWay>& masses, double mass) {
 
 template <int Dim, class Real>
 mpm::OnWay Simulation<Dim, Real>::front(const LineView& line) const {
+  THAWSLIDE_ASSERT(particle_count() > 0, "the front of {} particles", particle_count());
   mpm::Way<Dim> way{line};
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     way.origin[a] = model_.origin[static_cast<int>(a)];

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
+#include "mpm/sum_over_particles.hpp"
 
 namespace thawslide::sim {
 
@@ -27,12 +27,8 @@ std::vector<double> half_sizes(const Simulation<Dim, double>& simulation) {
 
 mpm::MassMoments mass_moments(const Simulation<3, double>& simulation) {
   const auto& particles = simulation.particles();
-  const auto& grid = simulation.grid();
-  return parallel_sum<mpm::MassMoments>(grid.tiles().size(), [&](std::size_t t, mpm::MassMoments& sum) {
-    for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
-      sum += mpm::mass_moments_of(particles, grid.order()[k]);
-    }
-  });
+  return mpm::sum_over_particles<mpm::MassMoments>(simulation.grid(),
+                                                   [&](std::uint32_t p) { return mpm::mass_moments_of(particles, p); });
 }
 
 double highest_point(const Simulation<3, double>& simulation) {
@@ -148,7 +144,7 @@ void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
 
 template <int Dim>
 std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const {
-  if (path().empty() || simulation.particle_count() == 0) {
+  if (path().empty() || simulation.particle_count() == 0 || simulation.device_has_failed()) {
     return {};
   }
   const mpm::OnWay foremost = simulation.front(path().view());

@@ -47,7 +47,7 @@ class RunRecords {
   // centre has hardly moved (CentreWay).
   [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : way_.line(); }
   [[nodiscard]] bool path_given() const { return path_given_; }
-  // The front along the path; none where that is empty, or no particle is left.
+  // The front along the path; none where that is empty, no particle is left, or a device failed with them.
   [[nodiscard]] std::optional<Front> front(const Simulation& simulation) const;
   // A row of the history, in space with the front and the runout along the path: arc length, and how far that is from
   // the rear end of the release; NaN while there is no front.

@@ -30,6 +30,7 @@ namespace thawslide::sim {
 //   pore pressure: Clapeyron, then thermal pressurization and seepage                          Eqs. 4, 8, 22, 23
 template <int Dim, class Real>
 void Simulation<Dim, Real>::step(double dt) {
+  THAWSLIDE_ASSERT(!device_has_failed_, "a step after {} has failed", device_name_);
   dt_ = static_cast<Real>(dt);
   ledger_before_ = ledger_;
   if (step_number_ == 0) {

@@ -83,6 +83,8 @@ class Simulation {
   [[nodiscard]] std::string energy_note() const;
   [[nodiscard]] const Removed& removed() const { return removed_; }
 
+  // Particles then are not those of now, and no step goes on from them.
+  [[nodiscard]] bool device_has_failed() const { return device_has_failed_; }
   // That takes the steps; empty: the processor.
   [[nodiscard]] const std::string& device_name() const { return device_name_; }
 
@@ -98,7 +100,7 @@ class Simulation {
     return particles_;
   }
   [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const {
-    bring_particles_back();
+    copy_particles_back();
     return particles_;
   }
   [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const {
@@ -150,14 +152,15 @@ class Simulation {
   void take_step_on_device();
   void on_device(const std::function<void()>& work) const;
   [[nodiscard]] device::StepSums<Dim, Real> step_on_device();
-  // Where particles stand on a device, copies them; they stay there.
+  // Where particles stand on a device, copies them; they stay there. And brings the grid to where they are.
+  void copy_particles_back() const;
   void bring_particles_back() const;
   // The same, and the next step on the device begins with those of the processor.
   void leave_device();
   [[nodiscard]] BodySums<Dim, Real> sum_over_particles(const std::uint8_t* marked) const;
-  [[nodiscard]] band::SumBody<Dim, Real> summed_of_body() const;
+  [[nodiscard]] band::SumsOfParticle<Dim, Real> sums_of_particle() const;
   [[nodiscard]] bool any_has_left(const std::vector<Vector<Real, Dim>>& places) const;
-  // Whether a device took the step, and tells that no particle is bad or may have left.
+  // Whether a device took the step, and no particle is bad or has left: it is asked where strays are.
   [[nodiscard]] bool nothing_befell_on_device() const;
 
   // What a step did goes to the accounts (step_accounts.cpp).
@@ -244,7 +247,7 @@ class Simulation {
   mutable mpm::Particles<Dim, Real> particles_;
   mutable mpm::SparseGrid<Dim, Real> grid_;
   mutable terrain::GroundOnGrid<Dim, Real> ground_;
-  mutable bool particles_are_here_ = true;
+  mutable bool particles_are_here_ = true, grid_is_here_ = true, device_has_failed_ = false;
   mpm::Nodes<Dim, Real> nodes_;
   device::MakeStep<Dim, Real> make_step_;  // empty: the processor takes the steps
   // Null: particles have changed here since, or the device has failed.

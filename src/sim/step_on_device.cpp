@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "base/parallel.hpp"
 #include "sim/device_model.hpp"
 #include "sim/simulation.hpp"
 
@@ -27,7 +28,7 @@ void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
   try {
     work();
   } catch (const device::Failure& error) {
-    particles_are_here_ = true;
+    particles_are_here_ = grid_is_here_ = device_has_failed_ = true;
     device_step_.reset();
     throw DeviceError(fmt::format("{} failed at step {}: {}", device_name_, step_number_, error.what()));
   }
@@ -45,7 +46,7 @@ device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
   if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
     device_step_->sort_in_memory();
   }
-  particles_are_here_ = false;
+  particles_are_here_ = grid_is_here_ = false;
   return device_step_->step(static_cast<Real>(time_), dt_);
 }
 
@@ -90,35 +91,36 @@ bool Simulation<Dim, Real>::nothing_befell_on_device() const {
 template <int Dim, class Real>
 bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>& places) const {
   const Vector<Real, Dim>& extent = model_.constraints.extent;
-  return std::any_of(places.begin(), places.end(), [&](const Vector<Real, Dim>& place) {
+  const auto left = [&](const Vector<Real, Dim>& place) {
     return (place.array() < Real(0)).any() || (place.array() > extent.array()).any() ||
            (model_.ground && !model_.ground->is_known(place.template head<Dim - 1>().template cast<double>()));
-  });
+  };
+  constexpr std::size_t of_a_task = 1024;
+  return parallel_sum<std::size_t>(
+             (places.size() + of_a_task - 1) / of_a_task, [&](std::size_t task, std::size_t& sum) {
+               for (std::size_t k = task * of_a_task; k < std::min(places.size(), (task + 1) * of_a_task); ++k) {
+                 sum += left(places[k]) ? 1 : 0;
+               }
+             }) > 0;
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::copy_particles_back() const {
+  if (!particles_are_here_) {
+    on_device([&] { device_step_->copy_to(mpm::view_of(particles_)); });
+    particles_are_here_ = true;
+  }
 }
 
 // The grid becomes that of where they stand: what is summed in its order does not depend on when they came.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::bring_particles_back() const {
-  if (particles_are_here_) {
-    return;
+  copy_particles_back();
+  if (!grid_is_here_) {
+    grid_.update(particles_, 0);
+    update_ground();
+    grid_is_here_ = true;
   }
-  std::vector<std::int64_t> ids(particles_.size());
-  for (std::size_t p = 0; p < ids.size(); ++p) {
-    ids[p] = particles_.id(p);
-  }
-  on_device([&] { device_step_->copy_to(mpm::view_of(particles_)); });
-  particles_are_here_ = true;
-  // They have come in the device's order.
-  std::vector<std::uint32_t> places(static_cast<std::size_t>(next_id_)), order(ids.size());
-  for (std::size_t p = 0; p < ids.size(); ++p) {
-    places[static_cast<std::size_t>(particles_.id(p))] = static_cast<std::uint32_t>(p);
-  }
-  for (std::size_t p = 0; p < ids.size(); ++p) {
-    order[p] = places[static_cast<std::size_t>(ids[p])];
-  }
-  particles_.reorder(order);
-  grid_.update(particles_, 0);
-  update_ground();
 }
 
 template <int Dim, class Real>
@@ -145,6 +147,7 @@ void Simulation<Dim, Real>::leave_device() {
   template void Simulation<Dim, Real>::take_step_on_device();                                          \
   template bool Simulation<Dim, Real>::nothing_befell_on_device() const;                               \
   template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;      \
+  template void Simulation<Dim, Real>::copy_particles_back() const;                                    \
   template void Simulation<Dim, Real>::bring_particles_back() const;                                   \
   template const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells&) const;      \
   template void Simulation<Dim, Real>::leave_device();

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
-#include "base/parallel.hpp"
+#include "mpm/sum_over_particles.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -72,11 +72,7 @@ mpm::WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const {
     on_device([&] { seen = device_step_->watch(look); });
     return seen;
   }
-  return parallel_sum<mpm::WatchedSums<Real>>(grid_.tiles().size(), [&](std::size_t t, mpm::WatchedSums<Real>& sum) {
-    for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
-      sum += look(particles_, grid_.order()[k]);
-    }
-  });
+  return mpm::sum_over_particles<mpm::WatchedSums<Real>>(grid_, [&](std::uint32_t p) { return look(particles_, p); });
 }
 
 template <int Dim, class Real>

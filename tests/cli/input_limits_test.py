@@ -87,6 +87,13 @@ def test_chain_of_case_files(thawslide: Program, small_case: Path) -> None:
     assert "and 16 files stand on one another already; allowed: 16. Join some of them." in said
 
 
+def test_a_variant_by_its_bare_name(thawslide: Program, small_case: Path) -> None:
+    (small_case / "variant.toml").write_text('[case]\nbased_on = "case.toml"\n')
+    for words in (("check", "variant.toml"), ("run", "variant.toml", "--output", "run", *sets(time__end=0.01))):
+        outcome = thawslide(*words, folder=small_case)
+        assert outcome.returncode == 0, outcome.stderr
+
+
 def test_links_to_inputs_lead_nowhere_else(thawslide: Program, small_case: Path) -> None:
     """A link in the folder may lead to a file in it, and not out of it; what --set names may lead anywhere."""
     outside = small_case.parent / "elsewhere.csv"
@@ -120,7 +127,9 @@ def test_the_copy_of_a_large_input_is_a_copy(thawslide: Program, small_case: Pat
         file.write("# a remark\n")
     outcome = thawslide("resume", run, "--end", 0.02)
     assert outcome.returncode == 0, outcome.stderr
-    assert f"note: {profile} has changed since the run began" in outcome.stdout
+    note = f"{profile} has changed since the run began, which goes on with its copy, inputs/profile.csv"
+    assert f"note: {note}\n" in outcome.stdout and outcome.stdout.count("has changed") == 1
+    assert run_facts(run)["parts"][1]["notes"] == [note]
 
 
 def test_links_to_case_files(thawslide: Program, small_case: Path) -> None:

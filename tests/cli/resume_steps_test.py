@@ -71,6 +71,15 @@ def test_other_steps_have_the_same_bits_after_a_kill(thawslide: Program, done: P
     assert_same_bits(done, twice)
 
 
+def test_checkpoints_change_no_step(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    words = sets(time__stepping="adaptive", time__end=0.5, time__history_interval=0.07, body__block__velocity="[2,0]")
+    runs = [tmp_path / name for name in ("without", "with")]
+    for run, interval in zip(runs, (0, 0.013), strict=True):
+        outcome = thawslide("run", small_case, "--output", run, *words, *sets(checkpoint__interval=interval))
+        assert outcome.returncode == 0, outcome.stderr
+    assert_same_bits(*runs)
+
+
 def test_the_guard_of_small_steps_holds_once_steps_are_adaptive(thawslide: Program, done: Path) -> None:
     """The first adaptive step is kept from then on, so that a later one can be too small."""
     changes = sets(time__stepping="adaptive", time__step=1, guards__smallest_step=0.9)

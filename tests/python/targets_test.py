@@ -83,6 +83,7 @@ def test_line_ends_marks_and_spaces_do_not_matter(tmp_path: Path, text: bytes) -
         (b"", "targets.csv: empty; expected the columns quantity, value, unit"),
         (b"# only this\n", "targets.csv: empty; expected the columns quantity, value, unit"),
         ("quantity,time_s,value\na,1,2\n", "targets.csv:1: no column unit; found 'quantity', 'time_s', 'value'"),
+        ("quantity;unit\na;m\n", "found 'quantity;unit'. Columns are parted by commas: write , in place of ;"),
         (
             "quantity,value,unit\nmean_velocity,1,m/s\n",
             "targets.csv:1: give one column of times, time_s, time_min, time_h; found none",

@@ -116,6 +116,10 @@ TEST(ReportedValues, AreTextInUtf8) {
   EXPECT_EQ(error_of_file(""), "targets.csv: empty; expected the columns quantity, value, unit");
   EXPECT_EQ(error_of_file("quantity,time_s,value\n"),
             "targets.csv:1: no column unit; found 'quantity', 'time_s', 'value'");
+  EXPECT_EQ(
+      error_of_file("quantity;time_s;value;unit\n"),
+      "targets.csv:1: no column quantity; found 'quantity;time_s;value;unit'. Columns are parted by commas: write , "
+      "in place of ;");
   EXPECT_EQ(error_of_file("quantity,value,unit\n"),
             "targets.csv:1: give one column of times, time_s, time_min, time_h; found none");
   EXPECT_EQ(error_of_file("quantity,time_s,value,unit,sorce\n"),

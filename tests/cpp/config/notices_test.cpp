@@ -120,8 +120,11 @@ TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
       {"phases.water_density", "100", "100 kg/m3: water has 950 to 1300 kg/m3."},
       {"case.gravity", "98.1", "98.1 m/s2: on Earth it is 9.81 m/s2."},
       {"time.step", "1e-12",
-       "1e-12 s: that is 1e+12 steps, months of computing. `thawslide check` tells the limit, which a step may come "
-       "close to."},
+       "1e-12 s: that is 1e+12 steps, from days to years of computing. `thawslide check` tells how long, and the "
+       "limit, "
+       "which a step may come close to."},
+      {"checkpoint.interval", "50",
+       "50 s: longer than the run of 1 s, which leaves the checkpoints of checkpoint.wall_interval."},
       {"checkpoint.interval", "1e-8",
        "1e-08 s: no longer than the step of 0.001 s: a checkpoint every step takes longer than the step. "
        "checkpoint.wall_interval writes them by the clock."},

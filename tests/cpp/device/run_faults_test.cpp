@@ -33,7 +33,7 @@ class BreaksDown final : public PassesOn<2> {
     }
     return PassesOn::step(time, dt);
   }
-  void copy_to(const mpm::ParticleView<2, double>& /*particles*/) const override {
+  void copy_to(const mpm::ParticleView<2, double>& /*particles*/) override {
     throw device::Failure("copying from the card: unspecified launch failure");
   }
 

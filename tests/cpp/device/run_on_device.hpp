@@ -35,13 +35,13 @@ class PassesOn : public device::AnyStep<Dim, double> {
   device::StepSums<Dim, double> step(double time, double dt) override { return steps_->step(time, dt); }
   mpm::WatchedSums<double> watch(const mpm::LookAtParticle<Dim, double>& look) override { return steps_->watch(look); }
   void look_at_map(const mpm::MapCells& cells, device::MapLook& look) override { steps_->look_at_map(cells, look); }
-  band::BodySums<Dim, double> sum_over_body(const band::SumBody<Dim, double>& sum) override {
-    return steps_->sum_over_body(sum);
+  band::BodySums<Dim, double> sum_over_body(const band::SumsOfParticle<Dim, double>& of_particle) override {
+    return steps_->sum_over_body(of_particle);
   }
   mpm::OnWay front(const mpm::Way<Dim>& way, double mass) override { return steps_->front(way, mass); }
   std::vector<Vector<double, Dim>> places_of_strays() override { return steps_->places_of_strays(); }
   void sort_in_memory() override { steps_->sort_in_memory(); }
-  void copy_to(const mpm::ParticleView<Dim, double>& particles) const override { steps_->copy_to(particles); }
+  void copy_to(const mpm::ParticleView<Dim, double>& particles) override { steps_->copy_to(particles); }
   void time_stages() override {}
   [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
 
@@ -56,7 +56,7 @@ class CountsCopies final : public PassesOn<Dim> {
   CountsCopies(std::unique_ptr<device::AnyStep<Dim, double>> steps, int& copies)
       : PassesOn<Dim>(std::move(steps)), copies_(copies) {}
 
-  void copy_to(const mpm::ParticleView<Dim, double>& particles) const override {
+  void copy_to(const mpm::ParticleView<Dim, double>& particles) override {
     ++copies_;
     PassesOn<Dim>::copy_to(particles);
   }

@@ -270,6 +270,26 @@ TEST(DeviceRun, GathersTheMapsOfTheProcessor) {
   }
 }
 
+// However a device sorts them.
+TEST(DeviceRun, BringsParticlesBackInTheirOrder) {
+  Simulation<2, double> simulation(sliding_bodies<2>());
+  const auto ids = [&] {
+    const auto& particles = std::as_const(simulation).particles();
+    std::vector<std::int64_t> by_place(particles.size());
+    for (std::size_t p = 0; p < by_place.size(); ++p) {
+      by_place[p] = particles.id(p);
+    }
+    return by_place;
+  };
+  const std::vector<std::int64_t> at_start = ids();
+  simulation.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+  simulation.set_sorting_interval(10);
+  for (int k = 0; k < 60; ++k) {
+    simulation.step(0.002);
+  }
+  EXPECT_EQ(ids(), at_start);
+}
+
 // Steps go on from particles that the processor has changed.
 TEST(DeviceRun, GoesOnFromWhatTheProcessorMakesOfIt) {
   const config::Case parameters = sliding_bodies<2>();

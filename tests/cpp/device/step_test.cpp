@@ -163,7 +163,7 @@ void expect_the_steps_of_the_processor(const config::Case& parameters, int steps
   EXPECT_EQ(mechanics.tables().tiles, simulation.grid().tiles().size());
   mpm::Particles<Dim, double> found;
   found.resize(simulation.particles().size());
-  mechanics.particles().copy_to(mpm::view_of(found));
+  mechanics.copy_to(mpm::view_of(found));
   expect_the_same_particles(simulation.particles(), found, heat || pressure, "at the end");
   EXPECT_EQ(heat, brought.friction_heat > 0.0);
   EXPECT_EQ(brought.band_rescale != 0.0, parameters.band.thickness.value.size() > 1);

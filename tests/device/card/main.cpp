@@ -7,6 +7,8 @@
 // Exit codes: 0 the bits are the same, or differ by at most 1e-12 of each quantity's largest value (it says which);
 // 1 they differ by more, or two runs on the card differ at all; 2 wrong options; 5 there is no card to run on.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -16,6 +18,7 @@
 
 #include "device/card.hpp"
 #include "measure.hpp"
+#include "sim/path_line.hpp"
 
 namespace thawslide::card_test {
 namespace {
@@ -93,6 +96,15 @@ bool tell_work(const device::StepSums<Dim, Real>& sums) {
   return works;
 }
 
+// Of more segments than one look takes.
+sim::PathLine bent_line() {
+  sim::PathLine line;
+  for (int k = 0; k < 40; ++k) {
+    line.add({16.0 + 0.7 * k, 8.0 * std::sin(0.2 * k)});
+  }
+  return line;
+}
+
 // What a run asks of its particles after a step, but for whole numbers.
 template <int Dim>
 std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& sums) {
@@ -108,6 +120,22 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
                               extremes.seepage.value, extremes.pore_stiffness, static_cast<double>(sums.strays),
                               seen.kinetic,           seen.potential,          seen.mass,
                               seen.fast_mass};
+  const band::BodySums<Dim, Real> body = steps.sum_over_body(sums_of_particle<Dim>());
+  numbers.insert(numbers.end(), {body.mass, body.kinetic, body.sensible, body.latent, body.water, body.gas,
+                                 body.momentum[0], body.displacement, body.band_temperature});
+  const sim::PathLine line = bent_line();
+  for (const LineView& way : {LineView{}, line.view()}) {
+    const mpm::OnWay front = steps.front({way, {5.0, 7.0}}, body.mass);
+    numbers.insert(numbers.end(), {front.along, front.mass, front.place[0], front.place[1]});
+  }
+  std::vector<std::array<Real, 2>> strays;  // they come in the order of the device's memory
+  for (const Vector<Real, Dim>& place : steps.places_of_strays()) {
+    strays.push_back({place[0], place[Dim - 1]});
+  }
+  std::sort(strays.begin(), strays.end());
+  for (const auto& [along, height] : strays) {
+    numbers.insert(numbers.end(), {along, height});
+  }
   device::MapLook map;
   steps.look_at_map({-0.3, -0.2, 1.4, 0.7, 1.0 / 1.4, 1.0 / 0.7, 100, 100, 0.25 * cell}, map);
   numbers.insert(numbers.end(), {map.moments.mass, map.moments.mass_x, map.moments.mass_y});

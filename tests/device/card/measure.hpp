@@ -17,6 +17,7 @@ struct Measured {
   std::size_t particles = 0;
   double yielding = 0;  // share of the particles, in the last step
   double seconds_a_step = 0;
+  double seconds_of_row = 0;   // sums and front: what a row of the history waits for
   double seconds_of_copy = 0;  // all particles to the processor: what a snapshot or a checkpoint waits for
   double memory = 0;           // of the device [bytes]
 };
@@ -75,6 +76,11 @@ inline Measured measured(const device::MakeStep<3, Real>& make, std::size_t part
   } while (of_steps.seconds() < seconds_at_least && done < first + 200);
   found.seconds_a_step = of_steps.seconds() / (done - first);  // a step ends with sums that the processor waits for
   found.memory = free_before - free_memory();
+  const auto row = [&] { steps->front({}, steps->sum_over_body(sums_of_particle<3>()).mass); };
+  row();  // takes memory
+  const Stopwatch of_row;
+  row();
+  found.seconds_of_row = of_row.seconds();
   const Stopwatch of_copy;
   steps->copy_to(memory.view());
   found.seconds_of_copy = of_copy.seconds();
@@ -97,9 +103,9 @@ inline Measured measured(const device::MakeStep<3, Real>& make, std::size_t part
 }
 
 inline void print_row(const Measured& found) {
-  std::printf("| %zu | %.0f | %.4g | %.4g | %.3g | %.3g |\n", found.particles, 100 * found.yielding,
+  std::printf("| %zu | %.0f | %.4g | %.4g | %.3g | %.3g | %.3g |\n", found.particles, 100 * found.yielding,
               1e3 * found.seconds_a_step, static_cast<double>(found.particles) / found.seconds_a_step / 1e6,
-              1e3 * found.seconds_of_copy, found.memory / 1024.0 / 1024.0 / 1024.0);
+              1e3 * found.seconds_of_row, 1e3 * found.seconds_of_copy, found.memory / 1024.0 / 1024.0 / 1024.0);
   std::fflush(stdout);
 }
 
@@ -107,9 +113,8 @@ inline void print_row(const Measured& found) {
 inline void print_table(const device::MakeStep<3, Real>& make, const std::vector<std::size_t>& sizes,
                         double seconds_at_least, const std::function<double()>& free_memory) {
   std::printf(
-      "| particles | yielding [%%] | a step [ms] | million particle-steps a second | all particles to the processor "
-      "[ms] "
-      "| memory [GiB] |\n|---|---|---|---|---|---|\n");
+      "| particles | yielding [%%] | a step [ms] | million particle-steps a second | a row of the history [ms] | all "
+      "particles to the processor [ms] | memory [GiB] |\n|---|---|---|---|---|---|---|\n");
   for (const std::size_t particles : sizes) {
     for (const Variant variant : {Variant::elastic, Variant::plain}) {
       try {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "band/body_sums.hpp"
 #include "device/step_model.hpp"
 #include "mpm/particle_view.hpp"
 
@@ -162,6 +163,18 @@ device::StepModel<Dim, Real> model_of_slide() {
   model.distance_check = true;
   model.tells_extremes = model.tells_strays = true;
   return model;
+}
+
+// What rows of the history sum.
+template <int Dim>
+band::SumsOfParticle<Dim, Real> sums_of_particle() {
+  band::SumsOfParticle<Dim, Real> of_particle;
+  of_particle.gravity = model_of_slide<Dim>().gravity;
+  of_particle.origin.setZero();
+  of_particle.phases = phases();
+  of_particle.latent = of_particle.melt_contracts = true;
+  of_particle.current_masses = false;
+  return of_particle;
 }
 
 // Of a plane along the grid.

@@ -1,0 +1,73 @@
+"""What resume says of a run that failed, or whose results are gone, and of changes that do not fit the rest."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from conftest import Program, history, run_facts, sets
+
+# Leaves the domain at about 1 s.
+LEAVES = sets(time__end=3, grid__max="[17,10]", body__block__velocity="[3,0]", basal__friction_angle=1)
+
+
+@pytest.fixture
+def failed(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
+    run = tmp_path / "failed"
+    outcome = thawslide("run", small_case, "--output", run, *LEAVES)
+    assert outcome.returncode == 3 and "left the domain" in outcome.stderr
+    return run
+
+
+def test_a_run_that_failed_may_end_before_that(thawslide: Program, failed: Path) -> None:
+    assert run_facts(failed)["simulated_time_s"] > 0.5
+    outcome = thawslide("resume", failed, "--end", 0.5)
+    assert outcome.returncode == 0, outcome.stderr
+    assert history(failed)["time_s"][-1] == pytest.approx(0.5)
+    assert run_facts(failed)["status"] == "done"
+
+
+def test_a_run_that_failed_is_not_resumed_without_a_word(thawslide: Program, failed: Path) -> None:
+    assert (
+        f"where the key may change amid a run, go on: thawslide resume {failed} --set KEY=VALUE\n"
+        in thawslide("status", failed).stdout
+    )
+    outcome = thawslide("resume", failed)
+    assert outcome.returncode == 3
+    assert "note: the run failed, and nothing is changed: it fails again unless" in outcome.stdout
+    outcome = thawslide("resume", failed, *sets(grid__leaving="remove", time__end=1.2))
+    assert outcome.returncode == 0 and "the run failed" not in outcome.stdout, outcome.stderr
+
+
+def test_what_a_finished_run_has_lost_of_its_results_is_told(thawslide: Program, done: Path) -> None:
+    sound = (done / "history.csv").read_text()
+    (done / "snapshots" / "000001.vtkhdf").unlink()
+    (done / "particles.vtkhdf").unlink()
+    (done / "history.csv").write_text("\n".join(sound.splitlines()[:6]) + "\n")
+    outcome = thawslide("resume", done)
+    assert outcome.returncode == 0
+    assert outcome.stdout.splitlines()[1:] == [
+        f"note: {done / 'particles.vtkhdf'} is missing",
+        f"note: {done / 'history.csv'} ends at 0.04 s, before the run",
+        f"note: 1 of the snapshots in {done / 'snapshots'} is missing",
+    ]
+    shutil.rmtree(done / "snapshots")
+    (done / "history.csv").write_text("")
+    told = thawslide("resume", done).stdout
+    assert f"note: {done / 'history.csv'} holds no rows\n" in told
+    assert f"note: {done / 'snapshots'} holds no snapshots\n" in told
+
+
+def test_what_does_not_fit_a_change_is_changed_on_the_command_line(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    run = tmp_path / "run"
+    adaptive = sets(time__stepping="adaptive", time__step=0.05)
+    assert thawslide("run", small_case, "--output", run, *adaptive).returncode == 0
+    outcome = thawslide("resume", run, "--end", 0.3, *sets(time__stepping="fixed"))
+    assert outcome.returncode == 2
+    assert "time.step is 0.05 s, above the limit of" in outcome.stderr
+    assert outcome.stderr.endswith(f"on the command line: thawslide resume {run} --set KEY=VALUE.\n")
+    words = sets(time__stepping="fixed", time__step=0.001)
+    assert thawslide("resume", run, "--end", 0.3, *words).returncode == 0
