@@ -40,7 +40,7 @@ class Scene {
     fill<mpm::FilterIncrement>({1.0, 2.0, 0.5, 0.2, 0.1, 0.3}, random);
     fill<mpm::FilterTotal>({10.0, 5.0, 2.0, 0.4, 0.3, 0.1}, random);
     fill<mpm::OrphanHeat>({2.0}, random);
-    fill<mpm::Contact>({1.0, 1.0, 3.0, 1e3}, random);
+    fill<mpm::Contact>({1.0, 1.0, 3.0, 1e3, 1e4, 1.0}, random);
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
         auto& contact = nodes.contact.of_block(b)[k];
@@ -73,7 +73,7 @@ class Scene {
         auto& record = records.of_block(b)[k];
         record.fill(0.0);
         for (std::size_t c = 0; c < static_cast<std::size_t>(mpm::components_of<Name, Dim>); ++c) {
-          record[c] = std::uniform_real_distribution<double>(-sizes[c], sizes[c])(random);
+          record[c] = std::uniform_real_distribution<double>(-sizes.at(c), sizes.at(c))(random);
         }
       }
     }
