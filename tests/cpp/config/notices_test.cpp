@@ -140,6 +140,24 @@ TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
   }
 }
 
+// A time at rest that no run of that length has, be it given or its default.
+TEST(Notices, DoubtARestThatNeverCounts) {
+  const std::string text = changed(with_columns);
+  const std::vector<std::string> stops{"pressure.frozen=none", "time.end=5", "time.stop_at_rest=0.1"};
+  const auto said = [&](const std::string& rest) {
+    std::vector<std::string> sets = stops;
+    sets.insert(sets.end(), rest.empty() ? 0 : 1, rest);
+    return without_folder(notices(testing_support::case_from_text(text, sets)));
+  };
+  EXPECT_EQ(said("time.rest_time=2"), std::vector<std::string>{});
+  EXPECT_EQ(said("time.rest_time=6"),
+            std::vector<std::string>{"--set time.rest_time=6: time.rest_time is 6 s: longer than the run of 5 s, which "
+                                     "then never stops at rest."});
+  EXPECT_EQ(said(""),
+            std::vector<std::string>{"FOLDER/case.toml: time.rest_time is 10 s: longer than the run of 5 s, which then "
+                                     "never stops at rest."});
+}
+
 // A default that is hardly ever meant; whoever writes 0 has thought of it.
 TEST(Notices, DoubtADefaultWithoutDrainage) {
   const std::string known = "pressure.frozen=none";

@@ -54,6 +54,21 @@ TEST_F(RunLockTest, OneAtATime) {
   EXPECT_NE(process_at_work(folder_).process, "");
 }
 
+// Its file may come to have another number (file systems without lasting ones), or be another's.
+TEST_F(RunLockTest, TellsWhetherTheFolderIsItsOwn) {
+  const RunLock lock(folder_);
+  const OwnFolder own(folder_);
+  EXPECT_NO_THROW(own.require());
+  const fs::path file = folder_ / lock_name, copy = folder_ / "copy";
+  fs::copy_file(file, copy);
+  fs::rename(copy, file);
+  EXPECT_NO_THROW(own.require());
+  std::ofstream(file) << "process 1 on another machine\n";
+  EXPECT_THROW(own.require(), WriteError);
+  fs::remove(file);
+  EXPECT_THROW(own.require(), WriteError);
+}
+
 TEST_F(RunLockTest, StaysAsASignOfAStartAndGoesWithARun) {
   { const RunLock lock(folder_); }
   EXPECT_TRUE(fs::exists(folder_ / lock_name));
