@@ -198,12 +198,20 @@ TEXTS = {
 }
 
 
+def duration_text(seconds: float) -> str:
+    """Say how long something took, in whole minutes."""
+    minutes = round(seconds / 60)
+    if minutes == 0:
+        return "less than a minute"
+    return f"{minutes} minute" if minutes == 1 else f"{minutes} minutes"
+
+
 def write_page(results: Path, page: Path) -> None:
     """Write the page; a part that never ran says so."""
     parts = [head()]
     for name, text in TEXTS.items():
         file = results / f"{name}.json"
         found = json.loads(file.read_text()) if file.exists() else None
-        made = f"\n*{found['version']}, {found['wall_s'] / 60:.0f} minutes.*\n" if found else ""
+        made = f"\n*{found['version']}, {duration_text(found['wall_s'])}.*\n" if found else ""
         parts.append(text(found) + made if found else f"## {name.capitalize()}\n\nThis part has not been run.\n")
     page.write_text("\n".join(parts))
