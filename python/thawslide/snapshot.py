@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+import os
+import sys
+import threading
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,6 +22,8 @@ from thawslide.text_files import is_file
 _COMPONENTS = {"velocity": {3}, "displacement": {3}, "stress": {6}, "mass": {1}, "volume": {1}, "in_band": {1}}
 _ANY = {1, 3, 6}  # of other fields: scalars, vectors and tensors
 _FAULTS = (OSError, RuntimeError, KeyError, ValueError, TypeError, MemoryError)  # what h5py says of a damaged file
+_MOST_MEMORY = 2**29  # bytes that reading may take beside a few times those of the file: HDF5 trusts sizes in it
+_BOUNDING = threading.RLock()  # the bound is the whole process's: the thread that set it lifts it
 _AGAIN = "it is damaged; remove it or run the case again"
 
 
@@ -142,12 +147,34 @@ class _SnapshotFile:
 
 
 @contextmanager
+def _bounded_memory(extra: int) -> Iterator[None]:
+    """Let this process take so many bytes more and no further, where that can be asked for (Linux).
+
+    A damaged file of some kilobytes makes HDF5 ask for tens of gigabytes.
+    """
+    if sys.platform != "linux":
+        yield
+        return
+    import resource  # other systems lack it
+
+    with _BOUNDING:
+        most = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE") + extra
+        before = resource.getrlimit(resource.RLIMIT_AS)
+        allowed = [limit for limit in before if limit != resource.RLIM_INFINITY]
+        resource.setrlimit(resource.RLIMIT_AS, (min([most, *allowed]), before[1]))
+        try:
+            yield
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, before)
+
+
+@contextmanager
 def _opened(path: Path) -> Iterator[_SnapshotFile]:
     """Open a snapshot; what h5py says of damage, also while it is read, becomes a ReportError."""
     if not is_file(path) and path.exists():  # a pipe would wait for ever
         raise ReportError(f"{path}: not a file; {_AGAIN}")
     try:
-        with h5py.File(path, "r") as file:
+        with _bounded_memory(4 * path.stat().st_size + _MOST_MEMORY), h5py.File(path, "r") as file:
             yield _SnapshotFile(file, path)
     except _FAULTS as error:
         raise ReportError(f"{path}: cannot be read as HDF5 ({error}); remove it or run the case again") from error

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "config/input_limits.hpp"
@@ -116,6 +117,11 @@ bool Value<int>::read(const toml::node& node, const ValueReader& at, int& value)
   }
   if (!at.number_in_range(node, number)) {
     return false;
+  }
+  constexpr double largest = std::numeric_limits<int>::max();
+  if (std::abs(number) > largest) {
+    return at.fail(node,
+                   fmt::format("is {:.0f}; allowed: whole numbers up to {:.0f} ({})", number, largest, at.rule.text));
   }
   value = static_cast<int>(number);
   return true;

@@ -2,6 +2,7 @@
 
 #include <gdal_priv.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -79,6 +80,13 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
   layout.x = transform[0] + 0.5 * layout.cell_x;
   layout.y = (north_up ? transform[3] - layout.rows * layout.cell_y : transform[3]) + 0.5 * layout.cell_y;
   layout.crs = wkt_from_reference(dataset.GetSpatialRef());
+  const double place[] = {layout.x, layout.y, layout.x_end(), layout.y_end(), layout.cell_x, layout.cell_y};
+  if (!std::all_of(std::begin(place), std::end(place), [](double number) { return std::isfinite(number); })) {
+    throw UserError(
+        fmt::format("{}: the raster lies nowhere (geotransform {:g}): corners and sizes of cells must be "
+                    "finite numbers. Export it again with its place.",
+                    file, fmt::join(transform, ", ")));
+  }
   return layout;
 }
 

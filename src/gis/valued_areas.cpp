@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "config/input_limits.hpp"
 
 namespace thawslide::gis {
 
@@ -17,7 +18,7 @@ double value_of(const VectorLayer& layer, const Feature& feature, const std::str
   const auto text = feature.texts.find(attribute);
   throw UserError(fmt::format("{}: the attribute '{}' of {} is {}; needed: a number. Fill it in.", layer.file,
                               attribute, feature.title,
-                              text == feature.texts.end() ? "empty" : "'" + text->second + "'"));
+                              text == feature.texts.end() ? "empty" : "'" + config::shown(text->second) + "'"));
 }
 
 // What two outlines drawn along one another share by rounding, of the smaller one's area, is no overlap.

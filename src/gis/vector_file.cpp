@@ -49,6 +49,12 @@ bool holds(OGRwkbGeometryType type, Kind kind) {
   }
 }
 
+// Names within a file may hold anything, also what steers a terminal.
+std::vector<std::string> all_shown(std::vector<std::string> names) {
+  std::transform(names.begin(), names.end(), names.begin(), config::shown);
+  return names;
+}
+
 // Of the formats that GDAL knows some name other files, or places in a network, that a case could not.
 const char* const vector_formats[] = {"ESRI Shapefile", "GPKG", "GeoJSON", nullptr};
 
@@ -100,11 +106,11 @@ OGRLayer& layer_with(const std::string& file, GDALDataset& dataset, Kind kind) {
   OGRLayer* chosen = nullptr;
   GIntBig features = 0;
   for (OGRLayer* layer : dataset.GetLayers()) {
-    all.push_back(fmt::format("'{}' ({}, {} features)", layer->GetName(), OGRGeometryTypeToName(layer->GetGeomType()),
-                              layer->GetFeatureCount()));
+    all.push_back(fmt::format("'{}' ({}, {} features)", config::shown(layer->GetName()),
+                              OGRGeometryTypeToName(layer->GetGeomType()), layer->GetFeatureCount()));
     features += layer->GetFeatureCount();
     if (layer_holds(*layer, kind)) {
-      fitting.emplace_back(layer->GetName());
+      fitting.push_back(config::shown(layer->GetName()));
       chosen = layer;
     }
   }
@@ -212,7 +218,8 @@ class LayerReader {
     const int index = source.GetFieldIndex("name");
     const std::string name =
         index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? source.GetFieldAsString(index) : "";
-    return fmt::format("{} {}{}", kind, result_.features.size() + 1, name.empty() ? "" : " (" + name + ")");
+    return fmt::format("{} {}{}", kind, result_.features.size() + 1,
+                       name.empty() ? "" : " (" + config::shown(name) + ")");
   }
 
   void take_geometry(const OGRGeometry& geometry, Feature& feature) {
@@ -312,9 +319,10 @@ std::string attribute_named(const VectorLayer& layer, const std::string& name, c
       return attribute;
     }
   }
-  const std::string hint = config::did_you_mean(name, layer.attributes);
+  const std::vector<std::string> there = all_shown(layer.attributes);
+  const std::string hint = config::did_you_mean(name, there);
   throw UserError(fmt::format("{}: there is no attribute '{}', which {} asks for; the file has: {}{}", layer.file, name,
-                              key, layer.attributes.empty() ? "none" : config::list_words(layer.attributes),
+                              key, there.empty() ? "none" : config::list_words(there),
                               hint.empty() ? ". Correct the name, or add the attribute." : hint));
 }
 
@@ -324,7 +332,7 @@ std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<
     return layer.features;
   }
   const std::string attribute = attribute_named(layer, name_attribute, "name_attribute");
-  std::vector<std::string> there;
+  std::vector<std::string> all;
   std::vector<Feature> chosen;
   std::set<std::string> found;
   for (const Feature& feature : layer.features) {
@@ -332,18 +340,19 @@ std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<
     if (text == feature.texts.end()) {
       continue;
     }
-    if (std::find(there.begin(), there.end(), text->second) == there.end()) {
-      there.push_back(text->second);
+    if (std::find(all.begin(), all.end(), text->second) == all.end()) {
+      all.push_back(text->second);
     }
     if (std::find(names.begin(), names.end(), text->second) != names.end()) {
       chosen.push_back(feature);
       found.insert(text->second);
     }
   }
+  const std::vector<std::string> there = all_shown(all);
   for (const std::string& name : names) {
     if (found.count(name) == 0) {
-      throw UserError(fmt::format("{}: no polygon has the {} '{}'; the file has: {}{}", layer.file, attribute, name,
-                                  there.empty() ? "none" : config::list_words(there),
+      throw UserError(fmt::format("{}: no polygon has the {} '{}'; the file has: {}{}", layer.file,
+                                  config::shown(attribute), name, there.empty() ? "none" : config::list_words(there),
                                   config::did_you_mean(name, there)));
     }
   }

@@ -105,6 +105,9 @@ TEST(Substrates, OnMapsNeedADem) {
       error_of_text(on_map("raster = \"map.tif\"\n")),
       "FOLDER/case.toml:24:1: key 'substrate.ice.code' is missing: it is needed when raster is given. Add 'code = "
       "...' to [substrate.ice]: the substrate's code in the raster, a whole number.");
+  EXPECT_EQ(error_of_text(on_map("raster = \"map.tif\"\ncode = 3000000000\n")),
+            "FOLDER/case.toml:26:8: substrate.ice.code is 3000000000; allowed: whole numbers up to 2147483647 "
+            "(the substrate's code in the raster).");
   EXPECT_EQ(error_of_text(on_map("raster = \"map.tif\"\ncode = 1\n") +
                           "[substrate.snow]\nraster = \"map.tif\"\ncode = 1\n" + coefficient),
             "FOLDER/case.toml:31:8: substrate.ice.code and substrate.snow.code are both 1, of the same raster; a place "

@@ -40,6 +40,17 @@ TEST(RasterFaultsTest, Rotated) {
             "FOLDER/turned.tif straight.tif");
 }
 
+TEST(RasterFaultsTest, PlaceThatIsNoNumber) {
+  ForeignRaster what;
+  what.transform = {400000.0, std::numeric_limits<double>::quiet_NaN(), 0.0, 300030.0, 0.0, -8.0};
+  EXPECT_NE(error_of_file(foreign("cells.tif", what)).find("cells.tif: the raster lies nowhere (geotransform "),
+            std::string::npos);
+  what.transform = {400000.0, 8.0, 0.0, 300030.0, 0.0, -1e308};
+  EXPECT_EQ(error_of_file(foreign("height.tif", what)),
+            "FOLDER/height.tif: the raster lies nowhere (geotransform 400000, 8, 0, 300030, 0, -1e+308): corners and "
+            "sizes of cells must be finite numbers. Export it again with its place.");
+}
+
 TEST(RasterFaultsTest, WithoutItsPlace) {
   GDALAllRegister();
   const std::string file = in_folder("picture.tif");

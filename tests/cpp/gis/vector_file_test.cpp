@@ -137,6 +137,20 @@ TEST(VectorFileTest, WrongFiles) {
       "FOLDER/mixed.geojson: polygon 2 is of the kind LINESTRING; allowed: polygons.");
 }
 
+TEST(VectorFileTest, NamesThatWouldSteerATerminalAreShownWithoutThat) {
+  const std::string polygon = box_json(0, 0, 9, 9);
+  const VectorLayer layer =
+      read_polygons(geojson("steering.geojson", {{R"("name": "a\u001b[2J")", polygon}}), ground());
+  EXPECT_EQ(layer.features.front().title, "polygon 1 (a?[2J)");
+  EXPECT_EQ(layer.features.front().texts.at("name"), "a\x1b[2J") << "values stay what they are";
+  EXPECT_EQ(error_of([&] { static_cast<void>(features_named(layer, {"b"}, "name")); }),
+            "FOLDER/steering.geojson: no polygon has the name 'b'; the file has: a?[2J");
+  const VectorLayer other = read_polygons(geojson("letters.geojson", {{R"("th\u0007ick": 3)", polygon}}), ground());
+  EXPECT_EQ(error_of([&] { static_cast<void>(attribute_named(other, "mass", "body.slide.thickness")); }),
+            "FOLDER/letters.geojson: there is no attribute 'mass', which body.slide.thickness asks for; the file has: "
+            "th?ick. Correct the name, or add the attribute.");
+}
+
 TEST(VectorFileTest, TruncatedShapefile) {
   const std::string file = foreign_polygon("ESRI Shapefile", "cut.shp", "EPSG:31287");
   std::filesystem::resize_file(file, 120);
