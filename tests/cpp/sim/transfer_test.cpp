@@ -79,8 +79,8 @@ void stir(Simulation<2, double>& simulation, double spin, double velocity, doubl
   const bool affine = simulation.model().motion.transfer == mpm::TransferKind::apic;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Plane arm = particles.position.get<Plane>(p) - Plane(19.8, 20.1);
-    particles.velocity.set(
-        p, Plane(-spin * arm[1] + velocity * number(random), spin * arm[0] + velocity * number(random)));
+    const double up = velocity * number(random), along = velocity * number(random);  // in this order by any compiler
+    particles.velocity.set(p, Plane(-spin * arm[1] + along, spin * arm[0] + up));
     if (affine) {
       particles.affine_velocity(p, 1) = spin;
       particles.affine_velocity(p, 2) = -spin;
