@@ -118,10 +118,11 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
     const double first = value_of(history_row(simulation), "advection_J");
     run_until(simulation, 4000.0);
     const auto row = history_row(simulation);
+    const auto& after = std::as_const(simulation).particles();  // anew, as a device may have had them
     double moved = 0.0;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      moved += 0.5 * particles.initial_volume(p) *
-               std::abs(particles.heat_content(p) - start[static_cast<std::size_t>(particles.id(p))]);
+    for (std::size_t p = 0; p < after.size(); ++p) {
+      moved += 0.5 * after.initial_volume(p) *
+               std::abs(after.heat_content(p) - start[static_cast<std::size_t>(after.id(p))]);
     }
     const std::string with = on ? "on" : "off";
     const double made = value_of(row, "advection_J");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
@@ -64,25 +65,28 @@ struct Manufactured {
 double error_on(double cell, Curve* curve) {
   Simulation<2, double> simulation(
       paper_case(square, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.0 * cell * cell / 0.01)}));
-  auto& particles = simulation.particles();
   const auto& phases = simulation.model().motion.phases;
   const Manufactured exact{phases.water_bulk_modulus * 1e-9 / phases.water_unit_weight};
-  const auto set = [&](std::size_t p, double value) {
+  const auto set = [](auto& particles, std::size_t p, double value) {
     particles.liquid_pressure(p) = particles.pore_pressure(p) = value;
   };
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    set(p, Manufactured::pressure(particles.position(p, 0), particles.position(p, 1), 0.0));
+  auto& at_start = simulation.particles();
+  for (std::size_t p = 0; p < at_start.size(); ++p) {
+    set(at_start, p, Manufactured::pressure(at_start.position(p, 0), at_start.position(p, 1), 0.0));
   }
   while (simulation.time() < 400.0 * (1.0 - 1e-12)) {
     const double dt = simulation.next_step(400.0);
     const double middle = simulation.time() + 0.5 * dt;
     simulation.step(dt);
+    auto& particles = simulation.particles();  // anew, as a device may have had them
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      set(p, particles.pore_pressure(p) +
-                 dt * exact.source(particles.position(p, 0), particles.position(p, 1), middle, particles.porosity(p)));
+      const double source =
+          exact.source(particles.position(p, 0), particles.position(p, 1), middle, particles.porosity(p));
+      set(particles, p, particles.pore_pressure(p) + dt * source);
     }
   }
   std::vector<double> errors;
+  const auto& particles = std::as_const(simulation).particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const double x = particles.position(p, 0), y = particles.position(p, 1);
     const double expected = Manufactured::pressure(x, y, 400.0) / 1e6;
