@@ -27,8 +27,9 @@ def head() -> str:
     """Return what the page begins with."""
     return "# Reliability\n\n" + paragraph(
         "What a run keeps when it is killed, when its disk fills up, and when its files are damaged, as tried by "
-        "`scripts/reliability`, which writes this page in five hours on two cores; a sample of each part is in "
-        "`./test`. What to do when a run has stopped is in the [user guide](user-guide.md#when-a-run-stops)."
+        "`scripts/reliability`, which writes this page in about four hours on two cores, most of them fuzzing; a "
+        "sample of each part is in `./test`. What to do when a run has stopped is in the "
+        "[user guide](user-guide.md#when-a-run-stops)."
     )
 
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TextIO
 
-from thawslide.errors import ReportError, nearest, quoted
+from thawslide.errors import ReportError, nearest, printable, quoted
 from thawslide.figures import FIGURES
 from thawslide.report import make_report
 from thawslide.run import Run
@@ -32,20 +34,37 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 warnings.simplefilter("ignore", RuntimeWarning)
                 return _report(given.run, given.output, _names(given.only), given.dpi)
     except ReportError as error:
-        print(f"thawslide-report: error: {error}", file=sys.stderr)
+        _say(f"thawslide-report: error: {error}", sys.stderr)
         return 2
     return 0
 
 
+def _say(line: str, stream: TextIO | None = None) -> None:
+    """Tell a line; where nobody takes it (a closed pipe, a full disk) the work goes on, as its results are files.
+
+    Letters that the stream's encoding lacks are told by their numbers.
+    """
+    to = stream or sys.stdout
+    if to is None:  # closed by whoever started the program
+        return
+    encoding = to.encoding or "utf-8"
+    try:
+        print(printable(line).encode(encoding, "backslashreplace").decode(encoding), file=to, flush=True)
+    except OSError:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, to.fileno())
+        os.close(nowhere)
+
+
 def _report(folder: Path, output: Path | None, names: list[str] | None, dpi: int) -> int:
     run = Run(folder, leave_out_damaged=True)
-    print(f"{run.title}: {run.history.rows} rows of history, {len(run.snapshot_files)} snapshots", flush=True)
-    report = make_report(run, output, names, dpi, progress=lambda line: print(line, flush=True))
+    _say(f"{run.title}: {run.history.rows} rows of history, {len(run.snapshot_files)} snapshots")
+    report = make_report(run, output, names, dpi, progress=_say)
     for warning in run.warnings:
-        print(f"thawslide-report: note: {warning}", file=sys.stderr)
+        _say(f"thawslide-report: note: {warning}", sys.stderr)
     for name in report.faults:
-        print(f"thawslide-report: error: {name} is left out: {report.left_out[name]}", file=sys.stderr)
-    print(f"report: {report.page}")
+        _say(f"thawslide-report: error: {name} is left out: {report.left_out[name]}", sys.stderr)
+    _say(f"report: {report.page}")
     return 2 if report.faults else 0
 
 

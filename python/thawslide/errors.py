@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable
 
 
@@ -14,6 +15,7 @@ class NotInRunError(ReportError):
     """A figure that this run has nothing for (no snapshots, a column that is not there): the report leaves it out."""
 
 
+_STEERING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 _SHOWN = 60  # characters of what was found
 
 
@@ -21,6 +23,11 @@ def quoted(text: str) -> str:
     """Return what was found as messages show it: in quotes, on one line, cut where it is long."""
     shown = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
     return "'" + "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in shown) + "'"
+
+
+def printable(text: str) -> str:
+    """Return a text with "?" for what would steer a terminal, turns the direction of reading, or is no letter."""
+    return _STEERING.sub("?", text)
 
 
 def nearest(found: str, known: Iterable[str]) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from thawslide.arrays import Numbers
-from thawslide.errors import NotInRunError, ReportError, quoted
+from thawslide.errors import NotInRunError, ReportError, printable, quoted
 from thawslide.history import History, read_history
 from thawslide.resolved_case import Case, read_case
 from thawslide.run_facts import Ending, ending_of, read_facts
@@ -54,7 +54,7 @@ class Run:
     @property
     def title(self) -> str:
         """The title of the case, or the folder's name."""
-        return str(self.section("case").get("title") or self.folder.resolve().name)
+        return printable(str(self.section("case").get("title") or self.folder.resolve().name))
 
     @property
     def dimension(self) -> int:

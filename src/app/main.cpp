@@ -1,6 +1,5 @@
 // The command line: what can be asked, and how it ends (exit codes in ARCHITECTURE.md).
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -9,11 +8,15 @@
 #include <filesystem>
 #include <new>
 #include <system_error>
+#include <utility>
 
 #include "app/commands.hpp"
 #include "app/say.hpp"
+#include "app/signals.hpp"
+#include "app/standard_streams.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "config/input_limits.hpp"
 #include "config/problems.hpp"
 #include "version.hpp"
 
@@ -226,17 +229,14 @@ int run_program(int count, char** arguments) {
 
 namespace {
 
-// Names of files, attributes and the like come from others: signs that would steer the terminal become '?'.
-std::string printable(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(),
-      [](unsigned char letter) { return (letter < 0x20 && letter != '\n' && letter != '\t') || letter == 0x7f; }, '?');
-  return text;
-}
+// Names of files, attributes and the like come from others.
+std::string printable(std::string text) { return thawslide::config::printable(std::move(text), "\n\t"); }
 
 }  // namespace
 
 int main(int count, char** arguments) {
+  hold_standard_streams();
+  survive_size_limits();
   thawslide::let_threads_wait_passively(arguments);
   try {
     return run_program(count, arguments);

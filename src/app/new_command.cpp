@@ -117,7 +117,10 @@ constexpr const char* unfinished_mark = ".unfinished-case";
 
 // What a command that was killed has left is told as that: nobody else knows it for what it is.
 void require_nothing_unfinished(const fs::path& folder) {
-  if (fs::exists(folder / unfinished_mark)) {
+  std::error_code unknown;
+  const fs::directory_iterator entries(folder, unknown);
+  if (fs::exists(folder / unfinished_mark) ||
+      std::any_of(begin(entries), end(entries), [](const fs::path& entry) { return io::is_unfinished(entry); })) {
     throw UserError(fmt::format(
         "{}: a `thawslide new` was cut off while it made this folder, or is at it now: its mark {} is there, and no "
         "whole case. Remove the folder, or give the name of another one.",

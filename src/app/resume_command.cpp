@@ -256,7 +256,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
 }  // namespace
 
 int resume_run(const ResumeOptions& options) {
-  survive_failing_writes();
+  survive_closed_pipes();
   use_threads(options.threads);
   const fs::path folder = options.folder;
   if (!fs::exists(folder / "run.json")) {

@@ -18,7 +18,7 @@ namespace thawslide::app {
 namespace fs = std::filesystem;
 
 int run_case(const RunOptions& options) {
-  survive_failing_writes();
+  survive_closed_pipes();
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   const fs::path folder = options.output.empty() ? usual_run_folder(parameters) : fs::path(options.output);

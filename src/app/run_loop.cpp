@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "app/boiling_note.hpp"
 #include "app/progress.hpp"
@@ -94,6 +95,10 @@ int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& 
             simulation.time(), shell_word(folder.string()),
             io::has_checkpoint(folder) ? "goes on from the last checkpoint" : "starts it again");
   return static_cast<int>(code);
+}
+
+UserError out_of_memory() {
+  return UserError("the memory of this machine, or what a limit allows of it (ulimit -v), has run out amid the run");
 }
 
 // The steps of one process, and what is written between them.
@@ -279,6 +284,8 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
     return end_at_once<Dim>(simulation, output, error, ExitCode::not_written, folder);
   } catch (const DeviceError& error) {
     return end_at_once<Dim>(simulation, output, error, ExitCode::device_failed, folder);
+  } catch (const std::bad_alloc&) {
+    return end_at_once<Dim>(simulation, output, out_of_memory(), ExitCode::user_mistake, folder);
   }
   return run_to_end<Dim>(simulation, output, folder);
 }
@@ -291,6 +298,8 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
     return end_at_once<Dim>(simulation, output, error, ExitCode::not_written, folder);
   } catch (const DeviceError& error) {
     return end_at_once<Dim>(simulation, output, error, ExitCode::device_failed, folder);
+  } catch (const std::bad_alloc&) {
+    return end_at_once<Dim>(simulation, output, out_of_memory(), ExitCode::user_mistake, folder);
   }
 }
 

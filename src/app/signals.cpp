@@ -1,7 +1,6 @@
 #include "app/signals.hpp"
 
 #include <csignal>
-#include <initializer_list>
 
 namespace thawslide::app {
 
@@ -33,11 +32,9 @@ void catch_signals() {
   }
 }
 
-void survive_failing_writes() {
-  for (const int number : {SIGPIPE, SIGXFSZ}) {
-    std::signal(number, SIG_IGN);
-  }
-}
+void survive_size_limits() { std::signal(SIGXFSZ, SIG_IGN); }
+
+void survive_closed_pipes() { std::signal(SIGPIPE, SIG_IGN); }
 
 int caught_signal() { return signal_number; }
 

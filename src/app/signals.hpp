@@ -7,9 +7,10 @@ namespace thawslide::app {
 // that is ignored already, as nohup has it, stays ignored.
 void catch_signals();
 
-// From now on a pipe that nobody reads and a file above its size limit are errors of the call that writes, which by
-// themselves would end the program.
-void survive_failing_writes();
+// From now on a file above its size limit, or a pipe that nobody reads, is an error of the call that writes, which by
+// itself would end the program.
+void survive_size_limits();
+void survive_closed_pipes();
 
 // The signal that came, 0 if none.
 int caught_signal();

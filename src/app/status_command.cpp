@@ -151,19 +151,24 @@ std::string json_text(const RunStatus& status) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+// [s]
+std::string age_text(double age) {
+  return age < 0.0 ? "later than it is now by this machine's clock" : duration_text(age) + " ago";
+}
+
 std::string words_for(const RunStatus& status) {
   if (status.state == "running") {
     return "running, by " + status.process;
   }
   if (status.state == "killed") {
-    return "its process is gone without a word: it was killed, or the machine went down";
+    return "its process is gone without a word: it was killed, the machine went down, or its disk was too full to say "
+           "why";
   }
   if (status.state == "unknown") {
     return fmt::format(
-        "whether it runs cannot be told, as its file system has no locks{}; its last file was written {} "
-        "ago",
+        "whether it runs cannot be told, as its file system has no locks{}; its last file was written {}",
         status.process.empty() ? "" : fmt::format(" and {} has begun to write it", status.process),
-        duration_text(status.last_write_age.value_or(0.0)));
+        age_text(status.last_write_age.value_or(0.0)));
   }
   if (status.state == "failed") {
     return status.message.empty() ? "the run went bad" : status.message;  // which begins with these words
@@ -207,7 +212,7 @@ std::string text_of(const fs::path& folder, const RunStatus& status) {
   if (status.state == "done") {
     return text;
   }
-  text += status.checkpoint_age ? fmt::format("  last checkpoint {} ago\n", duration_text(*status.checkpoint_age))
+  text += status.checkpoint_age ? fmt::format("  last checkpoint {}\n", age_text(*status.checkpoint_age))
                                 : "  no checkpoint yet\n";
   return text + words_on_going_on(folder, status);
 }

@@ -111,7 +111,7 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
       solved = solve_with_secant(grid, model, dt, first_step, nodes);
     }
     HeatGain<Real> gain = solved.gain;
-    if (solved.any_orphan) {
+    if (solved.orphans > 0) {
       take_orphan_heat(grid, model, dt, nodes, particles);
     }
     if (model.secant_capacity) {

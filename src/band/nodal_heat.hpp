@@ -1,6 +1,8 @@
 // What nodes do in conduct_heat (Eq. 19), in the numbers of one node, and what comes of it. For host and device.
 #pragma once
 
+#include <cstdint>
+
 #include "base/portability.hpp"
 #include "mpm/records.hpp"
 
@@ -29,11 +31,11 @@ struct HeatGain {
 template <class Real>
 struct NodalHeat {
   HeatGain<Real> gain;
-  bool any_orphan = false;  // heat at a node without linear weight
+  std::uint64_t orphans = 0;  // nodes with heat and without linear weight
 
   THAWSLIDE_HD NodalHeat& operator+=(const NodalHeat& part) {
     gain += part.gain;
-    any_orphan = any_orphan || part.any_orphan;
+    orphans += part.orphans;
     return *this;
   }
 };
@@ -52,7 +54,7 @@ THAWSLIDE_HD void solve_temperature_rate(const Rates& rates, Real capacity, Real
   if (!(capacity > Real(0))) {
     if (friction > Real(0)) {
       orphan = friction / momentum[mpm::MomentumLayout<Dim>::mass];
-      sum.any_orphan = true;
+      ++sum.orphans;
     }
     return;
   }

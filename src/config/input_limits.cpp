@@ -17,11 +17,27 @@ void require_size(const fs::path& file, double most_bytes, const std::string& ad
   }
 }
 
-std::string shown(const std::string& text) {
-  std::string plain = text.substr(0, most_letters_quoted);
+std::string printable(std::string text, std::string_view kept) {
   std::replace_if(
-      plain.begin(), plain.end(), [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, '?');
-  return plain.size() < text.size() ? plain + "..." : plain;
+      text.begin(), text.end(),
+      [kept](char letter) {
+        const auto code = static_cast<unsigned char>(letter);
+        return (code < 0x20 && kept.find(letter) == std::string_view::npos) || code == 0x7f;
+      },
+      '?');
+  constexpr const char* turning[] = {"\u202a", "\u202b", "\u202c", "\u202d", "\u202e",
+                                     "\u2066", "\u2067", "\u2068", "\u2069"};
+  for (const std::string_view mark : turning) {
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+      text.replace(at, mark.size(), "?");
+    }
+  }
+  return text;
+}
+
+std::string shown(const std::string& text) {
+  const std::string plain = printable(text.substr(0, most_letters_quoted));
+  return text.size() > most_letters_quoted ? plain + "..." : plain;
 }
 
 std::string what_stands_at(const fs::path& path) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace thawslide::config {
 
@@ -22,6 +23,10 @@ inline constexpr std::size_t most_letters_quoted = 200;  // of a text that is wr
 
 // Throws UserError where a file has more bytes; `advice` ends the message: "Is it the right file?"
 void require_size(const std::filesystem::path& file, double most_bytes, const std::string& advice);
+
+// A text with what would steer a terminal as '?': control letters, but for those of `kept`, and marks that turn the
+// direction of what is read.
+[[nodiscard]] std::string printable(std::string text, std::string_view kept = "");
 
 // A text as messages show it: without the end of a long one, and with signs that would steer a terminal as '?'.
 [[nodiscard]] std::string shown(const std::string& text);

@@ -27,7 +27,11 @@ Card find_card() {
                     : "the NVIDIA driver is too old for CUDA " + std::to_string(CUDART_VERSION / 1000) + ": update it";
     return card;
   }
-  if (found != cudaSuccess || count == 0) {
+  if (found != cudaSuccess && found != cudaErrorNoDevice) {
+    card.why_not = std::string("CUDA cannot be used: ") + cudaGetErrorString(found);
+    return card;
+  }
+  if (count == 0) {
     card.why_not = "there is no NVIDIA card";
     return card;
   }
@@ -44,8 +48,10 @@ Card find_card() {
     expect_done(cudaMemGetInfo(&free, &total), "asking the card for its memory");
     card.free = static_cast<double>(free);
   } catch (const CardError& error) {
+    const bool is_of_others =
+        error.code() == cudaErrorNoKernelImageForDevice || error.code() == cudaErrorInvalidDeviceFunction;
     card.why_not = "the card (" + card.name + ") cannot run this program: " + error.what() +
-                   ". Build with THAWSLIDE_CUDA_ARCHITECTURES for it";
+                   (is_of_others ? ". Build with THAWSLIDE_CUDA_ARCHITECTURES for it" : "");
     return card;
   }
   card.is_usable = true;

@@ -51,6 +51,11 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     std::size_t tile, first, last, cell, cells, number;
   };
 
+  // The layers of cells, along the last axis, that a chunk has cells of. Those of nodes that they see are two more.
+  struct Layers {
+    std::size_t first, end;
+  };
+
   template <class Group>
   THAWSLIDE_HD void operator()(Group& group, std::size_t tile) const {
     const Room room(group.shared());
@@ -217,8 +222,10 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     }
     group.each(chunk.cells * cell_nodes, [this, room, chunk](std::size_t k) { sum_in_cell<Name>(room, chunk, k); });
     group.barrier();
-    group.each(patch_nodes * carried,
-               [this, room, chunk](std::size_t k) { add_cells<Name>(room, chunk, k / carried, k % carried); });
+    const Layers layers = layers_of(chunk);
+    group.each((layers.end - layers.first + 2) * layer_nodes * carried, [this, room, chunk, layers](std::size_t k) {
+      add_cells<Name>(room, chunk, layers, layers.first * layer_nodes + k / carried, k % carried);
+    });
   }
 
   template <class Name>
@@ -250,10 +257,11 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   }
 
   template <class Name>
-  THAWSLIDE_HD void add_cells(const Room& room, const Chunk& chunk, std::size_t node, std::size_t component) const {
+  THAWSLIDE_HD void add_cells(const Room& room, const Chunk& chunk, const Layers& layers, std::size_t node,
+                              std::size_t component) const {
     constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
     Real& number = room.patch()[node * size + first_component<Name> + component];
-    for_cells_that_see(node, [&](std::size_t cell, std::size_t node_of_cell) {
+    for_cells_that_see(layers, node, [&](std::size_t cell, std::size_t node_of_cell) {
       const std::size_t k = cell - chunk.cell;
       if (cell < chunk.cell || k >= chunk.cells) {
         return;
@@ -266,9 +274,15 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     });
   }
 
-  // Calls visit(cell, node of the cell) for the cells, in order, that see a node of the patch.
+  static constexpr std::size_t layer_nodes = patch_nodes / static_cast<std::size_t>(T::patch_edge);
+  THAWSLIDE_HD static Layers layers_of(const Chunk& chunk) {
+    constexpr std::size_t layer_cells = nodes / static_cast<std::size_t>(T::edge);
+    return {chunk.cell / layer_cells, (chunk.cell + chunk.cells - 1) / layer_cells + 1};
+  }
+
+  // Calls visit(cell, node of the cell) for the cells of some layers, in order, that see a node of the patch.
   template <class Visit>
-  THAWSLIDE_HD static void for_cells_that_see(std::size_t node, const Visit& visit) {
+  THAWSLIDE_HD static void for_cells_that_see(const Layers& layers, std::size_t node, const Visit& visit) {
     constexpr auto edge = static_cast<std::size_t>(T::edge), patch_edge = static_cast<std::size_t>(T::patch_edge);
     const std::size_t at[3] = {node % patch_edge, node / patch_edge % patch_edge, node / patch_edge / patch_edge};
     std::size_t from[3] = {0, 0, 0}, to[3] = {1, 1, 1};
@@ -276,6 +290,8 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       from[a] = at[a] < 2 ? 0 : at[a] - 2;
       to[a] = at[a] + 1 < edge ? at[a] + 1 : edge;
     }
+    from[Dim - 1] = from[Dim - 1] < layers.first ? layers.first : from[Dim - 1];
+    to[Dim - 1] = to[Dim - 1] < layers.end ? to[Dim - 1] : layers.end;
     for (std::size_t z = from[2]; z < to[2]; ++z) {
       for (std::size_t y = from[1]; y < to[1]; ++y) {
         for (std::size_t x = from[0]; x < to[0]; ++x) {

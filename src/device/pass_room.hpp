@@ -58,6 +58,14 @@ struct OwnerOfList<mpm::RecordList<Name, Names...>> {
   static constexpr int size = mpm::components_of<Name, Dim>;
 };
 
+// With one more number after it, or without.
+template <class Contents, class Real, bool has_room>
+struct WithRoomAfter : Contents {};
+template <class Contents, class Real>
+struct WithRoomAfter<Contents, Real, true> : Contents {
+  Real after;
+};
+
 // A patch that is read.
 template <class Name, int Dim, class Real>
 struct PatchRead {
@@ -89,17 +97,23 @@ class PassRoom<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, K
   using PatchesRead = mpm::ByName<mpm::Named<Reads, PatchRead<Reads, Dim, Real>>...>;
 
   // Of a particle.
-  struct Slot {
+  struct Contents {
     Carried carried;
     Stencils<mpm::AllOf<mpm::RecordList<typename Adds::Functions>...>, Dim, Real> stencils;
     SumsOf<Kernels...> sums;
-
-    THAWSLIDE_HD void keep(const mpm::OneWeights<Dim, Real>& weights) { stencils.keep(weights); }
+  };
+  template <class T>
+  static constexpr bool has_even_numbers = alignof(T) == alignof(Real) && sizeof(T) / sizeof(Real) > 0 &&
+                                           sizeof(T) / sizeof(Real) % 2 == 0;
+  // An odd number of numbers, so that those of threads side by side lie in different banks of the memory.
+  struct Slot : WithRoomAfter<Contents, Real, has_even_numbers<Contents>> {
+    THAWSLIDE_HD void keep(const mpm::OneWeights<Dim, Real>& weights) { this->stencils.keep(weights); }
     template <class Name>
     [[nodiscard]] THAWSLIDE_HD const auto& stencil() const {
-      return stencils.template of<typename Name::Functions>();
+      return this->stencils.template of<typename Name::Functions>();
     }
   };
+  static_assert(!has_even_numbers<Slot>);
 
   THAWSLIDE_HD explicit PassRoom(std::byte* memory) : memory_(memory) {}
 

@@ -25,7 +25,8 @@ struct StressWork {
 };
 
 // What can be wrong with a particle.
-enum class Fault {
+// As wide as the id beside it below: sums have no gaps, which nothing writes, between their numbers.
+enum class Fault : std::int64_t {
   none,
   volume_not_finite,
   volume_not_positive,

@@ -222,7 +222,10 @@ def test_status_tells_what_it_can_where_rows_cannot_be_read(thawslide: Program, 
     outcome = thawslide("status", killed)
     assert (outcome.returncode, outcome.stderr) == (0, "")
     first, second, third, fourth, fifth = outcome.stdout.splitlines(keepends=True)
-    assert first == f"{killed}: its process is gone without a word: it was killed, or the machine went down\n"
+    assert first == (
+        f"{killed}: its process is gone without a word: it was killed, the machine went down, or its disk was too full "
+        "to say why\n"
+    )
     assert second == "  0.2 of 0.2 s simulated (100 %)\n"
     assert third == f"  it may have come further: {rows} is a folder, {NO_FILE}"
     assert fourth.startswith("  last checkpoint ") and fifth == f"  to go on: thawslide resume {killed}\n"

@@ -135,6 +135,13 @@ def test_what_a_command_that_was_killed_left_is_called_that(
         f"error: {folder}: a `thawslide new` was cut off while it made this folder, or is at it now: its mark "
         ".unfinished-case is there, and no whole case. Remove the folder, or give the name of another one.\n"
     )
+    # Killed while it wrote its very mark.
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "..unfinished-case.30828.thawslide-part").write_text("")
+    again = made(thawslide, other, slope(), release, "--thickness", THICKNESS)
+    assert again.returncode == 2
+    assert f"{other}: a `thawslide new` was cut off while it made this folder" in again.stderr
 
 
 def test_no_place_in_a_file_that_was_not_made_is_told(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

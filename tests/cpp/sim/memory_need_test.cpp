@@ -55,7 +55,7 @@ TEST(MemoryNeed, SumsItsParts) {
   EXPECT_EQ(need.particles, 600.0 * 616.0);
   EXPECT_EQ(need.output, 600.0 * 800.0);
   EXPECT_EQ(need.columns + need.bed + need.maps + need.ground, 0.0);
-  EXPECT_EQ(need.total(), 40e6 + 600.0 * 1416.0);
+  EXPECT_EQ(need.total(), 60e6 + 600.0 * 1416.0);
 
   const config::Case rich =
       case_from_text(two_bodies +
@@ -81,7 +81,7 @@ TEST(MemoryNeed, CountsGroundMapsAndReleaseInSpace) {
   EXPECT_NEAR(bodies.area, 10000.0, 1e-9);
   EXPECT_NEAR(bodies.particles, 200000.0 / 1000.0 * 8.0, 1e-6);
   const MemoryNeed need = memory_need<3>(parameters, site, bodies);
-  EXPECT_EQ(need.ground, 80e6 + 441.0 * 16.0);
+  EXPECT_EQ(need.ground, 100e6 + 441.0 * 16.0);
   const MapGrid maps = map_grid_of(parameters, site);
   ASSERT_EQ(maps.cell_area(), 400.0);
   EXPECT_EQ(need.maps,
