@@ -1,12 +1,26 @@
 #include "io/hdf5_file.hpp"
 
+#include <cstdlib>
+#include <new>
+
 namespace thawslide::io::hdf5 {
 
 namespace {
 
 void require(herr_t result, const char* what) { THAWSLIDE_ASSERT(result >= 0, "HDF5 failed: {}", what); }
 
-hid_t memory_access() {
+// HDF5 crashes where it gets no memory: what it will take is asked for before, and given back.
+void require_memory(std::size_t bytes) {
+  void* volatile memory = std::malloc(bytes);
+  if (memory == nullptr) {
+    throw std::bad_alloc();
+  }
+  std::free(memory);
+}
+
+hid_t memory_access(std::size_t bytes) {
+  constexpr std::size_t copies = 3, bytes_beside = 8'000'000;  // the file as it grows, its image, and all else
+  require_memory(copies * bytes + bytes_beside);
   constexpr std::size_t growth = std::size_t{1} << 20;
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   require(H5Pset_fapl_core(access, growth, 0), "memory file");
@@ -35,8 +49,8 @@ void write_any_attribute(hid_t object, const std::string& name, hid_t type, hid_
 
 }  // namespace
 
-MemoryFile::MemoryFile()
-    : access_(memory_access(), H5Pclose, "access"),
+MemoryFile::MemoryFile(std::size_t bytes)
+    : access_(memory_access(bytes), H5Pclose, "access"),
       creation_(timeless_file_creation(), H5Pclose, "creation"),
       file_(H5Fcreate("in-memory.h5", H5F_ACC_TRUNC, creation_, access_), H5Fclose, "a file in memory") {}
 

@@ -54,7 +54,8 @@ using Shape = std::vector<hsize_t>;
 // A file in memory.
 class MemoryFile {
  public:
-  MemoryFile();
+  // bytes: as much is written to it, about. Throws bad_alloc where there is no room for that.
+  explicit MemoryFile(std::size_t bytes = 0);
   [[nodiscard]] hid_t root() const { return file_; }
   // The file's bytes, as they would stand on disk.
   [[nodiscard]] std::vector<std::byte> bytes() const;

@@ -74,7 +74,11 @@ Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<
 
 std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
   const std::size_t count = snapshot.particles();
-  const hdf5::MemoryFile file;
+  std::size_t numbers = (3 + 2) * count;  // places, and two numbers of each vertex
+  for (const SnapshotField& field : snapshot.fields) {
+    numbers += field.components * count;
+  }
+  const hdf5::MemoryFile file(numbers * sizeof(double));
   const hdf5::Handle root = vtkhdf::make_root(file.root());
   hdf5::write_attribute(root, "time", snapshot.time);
   hdf5::write_attribute(root, "step", snapshot.step);

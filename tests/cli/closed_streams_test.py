@@ -67,10 +67,7 @@ def test_memory_that_runs_out_amid_a_run(
     binary: Path, plain_environment: dict[str, str], thawslide: Program, small_case: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
-    fine = [
-        *sets("grid.cell=0.5", "body.block.particles_per_axis=16"),
-        *sets("time.end=60", "time.output_interval=0.02"),
-    ]
+    fine = sets(grid__cell=0.5, body__block__particles_per_axis=16, time__end=60, time__output_interval=0.02)
     command = [str(binary), "run", str(small_case), *fine, "--output", str(run), "--threads", "1"]
     pipe = subprocess.PIPE
     with subprocess.Popen(command, env=plain_environment, stdout=subprocess.DEVNULL, stderr=pipe, text=True) as process:
@@ -90,7 +87,7 @@ def test_memory_that_runs_out_amid_a_run(
     ), told
     assert run_facts(run)["status"] == "stopped"
     assert "has run out amid the run" in thawslide("status", run).stdout
-    end = run_facts(run)["simulated_time"] + 0.02
+    end = run_facts(run)["simulated_time_s"] + 0.02
     assert thawslide("resume", run, "--end", round(end, 3)).returncode == 0
 
 
