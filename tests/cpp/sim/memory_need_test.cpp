@@ -121,24 +121,24 @@ TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
   const config::Case parameters = case_from_text(two_bodies, {"grid.cell=0.02"});
   // 2500 cells in a square metre: 400 m2 at 4 particles in each, 50 m2 at 16.
   EXPECT_EQ(refusal_of(parameters, {4e9, "are free"}),
-            "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6e+06 particles: the run needs about 8.54 GB of "
+            "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6e+06 particles: the run needs about 8.56 GB of "
             "memory (particles 3.7 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.032 m or more, or "
             "particles_per_axis smaller.");
   EXPECT_EQ(refusal_of(parameters, {8.6e9, "are free"}), "");
-  EXPECT_EQ(refusal_of(case_from_text(two_bodies), {40.9e6, "are free"}), "");
+  EXPECT_EQ(refusal_of(case_from_text(two_bodies), {60.9e6, "are free"}), "");
 }
 
 // Under a limit that even the program would not fit into no cell helps, and particles are what the memory is for.
 TEST(MemoryNeed, WhatTakesMostIsBlamedWhereNoCellHelps) {
   EXPECT_EQ(refusal_of(case_from_text(two_bodies, {"grid.cell=0.02"}), {0.03e9, "are left by the bound of ulimit -v"}),
-            "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6e+06 particles: the run needs about 8.54 GB of "
+            "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6e+06 particles: the run needs about 8.56 GB of "
             "memory (particles 3.7 GB, writing them 4.8 GB), and 0.03 GB are left by the bound of ulimit -v. Make "
-            "grid.cell larger; the rest, 0.04 GB, needs more memory, or a higher limit of it, whatever the cell.");
+            "grid.cell larger; the rest, 0.06 GB, needs more memory, or a higher limit of it, whatever the cell.");
   const config::Case plain = case_from_text(two_bodies);
   EXPECT_EQ(refusal_of(plain, {0.03e9, "are free"}),
             plain.file +
-                ": the run needs about 0.0408 GB of memory (writing them 0.00048 GB, the program 0.04 GB), and "
-                "0.03 GB are free. The program alone takes 0.04 GB: give it more memory, or a higher limit.");
+                ": the run needs about 0.0608 GB of memory (the program 0.06 GB), and "
+                "0.03 GB are free. The program alone takes 0.06 GB: give it more memory, or a higher limit.");
 }
 
 TEST(MemoryNeed, MoreParticlesThanCanBeCountedAreRefused) {
