@@ -207,12 +207,22 @@ def duration_text(seconds: float) -> str:
     return f"{minutes} minute" if minutes == 1 else f"{minutes} minutes"
 
 
+def made_text(name: str, found: dict[str, Any]) -> str:
+    """Say by what a part was found, and how long it took."""
+    if name == "fuzzing":  # one target after the other, some of them by other versions
+        return f"{sum(row['seconds'] for row in found['rows']) / 3600:.1f} hours of a processor"
+    return f"{found['version']}, {duration_text(found['wall_s'])}"
+
+
 def write_page(results: Path, page: Path) -> None:
     """Write the page; a part that never ran says so."""
     parts = [head()]
     for name, text in TEXTS.items():
         file = results / f"{name}.json"
         found = json.loads(file.read_text()) if file.exists() else None
-        made = f"\n*{found['version']}, {duration_text(found['wall_s'])}.*\n" if found else ""
-        parts.append(text(found) + made if found else f"## {name.capitalize()}\n\nThis part has not been run.\n")
+        parts.append(
+            text(found) + f"\n*{made_text(name, found)}.*\n"
+            if found
+            else f"## {name.capitalize()}\n\nThis part has not been run.\n"
+        )
     page.write_text("\n".join(parts))
