@@ -42,10 +42,12 @@ bool are_whole(const std::vector<double>& lengths, double unit) {
 
 // The largest length [m] of which all are whole multiples; 0 where they are not decimal numbers above 0.
 double common_length(const std::vector<double>& lengths) {
-  for (double unit = 1.0; unit > 0.5 * finest_unit; unit = tidy(0.1 * unit)) {
+  double unit = 1.0;
+  while (unit > 0.5 * finest_unit) {
     if (are_whole(lengths, unit)) {
       return unit * common_cells(unit, lengths);
     }
+    unit = tidy(0.1 * unit);
   }
   return 0.0;
 }
@@ -77,10 +79,12 @@ double fitting_cell(double most, double cell, const std::vector<double>& lengths
   }
   const double largest = cell * common_cells(cell, lengths);
   const double fewest = std::ceil(largest / most * (1.0 - 1e-9));
-  for (double parts = fewest; parts <= leeway * fewest; ++parts) {
+  double parts = fewest;
+  while (parts <= leeway * fewest) {
     if (has_few_digits(largest / parts)) {
       return of_few_digits(largest / parts);
     }
+    ++parts;
   }
   return largest / fewest;
 }
@@ -91,10 +95,12 @@ double fitting_cell_from(double least, double cell, const std::vector<double>& l
   if (most < 1.0) {
     return least;
   }
-  for (double parts = most; parts >= 1.0 && parts * leeway >= most; --parts) {
+  double parts = most;
+  while (parts >= 1.0 && parts * leeway >= most) {
     if (has_few_digits(largest / parts)) {
       return of_few_digits(largest / parts);
     }
+    --parts;
   }
   return largest / most;
 }
@@ -105,9 +111,10 @@ double fitting_cell_near(double cell, const std::vector<double>& lengths) {
   const auto take = [cell](double& best, double found) {
     best = best == 0.0 || times_off(found, cell) < times_off(best, cell) ? found : best;
   };
-  const double first = std::max(1.0, std::ceil(largest / (leeway * cell)));
-  for (double parts = first; parts <= leeway * largest / cell * (1.0 + 1e-9); ++parts) {
+  double parts = std::max(1.0, std::ceil(largest / (leeway * cell)));
+  while (parts <= leeway * largest / cell * (1.0 + 1e-9)) {
     const double found = largest / parts;
+    ++parts;
     if (found * fewest_cells > shortest * (1.0 + 1e-9)) {
       continue;
     }

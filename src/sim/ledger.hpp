@@ -35,8 +35,8 @@ struct Ledger {
   Vector<Real, Dim> bed_impulse = Vector<Real, Dim>::Zero();
   // Carried away by particles that left and were removed.
   Real left_mechanical = 0, left_thermal = 0, left_mass = 0;
-  Vector<Real, Dim> left_momentum = Vector<Real, Dim>::Zero();
   Real removed_mass = 0;  // of left_mass, by guards
+  Vector<Real, Dim> left_momentum = Vector<Real, Dim>::Zero();
 
   // Calls visit(number) with each of the numbers above, in order.
   template <class Visit>
