@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import ctypes
 import math
 import os
 import sys
 import threading
 from collections.abc import Collection, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -168,6 +169,17 @@ def _bounded_memory(extra: int) -> Iterator[None]:
             resource.setrlimit(resource.RLIMIT_AS, before)
 
 
+def _give_back_memory() -> None:
+    """Give the system back what HDF5 and malloc keep after a damaged file, where they can be asked to (Linux).
+
+    Kept, it would add to what the bound allows for the next such file, without end.
+    """
+    if sys.platform == "linux":
+        with suppress(OSError, AttributeError), h5py.h5.phil:  # what serialises calls of HDF5
+            ctypes.CDLL(h5py.h5.__file__).H5garbage_collect()
+            ctypes.CDLL(None).malloc_trim(0)
+
+
 @contextmanager
 def _opened(path: Path) -> Iterator[_SnapshotFile]:
     """Open a snapshot; what h5py says of damage, also while it is read, becomes a ReportError."""
@@ -176,5 +188,9 @@ def _opened(path: Path) -> Iterator[_SnapshotFile]:
     try:
         with _bounded_memory(4 * path.stat().st_size + _MOST_MEMORY), h5py.File(path, "r") as file:
             yield _SnapshotFile(file, path)
+    except ReportError:
+        _give_back_memory()
+        raise
     except _FAULTS as error:
+        _give_back_memory()
         raise ReportError(f"{path}: cannot be read as HDF5 ({error}); remove it or run the case again") from error

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import resource
 import struct
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -14,6 +17,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fuzz" / "python"))
 from readers import CORPUS, READERS, SEED, Folder
 
 SEEDS = sorted(CORPUS.glob(f"*/*{SEED}"))
+ROOT = Path(__file__).resolve().parents[2]
+SURROUNDINGS = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
 SOON = 10.0  # s, on a busy machine
 # What is answered by an error, and the words of it that tell what is wrong.
 REFUSED = {
@@ -105,3 +110,27 @@ def test_zero_bytes_after_a_power_cut_end_the_history(tmp_path: Path) -> None:
     folder = Folder("history")
     whole = (CORPUS / "history" / f"sound{SEED}").read_bytes()
     assert folder.check(whole + bytes(4096)) == ""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is bounded on Linux alone")
+def test_memory_of_damaged_snapshots_does_not_add_up() -> None:
+    """HDF5 takes half a gigabyte for each before it is refused; in a process of its own, where malloc is new."""
+    program = f"""
+import sys
+from pathlib import Path
+from thawslide.errors import ReportError
+from thawslide.snapshot import Snapshot
+for _ in range(8):
+    try:
+        Snapshot(Path({str(CORPUS / "snapshot" / f"claims_memory{SEED}")!r}))
+        sys.exit("read")
+    except ReportError:
+        print(int(Path("/proc/self/statm").read_text().split()[0]) * {resource.getpagesize()})
+"""
+    told = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False, env=SURROUNDINGS
+    )
+    assert told.returncode == 0, told.stderr
+    mapped = [int(word) for word in told.stdout.split()]
+    assert len(mapped) == 8
+    assert max(mapped) < 2**30, mapped
