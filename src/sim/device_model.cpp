@@ -52,7 +52,7 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.phases = model.motion.phases;
   device.effective_stress = model.motion.effective_stress;
   device.lubrication = model.motion.lubrication;
-  device.faces = model.constraints;
+  device.faces = static_cast<const mpm::DomainFaces<Dim, Real>&>(model.constraints);
   // Particles that are to be removed may be on their way out of the domain until the end of the step.
   const Real margin = parameters.grid.leaving == config::Policy::remove ? device.cell : Real(0);
   const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
@@ -71,7 +71,7 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.starts = starts;
   device.heat_content = model.band.heat_content;
   device.heat_faces = model.band.at_faces;
-  device.band = model.band;
+  device.band = static_cast<const band::BandPhysics<Real>&>(model.band);
   device.rescales_band = !has_columns;
   device.hydraulic_conductivity = model.band.hydraulic_conductivity;
   device.band_thickness = [thickness = parameters.band.thickness](Real time) {

@@ -13,7 +13,6 @@ namespace {
 
 using mpm::Averages;
 using mpm::BaseLayout;
-using mpm::Contact;
 using mpm::MomentumLayout;
 using mpm::NearGround;
 

@@ -14,6 +14,8 @@ import atheris
 with atheris.instrument_imports(include=["thawslide", "tomllib"]):
     from readers import READERS, Folder
 
+    import thawslide.snapshot
+
 
 def main() -> None:
     """Start libFuzzer on the reader that the first word names."""
@@ -21,6 +23,7 @@ def main() -> None:
         sys.exit(f"name a reader: {', '.join(READERS)}")
     warnings.simplefilter("ignore")  # of numbers that overflow
     logging.disable(logging.CRITICAL)  # of rasterio, for every damaged file
+    thawslide.snapshot._MOST_MEMORY = 2**26  # to fill half a gigabyte for each damaged file takes most of the time
     folder = Folder(sys.argv.pop(1))
 
     def test_one_input(data: bytes) -> None:
