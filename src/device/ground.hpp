@@ -71,7 +71,7 @@ struct TakeGround {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     constexpr auto nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
-    constexpr std::size_t size = mpm::record_size(mpm::components_of<terrain::Ground, Dim>);
+    constexpr std::size_t size = mpm::record_size(mpm::components_of<mpm::Planes, Dim>);
     const auto block = static_cast<std::size_t>(block_before[k / nodes]);
     const AtNode* from = block < before ? known_before + block * nodes : asked_for + (block - before) * nodes;
     const AtNode node = from[k % nodes];
@@ -80,8 +80,8 @@ struct TakeGround {
     for (std::size_t c = 0; c < size; ++c) {
       record[c] = Real(0);
     }
-    record[terrain::Ground::distance] = node.distance;
-    mpm::set_vector<Dim>(record, terrain::Ground::normal, node.normal);
+    record[mpm::Planes::offset] = node.plane;
+    mpm::set_vector<Dim>(record, mpm::Planes::normal, node.normal);
     is_candidate[k] = node.candidate ? 1 : 0;
   }
 };
@@ -116,7 +116,7 @@ class Ground {
   using T = mpm::Tile<Dim>;
   using AtNode = terrain::GroundAtNode<Dim, Real>;
   static constexpr auto nodes = static_cast<std::size_t>(T::nodes);
-  static constexpr std::size_t size = mpm::record_size(mpm::components_of<terrain::Ground, Dim>);
+  static constexpr std::size_t size = mpm::record_size(mpm::components_of<mpm::Planes, Dim>);
 
  public:
   Ground(Backend& backend, AskGround<Dim, Real> ask) : backend_(backend), ask_(std::move(ask)) {}

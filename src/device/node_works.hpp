@@ -134,8 +134,9 @@ struct PressOnGround {
     if (step.has_mass(node)) {
       const auto state = step.trial(node);
       base[mpm::BaseLayout::load] =
-          terrain::approach(step.distance_check, step.nodes.near_ground_at(node)[mpm::NearGround::clearance], step.dt,
-                            state.mass, Real(state.momentum.dot(known.normal)));
+          known.bend * terrain::approach(step.distance_check,
+                                         step.nodes.near_ground_at(node)[mpm::NearGround::clearance], step.dt,
+                                         state.mass, Real(state.momentum.dot(known.normal)));
     }
     const std::size_t local = node % NodesInStep<Dim, Real>::block_nodes;
     base[mpm::BaseLayout::covered] =
@@ -322,9 +323,9 @@ struct ResolveContact {
     const Real held = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief, base.cohesion,
                                                 clamp, cap_pressure);
     const Real strength = step.base_holds ? std::numeric_limits<Real>::infinity() : held;
-    const terrain::HoldOnNode<Dim, Real> hold{step.nodes.known[node].normal,
-                                              step.nodes.base_at(node)[mpm::BaseLayout::load], base.area, strength,
-                                              base.friction};
+    const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[node];
+    const terrain::HoldOnNode<Dim, Real> hold{
+        known.normal, step.nodes.base_at(node)[mpm::BaseLayout::load], known.bend, base.area, strength, base.friction};
     terrain::apply_contact(walls, hold, heat_fraction, step.dt,
                            beds.below(candidate, base.area, strength, step.dt, state.mass), state, work, contact);
   }

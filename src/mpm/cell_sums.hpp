@@ -213,16 +213,20 @@ class LinearCellSums {
   std::array<Register, nodes> sums_{};  // of the cell at hand
 };
 
-// What particles lower `Count` components of the records of a patch to, from component `First` on: each to the smallest
-// number that the particles bring that its node sees, in whatever order.
-template <std::size_t First, std::size_t Count, int Dim, class Real, int Components>
+// What a batch brings to components that it lowers.
+template <int Dim, class Real>
+using GapsOfBatch = GapsToPlanes<Lanes<Real>, Dim, const Patch<Dim, Real, components_of<Planes, Dim>>*>;
+
+// What particles lower component `Component` of the records of a patch to: the smallest gap to its node's plane of the
+// particles that the node sees, in whatever order.
+template <std::size_t Component, int Dim, class Real, int Components>
 class PatchMinima {
   static constexpr Real largest = std::numeric_limits<Real>::max();
 
  public:
   explicit PatchMinima(Patch<Dim, Real, Components>& patch) : patch_(patch) {
     for (auto& record : patch.records) {
-      std::fill_n(record.begin() + First, Count, largest);
+      record[Component] = largest;
     }
   }
   PatchMinima(const PatchMinima&) = delete;
@@ -233,34 +237,34 @@ class PatchMinima {
 
   // The next `count` particles.
   THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count,
-                                   const Bounds<Lanes<Real>, Count>& bounds) {
+                                   const GapsOfBatch<Dim, Real>& gaps) {
     const BatchNodes<Real>& nodes = stencil.nodes;
     const auto in_first = lanes_before<Real>(nodes.runs == 1 ? lane_count<Real> : nodes.second_run);
-    for_each_node<Dim>(stencil.axis, 0,
-                       [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
-                         // A box that ends at the edge of a node's support overlaps it by round-off, or not.
-                         const auto is_seen = weight > round_off<Real>;
-                         unrolled<Count>([&](auto c) THAWSLIDE_INLINE_LAMBDA {
-                           const Lanes<Real> seen = select(is_seen, bounds.value[c], Lanes<Real>(largest));
-                           if (nodes.runs == BatchNodes<Real>::many_runs) {
-                             for (std::size_t lane = 0; lane < count; ++lane) {
-                               lower<c>(nodes.first[lane], offset, seen[lane]);
-                             }
-                             return;
-                           }
-                           lower<c>(nodes.first[0], offset, smallest(select(in_first, seen, Lanes<Real>(largest))));
-                           if (nodes.runs == 2) {
-                             lower<c>(nodes.first[lane_count<Real> - 1], offset,
-                                      smallest(select(in_first, Lanes<Real>(largest), seen)));
-                           }
-                         });
-                       });
+    with_fetch(nodes, *gaps.planes, [&](const auto& fetch) {
+      for_each_node<Dim>(
+          stencil.axis, 0, [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
+            const Lanes<Real> gap = gap_to_plane<Dim>(gaps.place, gaps.reach,
+                                                      [&](std::size_t component)
+                                                          THAWSLIDE_INLINE_LAMBDA { return fetch(offset, component); });
+            // A box that ends at the edge of a node's support overlaps it by round-off, or not.
+            const Lanes<Real> seen = select(weight > round_off<Real>, gap, Lanes<Real>(largest));
+            if (nodes.runs == BatchNodes<Real>::many_runs) {
+              for (std::size_t lane = 0; lane < count; ++lane) {
+                lower(nodes.first[lane], offset, seen[lane]);
+              }
+              return;
+            }
+            lower(nodes.first[0], offset, smallest(select(in_first, seen, Lanes<Real>(largest))));
+            if (nodes.runs == 2) {
+              lower(nodes.first[lane_count<Real> - 1], offset, smallest(select(in_first, Lanes<Real>(largest), seen)));
+            }
+          });
+    });
   }
 
  private:
-  template <std::size_t Component>
   THAWSLIDE_ALWAYS_INLINE void lower(std::int32_t first_node, std::size_t offset, Real seen) {
-    Real& known = patch_.records[static_cast<std::size_t>(first_node) + offset][First + Component];
+    Real& known = patch_.records[static_cast<std::size_t>(first_node) + offset][Component];
     known = std::min(known, seen);
   }
 

@@ -29,13 +29,13 @@ struct OneContribution : OneFlux<Real, Dim, HasFlux> {
   Real value[size] = {};
 };
 
-// The same of what it lowers.
-template <class Real, std::size_t Count>
-struct OneBounds : Bounds<Real, Count> {};
+// The same of what it lowers; the planes: records of the tile's patch, one after another.
+template <class Real, int Dim>
+using OneGaps = GapsToPlanes<Real, Dim, const Real*>;
 
 // What one particle carries to a record of some name.
 template <class Name, int Dim, class Real>
-using CarriedByOne = std::conditional_t<IsLowered<Name>, OneBounds<Real, carried_numbers<Name, Dim>>,
+using CarriedByOne = std::conditional_t<IsLowered<Name>, OneGaps<Real, Dim>,
                                         OneContribution<Real, Dim, carried_numbers<Name, Dim>, Name::flux != no_flux>>;
 
 // Where a particle stands: from its nearest node, in cells; the lowest node that it sees, by its place in the tile's
@@ -125,15 +125,21 @@ struct SeenByOne {
         first);
   }
   template <class Name>
+  [[nodiscard]] THAWSLIDE_HD const auto* planes() const {
+    return patches.template of<Name>().numbers;
+  }
+  template <class Name>
   [[nodiscard]] THAWSLIDE_HD auto values() const {
     return read<Name, static_cast<std::size_t>(components_of<Name, Weights::dimensions>)>().value;
   }
 };
 
-// What a particle has at a node: weights and slopes along each axis, none where it does not see it.
+// What a particle has at a node: weights and slopes along each axis, none where it does not see it; the node's place in
+// the tile's patch.
 template <int Dim, class Real>
 struct OneAtNode {
   bool is_seen = true;
+  std::size_t place = 0;
   Real weight[Dim], slope[Dim];
 };
 // node: of the particle's cell, numbered along each axis.
@@ -141,11 +147,13 @@ template <int Dim, class Real, std::size_t Width>
 THAWSLIDE_HD OneAtNode<Dim, Real> at_node(const OneStencil<Real, Dim, Width>& stencil,
                                           const std::array<std::size_t, 3>& node) {
   OneAtNode<Dim, Real> at;
+  at.place = stencil.first;
   for (std::size_t a = 0; a < Dim; ++a) {
     const std::size_t k = node[a] - stencil.in_cell[a];  // beyond all where it would be below 0
     at.is_seen = at.is_seen && k < Width;
     at.weight[a] = stencil.axis[a].weight[k < Width ? k : 0];
     at.slope[a] = stencil.axis[a].slope[k < Width ? k : 0];
+    at.place += k * static_cast<std::size_t>(power(Tile<Dim>::patch_edge, static_cast<int>(a)));
   }
   return at;
 }
@@ -183,14 +191,18 @@ THAWSLIDE_HD Real add_particle(const OneAtNode<Dim, Real>& at,
   }
   return sum;
 }
-template <int Dim, class Real, std::size_t Count>
-THAWSLIDE_HD Real add_particle(const OneAtNode<Dim, Real>& at, const OneBounds<Real, Count>& carried, std::size_t c,
+template <int Dim, class Real>
+THAWSLIDE_HD Real add_particle(const OneAtNode<Dim, Real>& at, const OneGaps<Real, Dim>& carried, std::size_t /*c*/,
                                Real smallest) {
   Real weight = Real(1);
   for (std::size_t a = 0; a < Dim; ++a) {
     weight *= at.weight[a];
   }
-  return weight > round_off<Real> ? min(smallest, carried.value[c]) : smallest;
+  if (!(weight > round_off<Real>)) {
+    return smallest;
+  }
+  const Real* record = carried.planes + at.place * record_size(components_of<Planes, Dim>);
+  return min(smallest, gap_to_plane<Dim>(carried.place, carried.reach, [&](std::size_t k) { return record[k]; }));
 }
 
 }  // namespace thawslide::mpm

@@ -100,6 +100,11 @@ struct SeenByBatch {
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto read(std::size_t first = 0) const {
     return read_nodes<Count>(weights.template of<typename Name::Functions>(), patches.template of<Name>(), first);
   }
+  // The records of Planes, for what the particles bring to nodes that they lower.
+  template <class Name>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto planes() const {
+    return &patches.template of<Name>();
+  }
   // The values of all numbers of a record, without their gradients.
   template <class Name>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto values() const {
@@ -122,9 +127,9 @@ struct Adding {
 };
 template <IsLowered Name, int Dim, class Real>
 struct Adding<Name, Dim, Real> {
-  static constexpr std::size_t first = part_of<Name, Dim>.from, carried = carried_numbers<Name, Dim>;
-  using Carried = Bounds<Lanes<Real>, carried>;
-  using Sums = PatchMinima<first, carried, Dim, Real, components_of<Name, Dim>>;
+  static_assert(part_of<Name, Dim>.count == 1);
+  using Carried = GapsOfBatch<Dim, Real>;
+  using Sums = PatchMinima<part_of<Name, Dim>.from, Dim, Real, components_of<Name, Dim>>;
 };
 template <class Name, int Dim, class Real>
 using SumsOf = typename Adding<Name, Dim, Real>::Sums;

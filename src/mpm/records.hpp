@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 
 #include "base/select.hpp"
 #include "mpm/kernel.hpp"
@@ -75,7 +74,7 @@ struct NearGroundByLinear : NearGround {
   template <int Dim>
   static constexpr RecordPart part{saturation_by_linear, 2};
 };
-// The smallest distance left to the ground of the particles that a node sees with the momentum shape functions.
+// The smallest gap between a node's plane and the particles that it sees with the momentum shape functions.
 struct Clearance : NearGround {
   using Owner = NearGround;
   static constexpr bool lowered = true;
@@ -83,9 +82,29 @@ struct Clearance : NearGround {
   static constexpr RecordPart part{clearance, 1};
 };
 
+// The planes of nodes, to which particles measure gaps: x.n = offset for places x from the domain's lower corner.
+struct Planes {
+  using Functions = LinearFunctions;
+  static constexpr std::size_t offset = 0;  // [m]
+  static constexpr std::size_t normal = 1;  // unit vector
+  template <int Dim>
+  static constexpr int size = 1 + Dim;
+};
+
+// The gap between a particle and a node's plane [m]: its distance along the normal less its own reach. place: x of the
+// particle; plane(component): of the node's record of Planes.
+template <int Dim, class Value, class Plane>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value gap_to_plane(const Value (&place)[Dim], Value reach, const Plane& plane) {
+  Value gap = plane(Planes::offset) - reach;
+  unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
+                                              THAWSLIDE_INLINE_LAMBDA { gap -= plane(Planes::normal + a) * place[a]; });
+  return gap;
+}
+
 // Candidate nodes: how they press on the ground, and what of it they have.
 struct BaseLayout {
-  static constexpr std::size_t load = 0;     // trial momentum into the ground, less what closes the clearance [kg m/s]
+  // Trial momentum into the ground, less what closes the clearance, times the bend of the ground [kg m/s].
+  static constexpr std::size_t load = 0;
   static constexpr std::size_t covered = 1;  // what the slide covers of the node's share of the ground's surface [m2]
   static constexpr int size = 2;
 };
@@ -97,7 +116,7 @@ struct Contact {
   static constexpr std::size_t touching = 1;       // 1 in contact, 0 not
   static constexpr std::size_t slip_speed = 2;     // [m/s], tangential, at mid-step; 0 where not in contact
   static constexpr std::size_t friction_heat = 3;  // [W], after the conversion coefficient
-  static constexpr std::size_t normal_force = 4;   // on the ground [N]
+  static constexpr std::size_t normal_force = 4;   // on the ground, times its bend: normal pressure times area [N]
   static constexpr std::size_t area = 5;           // [m2]
   template <int Dim>
   static constexpr int size = 6;
@@ -275,14 +294,12 @@ template <class Name, int Dim>
 inline constexpr std::size_t carried_numbers =
     IsLowered<Name> ? part_of<Name, Dim>.count : place_in_register<Name, Dim> + part_of<Name, Dim>.count;
 
-// What a batch, or one particle, brings to components that it lowers.
-template <class Value, std::size_t Count>
-struct Bounds {
-  Value value[Count];
-
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Bounds() {
-    constexpr auto largest = std::numeric_limits<typename NumberOf<Value>::Type>::max();
-    unrolled<Count>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = largest; });
-  }
+// What a batch, or one particle, brings to a component that it lowers: its gap to the plane of each node that it sees.
+// PlanesRead: how it reads the nodes' records of Planes.
+template <class Value, int Dim, class PlanesRead>
+struct GapsToPlanes {
+  Value place[Dim];  // [m]
+  Value reach;       // [m]
+  PlanesRead planes;
 };
 }  // namespace thawslide::mpm

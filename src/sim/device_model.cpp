@@ -93,6 +93,8 @@ device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model
                                                 node.substrate,
                                                 node.normal.template cast<Real>(),
                                                 static_cast<Real>(node.area),
+                                                static_cast<Real>(node.bend),
+                                                static_cast<Real>(node.plane),
                                                 static_cast<Real>(node.space),
                                                 static_cast<Real>(node.distance)};
       });

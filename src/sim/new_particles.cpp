@@ -58,7 +58,7 @@ void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& jo
     mpm::split_total_stress(particles_, first);
   }
   if (model_.ground) {
-    terrain::set_contact_offset(grid_, ground_, model_.band.sizes, particles_, first);
+    terrain::set_contact_offset(grid_, ground_, model_.motion, particles_, first);
   }
   if (!model_.contact.band_columns) {
     band::rescale_band(grid_, model_.band, static_cast<Real>(band_thickness()), model_.layer_thickness, particles_,

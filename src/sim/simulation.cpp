@@ -283,7 +283,7 @@ void Simulation<Dim, Real>::begin() {
   contact_ = {};
   find_particles_cells();
   if (model_.ground) {
-    terrain::set_contact_offset(grid_, ground_, model_.band.sizes, particles_);
+    terrain::set_contact_offset(grid_, ground_, model_.motion, particles_);
   }
   mark_band();
   if (!model_.contact.band_columns) {

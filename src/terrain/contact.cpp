@@ -99,8 +99,9 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
       if (record[MomentumLayout<Dim>::mass] > Real(0)) {
         const mpm::NodeConstraints<Dim, Real> walls{on_block, k};
         const auto state = trial_state<Dim>(walls, dt, model.mass_damping, record);
-        base[BaseLayout::load] = approach(model.distance_check, nodes.near_ground(b, k)[NearGround::clearance], dt,
-                                          state.mass, Real(state.momentum.dot(known.normal)));
+        base[BaseLayout::load] =
+            known.bend * approach(model.distance_check, nodes.near_ground(b, k)[NearGround::clearance], dt, state.mass,
+                                  Real(state.momentum.dot(known.normal)));
       }
       // A node that a hovering slide does not reach has its share of the ground below it all the same.
       base[BaseLayout::covered] = known.area * covered_share_at(grid, ground, nodes, b, k);
@@ -192,8 +193,9 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                           strength,
                                           dt,
                                           contact.state[c].mass};
-      const HoldOnNode<Dim, Real> hold{(*known)[k].normal, nodes.base(b, k)[BaseLayout::load], contact.area[c],
-                                       strength, contact.basal.friction[c]};
+      const HoldOnNode<Dim, Real> hold{(*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
+                                       (*known)[k].bend,   contact.area[c],
+                                       strength,           contact.basal.friction[c]};
       apply_contact(mpm::NodeConstraints<Dim, Real>{on_block, k}, hold, model.law.heat_fraction, dt, below,
                     contact.state[c], work, nodes.contact.of_block(b)[k]);
       finish(contact.state[c], k);

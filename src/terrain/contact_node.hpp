@@ -54,7 +54,8 @@ THAWSLIDE_HD NodeState<Dim, Real> trial_state(const Walls& walls, Real dt, Real 
 // Momentum with which a node runs into the ground in this step, less what closes the clearance [m] before it.
 template <class Real>
 THAWSLIDE_HD Real approach(bool distance_check, Real clearance, Real dt, Real mass, Real inward_momentum) {
-  return max(Real(0), distance_check ? inward_momentum - mass * (clearance / dt) : inward_momentum);
+  const Real left = max(Real(0), clearance);
+  return max(Real(0), distance_check ? inward_momentum - mass * (left / dt) : inward_momentum);
 }
 
 // How much of the space [m3] that belongs to a node the slide fills, 0 to 1.
@@ -160,12 +161,16 @@ struct NoBed {
   THAWSLIDE_HD void note_work(Real /*work*/) const {}
 };
 
-// The ground below a contact node, and how it holds the slide: load [kg m/s] and area [m2] of the node, strength of the
-// base [Pa], its friction coefficient.
+// The ground below a contact node, and how it holds the slide. In a bend of the ground the normal pressures on its
+// parts oppose one another in part: what they add up to, the normal impulse, is smaller by `bend` than the load that
+// they bring to the ground, which friction, cohesion and entrainment go by (GroundAtNode::bend; a V channel of half
+// angle a has 1/sin(a)). The paper has one contact normal a node and flat ground.
 template <int Dim, class Real>
 struct HoldOnNode {
   const Vector<Real, Dim>& normal;  // into the ground
-  Real load, area, strength, friction;
+  Real load;                        // normal impulse times bend [kg m/s]
+  Real bend;
+  Real area, strength, friction;  // [m2], of the base [Pa], coefficient
 };
 
 // Applies the contact impulse of one node and adds its work. state.momentum goes from trial to final. left: the node's
@@ -178,7 +183,7 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const HoldOnNode<Dim, Real>&
   const Vector<Real, Dim>& normal = hold.normal;
   const Vector<Real, Dim> tangential = state.momentum - state.momentum.dot(normal) * normal;
   const Real tangential_size = tangential.norm();
-  auto impulse = physics::contact_impulse(hold.load, tangential_size, hold.area, dt, hold.strength);
+  auto impulse = physics::contact_impulse(hold.load / hold.bend, tangential_size, hold.area, dt, hold.strength);
   Vector<Real, Dim> along = Vector<Real, Dim>::Zero();
   if (tangential_size > Real(0)) {
     along = tangential / tangential_size;
@@ -207,7 +212,7 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const HoldOnNode<Dim, Real>&
   left[Contact::touching] = Real(1);
   left[Contact::slip_speed] = impulse.slides ? slip_speed : Real(0);
   left[Contact::friction_heat] = heat_fraction * friction_work / dt;
-  left[Contact::normal_force] = impulse.normal / dt;
+  left[Contact::normal_force] = hold.load / dt;
   left[Contact::area] = hold.area;
 }
 

@@ -143,6 +143,8 @@ class GroundOnGrid {
       known.substrate = nodes[n].substrate;
       known.normal = nodes[n].normal.template cast<Real>();
       known.area = static_cast<Real>(nodes[n].area);
+      known.bend = static_cast<Real>(nodes[n].bend);
+      known.plane = static_cast<Real>(nodes[n].plane);
       known.space = static_cast<Real>(nodes[n].space);
       known.distance = static_cast<Real>(nodes[n].distance);
       any_candidate_[k] |= known.candidate ? 1 : 0;

@@ -258,6 +258,10 @@ void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_siz
     if (node.normal.isZero(0.0)) {
       node.normal = foot && distance > round_off * cell_size ? Vector<double, 3>(sign * (*foot - position) / distance)
                                                              : normal_below(place, 0.0);
+      node.plane = position.dot(node.normal) + node.distance;
+    }
+    if (!node.candidate) {
+      node.plane = HUGE_VAL;
     }
   }
 }

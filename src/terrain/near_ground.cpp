@@ -1,5 +1,7 @@
 #include "terrain/near_ground.hpp"
 
+#include <limits>
+
 #include "base/instances.hpp"
 #include "mpm/node_pass.hpp"
 #include "mpm/particle_pass.hpp"
@@ -15,32 +17,58 @@ template <int Dim, class Real>
 Lanes<Real> contact_offset_of_box(const mpm::Reading<Dim, Lanes<Real>, 1 + Dim>& seen, Lanes<Real> half) {
   Lanes<Real> largest = Real(0);
   for (std::size_t a = 0; a < Dim; ++a) {
-    largest = max(largest, abs(seen.value[Ground::normal + a]));
+    largest = max(largest, abs(seen.value[mpm::Planes::normal + a]));
   }
   return half * largest;
+}
+
+// The smallest distance of particles from the planes of the nodes that they see [m].
+template <int Dim, class Real>
+Lanes<Real> smallest_gap(const mpm::BatchStencil<Dim, Real>& stencil, const mpm::Particles<Dim, Real>& particles,
+                         const mpm::TileBatch<Dim, Real>& batch, const mpm::PatchOf<mpm::Planes, Dim, Real>& planes) {
+  Lanes<Real> place[Dim];
+  for (int a = 0; a < Dim; ++a) {
+    place[a] = particles.position.load(batch, a);
+  }
+  Lanes<Real> smallest = std::numeric_limits<Real>::max();
+  mpm::with_fetch(stencil.nodes, planes, [&](const auto& fetch) {
+    mpm::for_each_node<Dim>(
+        stencil.axis, 0, [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
+          const Lanes<Real> gap = mpm::gap_to_plane<Dim>(
+              place, Lanes<Real>(Real(0)), [&](std::size_t component) { return fetch(offset, component); });
+          smallest = select(weight > round_off<Real>, min(smallest, gap), smallest);
+        });
+  });
+  return smallest;
 }
 
 }  // namespace
 
 template <int Dim, class Real>
 void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                        const mpm::BodySizes<Real>& sizes, mpm::Particles<Dim, Real>& particles, std::size_t first) {
+                        const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
+                        std::size_t first) {
   constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's contact offset
-  mpm::PatchOf<Ground, Dim, Real> patch;
-  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-    load_patch(grid, t, GroundRecords<Dim, Real>{ground}, patch);
-    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-      const auto seen = mpm::read_nodes<1 + Dim>(linear_stencil(grid, particles, batch), patch);
-      const Lanes<Real> contact_offset = contact_offset_of_box(seen, sizes.of(particles, batch).half * grid.cell());
-      const Lanes<Real> distance = seen.value[Ground::distance];
-      const Lanes<Real> found = select(distance < within_lowest_layer * contact_offset, distance, contact_offset);
-      for (std::size_t lane = 0; lane < batch.count; ++lane) {
-        if (batch.particle[lane] >= first) {
-          particles.contact_offset(batch.particle[lane]) = found[lane];
+  mpm::PatchOf<mpm::Planes, Dim, Real> patch;
+  mpm::with_shape<Real>(model.shape, [&](auto shape) {
+    const mpm::MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
+    for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+      load_patch(grid, t, PlanesOfGround<Dim, Real>{ground}, patch);
+      for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
+        const mpm::BatchWeights<mpm::MomentumWeights<decltype(shape), Dim, Real>, Dim, Real> of_batch(weights, grid,
+                                                                                                      particles, batch);
+        const auto seen = mpm::read_nodes<1 + Dim>(of_batch.linear, patch);
+        const Lanes<Real> of_box = contact_offset_of_box(seen, model.sizes.of(particles, batch).half * grid.cell());
+        const Lanes<Real> gap = smallest_gap(of_batch.momentum, particles, batch, patch);
+        const Lanes<Real> found = select(gap < within_lowest_layer * of_box, gap, of_box);
+        for (std::size_t lane = 0; lane < batch.count; ++lane) {
+          if (batch.particle[lane] >= first) {
+            particles.contact_offset(batch.particle[lane]) = found[lane];
+          }
         }
       }
     }
-  }
+  });
 }
 
 template <int Dim, class Real>
@@ -63,11 +91,12 @@ void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnG
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                             \
-  template void set_contact_offset<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,     \
-                                              const mpm::BodySizes<Real>&, mpm::Particles<Dim, Real>&, std::size_t); \
-  template void near_ground_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,    \
-                                               const mpm::MotionModel<Dim, Real>&, mpm::Particles<Dim, Real>&,       \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                          \
+  template void set_contact_offset<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,  \
+                                              const mpm::MotionModel<Dim, Real>&, mpm::Particles<Dim, Real>&,     \
+                                              std::size_t);                                                       \
+  template void near_ground_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, \
+                                               const mpm::MotionModel<Dim, Real>&, mpm::Particles<Dim, Real>&,    \
                                                mpm::Nodes<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -1,4 +1,4 @@
-// What a particle does in near_ground_to_grid: a kernel (mpm/kernel.hpp), and what it reads of the ground.
+// What a particle does in near_ground_to_grid: a kernel (mpm/kernel.hpp).
 #pragma once
 
 #include "base/select.hpp"
@@ -7,15 +7,6 @@
 #include "physics/mixture.hpp"
 
 namespace thawslide::terrain {
-
-// The record that particles read of the ground itself.
-struct Ground {
-  using Functions = mpm::LinearFunctions;
-  static constexpr std::size_t distance = 0;  // from the ground, positive above it [m]
-  static constexpr std::size_t normal = 1;    // into the ground
-  template <int Dim>
-  static constexpr int size = 1 + Dim;
-};
 
 // n_e of Eq. 2 as the basal law sees it: of the current or, without lubrication, initial state.
 template <class Real, class Particles, class At>
@@ -31,7 +22,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(con
 // ones; lowers their clearance.
 template <int Dim, class Real>
 struct AddNearGround {
-  using Reads = mpm::RecordList<Ground>;
+  using Reads = mpm::RecordList<mpm::Planes>;
   using Adds = mpm::RecordList<mpm::NearGround, mpm::NearGroundByLinear, mpm::Clearance>;
   using Account = mpm::NoAccount;
 
@@ -56,9 +47,11 @@ struct AddNearGround {
     constexpr std::size_t first = mpm::first_in_register<NearGroundByLinear, Dim>;
     by_linear.value[NearGround::saturation_by_linear - first] = volume * saturation;
     by_linear.value[NearGround::solid_fraction_by_linear - first] = volume * solid_fraction;
-    const Value distance = seen.template read<Ground, 1>(Ground::distance).value[0];
-    added.template of<mpm::Clearance>().value[0] =
-        max(Value(Real(0)), Value(distance - particles.contact_offset.load(at)));
+    auto& gaps = added.template of<mpm::Clearance>();
+    unrolled<static_cast<std::size_t>(Dim)>(
+        [&](auto a) THAWSLIDE_INLINE_LAMBDA { gaps.place[a] = particles.position.load(at, static_cast<int>(a())); });
+    gaps.reach = particles.contact_offset.load(at);
+    gaps.planes = seen.template planes<mpm::Planes>();
   }
 };
 

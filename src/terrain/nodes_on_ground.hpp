@@ -10,14 +10,14 @@
 
 namespace thawslide::terrain {
 
-// The records named Ground, made of what the ground knows at nodes.
+// The planes of nodes, made of what the ground is at nodes.
 template <int Dim, class Real>
-struct GroundRecords {
-  using Record = std::array<Real, mpm::record_size(mpm::components_of<Ground, Dim>)>;
+struct PlanesOfGround {
+  using Record = std::array<Real, mpm::record_size(mpm::components_of<mpm::Planes, Dim>)>;
 
   static Record record_of(const GroundAtNode<Dim, Real>& known) {
-    Record record{known.distance};
-    mpm::set_vector<Dim>(record, Ground::normal, known.normal);
+    Record record{known.plane};
+    mpm::set_vector<Dim>(record, mpm::Planes::normal, known.normal);
     return record;
   }
   [[nodiscard]] Record operator()(const mpm::NodeAt& at) const { return record_of(ground.block(at.block)[at.node]); }
@@ -26,13 +26,13 @@ struct GroundRecords {
 };
 
 template <int Dim, class Real>
-void load_patch(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, const GroundRecords<Dim, Real>& records,
-                mpm::PatchOf<Ground, Dim, Real>& patch) {
+void load_patch(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, const PlanesOfGround<Dim, Real>& records,
+                mpm::PatchOf<mpm::Planes, Dim, Real>& patch) {
   const std::int32_t* blocks = grid.blocks_about_tile(t);
   mpm::for_each_direction<Dim>([&](auto d) {
     const auto& block = records.ground.block(static_cast<std::size_t>(blocks[d]));
     mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
-      patch.records[in_patch] = GroundRecords<Dim, Real>::record_of(block[in_block]);
+      patch.records[in_patch] = PlanesOfGround<Dim, Real>::record_of(block[in_block]);
     });
   });
 }
@@ -45,8 +45,8 @@ struct NodesOnGround {
 
   template <class Name>
   [[nodiscard]] decltype(auto) of() const {
-    if constexpr (std::is_same_v<Name, Ground>) {
-      return GroundRecords<Dim, Real>{ground};
+    if constexpr (std::is_same_v<Name, mpm::Planes>) {
+      return PlanesOfGround<Dim, Real>{ground};
     } else {
       return nodes.template of<Name>();
     }

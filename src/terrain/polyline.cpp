@@ -91,7 +91,7 @@ double linear_shape_above(double q) {
 }  // namespace
 
 Polyline::LinearShare Polyline::linear_share(double x, double z, double cell) const {
-  // Between these abscissae the integrands are polynomials of at most third degree: Simpson's rule is exact.
+  // Between these abscissae the integrands are polynomials of at most fourth degree: three points of Gauss are exact.
   std::vector<double> breaks{x - cell, x, x + cell};
   for (std::size_t k = segment(x - cell); k + 1 < x_.size() && (k == 0 || x_[k] < x + cell); ++k) {
     breaks.push_back(x_[k]);
@@ -103,19 +103,26 @@ Polyline::LinearShare Polyline::linear_share(double x, double z, double cell) co
     }
   }
   std::sort(breaks.begin(), breaks.end());
-  LinearShare share{0.0, 0.0};
+  constexpr double outer = 0.774596669241483377;  // sqrt(3/5)
+  LinearShare share;
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const double from = std::max(breaks[k], x - cell);
     const double to = std::min(breaks[k + 1], x + cell);
     if (to <= from) {
       continue;
     }
-    const double stretch = std::hypot(1.0, gradient(0.5 * (from + to)));
-    for (const auto& [u, weight] : {std::pair(from, 1.0), std::pair(0.5 * (from + to), 4.0), std::pair(to, 1.0)}) {
-      const double across = weight / 6.0 * (to - from) * linear_shape((u - x) / cell);
-      const double rise = (height(u) - z) / cell;
-      share.length += across * stretch * linear_shape(rise);
-      share.above += across * cell * linear_shape_above(rise);
+    const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+    const double slope = gradient(middle), stretch = std::hypot(1.0, slope), base = height(middle);
+    for (const auto& [along, weight] :
+         {std::pair(-outer, 5.0 / 9.0), std::pair(0.0, 8.0 / 9.0), std::pair(outer, 5.0 / 9.0)}) {
+      const double u = middle + along * half;
+      const Vector<double, 2> from_node(u - x, base + slope * (u - middle) - z);
+      const double across = weight * half * linear_shape(from_node[0] / cell);
+      const double surface = across * linear_shape(from_node[1] / cell);
+      share.length += stretch * surface;
+      share.resultant += surface * Vector<double, 2>(slope, -1.0);
+      share.moment += stretch * surface * from_node;
+      share.above += across * cell * linear_shape_above(from_node[1] / cell);
     }
   }
   return share;

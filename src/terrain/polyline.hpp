@@ -28,8 +28,10 @@ class Polyline {
   // What the ground takes of a node's linear shape function S of half-width `cell`, centred at (x, height): exact for a
   // polyline.
   struct LinearShare {
-    double length;  // integral of S along the ground [m]
-    double above;   // integral of S over the space above the ground [m2]
+    double length = 0;                                        // B = integral of S along the ground [m]
+    double above = 0;                                         // integral of S over the space above it [m2]
+    Vector<double, 2> resultant = Vector<double, 2>::Zero();  // G = integral of S n, n from above into it [m]
+    Vector<double, 2> moment = Vector<double, 2>::Zero();     // integral of S (place - node) along it [m2]
   };
   [[nodiscard]] LinearShare linear_share(double x, double height, double cell) const;
 

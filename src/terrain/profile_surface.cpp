@@ -20,6 +20,7 @@ void ProfileSurface<Dim>::learn_from_points(double x, double z, double cell, Gro
   const double across = Dim == 2 ? 1.0 : cell;
   const double slide = std::max(0.0, cell * cell - rock.volume);
   node.candidate = rock.volume > 0.0;
+  node.plane = node.candidate ? x * rock.normal[0] + z * rock.normal[1] + node.distance : HUGE_VAL;
   node.normal[0] = rock.normal[0];
   node.normal[Dim - 1] = rock.normal[1];
   node.area = across * nairn_area(slide, rock.volume, cell);
@@ -41,8 +42,20 @@ GroundAtNode<Dim, double> ProfileSurface<Dim>::at_node(const Vector<double, Dim>
   const Polyline::LinearShare share = line_.linear_share(x, z, cell);
   const double across = Dim == 2 ? 1.0 : cell;  // the shape function's integral along y
   node.candidate = line_.highest(x - cell, x + cell) > z - cell + round_off * cell;
-  node.normal[0] = nearest.normal[0];
-  node.normal[Dim - 1] = nearest.normal[1];
+  const Vector<double, 2> place(x, z);
+  Vector<double, 2> normal = nearest.normal;
+  node.plane = place.dot(normal) + nearest.distance;
+  if (share.length > round_off * cell) {
+    const double resultant = share.resultant.norm();
+    normal = share.resultant / resultant;
+    node.bend = share.length / resultant;
+    node.plane = normal.dot(place + share.moment / share.length);
+  }
+  if (!node.candidate) {
+    node.plane = HUGE_VAL;
+  }
+  node.normal[0] = normal[0];
+  node.normal[Dim - 1] = normal[1];
   node.area = across * share.length;
   node.space = across * share.above;
   return node;

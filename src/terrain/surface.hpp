@@ -14,10 +14,13 @@ template <int Dim, class Real>
 struct GroundAtNode {
   bool candidate = false;    // the node's linear shape function overlaps the ground
   int substrate = 0;         // number of what lies below the node (substrates.hpp)
-  Vector<Real, Dim> normal;  // unit vector from the slide into the ground
-  Real area = 0;             // integral of the shape function over the ground's surface [m2]; sums to that surface
-  Real space = 0;            // integral of the shape function over the space above the ground [m3]
-  Real distance = 0;         // from the ground, positive above it [m]
+  Vector<Real, Dim> normal;  // unit vector from the slide into the ground, along G = integral of S n dA
+  Real area = 0;      // B = integral of the shape function S over the ground's surface [m2]; sums to that surface
+  Real bend = 1;      // B/|G|: 1 on a plane, larger where the ground bends within reach of the node
+  Real plane = 0;     // c.n with c = integral of x S dA / B: places x with x.n = c.n are the node's plane [m];
+                      // infinite where the node is no candidate
+  Real space = 0;     // integral of the shape function over the space above the ground [m3]
+  Real distance = 0;  // from the ground, positive above it [m]
 };
 
 template <int Dim>

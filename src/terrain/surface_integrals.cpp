@@ -37,9 +37,12 @@ void for_slices(const ConvexPolygon& polygon, int axis, int count, const Slice& 
 
 using OfCorners = Eigen::Array<double, 4, 1>;  // of a grid cell's column: x fastest
 
-// Integrals of s(x) s(y) w^p over a piece's plan, p = 0, 1, 2, with w the height above the cell's floor.
+// Integrals of s(x) s(y) w^p over a piece's plan, p = 0, 1, 2, with w the height above the cell's floor; and of those
+// of p = 0, 1 times the distance from the corner along x and y.
 struct Moments {
   OfCorners plan = OfCorners::Zero(), first = OfCorners::Zero(), second = OfCorners::Zero();
+  std::array<OfCorners, 2> plan_along{OfCorners::Zero(), OfCorners::Zero()};
+  std::array<OfCorners, 2> first_along{OfCorners::Zero(), OfCorners::Zero()};
 };
 
 // Six points of a triangle, exact to the fourth degree: Dunavant (1985), Int. J. Numer. Meth. Eng. 21, table II. Each
@@ -65,6 +68,11 @@ Moments moments(const ConvexPolygon& piece, const Vector<double, 3>& floor) {
         sum.plan += share;
         sum.first += share * w;
         sum.second += share * (w * w);
+        const std::array<OfCorners, 2> along{OfCorners(u, u - 1, u, u - 1), OfCorners(v, v, v - 1, v - 1)};
+        for (std::size_t a = 0; a < 2; ++a) {
+          sum.plan_along[a] += share * along[a];
+          sum.first_along[a] += share * along[a] * w;
+        }
       }
     }
   }
@@ -79,6 +87,7 @@ SurfaceIntegrals::SurfaceIntegrals(const Vector<double, 3>& lowest, double cell,
       cell_(cell),
       edge_(edge),
       nodes_(nodes),
+      moment_(static_cast<std::size_t>(edge * edge * edge), Vector<double, 3>::Zero()),
       top_(static_cast<std::size_t>((edge + 1) * (edge + 1)), -HUGE_VAL) {
   GroundAtNode<3, double> empty;
   empty.normal.setZero();
@@ -120,19 +129,24 @@ void SurfaceIntegrals::add_to_cell(int column, int row, int layer, const Facet& 
     if (i < 0 || j < 0 || i >= edge_ || j >= edge_) {
       continue;
     }
-    const auto add = [&](int k, double surface, double space) {
+    const auto add = [&](int k, double surface, const Vector<double, 3>& from_node, double space) {
       GroundAtNode<3, double>& at = nodes_[node(i, j, k)];
       at.area += facet.stretch * surface;
       at.normal += surface * Vector<double, 3>(facet.slope_x, facet.slope_y, -1.0);
       at.space += space;
+      moment_[static_cast<std::size_t>(node(i, j, k))] += facet.stretch * from_node;
     };
     // Upwards from w: s = 1 - w at the floor's node integrates to (1 - w)^2/2, s = w at the ceiling's to 1 - w^2/2.
     const double plan = sum.plan[corner], first = sum.first[corner], second = sum.second[corner];
+    const auto along = [&](std::size_t a) { return sum.plan_along[a][corner]; };
+    const auto first_along = [&](std::size_t a) { return sum.first_along[a][corner]; };
     if (layer >= 1) {
-      add(layer - 1, plan - first, 0.5 * (plan - 2.0 * first + second));
+      add(layer - 1, plan - first,
+          Vector<double, 3>(along(0) - first_along(0), along(1) - first_along(1), first - second),
+          0.5 * (plan - 2.0 * first + second));
     }
     if (layer >= 0 && layer < edge_) {
-      add(layer, first, plan - 0.5 * second);
+      add(layer, first, Vector<double, 3>(first_along(0), first_along(1), second - first), plan - 0.5 * second);
     }
     for (int k = layer + 1; k < edge_; ++k) {
       nodes_[node(i, j, k)].space += plan;
@@ -150,8 +164,12 @@ void SurfaceIntegrals::finish() {
         GroundAtNode<3, double>& at = nodes_[node(i, j, k)];
         at.candidate = highest > k + round_off;
         at.space = at.candidate ? at.space * cell_ * cell_ * cell_ : cell_ * cell_ * cell_;
+        const double resultant = at.normal.norm();
         if (at.area > least_area) {
-          at.normal.normalize();
+          at.normal /= resultant;
+          at.bend = at.area / resultant;
+          const Vector<double, 3> centre = moment_[static_cast<std::size_t>(node(i, j, k))] / at.area;
+          at.plane = at.normal.dot(corner_ + cell_ * (Vector<double, 3>(i + 1, j + 1, k + 1) + centre));
         } else {
           at.normal.setZero();
         }

@@ -1,11 +1,12 @@
 // What the nodes of a block take of a triangulated surface that is a height over the plane:
-//   A = integral of S over the surface,   V = integral of S over the space above it,   N = integral of S n dA,
+//   B = integral of S over the surface,   V = integral of S over the space above it,   G = integral of S n dA,
+//   c = integral of x S over the surface / B,
 // with a node's linear shape function S = s(x) s(y) s(z), s(x) = max(0, 1 - |x - x_node|/h), and n the unit vector into
 // the ground. With the gradient g of a triangle, dA = sqrt(1 + |g|^2) dx dy and n dA = (g, -1) dx dy.
 //
 // A triangle is cut by the grid's planes into convex pieces that lie in one grid cell each. There S is a polynomial of
 // third degree in the plane's coordinates, and the integral of s(z) upwards from the surface one of second degree in
-// the height; a rule for triangles that is exact to the fourth degree makes all three exact to round-off.
+// the height; a rule for triangles that is exact to the fourth degree makes all of them exact to round-off.
 #pragma once
 
 #include <vector>
@@ -17,7 +18,7 @@ namespace thawslide::terrain {
 
 class SurfaceIntegrals {
  public:
-  // Nodes as Surface::at_block has them; it sets all but `distance`.
+  // Nodes as Surface::at_block has them; it sets all but `distance`, and `plane` where there is area.
   SurfaceIntegrals(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes);
 
   // Takes in a triangle of the surface, counter-clockwise as seen from above. All triangles that overlap the footprint
@@ -43,6 +44,7 @@ class SurfaceIntegrals {
   double cell_;
   int edge_;
   GroundAtNode<3, double>* nodes_;
+  std::vector<Vector<double, 3>> moment_;  // by node: integral of S (x - x_node) over the surface, in cells
   std::vector<double>
       top_;  // highest ground over a grid cell's column, by cells from the corner; shape [edge+1, edge+1]
 };

@@ -40,7 +40,7 @@ class ScalarContact {
       if (known.candidate) {
         covered_[node] = known.area * covered_share(node, known.normal);
         const double into_ground = mass(node) > 0.0 ? trial(node).dot(known.normal) : 0.0;
-        load_[node] = mass(node) > 0.0 ? approach(node, into_ground) : 0.0;
+        load_[node] = mass(node) > 0.0 ? known.bend * approach(node, into_ground) : 0.0;
       }
     }
     for (const auto& [node, sum] : sums_.momentum) {
@@ -51,7 +51,7 @@ class ScalarContact {
   }
 
   [[nodiscard]] const ByNode<Dim, NodeMotion<Dim>>& motion() const { return motion_; }
-  // Distance left to the ground of the particles that candidate nodes see [m]; nodes that see none are left out.
+  // Smallest gap between candidate nodes' planes and the particles that they see [m]; nodes that see none are left out.
   [[nodiscard]] const ByNode<Dim, double>& clearance() const { return clearance_; }
 
   // Velocity of a node from the momentum that particles mapped back.
@@ -86,14 +86,11 @@ class ScalarContact {
 
   void find_clearance(const ScalarTransfer<Dim>& transfer, const std::vector<Point<Dim>>& points) {
     for (const Point<Dim>& p : points) {
-      double distance = 0.0;
-      transfer.for_nodes(p, transfer.linear, [&](const Index& node, double weight, const Place& /*slope*/) {
-        distance += weight * ground_.at(node).distance;
-      });
       transfer.for_nodes(p, transfer.ugimp, [&](const Index& node, double weight, const Place& /*slope*/) {
-        if (weight > round_off<double> && ground_.at(node).candidate) {
-          double& known = clearance_.emplace(node, HUGE_VAL).first->second;
-          known = std::min(known, std::max(0.0, distance - p.contact_offset));
+        const auto& known = ground_.at(node);
+        if (weight > round_off<double> && known.candidate) {
+          double& clearance = clearance_.emplace(node, HUGE_VAL).first->second;
+          clearance = std::min(clearance, known.plane - known.normal.dot(p.position) - p.contact_offset);
         }
       });
     }
@@ -102,7 +99,7 @@ class ScalarContact {
   // Momentum into the ground beyond what closes the clearance.
   [[nodiscard]] double approach(const Index& node, double inward) const {
     const auto clearance = clearance_.find(node);
-    const double left = clearance != clearance_.end() ? clearance->second : HUGE_VAL;
+    const double left = clearance != clearance_.end() ? std::max(0.0, clearance->second) : HUGE_VAL;
     return std::max(0.0, model_.distance_check ? inward - mass(node) * left / dt_ : inward);
   }
 
@@ -178,8 +175,8 @@ class ScalarContact {
       const Place& normal = ground_.at(node).normal;
       const double on_ground = pressure(node), area = load->second / (on_ground * dt_);
       const Place tangential = momentum - momentum.dot(normal) * normal;
-      const auto impulse =
-          physics::contact_impulse(load->second, tangential.norm(), area, dt_, strength(node, on_ground));
+      const auto impulse = physics::contact_impulse(load->second / ground_.at(node).bend, tangential.norm(), area, dt_,
+                                                    strength(node, on_ground));
       along = tangential.normalized();
       momentum -= impulse.normal * normal + impulse.tangential * along;
       motion.touching = true;

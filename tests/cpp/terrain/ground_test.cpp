@@ -91,6 +91,22 @@ TEST(LinearShare, OnAGridLineIsTheCellsFace) {
   EXPECT_DOUBLE_EQ(flat.linear_share(10.0, 2.0, 2.0).above, 0.0);
 }
 
+// A node above the middle of a notch sees both of its sides alike: what they carry is 1/sin(a) of what they add up to,
+// with half the opening angle a.
+TEST(LinearShare, OfANotchIsThatOfAWedge) {
+  for (const double half_opening : {0.3, 0.7, 1.2}) {
+    const double rise = 1.0 / std::tan(half_opening);
+    const ProfileSurface<2> notch(Polyline({0.0, 10.0, 20.0}, {10.0 * rise, 0.0, 10.0 * rise}));
+    for (const double z : {-0.3, 0.0, 0.8}) {
+      const auto node = notch.at_node(Vector<double, 2>(10.0, z), 2.0);
+      EXPECT_NEAR(node.bend, 1.0 / std::sin(half_opening), 1e-12);
+      EXPECT_NEAR((node.normal - Vector<double, 2>(0.0, -1.0)).norm(), 0.0, 1e-12);
+      EXPECT_LT(node.plane, 0.0);  // the middle of the ground that it sees is above its lowest place
+      EXPECT_GT(node.plane, -z - 2.0);
+    }
+  }
+}
+
 TEST(RigidPoints, AlongAGridLineAreTheSignedDistance) {
   const Polyline line({0.0, 100.0}, {4.0, 4.0});
   const ProfileSurface<2> smooth(line), points(line, 1.0, 2);

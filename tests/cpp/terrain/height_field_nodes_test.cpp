@@ -61,6 +61,10 @@ TEST(HeightField, OfAPlaneIsExact) {
         const double distance = (place[2] - plane(place[0], place[1])) * std::cos(tilt);
         EXPECT_NEAR(node.distance, distance, 1e-12);
         EXPECT_NEAR((node.normal - into).norm(), 0.0, 1e-9);
+        EXPECT_NEAR(node.bend, 1.0, 1e-12);
+        if (node.candidate) {
+          EXPECT_NEAR(node.plane, into.dot(Position(15.0, 10.0, plane(15.0, 10.0))), 1e-9);
+        }
         const double highest = plane(place[0], place[1]) + h * slope.lpNorm<1>();
         EXPECT_EQ(node.candidate, highest > place[2] - h);
       }
@@ -92,6 +96,14 @@ TEST(HeightField, ThatDoesNotChangeAlongYIsThePolyline) {
       if (node.area == 0.0 && std::abs(nearest.distance) < 4.0 * h) {
         EXPECT_NEAR((node.normal - Position(nearest.normal[0], 0.0, nearest.normal[1])).norm(), 0.0, 1e-9);
       }
+      if (node.area > 1e-9 * h * h) {
+        const double resultant = share.resultant.norm();
+        EXPECT_NEAR(node.bend, share.length / resultant, 1e-9);
+        const Vector<double, 2> normal = share.resultant / resultant;
+        EXPECT_NEAR((node.normal - Position(normal[0], 0.0, normal[1])).norm(), 0.0, 1e-9);
+        const Vector<double, 2> centre = Vector<double, 2>(place[0], place[2]) + share.moment / share.length;
+        EXPECT_NEAR(node.plane, normal.dot(centre), 1e-9 * h);
+      }
     }
   }
 }
@@ -100,6 +112,7 @@ TEST(HeightField, ThatDoesNotChangeAlongYIsThePolyline) {
 Node by_quadrature(const Raster& points, const Position& position, double cell, int parts) {
   Node node;
   node.normal.setZero();
+  Position moment = Position::Zero();  // in cells
   const auto linear = [](double q) { return std::max(0.0, 1.0 - std::abs(q)); };
   const auto above = [](double q) {
     q = std::clamp(q, -1.0, 1.0);
@@ -114,6 +127,7 @@ Node by_quadrature(const Raster& points, const Position& position, double cell, 
       node.area += across.norm() * plan * linear(q[2]);
       node.space += across[2] * plan * cell * above(q[2]);
       node.normal -= across * plan * linear(q[2]);
+      moment += across.norm() * plan * linear(q[2]) * q;
     };
     for (int j = 0; j < parts; ++j) {
       for (int i = 0; i + j < parts; ++i) {
@@ -124,7 +138,9 @@ Node by_quadrature(const Raster& points, const Position& position, double cell, 
       }
     }
   }
+  node.bend = node.area / node.normal.norm();
   node.normal.normalize();
+  node.plane = node.normal.dot(position + cell / node.area * moment);
   return node;
 }
 
@@ -139,6 +155,8 @@ TEST(HeightField, OfRoughGroundIsTheIntegralOfTheShapeFunction) {
       EXPECT_NEAR(node.area, expected.area, 1e-4 * h * h);
       EXPECT_NEAR(node.space, expected.space, 1e-4 * h * h * h);
       EXPECT_NEAR((node.normal - expected.normal).norm(), 0.0, 1e-4);
+      EXPECT_NEAR(node.bend, expected.bend, 1e-4 * expected.bend);
+      EXPECT_NEAR(node.area * (node.plane - expected.plane), 0.0, 1e-4 * h * h * h);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -189,6 +190,7 @@ bool ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
     node.normal[Dim - 1] = -1.0;
     node.distance = static_cast<Real>(above) * cell;
     node.candidate = above == 0;
+    node.plane = above == 0 ? -static_cast<Real>(ground_index) * cell : std::numeric_limits<Real>::infinity();
     node.area = above == 0 ? face : 0.0;
     node.space = above == 0 ? 0.5 * face * cell : above > 0 ? face * cell : 0.0;
     nodes[k] = node;

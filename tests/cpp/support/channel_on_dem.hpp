@@ -1,0 +1,89 @@
+// A straight channel on a slope, as a terrain model, and a fill that slides down it.
+#pragma once
+
+#include <cmath>
+
+#include "base/portability.hpp"
+#include "slide_on_dem.hpp"
+
+namespace thawslide::testing_support {
+
+// The cross-section of a channel, across the thalweg: how high the ground is above it at a distance [m].
+using Section = std::function<double(double across)>;
+
+struct Channel {
+  Section ground;
+  double surface = 0.0;   // of the fill above the thalweg [m]
+  double azimuth = 0.0;   // of the thalweg, from +x towards +y [degrees]
+  double aside = 0.0;     // of the thalweg from the domain's middle, which is on grid lines [m]
+  double spacing = 1.25;  // of the terrain model's points [m]
+};
+
+// V of half an opening angle [degrees], filled to a width [m].
+inline Channel v_channel(double half_opening, double width) {
+  const double rise = 1.0 / std::tan(half_opening * pi<double> / 180.0);
+  return {.ground = [rise](double across) { return rise * std::abs(across); }, .surface = 0.5 * width * rise};
+}
+
+// Half a circle of a width [m], filled to the brim; where it is steep, planes.
+inline Channel u_channel(double width) {
+  const double radius = 0.5 * width, steep = 0.98 * radius;
+  const double rise = steep / std::sqrt(radius * radius - steep * steep);
+  return {.ground =
+              [=](double across) {
+                const double s = std::abs(across), on_circle = std::min(s, steep);
+                return radius - std::sqrt(radius * radius - on_circle * on_circle) + (s - on_circle) * rise;
+              },
+          .surface = radius};
+}
+
+// Cells of 5 m; the thalweg falls by 35 degrees; friction of the ground 15 degrees.
+inline constexpr double channel_cell = 5.0, channel_slope = 35.0, channel_friction = 15.0;
+
+// How much more than the coefficient of the ground the fill is held back, on average between two times [s]: by the
+// velocity of its centre of mass along the thalweg. `noise`: added to the ground at its points [m].
+inline double friction_in_channel(
+    const Channel& channel, const std::string& material, double from, double to,
+    const std::function<double()>& noise = [] { return 0.0; }) {
+  constexpr double degree = pi<double> / 180.0, gravity = 9.81, length = 60.0;
+  const double sine = std::sin(channel_slope * degree), cosine = std::cos(channel_slope * degree);
+  const Place along(std::cos(channel.azimuth * degree), std::sin(channel.azimuth * degree)), aside(-along[1], along[0]);
+  const auto across = [&](double x, double y) { return Place(x, y).dot(aside) - channel.aside; };
+  const auto way = [&](double x, double y) { return Place(x, y).dot(along); };
+  const auto on_slope = [&](double x, double y, double above) { return (above - way(x, y) * sine) / cosine; };
+  const Raster ground =
+      raster_between(Place(-130.0, -130.0), Place(130.0, 130.0), channel.spacing,
+                     [&](double x, double y) { return on_slope(x, y, channel.ground(across(x, y))) + noise(); });
+  // The ends of the fill are vertical; in the map it is `length` long.
+  const Place half(120.0, 120.0);
+  const Raster thickness = thickness_between(-half, half, 0.625, [&](double x, double y) {
+    const double depth = (channel.surface - channel.ground(across(x, y))) / cosine;
+    return std::abs(way(x, y) + 40.0) < 0.5 * length ? std::max(0.0, depth) : 0.0;
+  });
+  const std::string text = release_on_dem({to, 0.002, channel_cell, {-120.0, -120.0, -150.0}, {120.0, 120.0, 250.0}},
+                                          material, channel_friction);
+  sim::Simulation<3, double> simulation(case_on_dem(text), site_of(ground, thickness));
+  const Position down(along[0] * cosine, along[1] * cosine, -sine);
+  run_until(simulation, from);
+  const double first = CentreOfMass(simulation).velocity.dot(down), began = simulation.time();
+  run_until(simulation, to);
+  const double gained = CentreOfMass(simulation).velocity.dot(down) - first;
+  const double found = (gravity * sine - gained / (simulation.time() - began)) / (gravity * cosine);
+  return found / std::tan(channel_friction * degree);
+}
+
+// Broken rock without cohesion.
+inline const std::string loose_rock = R"(
+[material.matter]
+law = "mohr_coulomb"
+youngs_modulus = 1e8
+poisson_ratio = 0.2
+friction_angle = 35.0
+cohesion = 0.0
+gaps_close_first = true
+viscosity_time = 0.01
+[mechanics]
+slope_shear = true
+)";
+
+}  // namespace thawslide::testing_support

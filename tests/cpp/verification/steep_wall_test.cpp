@@ -1,0 +1,99 @@
+// A block that slides without friction into a wall: it keeps its velocity until it gets there.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
+#include "base/portability.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+constexpr double cell = 5.0, front = 50.0, speed = 20.0;  // m, m, m/s
+
+// An elastic block, 40 m long and 20 m high, on level ground from which a wall rises at `foot` [m].
+config::Case block_before_wall(double wall_angle, double foot) {
+  constexpr double height = 40.0;
+  const double run = std::max(1e-3, height / std::tan(wall_angle * pi<double> / 180.0));
+  std::ofstream(folder_of_this_test() / "wall.csv")
+      << fmt::format("distance_m,terrain_elevation_m\n-100,0\n{0},0\n{1},{2}\n{3},{2}\n", foot, foot + run, height,
+                     foot + run + 100.0);
+  return paper_case(R"(
+[time]
+end = 1.0
+step = 0.004
+[grid]
+cell = 5.0
+min = [-90.0, -20.0]
+max = [150.0, 80.0]
+[terrain]
+type = "profile"
+file = "wall.csv"
+[material.rock]
+law = "elastic"
+youngs_modulus = 2e8
+poisson_ratio = 0.2
+viscosity_time = 0.01
+[body.block]
+material = "rock"
+min = [10.0, 0.0]
+max = [50.0, 20.0]
+velocity = [20.0, 0.0]
+[basal]
+friction = "constant"
+friction_angle = 0.0
+[mechanisms]
+pressurization = false
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)");
+}
+
+// How far before the foot of the wall the block's front is, in cells, when the block has lost a share of its speed.
+double distance_of_loss(double wall_angle, double foot, double share) {
+  sim::Simulation<2, double> simulation(block_before_wall(wall_angle, foot));
+  const auto mean_velocity = [&] {
+    const auto& particles = simulation.particles();
+    double momentum = 0.0, mass = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      mass += particles.mass(p);
+      momentum += particles.mass(p) * particles.velocity(p, 0);
+    }
+    return momentum / mass;
+  };
+  double edge = front;
+  while (mean_velocity() > (1.0 - share) * speed && simulation.time() < 1.0 - 1e-9) {
+    simulation.step(simulation.next_step(1.0));
+    edge = front + speed * simulation.time();
+  }
+  return (foot - edge) / cell;
+}
+
+TEST(SteepWall, KeepsItsVelocityUntilItArrives) {
+  Record record(
+      "Walls",
+      "An elastic block slides without friction over level ground into a wall of 45 to 90 degrees, whose foot "
+      "is at different places in cells of 5 m.",
+      "the velocity is kept until the front is at the foot", "motion without force");
+  for (const double wall_angle : {45.0, 60.0, 80.0, 90.0}) {
+    double earliest = -HUGE_VAL, latest = HUGE_VAL;
+    for (const double foot : {57.5, 59.0, 60.0, 61.0}) {
+      const double distance = distance_of_loss(wall_angle, foot, 0.01);
+      earliest = std::max(earliest, distance);
+      latest = std::min(latest, distance);
+    }
+    record.expect_near(fmt::format("cells before the foot at a loss of 1 %, earliest, wall of {} degrees", wall_angle),
+                       std::max(0.0, earliest), 0.0, 0.3);
+    record.expect_near(fmt::format("cells before the foot at a loss of 1 %, latest, wall of {} degrees", wall_angle),
+                       std::min(0.0, latest), 0.0, 0.5);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::verification
