@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "physics/basal/shared_parameters.hpp"
+#include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
 
@@ -14,7 +14,9 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double stiffest = 1e11;       // [Pa]; fresh rock has some 5e10
 constexpr double smallest_angle = 3.0;  // [degrees]; tan 3 is 0.05, the least that is said of ice on ice
-constexpr double warm = 0.0;            // [C]
+constexpr double largest_coefficient = 1.5;
+constexpr double least_turbulence = 100.0, most_turbulence = 10000.0;  // [m/s2]
+constexpr double warm = 0.0;                                           // [C]
 constexpr double most_snapshots = 10000.0;
 constexpr double least_wall_interval = 1.0;  // [s]
 constexpr double most_steps = 1e9;
@@ -112,9 +114,30 @@ void doubt_band(const Case& parameters, Doubts& doubts) {
   }
 }
 
+// Whether the friction law of a word uses a number.
+bool uses(const std::string& law, const physics::basal::Parameter& number) {
+  bool found = false;
+  physics::basal::for_each_law<physics::basal::FrictionLaw<double>>([&]<class Law>(physics::basal::OfType<Law>) {
+    found = found || (law == Law::word &&
+                      std::find(Law::parameters.begin(), Law::parameters.end(), &number) != Law::parameters.end());
+  });
+  return found;
+}
+
 void doubt_ground(const std::string& table, const GroundStrength& ground, Doubts& doubts) {
+  const double coefficient = ground.numbers(physics::basal::friction_coefficient);
+  if (uses(ground.friction, physics::basal::friction_coefficient) && coefficient > largest_coefficient) {
+    doubts.add(table + ".friction_coefficient", coefficient, "",
+               "was an angle in degrees meant? A coefficient is its tangent: 25 degrees are 0.466.");
+  }
+  const double turbulence = ground.numbers(physics::basal::turbulent_friction);
+  if (uses(ground.friction, physics::basal::turbulent_friction) &&
+      (turbulence < least_turbulence || turbulence > most_turbulence)) {
+    doubts.add(table + ".turbulent_friction", turbulence, " m/s2",
+               fmt::format("calibrated values of xi are {:g} to {:g} m/s2.", least_turbulence, most_turbulence));
+  }
   const double angle = ground.numbers(physics::basal::friction_angle);
-  if (ground.friction != "coefficient" && angle > 0.0 && angle < smallest_angle) {
+  if (uses(ground.friction, physics::basal::friction_angle) && angle > 0.0 && angle < smallest_angle) {
     doubts.add(table + ".friction_angle", angle, " degrees",
                "was a coefficient meant? Angles are in degrees; for a coefficient set friction = \"coefficient\" and "
                "friction_coefficient.");

@@ -16,8 +16,8 @@ void ask_of_base(Backend& backend, const NodesInStep<Dim, Real>& step, const ter
   const std::uint32_t* candidates = ground.candidates();
   backend.for_each(count, PressOnGround<Dim, Real>{step, candidates});
   const Real face = Dim == 2 ? cell : cell * cell;
-  backend.for_each(
-      count, AskOfBase<Dim, Real>{step, candidates, static_cast<Real>(terrain::smallest_area) * face, columns, bases});
+  backend.for_each(count, AskOfBase<Dim, Real>{step, candidates, static_cast<Real>(terrain::smallest_area) * face,
+                                               base.gravity, columns, bases});
   for (std::size_t g = 0; g < base.grounds.size(); ++g) {
     const int substrate = static_cast<int>(g);
     std::visit(

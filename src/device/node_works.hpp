@@ -9,6 +9,7 @@
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/records.hpp"
+#include "physics/basal/laws.hpp"
 #include "physics/basal_friction.hpp"
 #include "terrain/contact_node.hpp"
 
@@ -162,15 +163,16 @@ struct PressOnGround {
 template <class Real>
 struct BaseOfNode {
   physics::basal::ContactNode<Real> node;
-  Real area;                        // [m2]; 0: it is not in contact
-  Real friction, relief, cohesion;  // mu_e; the pore pressure that relieves it, c_S [Pa]
+  Real area;  // [m2]; 0: it is not in contact
+  // mu_e; the pore pressure that relieves it, drag, c_S [Pa]
+  Real friction, relief, drag, cohesion;
 };
 
 template <int Dim, class Real>
 struct AskOfBase {
   NodesInStep<Dim, Real> step;
   const std::uint32_t* candidates;
-  Real smallest_area;
+  Real smallest_area, gravity;
   const Real* columns;  // records of BaseState of the candidates; null where there are no band columns
   BaseOfNode<Real>* bases;
 
@@ -199,6 +201,7 @@ struct AskOfBase {
       terrain::take_columns_state(columns + k * mpm::BaseState::size<Dim>, step.pore_pressure, base.node);
     }
     base.node.time = step.time;
+    base.node.unit_weight = terrain::unit_weight_of<Dim>(static_cast<const Real*>(nodes.momentum_at(node)), gravity);
   }
 
  private:
@@ -228,6 +231,7 @@ struct AskFriction {
     BaseOfNode<Real>& base = bases[k];
     if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
       base.friction = law.coefficient(base.node);
+      base.drag = physics::basal::drag_of(law, base.node);
       base.relief = Law::feels_pore_pressure ? base.node.pore_pressure : Real(0);
     }
   }
@@ -321,7 +325,8 @@ struct ResolveContact {
                           terrain::NodeState<Dim, Real>& state, Sum& work, Real* contact) const {
     const BaseOfNode<Real>& base = bases[candidate];
     const Real held = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief, base.cohesion,
-                                                clamp, cap_pressure);
+                                                clamp, cap_pressure) +
+                      base.drag;
     const Real strength = step.base_holds ? std::numeric_limits<Real>::infinity() : held;
     const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[node];
     const terrain::HoldOnNode<Dim, Real> hold{

@@ -221,6 +221,7 @@ class Block {
     basal_.solid_fraction[0] = base.solid_fraction;
     basal_.slip[0] = slip_;
     basal_.speed[0] = std::abs(velocity_);
+    basal_.unit_weight[0] = model_.contact.law.gravity * slices_.mass / (slices_.thickness * slices_.base);
     strength_ = friction_ = 0.0;
     const std::vector<double> shares = mass_on_substrates();
     for (std::size_t number = 0; number < shares.size(); ++number) {

@@ -134,6 +134,7 @@ terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
                                                           : physics::FrictionClamp::keep_cohesion;
   law.cap_pressure = basal.cap_pressure;
   law.heat_fraction = static_cast<Real>(basal.heat_fraction);
+  law.gravity = static_cast<Real>(parameters.general.gravity);
   return law;
 }
 

@@ -27,6 +27,7 @@ struct BasalLaw {
   physics::FrictionClamp clamp = physics::FrictionClamp::keep_cohesion;
   bool cap_pressure = false;  // P at most N
   Real heat_fraction = 1;     // share of the friction work that becomes heat (conversion coefficient)
+  Real gravity = 0;           // [m/s2]
 };
 
 // State and strength of up to `capacity` contact nodes, one array a quantity.
@@ -38,20 +39,20 @@ struct BasalNodes {
 
   std::size_t count = 0;
   // In: number of the substrate, normal pressure N [Pa], pore pressure P [Pa], temperature T [C], liquid saturation S,
-  // effective solid fraction n_e (Eq. 2), slip [m] and slip speed v [m/s].
+  // effective solid fraction n_e (Eq. 2), slip [m], slip speed v [m/s] and unit weight rho g of the slide [N/m3].
   Column<int> substrate;
-  Column<Real> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed;
-  // Out: friction coefficient mu_e, the pore pressure that relieves it [Pa], cohesion c_S [Pa] and sliding strength
-  // [Pa].
-  Column<Real> friction, relief, cohesion, strength;
+  Column<Real> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed, unit_weight;
+  // Out: friction coefficient mu_e, the pore pressure that relieves it, drag, cohesion c_S and sliding strength [Pa].
+  Column<Real> friction, relief, drag, cohesion, strength;
 
   [[nodiscard]] physics::basal::ContactNode<Real> node(std::size_t k, Real time) const {
     return {normal_pressure[k], pore_pressure[k], temperature[k], saturation[k],
-            solid_fraction[k],  slip[k],          speed[k],       time};
+            solid_fraction[k],  slip[k],          speed[k],       time,
+            unit_weight[k]};
   }
 };
 
-// Friction, its relief and cohesion of the nodes on one substrate. Each law is chosen once, outside the loop over
+// Friction, its relief, drag and cohesion of the nodes on one substrate. Each law is chosen once, outside the loop over
 // nodes.
 template <class Real>
 void evaluate_ground_law(const GroundLaw<Real>& law, int substrate, Real time, BasalNodes<Real>& nodes) {
@@ -59,7 +60,9 @@ void evaluate_ground_law(const GroundLaw<Real>& law, int substrate, Real time, B
       [&]<class Friction>(const Friction& friction) {
         for (std::size_t k = 0; k < nodes.count; ++k) {
           if (nodes.substrate[k] == substrate) {
-            nodes.friction[k] = friction.coefficient(nodes.node(k, time));
+            const auto node = nodes.node(k, time);
+            nodes.friction[k] = friction.coefficient(node);
+            nodes.drag[k] = physics::basal::drag_of(friction, node);
             nodes.relief[k] = Friction::feels_pore_pressure ? nodes.pore_pressure[k] : Real(0);
           }
         }
@@ -88,7 +91,8 @@ void evaluate_basal_law(const BasalLaw<Real>& law, Real time, BasalNodes<Real>& 
   }
   for (std::size_t k = 0; k < nodes.count; ++k) {
     nodes.strength[k] = physics::sliding_strength(nodes.friction[k], nodes.normal_pressure[k], nodes.relief[k],
-                                                  nodes.cohesion[k], law.clamp, law.cap_pressure);
+                                                  nodes.cohesion[k], law.clamp, law.cap_pressure) +
+                        nodes.drag[k];
   }
 }
 

@@ -52,6 +52,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   basal.temperature[c] = known.temperature;
   basal.slip[c] = known.slip;
   basal.speed[c] = known.speed;
+  basal.unit_weight[c] = unit_weight_of<Dim>(nodes.momentum(b, k), model.law.gravity);
 }
 
 // How much of the space that belongs to a node the slide fills, 0 to 1.

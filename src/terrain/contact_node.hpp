@@ -125,6 +125,13 @@ THAWSLIDE_HD physics::basal::ContactNode<Real> contact_node_of(const StateRecord
   return node;
 }
 
+// Unit weight rho g [N/m3] of the slide at a node. record: of MomentumLayout.
+template <int Dim, class Real, class Record>
+THAWSLIDE_HD Real unit_weight_of(const Record& record, Real gravity) {
+  using Layout = mpm::MomentumLayout<Dim>;
+  return gravity * record[Layout::mass] / record[Layout::volume];
+}
+
 // Where band columns lie under the slide, the base is as they have it; where none has been laid yet, as the body is,
 // without pore pressure. state: the node's record of BaseState.
 template <class Record, class Real>

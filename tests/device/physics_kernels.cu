@@ -230,13 +230,16 @@ __global__ void water_balance(Phases<Real> phases, WaterExpansion<Real> water, R
 }
 
 __device__ basal::ContactNode<Real> take_node(Row& row) {
-  return {row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take()};
+  return {row.take(), row.take(), row.take(), row.take(), row.take(),
+          row.take(), row.take(), row.take(), row.take()};
 }
 
 template <class Law>
 __global__ void friction_law(Law law, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
-  result.put(law.coefficient(take_node(row)));
+  const basal::ContactNode<Real> node = take_node(row);
+  result.put(law.coefficient(node));
+  result.put(basal::drag_of(law, node));
 }
 template <class Law>
 __global__ void cohesion_law(Law law, Real* numbers, Real* results, std::size_t particles) {

@@ -15,6 +15,7 @@ struct ContactNode {
   Real slip = 0;             // gathered along the ground [m]
   Real speed = 0;            // of the slip, v [m/s]
   Real time = 0;             // [s]
+  Real unit_weight = 0;      // of the slide, rho g [N/m3]
 };
 
 }  // namespace thawslide::physics::basal

@@ -13,6 +13,7 @@
 #include "physics/basal/lubricated_friction.hpp"
 #include "physics/basal/slip_cohesion.hpp"
 #include "physics/basal/time_cohesion.hpp"
+#include "physics/basal/voellmy_friction.hpp"
 
 namespace thawslide::physics::basal {
 
@@ -20,7 +21,8 @@ template <class Real>
 using FrictionLaw = std::variant<  //
     ConstantFriction<Real>,        //
     LubricatedFriction<Real>,      //
-    CoefficientFriction<Real>>;
+    CoefficientFriction<Real>,     //
+    VoellmyFriction<Real>>;
 
 template <class Real>
 using CohesionLaw = std::variant<  //
@@ -29,6 +31,16 @@ using CohesionLaw = std::variant<  //
     IceCohesion<Real>,             //
     TimeCohesion<Real>,            //
     BondsCohesion<Real>>;
+
+// Traction of a friction law that is no share of the load [Pa].
+template <class Law, class Real>
+THAWSLIDE_HD Real drag_of(const Law& law, const ContactNode<Real>& node) {
+  if constexpr (requires { law.drag(node); }) {
+    return law.drag(node);
+  } else {
+    return Real(0);
+  }
+}
 
 // The type of a law, to be handed to a function.
 template <class Law>

@@ -3,7 +3,7 @@
 //   word, text          what the case file calls it, and what it does
 //   parameters          the numbers that it takes, declared here or shared with others (shared_parameters.hpp)
 //   from(numbers)       the law, from a function that gives the number of a parameter
-//   coefficient(node)   of a friction law: mu_e; and feels_pore_pressure, whether P is taken off the load that it is of
+//   coefficient(node)   of a friction law: mu_e; feels_pore_pressure: of N - P; drag(node), if any: no share of N [Pa]
 //   cohesion(node)      of a cohesion law: c_S [Pa]
 #pragma once
 

@@ -14,6 +14,17 @@ inline constexpr Parameter friction_angle{.key = "friction_angle",
                                           .text = "basal friction angle phi_f",
                                           .source = "Eq. 25, Tables 2, 3"};
 
+// The usual ones are a range of back-calculated rock avalanches on glaciers, not checked.
+inline constexpr Parameter friction_coefficient{.key = "friction_coefficient",
+                                                .is_needed = true,
+                                                .only_with_its_laws = true,
+                                                .low = 0.0,
+                                                .usual_low = 0.05,
+                                                .usual_high = 0.15,
+                                                .usual_where = "on a glacier",
+                                                .usual_law = "coefficient",
+                                                .text = "friction coefficient mu of {laws}"};
+
 // All laws of cohesion take it. Where it is 0 nothing is lost, and none of their other numbers is needed.
 inline constexpr Parameter initial_cohesion{
     .key = "cohesion", .unit = "Pa", .low = 0.0, .text = "cohesion along the ground at t = 0, c_0", .source = "Eq. 17"};

@@ -232,8 +232,9 @@ fmpm_order = 3
 fmpm_interval = 0.5
 slope_shear = true
 [basal]
-friction = "coefficient"
+friction = "voellmy"
 friction_coefficient = 0.125
+turbulent_friction = 250.0
 [band]
 model = "columns"
 thickness = 0.5
@@ -293,8 +294,9 @@ friction_angle = 25.0
 outline = "inputs/release.shp"
 polygons = ["glacier"]
 name_attribute = "kind"
-friction = "coefficient"
+friction = "voellmy"
 friction_coefficient = 0.125
+turbulent_friction = 250.0
 [heat.boundary]
 z_min = { temperature = -8.0 }
 z_max = { flux = 3.5 }

@@ -98,6 +98,28 @@ TEST(Notices, LeaveOutWhatTheBaseDoesNotHave) {
       << "the paper's band is no column";
 }
 
+TEST(Notices, DoubtTheNumbersOfVoellmyFriction) {
+  const auto found = [](const std::string& key, const std::string& value) {
+    std::vector<std::string> sets{"pressure.frozen=none", "basal.friction=voellmy", "basal.friction_coefficient=0.6",
+                                  "basal.turbulent_friction=500", "basal.friction_angle=0.6"};
+    if (!key.empty()) {
+      sets.push_back("basal." + key + "=" + value);
+    }
+    return notices(testing_support::case_from_text(changed(with_columns), sets));
+  };
+  using List = std::vector<std::string>;
+  EXPECT_EQ(found("", ""), List()) << "0.6 is no glacier's, and the angle is not that of this law";
+  EXPECT_EQ(
+      found("turbulent_friction", "0.5"),
+      List{"--set basal.turbulent_friction=0.5: basal.turbulent_friction is 0.5 m/s2: calibrated values of xi are "
+           "100 to 10000 m/s2."});
+  EXPECT_EQ(found("turbulent_friction", "1e5").size(), 1U);
+  EXPECT_EQ(
+      found("friction_coefficient", "25"),
+      List{"--set basal.friction_coefficient=25: basal.friction_coefficient is 25: was an angle in degrees meant? "
+           "A coefficient is its tangent: 25 degrees are 0.466."});
+}
+
 TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
   // Key, what is given, and what the notice says after "KEY is ".
   const std::vector<std::array<std::string, 3>> doubtful{

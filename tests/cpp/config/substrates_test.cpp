@@ -122,13 +122,22 @@ TEST(Substrates, NeedATerrainAndTheNumbersOfTheirLaws) {
                               {"[basal]\n", "[substrate.ice]\nx_min = 50.0\n" + coefficient + "[basal]\n"}}),
             "FOLDER/case.toml:18:1: [substrate.ice] says what bodies slide on, and the case has no terrain. Remove it, "
             "or give terrain.type.");
-  EXPECT_EQ(error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction = \"coefficient\"\n"),
-            "FOLDER/case.toml:22:1: key 'substrate.ice.friction_coefficient' is missing: it is needed when there is a "
-            "terrain and friction is \"coefficient\". Add 'friction_coefficient = ...' to [substrate.ice]: friction "
-            "over the normal stress N, mu, of the law \"coefficient\", a number, >= 0.");
+  EXPECT_EQ(
+      error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction = \"coefficient\"\n"),
+      "FOLDER/case.toml:22:1: key 'substrate.ice.friction_coefficient' is missing: it is needed when there is a "
+      "terrain and friction is \"coefficient\" or \"voellmy\". Add 'friction_coefficient = ...' to [substrate.ice]: "
+      "friction coefficient mu of the laws \"coefficient\" and \"voellmy\", a number, >= 0.");
   EXPECT_EQ(error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction_coefficient = 0.1\nfriction_angle = 5.0\n"),
             "FOLDER/case.toml:24:24: substrate.ice.friction_coefficient has a meaning only when friction is "
-            "\"coefficient\". Remove it, or change substrate.ice.friction.");
+            "\"coefficient\" or \"voellmy\". Remove it, or change substrate.ice.friction.");
+  EXPECT_EQ(
+      error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction = \"voellmy\"\nfriction_coefficient = 0.1\n"),
+      "FOLDER/case.toml:22:1: key 'substrate.ice.turbulent_friction' is missing: it is needed when there is a "
+      "terrain and friction is \"voellmy\". Add 'turbulent_friction = ...' to [substrate.ice]: turbulent friction "
+      "xi of the law \"voellmy\": the larger, the less drag rho g v^2/xi, a number, > 0 m/s2.");
+  EXPECT_EQ(error_of_text(sound + "[substrate.ice]\nx_min = 50.0\n" + coefficient + "turbulent_friction = 500\n"),
+            "FOLDER/case.toml:26:22: substrate.ice.turbulent_friction has a meaning only when friction is \"voellmy\". "
+            "Remove it, or change substrate.ice.friction.");
   EXPECT_EQ(
       error_of_text(on_glacier("x_min = 50.0\n") + "cohesion = 1.0\nresidual_cohesion = 2.0\nslip_distance = 1.0\n"),
       "FOLDER/case.toml:27:21: substrate.ice.residual_cohesion is 2 Pa, above substrate.ice.cohesion, which is 1 "

@@ -212,6 +212,13 @@ TEST(DeviceStep, HasThemInSpace) {
   expect_the_steps_of_the_processor<3>(without_pressure<3>("true"), 100, 50, Host(ThreadOrder::shuffled, 96));
 }
 
+TEST(DeviceStep, HasTheBitsOfVoellmyFriction) {
+  const std::vector<std::string> voellmy{"heat.enabled=false", "pressure.enabled=false", "basal.friction=voellmy",
+                                         "basal.friction_coefficient=0.2", "basal.turbulent_friction=100"};
+  expect_the_steps_of_the_processor<2>(sliding_bodies<2>(voellmy), 100, 50, Host(ThreadOrder::shuffled, 32));
+  expect_the_steps_of_the_processor<3>(sliding_bodies<3>(voellmy), 60, 30, Host(ThreadOrder::shuffled, 96));
+}
+
 TEST(DeviceStep, HasTheBitsOfTheProcessorWithPorePressureInThePlane) {
   expect_the_steps_of_the_processor<2>(with_pressure<2>(), 150, -1, Host(ThreadOrder::forward));
   expect_the_steps_of_the_processor<2>(with_pressure<2>(), 150, 60, Host(ThreadOrder::shuffled, 32));

@@ -66,6 +66,39 @@ TEST(ConstantFriction, IsTheTangent) {
   EXPECT_DOUBLE_EQ(law_from<ConstantFriction<double>>({{"friction_angle", 45.0}}).coefficient(Node{}), 1.0);
 }
 
+TEST(VoellmyFriction, AddsADragThatIsNoShareOfTheLoad) {
+  const auto law = law_from<VoellmyFriction<double>>({{"friction_coefficient", 0.155}, {"turbulent_friction", 4000.0}});
+  EXPECT_EQ(law.coefficient(Node{.normal_pressure = 1e5, .speed = 50.0}), 0.155);
+  // Snow of 200 kg/m3 at 40 m/s: 200 9.81 1600/4000 = 784.8 Pa.
+  EXPECT_DOUBLE_EQ(law.drag(Node{.speed = 40.0, .unit_weight = 200.0 * 9.81}), 784.8);
+  EXPECT_EQ(law.drag(Node{.normal_pressure = 1e5, .unit_weight = 2e4}), 0.0) << "none at rest";
+  const Node node{.normal_pressure = 1e5, .pore_pressure = 5e4, .speed = 7.0, .unit_weight = 2e4};
+  EXPECT_DOUBLE_EQ(law.drag(node), law.drag(Node{.speed = 7.0, .unit_weight = 2e4})) << "whatever N and P";
+  EXPECT_DOUBLE_EQ(drag_of(law, node), law.drag(node));
+  EXPECT_EQ(drag_of(ConstantFriction<double>{0.5}, node), 0.0);
+}
+
+// Whatever speed, xi, step and depth per area of base: friction stops the node at most.
+TEST(VoellmyFriction, NeverReversesTheSlip) {
+  constexpr double density = 2000.0, gravity = 9.81;
+  for (const double turbulence : {1e-3, 1.0, 100.0, 5000.0}) {
+    const VoellmyFriction<double> law{0.2, turbulence};
+    for (const double speed : {1e-6, 0.1, 10.0, 300.0}) {
+      for (const double dt : {1e-4, 1e-2, 1.0}) {
+        for (const double depth : {1e-3, 1.0, 50.0}) {
+          const double load = density * gravity * depth, momentum = density * depth * speed;
+          const double strength = sliding_strength(0.2, load, 0.0, 0.0, FrictionClamp::keep_cohesion, false) +
+                                  law.drag(Node{.speed = speed, .unit_weight = density * gravity});
+          const auto impulse = contact_impulse(load * dt, momentum, 1.0, dt, strength);
+          EXPECT_LE(impulse.tangential, momentum);
+          EXPECT_GT(impulse.tangential, 0.0);
+          EXPECT_EQ(impulse.slides, strength * dt < momentum);
+        }
+      }
+    }
+  }
+}
+
 TEST(SlidingStrength, TheTwoClampsDifferOnlyWherePressurePassesN) {
   using enum FrictionClamp;
   EXPECT_DOUBLE_EQ(sliding_strength(0.5, 10.0, 4.0, 2.0, keep_cohesion, false), 5.0);

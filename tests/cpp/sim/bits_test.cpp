@@ -123,6 +123,8 @@ std::vector<Choice> choices() {
        flat + "[substrate.ice]\nx_min = 8.3\nfriction = \"coefficient\"\nfriction_coefficient = 0.1\n"
               "[substrate.rock]\nx_max = 2.1\nfriction_angle = 30.0\ncohesion = 1e4\ncohesion_law = \"bonds\"\n"
               "slip_distance = 2.0\n"},
+      {"Voellmy friction",
+       {"basal.friction=voellmy", "basal.friction_coefficient=0.2", "basal.turbulent_friction=100"}},
       {"the first layer", {"band.region=first_layer"}},
       {"the first layer above a plane", {"band.region=first_layer"}, plane},
       {"cut cells", {"band.cut_cells=equal_thickness", "body.right.particles_per_axis=2"}, plane},

@@ -100,20 +100,28 @@ TEST(BasalLaw, HoldsByTheSubstrateOfEachNode) {
   BasalLaw<double> law;
   law.grounds = {{ConstantFriction<double>{0.5}, ConstantCohesion<double>{10.0}},
                  {CoefficientFriction<double>{0.1}, ConstantCohesion<double>{0.0}},
-                 {ConstantFriction<double>{1.0}, BondsCohesion<double>{100.0, 2.0}}};
+                 {ConstantFriction<double>{1.0}, BondsCohesion<double>{100.0, 2.0}},
+                 {VoellmyFriction<double>{0.2, 500.0}, ConstantCohesion<double>{3.0}}};
   BasalNodes<double> nodes;
-  nodes.count = 4;
-  nodes.substrate = {1, 0, 2, 1};
+  nodes.count = 6;
+  nodes.substrate = {1, 0, 2, 1, 3, 3};
   nodes.normal_pressure.fill(1000.0);
-  nodes.pore_pressure = {400.0, 400.0, 400.0, 1500.0};
+  nodes.pore_pressure = {400.0, 400.0, 400.0, 1500.0, 400.0, 1500.0};
   nodes.saturation.fill(0.25);
   nodes.slip.fill(2.0);
+  nodes.speed.fill(10.0);
+  nodes.unit_weight.fill(20.0);
   evaluate_basal_law(law, 0.0, nodes);
   EXPECT_DOUBLE_EQ(nodes.strength[0], 100.0) << "0.1 N, whatever P";
   EXPECT_DOUBLE_EQ(nodes.strength[1], 310.0);
   EXPECT_DOUBLE_EQ(nodes.strength[2], 600.0 + 75.0 * std::exp(-1.0));
   EXPECT_DOUBLE_EQ(nodes.strength[3], 100.0);
   EXPECT_EQ(nodes.friction[3], 0.1);
+  EXPECT_DOUBLE_EQ(nodes.strength[4], 0.2 * 600.0 + 20.0 * 100.0 / 500.0 + 3.0);
+  EXPECT_DOUBLE_EQ(nodes.strength[5], 4.0 + 3.0) << "drag where P passes N";
+  law.clamp = physics::FrictionClamp::joint;
+  evaluate_basal_law(law, 0.0, nodes);
+  EXPECT_DOUBLE_EQ(nodes.strength[5], 4.0) << "excess pressure cancels cohesion, not drag";
 }
 
 }  // namespace

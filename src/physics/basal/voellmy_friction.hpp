@@ -1,0 +1,42 @@
+// Voellmy friction (Voellmy 1955; Salm 1993): Coulomb friction and a turbulent drag that is no share of the load.
+//   tau = mu (N - P) + rho g v^2/xi
+// rho: bulk density of the slide at the node; v: slip speed. RAMMS and AvaFrame's com1DFA (frictModel "Voellmy") write
+// S = mu N + rho g u^2/xi with a given density and the depth-averaged velocity u, and have no pore pressure P.
+#pragma once
+
+#include "physics/basal/contact_node.hpp"
+#include "physics/basal/shared_parameters.hpp"
+
+namespace thawslide::physics::basal {
+
+inline constexpr Parameter turbulent_friction{
+    .key = "turbulent_friction",
+    .unit = "m/s2",
+    .is_needed = true,
+    .only_with_its_laws = true,
+    .low = 0.0,
+    .low_open = true,
+    .text = "turbulent friction xi of {laws}: the larger, the less drag rho g v^2/xi",
+    .source = "Voellmy 1955"};
+
+template <class Real>
+struct VoellmyFriction {
+  static constexpr const char* word = "voellmy";
+  static constexpr const char* text = "friction_coefficient (N - P) + rho g v^2/turbulent_friction, v the slip speed";
+  static constexpr bool feels_pore_pressure = true;
+  static constexpr auto parameters = parameter_list(friction_coefficient, turbulent_friction);
+
+  Real given;       // mu
+  Real turbulence;  // xi [m/s2]
+
+  template <class Numbers>
+  static VoellmyFriction from(const Numbers& numbers) {
+    return {static_cast<Real>(numbers(friction_coefficient)), static_cast<Real>(numbers(turbulent_friction))};
+  }
+  THAWSLIDE_HD Real coefficient(const ContactNode<Real>& /*node*/) const { return given; }
+  THAWSLIDE_HD Real drag(const ContactNode<Real>& node) const {
+    return node.unit_weight * node.speed * node.speed / turbulence;
+  }
+};
+
+}  // namespace thawslide::physics::basal
