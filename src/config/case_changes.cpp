@@ -17,7 +17,7 @@ namespace thawslide::config {
 namespace {
 
 // What the step reads anew each time and keeps no state for. A table ends with a dot: all of its keys.
-constexpr std::array<std::string_view, 12> changeable = {
+constexpr std::array<std::string_view, 13> changeable = {
     "time.",
     "checkpoint.",
     "guards.",
@@ -26,6 +26,7 @@ constexpr std::array<std::string_view, 12> changeable = {
     "mechanics.pic_share",
     "basal.friction_angle",
     "basal.friction_coefficient",
+    "basal.turbulent_friction",
     "basal.cohesion",
     "basal.residual_cohesion",
     "case.title",

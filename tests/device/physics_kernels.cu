@@ -230,8 +230,7 @@ __global__ void water_balance(Phases<Real> phases, WaterExpansion<Real> water, R
 }
 
 __device__ basal::ContactNode<Real> take_node(Row& row) {
-  return {row.take(), row.take(), row.take(), row.take(), row.take(),
-          row.take(), row.take(), row.take(), row.take()};
+  return {row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take()};
 }
 
 template <class Law>

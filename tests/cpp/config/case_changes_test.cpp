@@ -29,8 +29,9 @@ TEST(CaseChanges, SayWhereATextIsNoToml) {
 }
 
 TEST(CaseChanges, OnlyWhatTheStepReadsAnewMayChange) {
-  EXPECT_NO_THROW(require_changeable({"time.end=3", "time.stepping=adaptive", "checkpoint.interval=2",
-                                      "grid.leaving=remove", "basal.friction_angle=12"}));
+  EXPECT_NO_THROW(
+      require_changeable({"time.end=3", "time.stepping=adaptive", "checkpoint.interval=2", "grid.leaving=remove",
+                          "basal.friction_angle=12", "basal.turbulent_friction=400"}));
   for (const char* set : {"grid.cell=3", "timeless.end=3", "time=3", "material.rock.cohesion=3", "band.thickness=0.1",
                           "grid.leavings=stop"}) {
     EXPECT_THROW(require_changeable({"time.end=3", set}), UserError) << set;

@@ -134,7 +134,7 @@ TEST(Substrates, NeedATerrainAndTheNumbersOfTheirLaws) {
       error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction = \"voellmy\"\nfriction_coefficient = 0.1\n"),
       "FOLDER/case.toml:22:1: key 'substrate.ice.turbulent_friction' is missing: it is needed when there is a "
       "terrain and friction is \"voellmy\". Add 'turbulent_friction = ...' to [substrate.ice]: turbulent friction "
-      "xi of the law \"voellmy\": the larger, the less drag rho g v^2/xi, a number, > 0 m/s2.");
+      "xi of the law \"voellmy\": the larger, the less drag rho g v^2/xi, a number, > 0 [m/s2].");
   EXPECT_EQ(error_of_text(sound + "[substrate.ice]\nx_min = 50.0\n" + coefficient + "turbulent_friction = 500\n"),
             "FOLDER/case.toml:26:22: substrate.ice.turbulent_friction has a meaning only when friction is \"voellmy\". "
             "Remove it, or change substrate.ice.friction.");

@@ -87,7 +87,7 @@ Motion of_rigid_block(const std::vector<std::string>& sets) {
 
 // Down a slope from rest: v = v_t tanh(a t/v_t), s = v_t^2/a log cosh(a t/v_t), v_t^2 = xi h a/g.
 struct FromRest {
-  double slope = 30.0, mu = 0.15, turbulence = 50.0, time = 6.0;
+  double slope = 20.0, mu = 0.1, turbulence = 50.0, time = 8.0;
 
   [[nodiscard]] std::vector<std::string> sets() const {
     return {fmt::format("case.gravity_tilt={}", slope), fmt::format("basal.friction_coefficient={}", mu),
@@ -109,15 +109,15 @@ TEST(Voellmy, BlockOnASlopeApproachesItsTerminalVelocity) {
   const Motion exact = slide.exact();
   Record record(
       "Voellmy friction down a slope",
-      "A frozen block of 40 m x 10 m starts from rest on a slope of 30 degrees; mu = 0.15, xi = 50 m/s2. After "
-      "6 s it has 91 % of its terminal velocity.",
+      "A frozen block of 40 m x 10 m starts from rest on a slope of 20 degrees; mu = 0.1, xi = 50 m/s2. After "
+      "8 s it has 94 % of its terminal velocity.",
       "v = v_t tanh(a t/v_t), s = v_t^2/a log cosh(a t/v_t), a = g (sin(theta) - mu cos(theta)), "
       "v_t^2 = xi h a/g",
       "dv/dt = a - g v^2/(xi h), from rest");
   const Motion plane = in_mpm<2>(slide.sets()), space = in_mpm<3>(slide.sets()), rigid = of_rigid_block(slide.sets());
-  record.expect_near("velocity over exact, in the plane", plane.velocity / exact.velocity, 1.0, 5e-3);
-  record.expect_near("distance over exact, in the plane", plane.displacement / exact.displacement, 1.0, 5e-3);
-  record.expect_near("velocity over exact, in space", space.velocity / exact.velocity, 1.0, 5e-3);
+  record.expect_near("velocity over exact, in the plane", plane.velocity / exact.velocity, 1.0, 2e-3);
+  record.expect_near("distance over exact, in the plane", plane.displacement / exact.displacement, 1.0, 2e-3);
+  record.expect_near("velocity over exact, in space", space.velocity / exact.velocity, 1.0, 2e-3);
   record.expect_near("velocity over exact, of the rigid block", rigid.velocity / exact.velocity, 1.0, 1e-3);
   record.expect_near("distance over exact, of the rigid block", rigid.displacement / exact.displacement, 1.0, 1e-3);
 }
@@ -125,7 +125,7 @@ TEST(Voellmy, BlockOnASlopeApproachesItsTerminalVelocity) {
 TEST(Voellmy, RigidBlockConvergesInFirstOrderOfTheStep) {
   const FromRest slide;
   Record record("Voellmy friction, over the time step", "The rigid block of the slope above.",
-                "v = v_t tanh(a t/v_t) after 6 s", "dv/dt = a - g v^2/(xi h), from rest");
+                "v = v_t tanh(a t/v_t) after 8 s", "dv/dt = a - g v^2/(xi h), from rest");
   std::vector<double> steps, errors;
   for (const double step : {0.08, 0.04, 0.02, 0.01}) {
     std::vector<std::string> sets = slide.sets();
@@ -139,21 +139,21 @@ TEST(Voellmy, RigidBlockConvergesInFirstOrderOfTheStep) {
 
 // On level ground: v^2/v_c^2 falls with the distance, v_c^2 = mu xi h; to rest after xi h/(2 g) log(1 + v_0^2/v_c^2).
 TEST(Voellmy, ThrownBlockComesToRest) {
-  constexpr double mu = 0.2, turbulence = 100.0, start = 25.0;
+  constexpr double mu = 0.2, turbulence = 400.0, start = 25.0;
   const double exact = turbulence * height / (2.0 * gravity) * std::log1p(start * start / (mu * turbulence * height));
   Record record("Voellmy friction to rest",
-                "A frozen block of 40 m x 10 m is thrown along level ground at 25 m/s; mu = 0.2, xi = 100 m/s2.",
+                "A frozen block of 40 m x 10 m is thrown along level ground at 25 m/s; mu = 0.2, xi = 400 m/s2.",
                 "s = xi h/(2 g) log(1 + v_0^2/(mu xi h)); friction takes rho h v_0^2/2 of each m2",
                 "dv/dt = -mu g - g v^2/(xi h)");
-  const std::vector<std::string> sets{"basal.friction_coefficient=0.2", "basal.turbulent_friction=100",
+  const std::vector<std::string> sets{"basal.friction_coefficient=0.2", "basal.turbulent_friction=400",
                                       "body.block.velocity=[25.0,0.0]", "time.end=12.0"};
   const Motion plane = in_mpm<2>(sets), rigid = of_rigid_block(sets);
   EXPECT_LT(plane.velocity, 1e-2) << "it still slides";
   EXPECT_EQ(rigid.velocity, 0.0) << "it still slides";
-  record.expect_near("distance over exact, in the plane", plane.displacement / exact, 1.0, 5e-3);
+  record.expect_near("distance over exact, in the plane", plane.displacement / exact, 1.0, 2e-3);
   record.expect_near("distance over exact, of the rigid block", rigid.displacement / exact, 1.0, 1e-3);
   record.expect_near("work of friction in the plane, over that of the rigid block",
-                     plane.friction_work / rigid.friction_work, 1.0, 5e-3);
+                     plane.friction_work / rigid.friction_work, 1.0, 2e-3);
 }
 
 // At 60 m/s with xi = 1 m/s2 a step of the drag would take more than the momentum of a node.
