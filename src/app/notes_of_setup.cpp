@@ -5,6 +5,7 @@
 
 #include "config/notices.hpp"
 #include "config/reported_values.hpp"
+#include "sim/bodies_apart.hpp"
 #include "sim/doubts_of_bodies.hpp"
 #include "sim/map_grid.hpp"
 
@@ -18,6 +19,7 @@ void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const st
   notes.add(config::notices(parameters));
   notes.add(config::note_on_late_values(parameters));
   notes.add(sim::doubts_of_bodies(parameters, bodies));
+  notes.add(sim::doubt_of_bodies_apart(simulation));
   notes.add(doubt_of_disk(parameters, disk, free_on_disk(folder), folder));
 }
 

@@ -50,6 +50,7 @@ enum class SeepageScaling { consistent, printed };
 enum class ThicknessDirection { normal, vertical };
 enum class ThicknessUpdate { each_step, frozen };
 enum class BedLaw { none, strength, momentum };
+enum class BodyContact { bonded, frictional };
 enum class HeatBoundaryKind { insulated, temperature, flux };
 
 struct General {
@@ -241,6 +242,18 @@ struct Bed {
   int particles_per_axis = 2;  // per cell and axis, of what is taken up
 };
 
+// What acts between bodies: [contact] of all, [contact_pair.NAME] of two.
+struct Contact {
+  BodyContact between_bodies = BodyContact::bonded;
+  double friction_angle = 0;  // degrees
+};
+
+struct ContactPair {
+  std::vector<std::string> bodies;  // names of two
+  BodyContact contact = BodyContact::frictional;
+  double friction_angle = 0;  // degrees
+};
+
 struct Mechanisms {  // Sec. 3.3
   bool deformation = true, lubrication = true, pressurization = true;
 };
@@ -343,6 +356,8 @@ struct Case {
   Basal basal;
   std::map<std::string, Substrate> substrates;
   Bed bed;
+  Contact contact;
+  std::map<std::string, ContactPair> contact_pairs;
   Mechanisms mechanisms;
   Band band;
   Heat heat;

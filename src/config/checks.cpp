@@ -350,6 +350,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_materials(checked, reading);
   check_grounds(checked, reading);
   check_bed(checked, reading);
+  check_contact(checked, reading);
   check_switches(checked, reading);
   check_band_switches(checked, reading);
   check_band_columns(checked, reading);

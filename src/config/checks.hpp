@@ -22,6 +22,9 @@ void check_grounds(const Case& checked, Reading& reading);
 // The part on what the slide takes up: [bed].
 void check_bed(const Case& checked, Reading& reading);
 
+// The part on what acts between bodies: [contact] and [contact_pair.NAME].
+void check_contact(const Case& checked, Reading& reading);
+
 // The part on a DEM, releases, what maps give to bodies, and probes. Whether the maps hold what is asked of them is not
 // known here.
 void check_maps(const Case& checked, Reading& reading);

@@ -172,13 +172,14 @@ using Tables = std::vector<std::unique_ptr<TableDeclaration>>;
 const Tables& tables();
 
 // The parts of tables(): parameters_run.cpp, parameters_material.cpp, parameters_bodies.cpp and
-// parameters_model.cpp, among whose tables those of parameters_basal.cpp and
-// parameters_bed.cpp stand.
+// parameters_model.cpp, among whose tables those of parameters_basal.cpp, parameters_bed.cpp and
+// parameters_contact.cpp stand.
 void declare_run(Tables& tables);
 void declare_material(Tables& tables);
 void declare_bodies(Tables& tables);
 void declare_model(Tables& tables);
 void declare_basal(Tables& tables);
 void declare_bed(Tables& tables);
+void declare_contact(Tables& tables);
 
 }  // namespace thawslide::config

@@ -278,6 +278,7 @@ void declare_model(Tables& tables) {
                                                             mechanics_parameters()));
   declare_basal(tables);
   declare_bed(tables);
+  declare_contact(tables);
   tables.push_back(std::make_unique<SingleTable<Mechanisms>>("mechanisms", "The mechanisms of Sec. 3.3, on or off",
                                                              &Case::mechanisms, mechanism_parameters()));
   tables.push_back(

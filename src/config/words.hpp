@@ -44,6 +44,15 @@ inline std::vector<Choice<CurveKind>> choices(CurveKind) {
   return {{CurveKind::power_law, "power_law", "S_L = (1 - (T - Tref))^-exponent below Tref (Eq. 24)"},
           {CurveKind::linear, "linear", "S_L = 1 + slope (T - Tref), between 0 and 1 (Sec. 3.1)"}};
 }
+inline std::vector<Choice<BodyContact>> choices(BodyContact) {
+  return {
+      {BodyContact::bonded, "bonded",
+       "bodies share one velocity field: they act on one another across a gap of up to two cells, stick, and resist "
+       "being pulled apart as one body does"},
+      {BodyContact::frictional, "frictional",
+       "each body has a velocity field of its own; they press and rub on one another once the gap between them is "
+       "closed, and part freely"}};
+}
 inline std::vector<Choice<BedLaw>> choices(BedLaw) {
   return {{BedLaw::none, "none", "there is no bed that the slide could take up"},
           {BedLaw::strength, "strength",

@@ -95,7 +95,7 @@ void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
         [&](std::size_t k, std::int32_t nearest) { nearest_[in_nearest(k, a)] = nearest; });
   }
   for (std::size_t k = 0; k < order_.size(); ++k) {
-    keys_[k] = key_of(k);
+    keys_[k] = key_of(particles, k);
   }
   std::iota(order_.begin(), order_.end(), 0u);
   std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
@@ -121,7 +121,7 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
       std::fill_n(&moved_[first], most, std::uint8_t{0});
       if (std::memcmp(nearest, &nearest_[first * Dim], sizeof nearest) != 0) {
         std::copy_n(nearest, Dim * most, &nearest_[first * Dim]);
-        note_movers(first, batch.count, task_movers_[task]);
+        note_movers(particles, first, batch.count, task_movers_[task]);
       }
     }
   });
@@ -132,23 +132,26 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
   return !movers_.empty();
 }
 
-// The key of a particle, from its nearest node.
+// The key of a particle, from its nearest node and the layer of its body.
 template <int Dim, class Real>
-std::uint64_t SparseGrid<Dim, Real>::key_of(std::size_t particle) const {
+std::uint64_t SparseGrid<Dim, Real>::key_of(const Particles<Dim, Real>& particles, std::size_t particle) const {
   Index node{}, tile{};
   int local = 0;
   for (std::size_t a = 0; a < Dim; ++a) {
     node[a] = nearest_[in_nearest(particle, a)];
   }
   T::split(node, tile, local);
-  return (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
+  const std::uint64_t layer =
+      layer_of_body_.empty() ? 0 : layer_of_body_[static_cast<std::size_t>(particles.body(particle))];
+  return (T::in_layer(T::key(tile), layer) << T::node_bits) | static_cast<std::uint64_t>(local);
 }
 
 // The keys of `count` particles from `first` on, from their nearest nodes.
 template <int Dim, class Real>
-void SparseGrid<Dim, Real>::note_movers(std::size_t first, std::size_t count, std::vector<Mover>& movers) {
+void SparseGrid<Dim, Real>::note_movers(const Particles<Dim, Real>& particles, std::size_t first, std::size_t count,
+                                        std::vector<Mover>& movers) {
   for (std::size_t p = first; p < first + count; ++p) {
-    const std::uint64_t key = key_of(p);
+    const std::uint64_t key = key_of(particles, p);
     if (key != keys_[p]) {
       movers.push_back({static_cast<std::uint32_t>(p), keys_[p] == no_key ? no_key : keys_[p] >> T::node_bits});
       moved_[p] = 1;

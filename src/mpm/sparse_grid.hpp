@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/key_index.hpp"
@@ -24,8 +25,9 @@ class SparseGrid {
     std::uint32_t first, last;  // its particles: order()[first .. last-1]
   };
 
-  // cell: mesh size [m].
-  explicit SparseGrid(Real cell) : cell_(cell), inverse_cell_(Real(1) / cell) {}
+  // cell: mesh size [m]. layer_of_body: bodies of different layers share no nodes; empty: all share them.
+  explicit SparseGrid(Real cell, std::vector<std::uint8_t> layer_of_body = {})
+      : cell_(cell), inverse_cell_(Real(1) / cell), layer_of_body_(std::move(layer_of_body)) {}
 
   [[nodiscard]] Real cell() const { return cell_; }
   [[nodiscard]] Real inverse_cell() const { return inverse_cell_; }
@@ -49,6 +51,8 @@ class SparseGrid {
   [[nodiscard]] const std::vector<TileBatch<Dim, Real>>& batches(std::size_t t) const { return batches_[t]; }
   // Keys of the active blocks: occupied tiles and their neighbours, ascending.
   [[nodiscard]] const std::vector<std::uint64_t>& blocks() const { return blocks_; }
+  // The number of the active block with a key, or KeyIndex::absent.
+  [[nodiscard]] std::int32_t block_at(std::uint64_t key) const { return block_number_.find(key); }
   // True if the last update changed the set of blocks (block numbers then changed too).
   [[nodiscard]] bool blocks_changed() const { return blocks_changed_; }
   // For the 3^Dim neighbours of block b in order: the number of the occupied tile there, or KeyIndex::absent.
@@ -90,8 +94,9 @@ class SparseGrid {
   void note_appended(const Particles<Dim, Real>& particles);
   void drop_from_tiles(const std::vector<std::uint32_t>& now_at);
   bool compute_keys(const Particles<Dim, Real>& particles);
-  [[nodiscard]] std::uint64_t key_of(std::size_t particle) const;
-  void note_movers(std::size_t first, std::size_t count, std::vector<Mover>& movers);
+  [[nodiscard]] std::uint64_t key_of(const Particles<Dim, Real>& particles, std::size_t particle) const;
+  void note_movers(const Particles<Dim, Real>& particles, std::size_t first, std::size_t count,
+                   std::vector<Mover>& movers);
   void merge_moved(const Particles<Dim, Real>& particles);
   template <class Before>
   void merge_tile(std::size_t t, const Before& before);
@@ -110,6 +115,7 @@ class SparseGrid {
   }
 
   Real cell_, inverse_cell_;
+  std::vector<std::uint8_t> layer_of_body_;
   std::vector<std::uint64_t> keys_;    // by particle: tile key, then place in the tile
   std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: the nearest node
   bool one_material_ = true;

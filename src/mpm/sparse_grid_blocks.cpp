@@ -8,14 +8,15 @@ namespace thawslide::mpm {
 
 namespace {
 
+// The key of the tile next to one in a direction, in the same layer.
 template <int Dim>
-typename Tile<Dim>::Index neighbour(const typename Tile<Dim>::Index& tile, int direction) {
-  typename Tile<Dim>::Index other = tile;
+std::uint64_t neighbour(std::uint64_t key, int direction) {
+  typename Tile<Dim>::Index other = Tile<Dim>::index(key);
   for (int a = 0; a < Dim; ++a) {
     other[static_cast<std::size_t>(a)] += direction % 3 - 1;
     direction /= 3;
   }
-  return other;
+  return Tile<Dim>::in_layer(Tile<Dim>::key(other), Tile<Dim>::layer(key));
 }
 
 // By neighbour of each of the tiles or blocks, in order: its number among others, or KeyIndex::absent.
@@ -26,7 +27,7 @@ void find_about(std::size_t count, const KeyOf& key_of, const KeyIndex& others, 
   about.resize(count * stencil);
   for (std::size_t k = 0; k < count; ++k) {
     for (int d = 0; d < T::stencil; ++d) {
-      about[k * stencil + static_cast<std::size_t>(d)] = others.find(T::key(neighbour<Dim>(T::index(key_of(k)), d)));
+      about[k * stencil + static_cast<std::size_t>(d)] = others.find(neighbour<Dim>(key_of(k), d));
     }
   }
 }
@@ -37,9 +38,8 @@ template <int Dim, class Real>
 void SparseGrid<Dim, Real>::list_blocks() {
   blocks_.clear();
   for (const OccupiedTile& tile : tiles_) {
-    const Index here = T::index(tile.key);
     for (int d = 0; d < T::stencil; ++d) {
-      blocks_.push_back(T::key(neighbour<Dim>(here, d)));
+      blocks_.push_back(neighbour<Dim>(tile.key, d));
     }
   }
   std::sort(blocks_.begin(), blocks_.end());

@@ -32,6 +32,16 @@ struct Tile {
   static constexpr int axis_bits = 18;
   static constexpr int axis_offset = 1 << (axis_bits - 1);
 
+  // Bodies that do not share nodes have tiles of their own at the same place: their keys differ in the layer, above the
+  // bits of the axes. One layer less than the bits can hold, so that no key has all bits set.
+  static constexpr int layer_shift = Dim * axis_bits;
+  static constexpr std::size_t most_layers = 15;
+  THAWSLIDE_HD static std::uint64_t layer(std::uint64_t key) { return key >> layer_shift; }
+  THAWSLIDE_HD static std::uint64_t in_layer(std::uint64_t place, std::uint64_t layer) {
+    return place | layer << layer_shift;
+  }
+  THAWSLIDE_HD static std::uint64_t place(std::uint64_t key) { return key & ((std::uint64_t{1} << layer_shift) - 1); }
+
   THAWSLIDE_HD static std::uint64_t key(const Index& tile) {
     std::uint64_t packed = 0;
     for (int a = Dim - 1; a >= 0; --a) {

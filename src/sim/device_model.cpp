@@ -17,6 +17,7 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real
     const char* what;
   } options[] = {
       {!model.constraints.frames.empty(), "a [frame]"},
+      {model.between_bodies.any(), "frictional contact between bodies ([contact])"},
       {parameters.terrain.form == config::TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},
       {model.band.heat && !model.band.secant_capacity, "heat.update = \"apparent_capacity\""},
       {model.band.current_masses, "heat.masses = \"current\""},

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/basal_laws.hpp"
+#include "sim/between_bodies.hpp"
 #include "sim/substrates.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/layer_thickness.hpp"
@@ -333,6 +334,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
     model.motion.sizes.add(Real(1) / static_cast<Real>(2 * parameters.bed.particles_per_axis));
   }
   model.constraints = make_constraints<Dim, Real>(parameters, model.origin);
+  model.between_bodies = between_bodies<Real>(parameters);
   model.contact.law = make_basal_law<Real>(parameters);
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);

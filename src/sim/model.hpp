@@ -9,6 +9,7 @@
 #include "band/model.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
+#include "mpm/between_bodies.hpp"
 #include "mpm/constraints.hpp"
 #include "mpm/motion.hpp"
 #include "terrain/contact.hpp"
@@ -23,6 +24,7 @@ struct Model {
   Vector<double, Dim> origin;  // lower corner of the domain [m]; positions are relative to it
   mpm::MotionModel<Dim, Real> motion;
   mpm::Constraints<Dim, Real> constraints;
+  mpm::BetweenBodies<Real> between_bodies;
   terrain::ContactModel<Dim, Real> contact;
   band::BandModel<Dim, Real> band;
   std::shared_ptr<const terrain::Surface<Dim>> ground;    // null: none

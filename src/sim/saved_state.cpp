@@ -46,7 +46,7 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   }
   require_sound(particles_, model_, next_id_, state);
   // Rows came back in order of id: nothing of the former order may be trusted.
-  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
+  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     particles_.previous_temperature(p) = particles_.temperature(p);
   }

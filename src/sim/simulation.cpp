@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/rounding.hpp"
+#include "mpm/body_contact.hpp"
 #include "mpm/velocity_filter.hpp"
 #include "sim/bodies.hpp"
 #include "sim/entrainment.hpp"
@@ -23,6 +24,7 @@ namespace thawslide::sim {
 // with.
 //   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
 //   P_i, S_i, n_i: averages with the linear shape functions                                    Eq. 21
+//   f_i of bodies that do not share nodes: with what they exert on one another               mpm/body_contact.hpp
 //   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
 //   v_p += sum S a dt,  x_p += sum S (v_i + a_i dt/2) dt                                       Eqs. 13, 14
 //   stress and porosity from the mapped-back velocities                                        Eqs. 11, 6
@@ -134,6 +136,10 @@ void Simulation<Dim, Real>::momentum_to_grid() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::resolve_contact() {
+  if (body_contact_) {
+    body_contact_->add_forces(grid_, particles_, model_.between_bodies, model_.motion.sizes,
+                              model_.contact.mass_damping, dt_, nodes_);
+  }
   if (model_.ground) {
     terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
   }
@@ -158,6 +164,11 @@ void Simulation<Dim, Real>::move_particles() {
   }
   ledger_.numerical += terrain::constrain_mapped_back(grid_, ground(), model_.constraints, model_.contact,
                                                       model_.motion.gravity, static_cast<Real>(time_), dt_, nodes_);
+  if (body_contact_) {
+    const auto between = body_contact_->constrain_mapped_back(model_.motion.gravity, dt_, nodes_);
+    ledger_.contact_loss += between.loss;
+    ledger_.numerical += between.numerical;
+  }
 }
 
 template <int Dim, class Real>
@@ -251,8 +262,11 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
     : parameters_(require_memory<Dim>(parameters, site)),  // before anything is made
       site_(site),
       model_(make_model<Dim, Real>(parameters, site)),
-      grid_(static_cast<Real>(parameters.grid.cell)),
+      grid_(static_cast<Real>(parameters.grid.cell), model_.between_bodies.layer_of_body),
       bed_(make_bed<Dim, Real>(parameters, site, model_)) {
+  if (model_.between_bodies.any()) {
+    body_contact_ = std::make_unique<mpm::BodyContact<Dim, Real>>();
+  }
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
     const StepLimit limit =
@@ -310,7 +324,7 @@ void Simulation<Dim, Real>::seed() {
   particles_at_start_ = particles_.size();
   next_id_ = static_cast<std::int64_t>(particles_at_start_);
   band::set_heat_content(model_.band, particles_);
-  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell));
+  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
 }
 
 // Which particles are in the band before anything has moved.

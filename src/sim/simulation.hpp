@@ -25,6 +25,11 @@
 #include "sim/watch.hpp"
 #include "terrain/ground_on_grid.hpp"
 
+namespace thawslide::mpm {
+template <int Dim, class Real>
+class BodyContact;
+}  // namespace thawslide::mpm
+
 namespace thawslide::sim {
 
 // A particle that joins a run; what is not told of it is as for one at t = 0.
@@ -261,6 +266,7 @@ class Simulation {
   std::optional<terrain::Bed<Dim, Real>> bed_;
   std::unique_ptr<BedOfDevice<Dim, Real>> bed_of_device_;  // null: it lies below no step of a device
   terrain::ContactWork<Dim, Real> contact_;
+  std::unique_ptr<mpm::BodyContact<Dim, Real>> body_contact_;  // null: all bodies share nodes
   Ledger<Dim, Real> ledger_, ledger_before_;  // of now, and before the step
   Watch watch_;
   Removed removed_;

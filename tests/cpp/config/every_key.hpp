@@ -300,6 +300,19 @@ turbulent_friction = 250.0
 [heat.boundary]
 z_min = { temperature = -8.0 }
 z_max = { flux = 3.5 }
+[body.upper]
+material = "rock"
+shape = "release"
+release = "inputs/release.shp"
+polygons = ["upper"]
+thickness = 5.0
+[contact]
+between_bodies = "frictional"
+friction_angle = 25.0
+[contact_pair.seam]
+bodies = ["block", "upper"]
+contact = "frictional"
+friction_angle = 12.5
 )";
 
 // The same release between two surfaces, on columns that grow, and the substrate from a raster.

@@ -42,8 +42,8 @@ Case read_with_inputs(const std::string& text) {
 
 // The name in the case of what the reference calls [body.NAME].
 std::string own_name(const TableDeclaration& table) {
-  const std::map<std::string, std::string> names{
-      {"material", "rock"}, {"body", "block"}, {"frame", "wall"}, {"probe", "gauge"}, {"substrate", "ice"}};
+  const std::map<std::string, std::string> names{{"material", "rock"}, {"body", "block"},    {"frame", "wall"},
+                                                 {"probe", "gauge"},   {"substrate", "ice"}, {"contact_pair", "seam"}};
   return table.is_named() ? table.name + "." + names.at(table.name) : table.name;
 }
 

@@ -114,6 +114,8 @@ TEST(DeviceRun, GoesOnFromACheckpoint) {
 TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
   const std::pair<std::vector<std::string>, std::string> options[] = {
       {{"terrain.representation=\"rigid_points\""}, "terrain.representation = \"rigid_points\""},
+      {{"contact.between_bodies=frictional", "contact.friction_angle=20.0"},
+       "frictional contact between bodies ([contact])"},
       {{"heat.update=\"apparent_capacity\""}, "heat.update = \"apparent_capacity\""},
       {{"heat.masses=\"current\""}, "heat.masses = \"current\""}};
   std::vector<std::pair<config::Case, std::string>> cases;

@@ -1,0 +1,97 @@
+// Checks of contact between bodies.
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+#include "config/body_layers.hpp"
+#include "config/checks.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+constexpr std::size_t most_layers = 15;  // mpm::Tile has so many
+
+// That each pair names two bodies that are there, and no other pair the same two.
+bool check_names(const Case& checked, Reading& reading) {
+  std::set<std::set<std::string>> seen;
+  bool are_right = true;
+  for (const auto& [name, pair] : checked.contact_pairs) {
+    const std::string key = "contact_pair." + name + ".bodies";
+    if (!reading.sound({key})) {
+      are_right = false;
+      continue;
+    }
+    const std::set<std::string> names(pair.bodies.begin(), pair.bodies.end());
+    if (pair.bodies.size() != 2 || names.size() != 2) {
+      reading.report(key,
+                     fmt::format("{} has {} names of {} bodies; allowed: the names of two. Name the two bodies, as "
+                                 "in bodies = [\"ice\", \"rock\"].",
+                                 key, pair.bodies.size(), names.size()));
+      are_right = false;
+      continue;
+    }
+    for (const std::string& body : pair.bodies) {
+      if (checked.bodies.count(body) == 0) {
+        std::vector<std::string> known;
+        for (const auto& [known_body, unused] : checked.bodies) {
+          known.push_back(known_body);
+        }
+        const std::string hint = did_you_mean(body, known);
+        reading.report(key, fmt::format("{} names '{}', and there is no [body.{}]{} Allowed: {}.", key, body, body,
+                                        hint.empty() ? "." : hint, list_words(known)));
+        are_right = false;
+      }
+    }
+    if (are_right && !seen.insert(names).second) {
+      reading.report(key,
+                     fmt::format("{} names two bodies that another [contact_pair.NAME] names too. Remove one.", key));
+      are_right = false;
+    }
+  }
+  return are_right;
+}
+
+}  // namespace
+
+void check_contact(const Case& checked, Reading& reading) {
+  if (checked.bodies.empty() || !check_names(checked, reading) || !reading.sound({"contact.between_bodies"})) {
+    return;
+  }
+  for (const auto& [name, pair] : checked.contact_pairs) {
+    if (!reading.sound({"contact_pair." + name + ".contact", "contact_pair." + name + ".friction_angle"})) {
+      return;
+    }
+  }
+  std::string contradiction, of_pair;
+  const BodyLayers layers = body_layers(checked, &contradiction, &of_pair);
+  if (!contradiction.empty()) {
+    reading.report("contact_pair." + of_pair + ".contact", contradiction);
+    return;
+  }
+  const std::string key =
+      checked.contact.between_bodies == BodyContact::frictional ? "contact.between_bodies" : "contact_pair";
+  if (layers.count > most_layers) {
+    reading.report_misfit({key},
+                          fmt::format("{}: {} bodies, or groups of bonded ones, rub on one another; allowed: {}. "
+                                      "Bond those that move as one by [contact_pair.NAME] with contact = "
+                                      "\"bonded\".",
+                                      key, layers.count, most_layers));
+  }
+  if (layers.count > 1 && reading.sound({"band.model"}) && has_band_columns(checked)) {
+    reading.report_misfit({key, "band.model"},
+                          fmt::format("{}: bodies rub on one another, and band.model is \"columns\"; band columns lie "
+                                      "below one body. Set contact.between_bodies = \"bonded\", or band.model = "
+                                      "\"scaled\".",
+                                      key));
+  }
+  if (layers.count > 1 && reading.sound({"bed.law"}) && checked.bed.law != BedLaw::none) {
+    reading.report_misfit({key, "bed.law"},
+                          fmt::format("{}: bodies rub on one another, and bed.law is given; what is taken up of a bed "
+                                      "joins one body. Set contact.between_bodies = \"bonded\", or remove [bed].",
+                                      key));
+  }
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,19 @@
+// Which bodies share nodes, and what acts between those that do not (mpm/body_contact.hpp).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace thawslide::mpm {
+
+template <class Real>
+struct BetweenBodies {
+  std::vector<std::uint8_t> layer_of_body;  // by number; empty: all share nodes
+  std::size_t layers = 1;
+  std::vector<Real> friction;  // coefficient, by layer * layers + other layer
+
+  [[nodiscard]] bool any() const { return layers > 1; }
+};
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,383 @@
+#include "mpm/body_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "base/instances.hpp"
+#include "base/parallel.hpp"
+#include "mpm/one.hpp"
+#include "physics/body_contact.hpp"
+
+namespace thawslide::mpm {
+
+namespace {
+
+// The nodes of a block and so many about it along each axis.
+template <int Dim, int Margin>
+struct About {
+  static constexpr int edge = Tile<Dim>::edge + 2 * Margin;
+  static constexpr auto count = static_cast<std::size_t>(power(edge, Dim));
+
+  // From the node's numbers relative to the block's first node.
+  static std::size_t at(const typename Tile<Dim>::Index& relative) {
+    int place = 0;
+    for (int a = Dim - 1; a >= 0; --a) {
+      place = place * edge + relative[static_cast<std::size_t>(a)] + Margin;
+    }
+    return static_cast<std::size_t>(place);
+  }
+  static typename Tile<Dim>::Index relative(std::size_t place) {
+    typename Tile<Dim>::Index index{};
+    for (std::size_t a = 0; a < Dim; ++a) {
+      index[a] = static_cast<int>(place % edge) - Margin;
+      place /= edge;
+    }
+    return index;
+  }
+};
+
+template <int Dim>
+typename Tile<Dim>::Index shifted(typename Tile<Dim>::Index index, std::size_t axis, int by) {
+  index[axis] += by;
+  return index;
+}
+
+// Volumes [m3] at the nodes of a block and two more on each side; 0 where there is no block.
+template <int Dim, class Real>
+std::array<Real, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim, Real>& grid, const Nodes<Dim, Real>& nodes,
+                                                     std::size_t block) {
+  using T = Tile<Dim>;
+  std::array<Real, About<Dim, 2>::count> volumes;
+  for (std::size_t k = 0; k < volumes.size(); ++k) {
+    typename T::Index tile{};
+    int local = 0, direction = 0;
+    T::split(About<Dim, 2>::relative(k), tile, local);
+    for (int a = Dim - 1; a >= 0; --a) {
+      direction = 3 * direction + tile[static_cast<std::size_t>(a)] + 1;
+    }
+    const std::int32_t there = grid.blocks_about_block(block)[direction];
+    volumes[k] = there == KeyIndex::absent
+                     ? Real(0)
+                     : nodes.momentum(static_cast<std::size_t>(there),
+                                      static_cast<std::size_t>(local))[MomentumLayout<Dim>::volume];
+  }
+  return volumes;
+}
+
+// The change of a quantity over two cells about a node, along each axis.
+template <int Dim, class Real>
+Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& quantity,
+                               const typename Tile<Dim>::Index& node) {
+  using Near = About<Dim, 2>;
+  Vector<Real, Dim> change;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    change[static_cast<int>(a)] =
+        quantity[Near::at(shifted<Dim>(node, a, 1))] - quantity[Near::at(shifted<Dim>(node, a, -1))];
+  }
+  return change;
+}
+
+// A particle that nodes of a block may see.
+template <int Dim, class Real>
+struct ParticleAbout {
+  Vector<Real, Dim> place;            // [m]
+  Real half;                          // of its box [m]
+  typename Tile<Dim>::Index nearest;  // node, relative to the block's first one
+};
+
+template <int Dim, class Real>
+std::vector<ParticleAbout<Dim, Real>> particles_about(const SparseGrid<Dim, Real>& grid,
+                                                      const Particles<Dim, Real>& particles,
+                                                      const BodySizes<Real>& sizes, std::size_t block) {
+  using T = Tile<Dim>;
+  const typename T::Index first_node = T::node(T::index(grid.blocks()[block]), 0);
+  std::vector<ParticleAbout<Dim, Real>> about;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(T::stencil); ++d) {
+    const std::int32_t t = grid.tiles_about_block(block)[d];
+    if (t == KeyIndex::absent) {
+      continue;
+    }
+    const auto& tile = grid.tiles()[static_cast<std::size_t>(t)];
+    for (std::uint32_t k = tile.first; k < tile.last; ++k) {
+      const std::uint32_t p = grid.order()[k];
+      ParticleAbout<Dim, Real> one;
+      one.place = particles.position.template load_vector<Dim>(One<Real>{p});
+      one.half = sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
+      bool reaches = true;
+      for (std::size_t a = 0; a < Dim; ++a) {
+        const Real along = one.place[static_cast<int>(a)] * grid.inverse_cell() + Real(0.5);
+        one.nearest[a] = static_cast<int>(std::floor(along)) - first_node[a];
+        reaches = reaches && one.nearest[a] >= -1 && one.nearest[a] <= T::edge;
+      }
+      if (reaches) {
+        about.push_back(one);
+      }
+    }
+  }
+  return about;
+}
+
+// How far a particle's box reaches along a normal [m]. Boxes stretch as contact with the ground has them
+// (terrain::set_contact_offset).
+template <int Dim, class Real>
+struct Edge {
+  Real along;
+  const ParticleAbout<Dim, Real>* of;
+};
+
+// Of those, the particles that a node sees.
+template <int Dim, class Real>
+void find_seen(const std::vector<ParticleAbout<Dim, Real>>& about, std::size_t node,
+               std::vector<Edge<Dim, Real>>& seen) {
+  const typename Tile<Dim>::Index here = Tile<Dim>::node({}, static_cast<int>(node));
+  seen.clear();
+  for (const ParticleAbout<Dim, Real>& one : about) {
+    bool sees = true;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      sees = sees && std::abs(one.nearest[a] - here[a]) <= 1;
+    }
+    if (sees) {
+      seen.push_back({Real(0), &one});
+    }
+  }
+}
+
+// Their edges on the side that a sign gives; returns the foremost one.
+template <int Dim, class Real>
+Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim, Real>>& seen) {
+  const Real stretch = sign * normal.cwiseAbs().maxCoeff();
+  Real foremost = -std::numeric_limits<Real>::max();
+  for (Edge<Dim, Real>& edge : seen) {
+    edge.along = edge.of->place.dot(normal) + stretch * edge.of->half;
+    foremost = std::max(foremost, sign * edge.along);
+  }
+  return sign * foremost;
+}
+
+// The gap along a normal between two bodies: the smallest one of particles that face one another across it, beyond all
+// bounds where none do. The edges come with the foremost first.
+template <int Dim, class Real>
+Real gap_between(const std::vector<Edge<Dim, Real>>& first, const std::vector<Edge<Dim, Real>>& second,
+                 const Vector<Real, Dim>& normal) {
+  Real gap = std::numeric_limits<Real>::max();
+  for (const Edge<Dim, Real>& from : first) {
+    for (const Edge<Dim, Real>& to : second) {
+      if (to.along - from.along >= gap) {
+        break;
+      }
+      const Vector<Real, Dim> apart = to.of->place - from.of->place;
+      const Vector<Real, Dim> across = apart - apart.dot(normal) * normal;
+      const Real reach = to.of->half + from.of->half;
+      gap = across.squaredNorm() < reach * reach ? to.along - from.along : gap;
+    }
+  }
+  return gap;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+void BodyContact<Dim, Real>::find_pairs(const SparseGrid<Dim, Real>& grid, const BetweenBodies<Real>& between) {
+  pairs_.clear();
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    const std::uint64_t key = grid.blocks()[b];
+    for (std::uint64_t layer = T::layer(key) + 1; layer < between.layers; ++layer) {
+      const std::int32_t other = grid.block_at(T::in_layer(T::place(key), layer));
+      if (other != KeyIndex::absent) {
+        const Real friction =
+            between
+                .friction[static_cast<std::size_t>(T::layer(key)) * between.layers + static_cast<std::size_t>(layer)];
+        pairs_.push_back({T::place(key), b, static_cast<std::size_t>(other), friction, {}});
+      }
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+    return std::tie(a.place, a.block, a.other) < std::tie(b.place, b.block, b.other);
+  });
+  first_of_place_.clear();
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    if (k == 0 || pairs_[k].place != pairs_[k - 1].place) {
+      first_of_place_.push_back(k);
+    }
+  }
+  first_of_place_.push_back(pairs_.size());
+}
+
+// The nodes where both bodies have mass; false where there is none.
+template <int Dim, class Real>
+bool BodyContact<Dim, Real>::find_meetings(const Nodes<Dim, Real>& nodes, Pair& pair) {
+  constexpr std::size_t mass = MomentumLayout<Dim>::mass;
+  bool any = false;
+  for (std::size_t k = 0; k < block_nodes; ++k) {
+    pair.at[k].in_contact =
+        nodes.momentum(pair.block, k)[mass] > Real(0) && nodes.momentum(pair.other, k)[mass] > Real(0);
+    any = any || pair.at[k].in_contact;
+  }
+  return any;
+}
+
+// By volumes V_1 and V_2 at nodes, averaged over the nodes about: V_1 grad V_2 - V_2 grad V_1, which lies along the
+// gradient of ln(V_2 / V_1), so that what cuts off both bodies alike, as the ground does, does not turn it; -grad V_1;
+// grad V_2. Zero where there is none.
+template <int Dim, class Real>
+auto BodyContact<Dim, Real>::find_normals(const SparseGrid<Dim, Real>& grid, const Nodes<Dim, Real>& nodes,
+                                          const Pair& pair) -> std::array<Normals, block_nodes> {
+  using Near = About<Dim, 1>;
+  const auto first = volumes_about<Dim>(grid, nodes, pair.block), second = volumes_about<Dim>(grid, nodes, pair.other);
+  std::array<Normals, Near::count> directions;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const typename T::Index node = Near::relative(k);
+    const Vec of_first = change_about<Dim>(first, node), of_second = change_about<Dim>(second, node);
+    const std::size_t here = About<Dim, 2>::at(node);
+    directions[k] = {first[here] * of_second - second[here] * of_first, -of_first, of_second};
+  }
+  std::array<Normals, block_nodes> normals;
+  for (std::size_t k = 0; k < block_nodes; ++k) {
+    for (std::size_t kind = 0; kind < normals[k].size(); ++kind) {
+      Vec sum = Vec::Zero();
+      for (int about = 0; about < T::stencil; ++about) {
+        typename T::Index node = T::node({}, static_cast<int>(k));
+        Real weight = 1;
+        for (std::size_t a = 0, rest = static_cast<std::size_t>(about); a < Dim; ++a, rest /= 3) {
+          node[a] += static_cast<int>(rest % 3) - 1;
+          weight *= rest % 3 == 1 ? Real(0.5) : Real(0.25);
+        }
+        sum += weight * directions[Near::at(node)][kind];
+      }
+      const Real size = sum.norm();
+      normals[k][kind] = size > Real(0) ? Vec(sum / size) : Vec(Vec::Zero());
+    }
+  }
+  return normals;
+}
+
+// Of a node's normals the one across which the bodies lie furthest apart: at a corner of one body the other's is right,
+// and theirs together is turned. Along it the gap.
+template <int Dim, class Real>
+void BodyContact<Dim, Real>::find_gaps(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
+                                       const BodySizes<Real>& sizes, const std::array<Normals, block_nodes>& normals,
+                                       Pair& pair) {
+  const auto about = particles_about(grid, particles, sizes, pair.block),
+             other_about = particles_about(grid, particles, sizes, pair.other);
+  std::vector<Edge<Dim, Real>> edges, other_edges;
+  for (std::size_t k = 0; k < block_nodes; ++k) {
+    Meeting& meeting = pair.at[k];
+    if (!meeting.in_contact) {
+      continue;
+    }
+    find_seen(about, k, edges);
+    find_seen(other_about, k, other_edges);
+    Real furthest = -std::numeric_limits<Real>::max();
+    for (const Vec& normal : normals[k]) {
+      const Real apart = set_edges<Dim>(normal, Real(-1), other_edges) - set_edges<Dim>(normal, Real(1), edges);
+      const Real by_rounding = Real(1e-9) * grid.cell();  // the first one holds
+      if (normal != Vec::Zero() && apart > furthest + by_rounding) {
+        furthest = apart;
+        meeting.normal = normal;
+      }
+    }
+    set_edges<Dim>(meeting.normal, Real(1), edges);
+    set_edges<Dim>(meeting.normal, Real(-1), other_edges);
+    std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.along > b.along; });
+    std::sort(other_edges.begin(), other_edges.end(), [](const auto& a, const auto& b) { return a.along < b.along; });
+    meeting.gap = gap_between(edges, other_edges, meeting.normal);
+    meeting.in_contact = meeting.normal != Vec::Zero();
+  }
+}
+
+template <int Dim, class Real>
+void BodyContact<Dim, Real>::exchange(Real mass_damping, Real dt, Nodes<Dim, Real>& nodes, Pair& pair) {
+  using Layout = MomentumLayout<Dim>;
+  const auto trial_velocity = [&](const auto& record) {
+    return Vec(((Real(1) - mass_damping * dt) * vector_at<Dim, Real>(record, Layout::momentum) +
+                dt * vector_at<Dim, Real>(record, Layout::force)) /
+               record[Layout::mass]);
+  };
+  for (std::size_t k = 0; k < block_nodes; ++k) {
+    Meeting& meeting = pair.at[k];
+    if (!meeting.in_contact) {
+      continue;
+    }
+    auto& first = nodes.momentum(pair.block, k);
+    auto& second = nodes.momentum(pair.other, k);
+    const Vec approach = trial_velocity(first) - trial_velocity(second);
+    const Real closing = approach.dot(meeting.normal);
+    const Vec slip = approach - closing * meeting.normal;
+    const Real slip_speed = slip.norm();
+    const auto impulse = physics::body_impulse(first[Layout::mass], second[Layout::mass], closing, slip_speed,
+                                               meeting.gap, dt, pair.friction);
+    meeting.in_contact = impulse.normal > Real(0);
+    if (!meeting.in_contact) {
+      continue;
+    }
+    meeting.impulse = impulse.normal * meeting.normal;
+    if (slip_speed > Real(0)) {
+      meeting.impulse += (impulse.tangential / slip_speed) * slip;
+    }
+    const Vec force = meeting.impulse / dt;
+    set_vector<Dim>(first, Layout::force, Vec(vector_at<Dim, Real>(first, Layout::force) - force));
+    set_vector<Dim>(second, Layout::force, Vec(vector_at<Dim, Real>(second, Layout::force) + force));
+  }
+}
+
+template <int Dim, class Real>
+void BodyContact<Dim, Real>::add_forces(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
+                                        const BetweenBodies<Real>& between, const BodySizes<Real>& sizes,
+                                        Real mass_damping, Real dt, Nodes<Dim, Real>& nodes) {
+  find_pairs(grid, between);
+  parallel_for(first_of_place_.size() - 1, [&](std::size_t place) {
+    // One after another: three bodies that meet at a node share its momentum in turn.
+    for (std::size_t k = first_of_place_[place]; k < first_of_place_[place + 1]; ++k) {
+      if (find_meetings(nodes, pairs_[k])) {
+        find_gaps(grid, particles, sizes, find_normals(grid, nodes, pairs_[k]), pairs_[k]);
+        exchange(mass_damping, dt, nodes, pairs_[k]);
+      }
+    }
+  });
+}
+
+template <int Dim, class Real>
+BodyContactWork<Real> BodyContact<Dim, Real>::constrain_mapped_back(const Vector<Real, Dim>& gravity, Real dt,
+                                                                    Nodes<Dim, Real>& nodes) const {
+  using Layout = MomentumLayout<Dim>;
+  using Work = BodyContactWork<Real>;
+  return parallel_sum<Work>(first_of_place_.size() - 1, [&](std::size_t place, Work& work) {
+    for (std::size_t p = first_of_place_[place]; p < first_of_place_[place + 1]; ++p) {
+      const Pair& pair = pairs_[p];
+      for (std::size_t k = 0; k < block_nodes; ++k) {
+        const Meeting& meeting = pair.at[k];
+        if (!meeting.in_contact) {
+          continue;
+        }
+        auto& mapped = nodes.velocity(pair.block, k);
+        auto& other_mapped = nodes.velocity(pair.other, k);
+        const Real mass = nodes.momentum(pair.block, k)[Layout::mass],
+                   other_mass = nodes.momentum(pair.other, k)[Layout::mass];
+        const Vec approach = vector_at<Dim, Real>(mapped, 0) - vector_at<Dim, Real>(other_mapped, 0);
+        const auto impulse = physics::body_impulse(mass, other_mass, Real(approach.dot(meeting.normal)), Real(0),
+                                                   meeting.gap, dt, Real(0));
+        const auto turn = [&](std::size_t block, auto& velocity, Real sign, Real of_mass) {
+          const auto& record = nodes.momentum(block, k);
+          const Vec before = vector_at<Dim, Real>(velocity, 0);
+          const Vec change = (sign * impulse.normal / of_mass) * meeting.normal;
+          const Vec middle = vector_at<Dim, Real>(nodes.motion(block, k), MotionLayout<Dim>::middle_velocity);
+          const Vec taken = sign * meeting.impulse;
+          const Vec internal = dt * (vector_at<Dim, Real>(record, Layout::force) - of_mass * gravity);
+          set_vector<Dim>(velocity, 0, Vec(before + change));
+          work.loss -= taken.dot(middle);
+          work.numerical -= taken.dot(Vec(middle - before - change)) + internal.dot(change);
+        };
+        turn(pair.block, mapped, Real(-1), mass);
+        turn(pair.other, other_mapped, Real(1), other_mass);
+      }
+    }
+  });
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template class BodyContact<Dim, Real>;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::mpm

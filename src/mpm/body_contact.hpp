@@ -1,0 +1,76 @@
+// Contact between bodies that do not share nodes: each has blocks of its own (a layer of the grid), and where two have
+// mass at a place they exchange momentum there, only as they approach and once the gap between their particles is
+// closed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mpm/between_bodies.hpp"
+#include "mpm/body_sizes.hpp"
+#include "mpm/nodes.hpp"
+#include "mpm/particles.hpp"
+#include "mpm/sparse_grid.hpp"
+
+namespace thawslide::mpm {
+
+// What contact between bodies leaves in the balances [J].
+template <class Real>
+struct BodyContactWork {
+  Real loss = 0;       // taken by impact and friction
+  Real numerical = 0;  // by which map_back, which counts contact among internal forces, is to be corrected
+
+  BodyContactWork& operator+=(const BodyContactWork& part) {
+    loss += part.loss;
+    numerical += part.numerical;
+    return *this;
+  }
+};
+
+template <int Dim, class Real>
+class BodyContact {
+ public:
+  // To the force of nodes.momentum what the bodies exert on one another in this step.
+  void add_forces(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
+                  const BetweenBodies<Real>& between, const BodySizes<Real>& sizes, Real mass_damping, Real dt,
+                  Nodes<Dim, Real>& nodes);
+  // Of the mapped-back velocities what brings bodies in contact together any more is taken, without friction.
+  [[nodiscard]] BodyContactWork<Real> constrain_mapped_back(const Vector<Real, Dim>& gravity, Real dt,
+                                                            Nodes<Dim, Real>& nodes) const;
+
+ private:
+  using T = Tile<Dim>;
+  using Vec = Vector<Real, Dim>;
+  static constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
+
+  // Of a node where two bodies meet: the impulse on the second one [N s], and on the first its opposite.
+  struct Meeting {
+    bool in_contact = false;
+    Vec normal = Vec::Zero();  // from the first body to the second
+    Vec impulse = Vec::Zero();
+    Real gap = 0;  // [m]
+  };
+  // What the normal of a node may be: by both bodies, by the first, by the second.
+  using Normals = std::array<Vec, 3>;
+  // Blocks of different layers at one place.
+  struct Pair {
+    std::uint64_t place;
+    std::size_t block, other;
+    Real friction;
+    std::array<Meeting, block_nodes> at;
+  };
+
+  void find_pairs(const SparseGrid<Dim, Real>& grid, const BetweenBodies<Real>& between);
+  [[nodiscard]] static bool find_meetings(const Nodes<Dim, Real>& nodes, Pair& pair);
+  [[nodiscard]] static std::array<Normals, block_nodes> find_normals(const SparseGrid<Dim, Real>& grid,
+                                                                     const Nodes<Dim, Real>& nodes, const Pair& pair);
+  static void find_gaps(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
+                        const BodySizes<Real>& sizes, const std::array<Normals, block_nodes>& normals, Pair& pair);
+  static void exchange(Real mass_damping, Real dt, Nodes<Dim, Real>& nodes, Pair& pair);
+
+  std::vector<Pair> pairs_;                  // by place, then by block
+  std::vector<std::size_t> first_of_place_;  // and the end
+};
+
+}  // namespace thawslide::mpm
