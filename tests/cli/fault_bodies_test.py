@@ -1,0 +1,79 @@
+"""Two bodies that meet, and two that part: when they act on one another, and what they keep (issue data p09)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import ROOT, Program, datasets, run_facts, sets, snapshot_files
+
+FAULTS = ROOT.parent / "shared" / "data" / "faults" / "p09-two-bodies-meet"
+CELL = 5.0  # m
+SPACING = CELL / 2.0  # m, of particles
+LONG = 600.0  # s of wall time
+FRICTIONAL = {"contact__between_bodies": "frictional", "contact__friction_angle": 0.0}
+
+
+@pytest.fixture
+def fault() -> Path:
+    """Return the folder of the data, where there is one."""
+    if not FAULTS.is_dir():
+        pytest.skip(f"there is no {FAULTS}")
+    return FAULTS
+
+
+def motions(run: Path) -> list[tuple[float, np.ndarray, np.ndarray]]:
+    """Return of each snapshot the gap between the two bodies, their speeds along x and their masses."""
+    found = []
+    for file in snapshot_files(run):
+        data = datasets(file)
+        body, mass = data["VTKHDF/PointData/body"], data["VTKHDF/PointData/mass"]
+        speed, place = (
+            data["VTKHDF/PointData/velocity"][:, 0],
+            data["VTKHDF/Points"][:, 0],
+        )
+        masses = np.array([mass[body == number].sum() for number in (0, 1)])
+        speeds = np.array([np.average(speed[body == number], weights=mass[body == number]) for number in (0, 1)])
+        found.append((place[body == 1].min() - place[body == 0].max() - SPACING, speeds, masses))
+    return found
+
+
+def run_fault(thawslide: Program, case: Path, run: Path, **words: object) -> list[tuple[float, np.ndarray, np.ndarray]]:
+    """Run a case of the data and return its motions."""
+    done = thawslide(
+        "run",
+        case,
+        "--output",
+        run,
+        *sets(time__output_interval=0.1, **words),
+        limit=LONG,
+    )
+    assert done.returncode == 0, done.stderr
+    return motions(run)
+
+
+@pytest.mark.parametrize("name", ["case", "meet-mc"])
+def test_bodies_meet_once_the_gap_is_closed(thawslide: Program, fault: Path, tmp_path: Path, name: str) -> None:
+    """The second body rests until the gap is closed to a particle; momentum is kept."""
+    states = run_fault(thawslide, fault / f"{name}.toml", tmp_path / "run", **FRICTIONAL)
+    momentum = (states[0][1] * states[0][2]).sum()
+    for gap, speeds, masses in states:
+        assert (speeds * masses).sum() == pytest.approx(momentum, rel=1e-9)
+        assert abs(speeds[1]) < 1e-6 or gap < SPACING
+    assert states[-1][1][1] > 3.0
+
+
+@pytest.mark.parametrize("name", ["apart", "apart-mc"])
+def test_bodies_part_without_drag(thawslide: Program, fault: Path, tmp_path: Path, name: str) -> None:
+    """Neither body is dragged as they part."""
+    for _, speeds, _ in run_fault(thawslide, fault / f"{name}.toml", tmp_path / "run", **FRICTIONAL):
+        assert speeds == pytest.approx([0.0, 2.0], abs=1e-6)
+
+
+def test_a_case_that_does_not_say_is_warned_of(thawslide: Program, fault: Path, tmp_path: Path) -> None:
+    """Bodies that start apart and share one velocity field are told of, by check and in run.json."""
+    told = "body.b stands apart from body.a, and contact.between_bodies is"
+    assert told in thawslide("check", fault / "case.toml").stdout
+    run_fault(thawslide, fault / "case.toml", tmp_path / "run", time__end=0.1)
+    assert any(told in note for note in run_facts(tmp_path / "run")["parts"][0]["notes"])
