@@ -30,36 +30,59 @@ bool do_touch(const mpm::Particles<Dim, double>& particles, std::size_t p, std::
   return touches;
 }
 
+// Particles by body in each cube that holds some.
+template <int Dim>
+using Cubes = std::map<Place<Dim>, std::map<std::size_t, std::vector<std::size_t>>>;
+
+template <int Dim>
+Cubes<Dim> cubes_of(const Simulation<Dim, double>& simulation) {
+  const auto& particles = simulation.particles();
+  Cubes<Dim> cubes;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    Place<Dim> place;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const double at = particles.position(p, static_cast<int>(a)) / (cube * simulation.parameters().grid.cell);
+      place[a] = static_cast<int>(std::floor(at));
+    }
+    cubes[place][static_cast<std::size_t>(particles.body(p))].push_back(p);
+  }
+  return cubes;
+}
+
 // By body, the lowest number of those that it touches, one by way of others too.
 template <int Dim>
-std::vector<std::int32_t> groups_of_touching(const Simulation<Dim, double>& simulation) {
+std::vector<std::size_t> groups_of_touching(const Simulation<Dim, double>& simulation) {
   const auto& particles = simulation.particles();
-  const double cell = simulation.parameters().grid.cell;
-  const auto body = [&](std::size_t p) { return static_cast<std::size_t>(particles.body(p)); };
-  const auto half = [&](std::size_t p) { return simulation.model().motion.sizes.half(body(p)) * cell; };
-  std::vector<std::int32_t> group(simulation.parameters().bodies.size());
-  std::iota(group.begin(), group.end(), 0);
-  std::map<Place<Dim>, std::vector<std::size_t>> seen;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    Place<Dim> middle;
-    for (std::size_t a = 0; a < Dim; ++a) {
-      middle[a] = static_cast<int>(std::floor(particles.position(p, static_cast<int>(a)) / (cube * cell)));
+  const auto half = [&](std::size_t body) {
+    return simulation.model().motion.sizes.half(body) * simulation.parameters().grid.cell;
+  };
+  std::vector<std::size_t> group(simulation.parameters().bodies.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto join_if_touching = [&](const auto& of_body, const auto& of_other) {
+    const std::size_t one = group[of_body.first], two = group[of_other.first];
+    const bool touch = one != two && std::any_of(of_body.second.begin(), of_body.second.end(), [&](std::size_t p) {
+                         return std::any_of(of_other.second.begin(), of_other.second.end(), [&](std::size_t other) {
+                           return do_touch(particles, p, other, half(of_body.first), half(of_other.first));
+                         });
+                       });
+    if (touch) {
+      std::replace(group.begin(), group.end(), std::max(one, two), std::min(one, two));
     }
+  };
+  const Cubes<Dim> cubes = cubes_of(simulation);
+  for (const auto& [middle, bodies] : cubes) {
     for (int k = 0; k < mpm::Tile<Dim>::stencil; ++k) {
       Place<Dim> place = middle;
       for (std::size_t a = 0, rest = static_cast<std::size_t>(k); a < Dim; ++a, rest /= 3) {
         place[a] += static_cast<int>(rest % 3) - 1;
       }
-      const auto found = seen.find(place);
-      for (std::size_t n = 0; found != seen.end() && n < found->second.size(); ++n) {
-        const std::size_t other = found->second[n];
-        const std::int32_t one = group[body(p)], two = group[body(other)];
-        if (one != two && do_touch(particles, p, other, half(p), half(other))) {
-          std::replace(group.begin(), group.end(), std::max(one, two), std::min(one, two));
+      const auto found = cubes.find(place);
+      for (auto of_body = bodies.begin(); found != cubes.end() && of_body != bodies.end(); ++of_body) {
+        for (const auto& of_other : found->second) {
+          join_if_touching(*of_body, of_other);
         }
       }
     }
-    seen[middle].push_back(p);
   }
   return group;
 }
@@ -73,7 +96,7 @@ std::string doubt_of_bodies_apart(const Simulation<Dim, double>& simulation) {
       config::was_given(parameters, "contact.between_bodies")) {
     return "";
   }
-  const std::vector<std::int32_t> group = groups_of_touching(simulation);
+  const std::vector<std::size_t> group = groups_of_touching(simulation);
   const auto& layers = simulation.model().between_bodies.layer_of_body;
   for (std::size_t body = 1; body < group.size(); ++body) {
     for (std::size_t other = 0; other < body; ++other) {
