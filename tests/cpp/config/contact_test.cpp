@@ -44,7 +44,7 @@ TEST(ContactOfBodies, LacksItsFriction) {
   EXPECT_EQ(error_of("[contact]\nbetween_bodies = \"frictional\"\n"),
             "FOLDER/case.toml:30:1: key 'contact.friction_angle' is missing: it is needed when contact.between_bodies "
             "is \"frictional\". Add 'friction_angle = ...' to [contact]: friction angle between bodies that are in "
-            "contact, a number, between 0 and 90, 90 excluded [degrees].");
+            "contact, a number, >= 0 and < 90 [degrees].");
 }
 
 TEST(ContactOfBodies, NamesNoTwoBodies) {
