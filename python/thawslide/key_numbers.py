@@ -173,16 +173,14 @@ def _metres(value: float) -> str:
 def _front_numbers(run: Run) -> list[KeyNumber]:
     """Return runout and way of the front; without maps.path a 3D run knows neither before its slide has moved."""
     rows = []
-    if "runout_m" in run.history:
-        runout = run.history["runout_m"]
+    runout = run.history.get("runout_m")
+    if runout is not None:
         own = f", {_metres(runout[0])} of it before anything moves" if np.isfinite(runout[0]) else ""
         rows.append(_along_path("Runout", runout[-1], f"front at the end less rear at the start{own}"))
-    if "front_position_m" in run.history:
-        front = run.history["front_position_m"]
-        first = int(np.argmax(np.isfinite(front)))  # 0 where none is
+        first = int(np.argmax(np.isfinite(runout)))  # 0 where none is
         since = "the start" if first == 0 else f"{shown(float(run.history['time_s'][first]), 's')}, the first known"
         remark = f"front at the end less front at {since}"
-        rows.append(_along_path("Way of the front", front[-1] - front[first], remark))
+        rows.append(_along_path("Way of the front", runout[-1] - runout[first], remark))
     return rows
 
 

@@ -12,6 +12,7 @@
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/site.hpp"
+#include "sim/direction.hpp"
 #endif
 
 namespace thawslide::app {
@@ -108,7 +109,11 @@ namespace {
 
 gis::SiteAndNotes read_files(const config::Case& trial) {
   try {
-    return gis::load_site(trial);
+    gis::SiteAndNotes read = gis::load_site(trial);
+    if (const std::string note = sim::orient_lines(trial, read.site); !note.empty()) {
+      read.notes.push_back(note);
+    }
+    return read;
   } catch (const UserError& error) {
     throw UserError(in_words_of_options(error.what()));
   }

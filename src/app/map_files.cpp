@@ -7,6 +7,7 @@
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/holes.hpp"
 #include "gis/site.hpp"
+#include "sim/direction.hpp"
 #endif
 
 namespace thawslide::app {
@@ -19,6 +20,7 @@ config::Site read_map_files(const config::Case& parameters, [[maybe_unused]] Not
   gis::SiteAndNotes read = gis::load_site(parameters);
   notes.add(read.notes);
   notes.add(gis::holes_note(parameters, read.site));
+  notes.add(sim::orient_lines(parameters, read.site));
   return std::move(read.site);
 #else
   throw UserError(

@@ -14,6 +14,7 @@
 #include "base/shell_word.hpp"
 #include "base/thread_choice.hpp"
 #include "io/checkpoint.hpp"
+#include "sim/direction.hpp"
 #include "sim/history.hpp"
 #include "sim/slide_left.hpp"
 
@@ -28,7 +29,7 @@ class FrontWatch {
   template <int Dim>
   ProgressState state(const sim::Simulation<Dim, double>& simulation, double front, std::int64_t steps) {
     const double elapsed = simulation.time() - time_;
-    const double speed = elapsed > 0.0 ? (front - front_) / elapsed : std::nan("");
+    const double speed = elapsed > 0.0 ? sim::direction_along_x(simulation) * (front - front_) / elapsed : std::nan("");
     front_ = front;
     time_ = simulation.time();
     return {simulation.time(), simulation.parameters().time.end, steps, front, speed};

@@ -27,37 +27,23 @@ constexpr const char* line_option = "--line";
 // As a line of comments can hold it.
 std::string name_of(const std::string& file) { return config::shown(fs::path(file).filename().string()); }
 
-// The profile along a line that runs downhill, or was turned round for that.
 struct Cut {
   config::ProfileTable profile;
-  Place2 begin{}, end{};
-  bool turned = false;
+  Place2 begin{}, end{};  // of the line
 };
 
 Cut cut_along_line(const config::Site& site, const std::string& line_file) {
   const std::string source = fmt::format("{}: {}", line_option, line_file);
   const Raster& ground = *site.ground;
   const double spacing = 0.5 * std::min(ground.cell_x, ground.cell_y);
-  const auto along = [&](const sim::PathLine& line) {
-    config::ProfileTable profile;
-    profile.distance = sim::stations_along(line, 0.0, line.length(), spacing);
-    profile.terrain = sim::ground_along(line, profile.distance, ground);
-    sim::require_known(line, profile.distance, profile.terrain, line.length(), ground, source);
-    return profile;
-  };
-  sim::PathLine line(site.path);
+  const sim::PathLine line(site.path);
   if (line.empty()) {
     throw UserError(fmt::format("{}: the line has no length. Draw one with two corners apart or more.", source));
   }
-  Cut cut;
-  cut.profile = along(line);
-  cut.turned = cut.profile.terrain.front() < cut.profile.terrain.back();
-  if (cut.turned) {
-    line = sim::PathLine(config::Polyline2(site.path.rbegin(), site.path.rend()));
-    cut.profile = along(line);
-  }
-  cut.begin = line.corners().front();
-  cut.end = line.corners().back();
+  Cut cut{{}, line.corners().front(), line.corners().back()};
+  cut.profile.distance = sim::stations_along(line, 0.0, line.length(), spacing);
+  cut.profile.terrain = sim::ground_along(line, cut.profile.distance, ground);
+  sim::require_known(line, cut.profile.distance, cut.profile.terrain, line.length(), ground, source);
   if (!site.releases.empty()) {
     cut.profile.surface = sim::thickness_along(line, cut.profile.distance, site.releases.at(body_name).thickness);
     for (std::size_t k = 0; k < cut.profile.surface.size(); ++k) {
@@ -71,8 +57,8 @@ Cut cut_along_line(const config::Site& site, const std::string& line_file) {
 std::vector<std::string> comments_on(const SectionOptions& options, const config::Site& site, const Cut& cut,
                                      double taper) {
   std::vector<std::string> comments{
-      fmt::format("Cut by `thawslide section` out of {} along {}{}: its triangles below the line.",
-                  name_of(options.maps.dem), name_of(options.line), cut.turned ? ", turned round to run downhill" : ""),
+      fmt::format("Cut by `thawslide section` out of {} along {}: its triangles below the line.",
+                  name_of(options.maps.dem), name_of(options.line)),
       fmt::format("From x = {:.10g}, y = {:.10g} to x = {:.10g}, y = {:.10g}{}{}.", cut.begin[0], cut.begin[1],
                   cut.end[0], cut.end[1], site.crs_name.empty() ? "" : " in ", config::shown(site.crs_name))};
   if (!options.maps.release.empty()) {
@@ -123,9 +109,6 @@ int make_section(const SectionOptions& options) {
     site = look_again(trial);
   }
   const Cut cut = cut_along_line(site, options.line);
-  if (cut.turned) {
-    fmt::print("note: {} runs uphill; the section begins at its end\n", name_of(options.line));
-  }
   const fs::path folder = options.folder;
   const std::vector<std::string> comments = comments_on(options, site, cut, taper);
   if (options.maps.release.empty()) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 
 #include "app/commands.hpp"
@@ -49,10 +50,27 @@ void print_table(const std::vector<sim::HistoryRow>& rows) {
   }
 }
 
+// Where the ground across the path adds to friction by more than this it is said.
+constexpr double least_valley_factor = 1.03;
+
+void note_valley(const std::vector<sim::HistoryRow>& rows) {
+  const auto narrower = [](const sim::HistoryRow& a, const sim::HistoryRow& b) {
+    return value_of(a, "valley_factor") < value_of(b, "valley_factor");
+  };
+  const sim::HistoryRow& narrowest = *std::max_element(rows.begin(), rows.end(), narrower);
+  const double factor = value_of(narrowest, "valley_factor");
+  if (factor > least_valley_factor) {
+    fmt::print(
+        "note: the path follows a valley, whose sides raise friction by a factor of {:.3g} at the start and {:.3g} at "
+        "most, at {:.4g} s (valley_factor)\n",
+        value_of(rows.front(), "valley_factor"), factor, value_of(narrowest, "time_s"));
+  }
+}
+
 // A 3D case slides as a section of it.
 std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Notes& notes) {
   const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, notes));
-  std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site);
+  std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site, section.valley_factor);
   fmt::print("a section along {}, with the release's mean thickness across the path; fronts are distances along it\n",
              section.path_given ? "maps.path"
                                 : "the way of steepest descent from the release's centre, as maps.path is not given");
@@ -69,6 +87,7 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, No
                                                   "maps.path, a line that goes on, to follow it further",
                                                   value_of(*beyond, "time_s")));
     rows.erase(beyond == rows.end() ? beyond : beyond + 1, rows.end());
+    note_valley(rows);
     return rows;
   }
   const double end = section.site.profile.distance.back();
@@ -81,6 +100,7 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, No
     // The first row stays: the ground is known below the whole release.
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
+  note_valley(rows);
   return rows;
 }
 
@@ -102,7 +122,8 @@ int run_block_model(const BlockOptions& options) {
     print_table(rows);
     const auto& first = rows.front();
     fmt::print("safety factor at the start: {:.3f} (sliding strength over driving traction); took {:.0f} ms\n",
-               first[6].second / first[7].second, 1e3 * seconds);
+               value_of(first, "sliding_strength_Pa") / std::abs(value_of(first, "driving_traction_Pa")),
+               1e3 * seconds);
     return static_cast<int>(ExitCode::done);
   }
   io::HistoryWriter writer(options.output);

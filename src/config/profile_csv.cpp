@@ -19,6 +19,9 @@ namespace {
 
 using Fields = std::vector<std::string>;
 
+// Of distances [m]: points nearer to one another would coincide in the coordinates of the domain.
+constexpr double least_profile_step = 1e-6;
+
 const Fields all_columns{"distance_m", "terrain_elevation_m", "surface_elevation_m"};
 
 std::string trimmed(const std::string& text) {
@@ -105,6 +108,10 @@ class ProfileReader {
           fmt::format("the profile folds back: distance_m is {} after {}; allowed: strictly increasing distances. Sort "
                       "the rows, and leave out overhangs and repeated points",
                       distance, table_.distance.back()));
+    }
+    if (!table_.distance.empty() && distance - table_.distance.back() < least_profile_step) {
+      fail(fmt::format("distance_m is {} after {}; allowed: steps of {:g} m and more. Leave one of the two points out",
+                       distance, table_.distance.back(), least_profile_step));
     }
     if (table_.distance.size() == most_profile_rows) {
       fail(fmt::format("the profile has more than {} rows; allowed: as many. Leave points out", most_profile_rows));

@@ -116,26 +116,30 @@ Forces forces_on_slices(const Model<2, double>& model, const Path& path, const S
 // The slices on their column: one step after another.
 class Block {
  public:
-  Block(const config::Case& parameters, const Model<2, double>& model, const mpm::Particles<2, double>& particles)
+  Block(const config::Case& parameters, Table valley_factor, const Model<2, double>& model,
+        const mpm::Particles<2, double>& particles)
       : parameters_(parameters),
         model_(model),
         path_(*model.profile),
+        valley_factor_(std::move(valley_factor)),
         slices_(make_slices(parameters, model, path_, particles)),
         column_(make_column(particles.material(0))) {
     const auto& start = parameters.bodies.begin()->second.velocity;
     const Vector<double, 2> into = normal_below(model, slices_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
-    evaluate_base();
+    const double pull = evaluate_base().along;
+    const double round_off = 1e-9 * slices_.mass * model_.motion.gravity.norm();
+    direction_ = velocity_ < 0.0 || (velocity_ == 0.0 && pull < -round_off) ? -1.0 : 1.0;
   }
 
   void step(double dt) {
     const Forces forces = evaluate_base();
     const double trial = slices_.mass * velocity_ + dt * forces.along;
-    const auto impulse = physics::contact_impulse(dt * forces.normal, std::abs(trial), slices_.base, dt, strength_);
+    const auto impulse = physics::contact_impulse(dt * forces.normal, std::abs(trial), base_area_, dt, strength_);
     const double old_velocity = velocity_;
     velocity_ = (trial - std::copysign(impulse.tangential, trial)) / slices_.mass;
     const double middle = 0.5 * (old_velocity + velocity_);
-    const double work = impulse.slides ? impulse.tangential / slices_.base * std::abs(middle) : 0.0;
+    const double work = impulse.slides ? impulse.tangential / base_area_ * std::abs(middle) : 0.0;
     const double heat = model_.contact.law.heat_fraction * work;
     friction_work_ += work;
     friction_heat_ += heat;
@@ -151,22 +155,24 @@ class Block {
   HistoryRow row() {
     const Forces forces = evaluate_base();
     const BlockBand band = std::visit([](const auto& column) { return column.band(); }, column_);
-    const double front = path_.x_at(slices_.all.back().path + displacement_) + model_.origin[0];
+    const Slice& foremost = direction_ > 0.0 ? slices_.all.back() : slices_.all.front();
+    const double front = path_.x_at(foremost.path + displacement_) + model_.origin[0];
     return {{"time_s", time_},
-            {"velocity_m_s", velocity_},
-            {"displacement_m", displacement_},
-            {"front_position_m", front + 0.5 * parameters_.grid.cell},
+            {"velocity_m_s", direction_ * velocity_},
+            {"displacement_m", direction_ * displacement_},
+            {"front_position_m", front + 0.5 * direction_ * parameters_.grid.cell},
             {"normal_pressure_Pa", basal_.normal_pressure[0]},
             {"pore_pressure_Pa", basal_.pore_pressure[0]},
             {"sliding_strength_Pa", strength_},
-            {"driving_traction_Pa", forces.along / slices_.base},
+            {"driving_traction_Pa", direction_ * forces.along / base_area_},
             {"band_temperature_C", band.temperature},
             {"band_saturation", band.saturation},
             {"band_pore_pressure_Pa", band.pore_pressure},
             {"band_friction_coefficient", friction_},
             {"friction_work_J_m2", friction_work_},
             {"friction_heat_J_m2", friction_heat_},
-            {"heat_gain_J_m2", heat_gain_}};
+            {"heat_gain_J_m2", heat_gain_},
+            {"valley_factor", base_area_ / slices_.base}};
   }
 
  private:
@@ -211,6 +217,10 @@ class Block {
   Forces evaluate_base() {
     const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
     const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
+    base_area_ = 0.0;
+    for (const Slice& slice : slices_.all) {
+      base_area_ += slice.base * valley_factor_.at(path_.x_at(slice.path + displacement_) + model_.origin[0]);
+    }
     basal_.count = 1;
     basal_.normal_pressure[0] = forces.normal / slices_.base;
     const BlockBase base =
@@ -254,10 +264,13 @@ class Block {
   const config::Case& parameters_;
   const Model<2, double>& model_;
   Path path_;
+  Table valley_factor_;  // over absolute x
   Slices slices_;
-  double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;
+  double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;  // along the ground, towards +x
+  double direction_ = 1;                                          // 1 or -1: towards +x or -x, in which rows count
   AnyColumn column_;
   terrain::BasalNodes<double> basal_;
+  double base_area_ = 0;                // that the slices stand on, valley factor and all [m2 per m of width]
   double strength_ = 0, friction_ = 0;  // of the base now: [Pa]; mu_e
   double friction_work_ = 0, friction_heat_ = 0, heat_gain_ = 0;
 };
@@ -271,7 +284,7 @@ void require_one_body(const config::Case& parameters) {
   }
 }
 
-std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site) {
+std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site, Table valley_factor) {
   if (parameters.general.dimension != 2 || parameters.terrain.kind == config::TerrainKind::none) {
     throw UserError(
         fmt::format("{}: the block model slides a 2D section along a terrain, or a 3D case on a DEM. "
@@ -286,7 +299,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   const Model<2, double> model = make_model<2, double>(parameters, site);
   mpm::Particles<2, double> particles;
   fill_bodies(parameters, site, model, particles);
-  Block block(parameters, model, particles);
+  Block block(parameters, std::move(valley_factor), model, particles);
   const StepLimit limit = step_limit(parameters, model, smallest_thickness(parameters), extremes_of(model, particles));
   double dt = parameters.time.step;
   if (parameters.time.stepping == config::Stepping::adaptive) {

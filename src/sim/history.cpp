@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/direction.hpp"
+
 namespace thawslide::sim {
 
 namespace {
@@ -159,13 +161,13 @@ void add_ledger(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Rea
 
 template <int Dim, class Real>
 double front_position(const Simulation<Dim, Real>& simulation) {
-  return simulation.front().along;
+  return front_along_x(simulation, direction_along_x(simulation));
 }
 
 template <int Dim, class Real>
 HistoryRow history_row(const Simulation<Dim, Real>& simulation) {
-  const double front = front_position(simulation);
-  return history_row(simulation, {front, front - simulation.rear_at_start()});
+  const double direction = direction_along_x(simulation), front = front_along_x(simulation, direction);
+  return history_row(simulation, {front, direction * (front - simulation.rear_at_start())});
 }
 
 template <int Dim, class Real>

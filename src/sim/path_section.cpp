@@ -11,6 +11,7 @@
 #include "sim/section.hpp"
 #include "sim/steepest_descent.hpp"
 #include "sim/substrates.hpp"
+#include "sim/valley_factor.hpp"
 
 namespace thawslide::sim {
 
@@ -36,6 +37,7 @@ struct ReleaseOnPath {
   double from = HUGE_VAL, to = -HUGE_VAL;  // distances along the path [m]
   double nearest = HUGE_VAL;               // of its points to the path [m]
   double middle = 0.0;                     // of its volume, along the path [m]
+  double width = 0.0, cross_area = 0.0;    // across the path, in the mean [m, m2]
   Table thickness;                         // mean across the path [m], over the distance
 
   [[nodiscard]] double at(double along) const { return along < from || along > to ? 0.0 : thickness.at(along); }
@@ -64,6 +66,8 @@ ReleaseOnPath release_on_path(const PathLine& line, const config::Release& relea
   const double half = 0.5 * std::min(release.thickness.cell_x, release.thickness.cell_y);
   found.from -= half;
   found.to += half;
+  found.width = release.area / (found.to - found.from);
+  found.cross_area = sum * release.thickness.cell_x * release.thickness.cell_y / (found.to - found.from);
   const auto count = static_cast<std::size_t>(std::max(1.0, std::round((found.to - found.from) / length)));
   const double width = (found.to - found.from) / static_cast<double>(count);
   std::vector<double> thickness(count, 0.0), number(count, 0.0);
@@ -148,9 +152,13 @@ std::vector<double> stations_about(const PathLine& line, const ReleaseOnPath& re
   const double end = std::max(line.length(), release.to + margin_cells * cell);
   std::vector<double> stations = stations_along(line, begin, end, spacing);
   const double step = step_width * cell;
+  // Stations nearer to the release's ends than its steps are would coincide with them in other coordinates.
+  const auto at_an_end = [&](double station) {
+    return std::min(std::abs(station - release.from), std::abs(station - release.to)) < 2.0 * step;
+  };
+  stations.erase(std::remove_if(stations.begin(), stations.end(), at_an_end), stations.end());
   stations.insert(stations.end(), {release.from - step, release.from, release.to, release.to + step});
   std::sort(stations.begin(), stations.end());
-  stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
   return stations;
 }
 
@@ -234,6 +242,9 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
     profile.surface.push_back(profile.terrain[k] + on_path.at(profile.distance[k]));
   }
 
+  section.valley_factor =
+      Table(profile.distance, valley_factors(line, profile.distance, ground,
+                                             {on_path.width, on_path.cross_area, std::max(0.5 * cell, points_apart)}));
   section.site.stretches = stretches_along(parameters, site, line, profile.distance);
 
   section.parameters = parameters;

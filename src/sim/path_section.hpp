@@ -12,6 +12,7 @@
 
 #include <optional>
 
+#include "base/table.hpp"
 #include "config/case.hpp"
 #include "config/site.hpp"
 #include "sim/path_line.hpp"
@@ -21,6 +22,7 @@ namespace thawslide::sim {
 struct PathSection {
   config::Case parameters;  // 2D: x is the distance along the path [m], y the elevation [m]
   config::Site site;        // its profile
+  Table valley_factor;      // over the distance (valley_factor.hpp)
   bool path_given = true;   // or found by steepest descent
 
   // That the way of steepest descent ends in: where, along it [m] and in space. What lies beyond is no way down.

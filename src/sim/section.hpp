@@ -9,8 +9,8 @@
 
 namespace thawslide::sim {
 
-// Distances along the line [m]: `from`, `to`, the corners between, and as many between these as leave no two farther
-// apart than `spacing`.
+// Distances along the line [m]: `from`, `to`, the corners between that are apart, and as many between these as leave no
+// two farther apart than `spacing`.
 [[nodiscard]] std::vector<double> stations_along(const PathLine& line, double from, double to, double spacing);
 
 // Elevations [m] of the triangulated ground at the stations; NaN beyond its points, and where it has no data.

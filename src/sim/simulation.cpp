@@ -10,6 +10,7 @@
 #include "mpm/body_contact.hpp"
 #include "mpm/velocity_filter.hpp"
 #include "sim/bodies.hpp"
+#include "sim/direction.hpp"
 #include "sim/entrainment.hpp"
 #include "sim/filter_times.hpp"
 #include "sim/memory_need.hpp"
@@ -349,11 +350,13 @@ void Simulation<Dim, Real>::start_ledger() {
   ledger_.initial_thermal = sums.sensible + sums.latent;
   ledger_.initial_mass = sums.mass;
   ledger_.initial_momentum = sums.momentum;
-  rear_at_start_ = HUGE_VAL;
+  const double direction = direction_at_start(model_, particles_, parameters_.grid.cell);
+  double rear = HUGE_VAL;
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     const Real half = model_.motion.sizes.half(static_cast<std::size_t>(particles_.body(p))) * grid_.cell();
-    rear_at_start_ = std::min(rear_at_start_, static_cast<double>(particles_.position(p, 0) - half) + model_.origin[0]);
+    rear = std::min(rear, direction * static_cast<double>(particles_.position(p, 0)) - static_cast<double>(half));
   }
+  rear_at_start_ = direction * rear + model_.origin[0];
 }
 
 template <int Dim, class Real>

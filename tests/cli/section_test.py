@@ -135,9 +135,12 @@ def test_corners_are_kept_and_a_line_uphill_is_turned_round(thawslide: Program, 
     write_line(maps.line, [(703.0, 351.0), (403.0, 200.0), (53.0, 200.0)])
     made = thawslide(*maps.words_with_release(tmp_path / "case"))
     assert made.returncode == 0, made.stderr
-    assert "note: line.geojson runs uphill; the section begins at its end" in made.stdout
+    assert (
+        "note: --line: line.geojson was drawn against the direction of the slide; distances count from its last corner"
+        in made.stdout
+    )
     comments, columns = profile(tmp_path / "case")
-    assert "along line.geojson, turned round to run downhill:" in comments[0]
+    assert comments[1].startswith("# From x = 300053, y = 400200 to x = 300703, y = 400351 ")
     distance, terrain = columns["distance_m"], columns["terrain_elevation_m"]
     corner = np.flatnonzero(np.isclose(distance, 350.0, rtol=0.0, atol=1e-9))
     assert len(corner) == 1 and terrain[corner[0]] == pytest.approx(1000.0 - SLOPE * 403.0)

@@ -81,7 +81,7 @@ def motion(run: Run) -> Figure:
         if "front_position_m" in history:
             front = history["front_position_m"]
             first = int(np.argmax(np.isfinite(front)))  # without maps.path there is none before the slide moves
-            way = (front - front[first]) / divisor
+            way = (history["runout_m"] - history["runout_m"][first]) / divisor  # in 2D slides go towards -x too
             time_line(distance, time, way, color=RED, linestyle=":", label="way of the front itself")
         draw_targets(distance, run, ("front_distance",), divisor, RED, " runout")
     distance.set_ylabel(f"distance ({unit})")

@@ -1,0 +1,222 @@
+#include "sim/direction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "base/instances.hpp"
+#include "config/input_limits.hpp"
+#include "sim/path_line.hpp"
+#include "terrain/height_field.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+constexpr double least_share = 1e-6;  // of the largest momentum or force: less is round-off
+
+// Momentum and force along a direction, and how large they would be if all of it were along it.
+class Departure {
+ public:
+  void add_momentum(double mass, double along, double speed) {
+    momentum_ += mass * along;
+    most_momentum_ += mass * speed;
+  }
+  // slope: dz/de; g_e and g_z: gravity along e and downwards.
+  void add_force(double mass, double slope, double g_e, double g_z) {
+    force_ += mass * (g_e - g_z * slope) / std::hypot(1.0, slope);
+    most_force_ += mass * std::hypot(g_e, g_z);
+  }
+  // 0: neither way.
+  [[nodiscard]] int direction() const {
+    const int moving = sign_of(momentum_, most_momentum_);
+    return moving != 0 ? moving : sign_of(force_, most_force_);
+  }
+
+ private:
+  static int sign_of(double sum, double most) { return std::abs(sum) <= least_share * most ? 0 : sum > 0.0 ? 1 : -1; }
+
+  double momentum_ = 0.0, most_momentum_ = 0.0, force_ = 0.0, most_force_ = 0.0;
+};
+
+// A part of a body at t = 0, over the horizontal plane [m].
+struct Part {
+  Place2 place;
+  double volume;  // [m3], or a share of it that is the same for all parts of a body
+  const config::Body* body;
+};
+
+std::vector<Part> parts_of_bodies(const config::Case& parameters, const config::Site& site) {
+  std::vector<Part> parts;
+  for (const auto& [name, body] : parameters.bodies) {
+    const auto found = site.releases.find(name);
+    if (found == site.releases.end()) {  // a box
+      double volume = 1.0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        volume *= body.max[a] - body.min[a];
+      }
+      parts.push_back({{0.5 * (body.min[0] + body.max[0]), 0.5 * (body.min[1] + body.max[1])}, volume, &body});
+      continue;
+    }
+    const Raster& thickness = found->second.thickness;
+    for (int row = 0; row < thickness.rows; ++row) {
+      for (int column = 0; column < thickness.columns; ++column) {
+        if (thickness.at(column, row) > 0.0) {
+          parts.push_back({{thickness.x_of(column), thickness.y_of(row)},
+                           thickness.at(column, row) * thickness.cell_x * thickness.cell_y,
+                           &body});
+        }
+      }
+    }
+  }
+  return parts;
+}
+
+// The direction of the line, from half a length before a distance to half a length beyond it [m].
+Place2 direction_at(const PathLine& line, double along, double length) {
+  const Place2 from = line.point_at(along - 0.5 * length), to = line.point_at(along + 0.5 * length);
+  const double x = to[0] - from[0], y = to[1] - from[1], distance = std::hypot(x, y);
+  return distance > 0.0 ? Place2{x / distance, y / distance} : Place2{0.0, 0.0};  // a line that turns back there
+}
+
+bool bodies_leave_against(const PathLine& line, const std::vector<Part>& parts, const config::Case& parameters,
+                          const terrain::HeightField& ground, double width) {
+  const double tilt = parameters.general.gravity_tilt * std::numbers::pi / 180.0;
+  Departure departure;
+  double middle = 0.0, volume = 0.0;
+  for (const Part& part : parts) {
+    const double along = line.project(part.place).along;
+    const Place2 e = direction_at(line, along, width);
+    const auto& v = part.body->velocity;
+    departure.add_momentum(part.volume, v[0] * e[0] + v[1] * e[1], std::hypot(v[0], v[1]));
+    const auto gradient = ground.gradient(Vector<double, 2>(part.place[0], part.place[1]), width);
+    departure.add_force(part.volume, gradient[0] * e[0] + gradient[1] * e[1], std::sin(tilt) * e[0], std::cos(tilt));
+    middle += part.volume * along;
+    volume += part.volume;
+  }
+  const int direction = departure.direction();
+  return direction < 0 || (direction == 0 && middle / volume > 0.5 * line.length());
+}
+
+bool path_is_to_be_reversed(const config::Case& parameters, const config::Site& site, const std::vector<Part>& parts) {
+  const PathLine line(site.path);
+  if (line.empty()) {
+    return false;
+  }
+  const terrain::HeightField ground(*site.ground);
+  if (!parts.empty()) {
+    const double points_apart = std::max(site.ground->cell_x, site.ground->cell_y);
+    return bodies_leave_against(line, parts, parameters, ground, std::max(parameters.grid.cell, 2.0 * points_apart));
+  }
+  const auto height = [&](const Place2& place) { return ground.height(Vector<double, 2>(place[0], place[1])); };
+  return height(line.corners().front()) < height(line.corners().back());
+}
+
+// a x b, of vectors from one place to another.
+double cross(const Place2& a_from, const Place2& a_to, const Place2& b_from, const Place2& b_to) {
+  return (a_to[0] - a_from[0]) * (b_to[1] - b_from[1]) - (a_to[1] - a_from[1]) * (b_to[0] - b_from[0]);
+}
+
+// The first crossing of the line by the path: 1 from left to right, -1 from right to left; 0: it does not cross.
+int crossing(const config::Polyline2& path, const config::Polyline2& line) {
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    double earliest = HUGE_VAL;
+    int found = 0;
+    for (std::size_t n = 0; n + 1 < line.size(); ++n) {
+      const double turn = cross(path[k], path[k + 1], line[n], line[n + 1]);
+      const double on_path = cross(path[k], line[n], line[n], line[n + 1]) / turn;
+      const double on_line = cross(path[k], line[n], path[k], path[k + 1]) / turn;
+      if (turn != 0.0 && on_path >= 0.0 && on_path <= 1.0 && on_line >= 0.0 && on_line <= 1.0 && on_path < earliest) {
+        earliest = on_path;
+        found = turn > 0.0 ? 1 : -1;
+      }
+    }
+    if (found != 0) {
+      return found;
+    }
+  }
+  return 0;
+}
+
+bool bodies_lie_to_the_right(const config::Polyline2& corners, const std::vector<Part>& parts) {
+  const PathLine line(corners);
+  if (line.empty() || parts.empty()) {
+    return false;
+  }
+  Place2 centre{0.0, 0.0};
+  double volume = 0.0;
+  for (const Part& part : parts) {
+    centre = {centre[0] + part.volume * part.place[0], centre[1] + part.volume * part.place[1]};
+    volume += part.volume;
+  }
+  return line.project({centre[0] / volume, centre[1] / volume}).offset < 0.0;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+double direction_at_start(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles, double cell) {
+  if (Dim == 3) {
+    return 1.0;
+  }
+  Departure departure;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const auto mass = static_cast<double>(particles.mass(p)), speed = static_cast<double>(particles.velocity(p, 0));
+    typename terrain::Surface<Dim>::Place place;
+    for (int a = 0; a + 1 < Dim; ++a) {
+      place[a] = static_cast<double>(particles.position(p, a));
+    }
+    departure.add_momentum(mass, speed, std::abs(speed));
+    departure.add_force(mass, model.ground ? model.ground->gradient(place, cell)[0] : 0.0,
+                        static_cast<double>(model.motion.gravity[0]),
+                        -static_cast<double>(model.motion.gravity[Dim - 1]));
+  }
+  return departure.direction() < 0 ? -1.0 : 1.0;
+}
+
+template <int Dim, class Real>
+double front_along_x(const Simulation<Dim, Real>& simulation, double direction) {
+  const PathLine towards_lower_x(config::Polyline2{{0.0, 0.0}, {-1.0, 0.0}});
+  return simulation.front(direction < 0.0 ? towards_lower_x.view() : LineView{}).place[0];
+}
+
+template <int Dim, class Real>
+double direction_along_x(const Simulation<Dim, Real>& simulation) {
+  if (Dim == 3) {
+    return 1.0;
+  }
+  const double middle = 0.5 * (front_along_x(simulation, 1.0) + front_along_x(simulation, -1.0));
+  return middle < simulation.rear_at_start() ? -1.0 : 1.0;
+}
+
+std::string orient_lines(const config::Case& parameters, config::Site& site) {
+  if (!site.ground) {
+    return "";
+  }
+  const std::vector<Part> parts = parts_of_bodies(parameters, site);
+  const bool is_reversed = path_is_to_be_reversed(parameters, site, parts);
+  if (is_reversed) {
+    std::reverse(site.path.begin(), site.path.end());
+  }
+  for (auto& [name, line] : site.probes) {
+    const int across = crossing(site.path, line);
+    if (across < 0 || (across == 0 && bodies_lie_to_the_right(line, parts))) {
+      std::reverse(line.begin(), line.end());
+    }
+  }
+  return is_reversed ? fmt::format(
+                           "maps.path: {} was drawn against the direction of the slide; distances count from its last "
+                           "corner",
+                           config::shown(std::filesystem::path(parameters.maps.path).filename().string()))
+                     : "";
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                            \
+  template double direction_at_start<Dim, Real>(const Model<Dim, Real>&, const mpm::Particles<Dim, Real>&, double); \
+  template double direction_along_x<Dim, Real>(const Simulation<Dim, Real>&);                                       \
+  template double front_along_x<Dim, Real>(const Simulation<Dim, Real>&, double);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

@@ -1,0 +1,288 @@
+"""No result depends on the direction in which a path, a cross section, an outline or a raster was drawn or stored."""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import rasterio
+from conftest import ROOT, Outcome, Program, history, run_facts, sets
+from terrain_files import EAST, NORTH, place, write_dem, write_geojson, write_line
+
+FAULTS = ROOT.parent / "shared" / "data" / "faults"
+RING = [(105.0, 105.0), (205.0, 105.0), (205.0, 195.0), (105.0, 195.0)]
+PATH = [(35.0, 150.0), (400.0, 150.0), (765.0, 155.0)]
+ACROSS = [(300.0, 40.0), (310.0, 260.0)]
+CELL = 10.0
+COLUMNS, ROWS = 80, 30
+COULOMB = {"heat__enabled": "false", "pressure__enabled": "false", "basal__friction": "constant"}
+
+CASE = f"""
+[case]
+dimension = 3
+[time]
+end = 1.5
+step = 0.01
+output_interval = 1.5
+history_interval = 0.5
+[grid]
+cell = {CELL}
+min = [{EAST + 15.0}, {NORTH + 15.0}, 550.0]
+max = [{EAST + 775.0}, {NORTH + 285.0}, 1050.0]
+[terrain]
+type = "dem"
+file = "dem.tif"
+[maps]
+path = "path.geojson"
+[probe.across]
+line = "across.geojson"
+[material.rock]
+law = "elastic"
+youngs_modulus = 2.0e7
+poisson_ratio = 0.2
+viscosity_time = 0.02
+[body.slide]
+material = "rock"
+shape = "release"
+release = "release.geojson"
+thickness = 20.0
+temperature = -5.0
+[basal]
+friction_angle = 12.0
+"""
+
+
+def valley(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Fall for 450 m and rise beyond to above the start, with sides."""
+    return 1000.0 - 0.7 * np.minimum(x, 450.0) + 1.2 * np.maximum(0.0, x - 450.0) + 0.001 * (y - 150.0) ** 2
+
+
+def write_case(folder: Path, *, is_reversed: bool = False, path: list[tuple[float, float]] = PATH) -> Path:
+    """Write the case as it is, or with every line, ring and raster the other way round."""
+    folder.mkdir()
+    (folder / "case.toml").write_text(CASE)
+    write_dem(folder / "dem.tif", valley, columns=COLUMNS, rows=ROWS, cell=CELL)
+    ring = [place(*corner) for corner in [*RING, RING[0]]]
+    if is_reversed:
+        turn_rows(folder / "dem.tif")
+    for name, line in (("path", path), ("across", ACROSS)):
+        write_line(folder / f"{name}.geojson", line[::-1] if is_reversed else line)
+    write_geojson(folder / "release.geojson", "Polygon", [ring[::-1] if is_reversed else ring])
+    return folder
+
+
+def turn_rows(file: Path) -> None:
+    """Store a raster from south to north instead of from north to south."""
+    with rasterio.open(file) as raster:
+        values, profile = raster.read(1), raster.profile
+    there = profile["transform"]
+    profile["transform"] = rasterio.Affine(there.a, 0.0, there.c, 0.0, -there.e, there.f + values.shape[0] * there.e)
+    with rasterio.open(file, "w", **profile) as raster:
+        raster.write(values[::-1], 1)
+
+
+def rows_of(file: Path) -> dict[str, np.ndarray]:
+    header, *rows = csv.reader(file.read_text().splitlines())
+    return dict(zip(header, np.array(rows, dtype=float).T, strict=True))
+
+
+def assert_alike(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> None:
+    """Fail unless all columns are the same but for round-off."""
+    assert one.keys() == other.keys()
+    for name, values in one.items():
+        scale = np.abs(values[np.isfinite(values)]).max(initial=1e-9)
+        assert other[name] == pytest.approx(values, rel=1e-6, abs=1e-7 * scale, nan_ok=True), name
+
+
+def safety_factor(outcome: Outcome) -> float:
+    assert outcome.returncode == 0, outcome.stderr
+    found = re.search(r"safety factor at the start: (\S+) ", outcome.stdout)
+    assert found, outcome.stdout
+    return float(found[1])
+
+
+def test_run_block_and_probes_are_the_same_for_whatever_was_drawn_the_other_way_round(
+    thawslide: Program, tmp_path: Path
+) -> None:
+    runs: dict[bool, dict[str, Any]] = {}
+    for is_reversed in (False, True):
+        case = write_case(tmp_path / f"case-{is_reversed}", is_reversed=is_reversed)
+        run = tmp_path / f"run-{is_reversed}"
+        done = thawslide("run", case, "--output", run, "--threads", 1, *sets(**COULOMB))
+        assert done.returncode == 0, done.stderr
+        told = "maps.path: path.geojson was drawn against the direction of the slide; distances count from its last"
+        assert (told in done.stdout) == is_reversed
+        slid = thawslide("block", case, "--output", tmp_path / "block.csv", *sets(**COULOMB, time__end=20))
+        assert slid.returncode == 0, slid.stderr
+        runs[is_reversed] = {
+            "history": history(run),
+            "probes": rows_of(run / "probes.csv"),
+            "block": rows_of(tmp_path / "block.csv"),
+            "facts": {key: value for key, value in run_facts(run).items() if key.endswith(("distance_m", "degrees"))},
+        }
+    plain, turned = runs[False], runs[True]
+    for name in ("history", "probes", "block"):
+        assert_alike(plain[name], turned[name])
+    assert turned["facts"] == pytest.approx(plain["facts"], rel=1e-6) and len(plain["facts"]) == 3
+    front = plain["history"]["front_position_m"]
+    assert 150.0 < front[0] < 190.0 and front[-1] > front[0] + 1.0
+    assert plain["block"]["velocity_m_s"].max() > 10.0 and plain["block"]["displacement_m"][-1] > 100.0
+    assert (plain["block"]["driving_traction_Pa"][:1] > 0.0).all()
+
+
+def test_discharge_is_positive_downstream(thawslide: Program, tmp_path: Path) -> None:
+    """Through a section just below the release, drawn either way."""
+    for number, line in enumerate(([(201.0, 40.0), (201.0, 260.0)], [(201.0, 260.0), (201.0, 40.0)])):
+        case, run = write_case(tmp_path / f"case{number}"), tmp_path / f"run{number}"
+        write_line(case / "across.geojson", line)
+        done = thawslide("run", case, "--output", run, "--threads", 1, *sets(**COULOMB))
+        assert done.returncode == 0, done.stderr
+        assert rows_of(run / "probes.csv")["across_discharge_m3_s"][-1] > 100.0
+
+
+@pytest.mark.parametrize("start", [60.0, 105.0, 150.0, 201.0, 205.0, 231.7, 260.0, 320.0])
+def test_block_needs_no_particular_start_of_its_path(thawslide: Program, tmp_path: Path, start: float) -> None:
+    """The release goes from 105 to 205 m: before it, within it and below it."""
+    words = sets(**COULOMB)
+    whole = thawslide("block", write_case(tmp_path / "whole"), *words)
+    path = [(start, 150.0), (400.0, 150.0)]
+    for is_reversed in (False, True):
+        case = write_case(tmp_path / f"case-{is_reversed}", is_reversed=is_reversed, path=path)
+        assert safety_factor(thawslide("block", case, *words)) == pytest.approx(safety_factor(whole), rel=0.02)
+
+
+@pytest.mark.parametrize("is_reversed", [False, True])
+def test_section_keeps_its_direction_when_the_release_lies_at_the_first_end(
+    thawslide: Program, tmp_path: Path, is_reversed: bool
+) -> None:
+    case = write_case(tmp_path / "case", is_reversed=is_reversed)
+    words = ["--dem", case / "dem.tif", "--release", case / "release.geojson", "--thickness", 20]
+    made = thawslide("section", tmp_path / "section", *words, "--line", case / "path.geojson")
+    assert made.returncode == 0, made.stderr
+    note = "note: --line: path.geojson was drawn against the direction of the slide"
+    assert (note in made.stdout) == is_reversed
+    lines = (tmp_path / "section" / "profile.csv").read_text().splitlines()
+    rows = np.array([line.split(",") for line in lines if line[0].isdigit()], dtype=float)
+    assert rows[0, 1] < rows[-1, 1], "the far slope goes on to above the start"
+    assert rows[np.argmax(rows[:, 2] - rows[:, 1]), 0] < 200.0, "the release is at the beginning"
+
+
+SLOPE_IN_PLANE = """
+[case]
+gravity_tilt = {tilt}
+[time]
+end = 1.5
+step = 0.002
+output_interval = 1.5
+history_interval = 0.5
+[grid]
+cell = 5.0
+min = [0.0, 0.0]
+max = [400.0, 400.0]
+[terrain]
+{ground}
+[material.rock]
+law = "elastic"
+youngs_modulus = 1.0e8
+poisson_ratio = 0.2
+viscosity_time = 0.02
+[body.slide]
+material = "rock"
+shape = "polygon"
+vertices = {vertices}
+velocity = [{velocity}, 0.0]
+[basal]
+friction = "constant"
+friction_angle = 10.0
+[heat]
+enabled = false
+[pressure]
+enabled = false
+"""
+
+
+def write_slope_in_plane(file: Path, sign: float, how: str) -> Path:
+    """Write a slide that leaves towards +x or -x: down a plane or a profile, by gravity or by its velocity."""
+    fall = 0.6 if how in ("plane", "profile") else 0.0
+
+    def x_of(along: float) -> float:
+        return along if sign > 0.0 else 400.0 - along
+
+    ring = [(100.0, 0.0), (140.0, 0.0), (140.0, 30.0), (100.0, 30.0)]
+    vertices = [[x_of(along), 300.0 - fall * along + up] for along, up in ring]
+    ground = (
+        f'type = "plane"\nelevation = {300.0 - fall * x_of(0.0)}\nslope = {float(sign * np.degrees(np.arctan(fall)))!r}'
+    )
+    if how == "profile":
+        rows = sorted((x_of(along), 300.0 - fall * along) for along in (0.0, 200.0, 400.0))
+        text = "".join(f"{x!r},{y!r}\n" for x, y in rows)
+        (file.parent / f"{file.stem}.csv").write_text("distance_m,terrain_elevation_m\n" + text)
+        ground = f'type = "profile"\nfile = "{file.stem}.csv"'
+    tilt, velocity = 30.0 * sign * (how == "tilt"), 6.0 * sign * (how == "velocity")
+    file.write_text(SLOPE_IN_PLANE.format(tilt=tilt, ground=ground, vertices=vertices, velocity=velocity))
+    return file
+
+
+@pytest.mark.parametrize("how", ["plane", "profile", "tilt", "velocity"])
+def test_slide_towards_lower_x_is_the_mirror_image_of_one_towards_higher_x(
+    thawslide: Program, tmp_path: Path, how: str
+) -> None:
+    rows, block = [], []
+    for name, sign in (("right", 1.0), ("left", -1.0)):
+        case = write_slope_in_plane(tmp_path / f"{name}.toml", sign, how)
+        done = thawslide("run", case, "--output", tmp_path / name, "--threads", 1)
+        assert done.returncode == 0, done.stderr
+        slid = thawslide("block", case, "--output", tmp_path / f"{name}-block.csv")
+        assert slid.returncode == 0, slid.stderr
+        rows.append(history(tmp_path / name))
+        block.append(rows_of(tmp_path / f"{name}-block.csv"))
+    right, left = rows
+    assert right["runout_m"][-1] > right["runout_m"][0] + 2.0
+    for column in ("runout_m", "mean_displacement_m", "mean_velocity_m_s", "friction_work_J"):
+        assert left[column] == pytest.approx(right[column], rel=1e-6, abs=1e-6), column
+    for one, other in (rows, block):
+        assert other["front_position_m"] == pytest.approx(400.0 - one["front_position_m"], abs=1e-6)
+    right, left = block
+    assert right["displacement_m"][-1] > 2.0
+    for column in right.keys() - {"front_position_m"}:
+        assert left[column] == pytest.approx(right[column], rel=1e-6, abs=1e-6, nan_ok=True), column
+
+
+def fault(name: str) -> Path:
+    folder = FAULTS / name
+    if not folder.is_dir():
+        pytest.skip(f"the inputs of {name} are not beside this checkout")
+    return folder
+
+
+@pytest.mark.parametrize("line", ["s105", "s305", "s333.3", "s360", "s420"])
+def test_fault_of_path_starts(thawslide: Program, line: str) -> None:
+    folder = fault("g19-path-start")
+    slid = thawslide("block", folder / "case.toml", *sets(maps__path=folder / f"line-{line}.gpkg"))
+    assert safety_factor(slid) == pytest.approx(0.464, abs=0.002)
+
+
+def test_fault_of_paths_uphill(thawslide: Program, tmp_path: Path) -> None:
+    folder = fault("g03-path-uphill")
+    ends = {}
+    for line in ("down", "up", "late"):
+        words = sets(maps__path=folder / f"line-{line}.gpkg")
+        assert safety_factor(thawslide("block", folder / "case-3d.toml", *words)) == pytest.approx(0.464, abs=0.002)
+        run = tmp_path / line
+        done = thawslide("run", folder / "case-3d.toml", *words, *sets(time__end=2), "--output", run, "--threads", 1)
+        assert done.returncode == 0, done.stderr
+        ends[line] = {name: history(run)[name][-1] for name in ("front_position_m", "runout_m")}
+    assert ends["up"] == pytest.approx(ends["down"], abs=1e-6)
+    assert ends["late"]["runout_m"] == pytest.approx(ends["down"]["runout_m"], abs=1e-6)
+    for line in ("runup", "runup_reversed"):
+        words = ["--dem", folder / "valley.tif", "--release", folder / "release.gpkg", "--thickness", 10]
+        made = thawslide("section", tmp_path / f"section-{line}", *words, "--line", folder / f"line-{line}.gpkg")
+        assert made.returncode == 0, made.stderr
+    comments = [
+        (tmp_path / f"section-{line}" / "profile.csv").read_text().splitlines() for line in ("runup", "runup_reversed")
+    ]
+    assert comments[0][1:] == comments[1][1:], "the same section, from x = 500030 on"
