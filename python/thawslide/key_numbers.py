@@ -64,15 +64,7 @@ def key_numbers(run: Run) -> list[KeyNumber]:
             rows.append(
                 KeyNumber("Peak mean velocity", shown(float(speed[at]), "m/s"), f"at {shown(float(time[at]), 's')}")
             )
-            stopped = stop_time(run)
-            if stopped is not None:
-                rows.append(
-                    KeyNumber("Stop time", shown(stopped, "s"), "mean velocity below 1 % of its peak from here on")
-                )
-            else:
-                rows.append(
-                    KeyNumber("Stop time", "not reached", f"mean velocity at the end: {shown(float(speed[-1]), 'm/s')}")
-                )
+            rows.append(_stop_number(run))
     rows += _front_numbers(run)
     if "mean_displacement_m" in history:
         rows.append(
@@ -83,6 +75,7 @@ def key_numbers(run: Run) -> list[KeyNumber]:
         share = float(history["entrained_mass_kg"][-1] / history["mass_kg"][0])
         volume = shown(float(history["entrained_volume_m3"][-1]), f"m³{per}")
         rows.append(KeyNumber("Bed taken up", volume, f"{shown(share)} of the slide's mass at the start"))
+    rows += _volume_numbers(run)
     rows += _map_numbers(run)
     rows += _band_numbers(run)
     if "seismic_force_x_N" in history:
@@ -107,7 +100,10 @@ def found_for(run: Run, target: Target) -> str:
         if time < first or time > last:
             return f"not compared: the run is of {first:g} to {last:g} s"
     value = _found(run, target)
-    return _why_not(run, target) if value is None else shown(target.in_its_unit(value), target.unit_words)
+    if value is None:
+        return _why_not(run, target)
+    when = f" at {run.last_state}" if quantity_of(target.quantity).fact and run.moves_at_end else ""
+    return shown(target.in_its_unit(value), target.unit_words) + when
 
 
 def _why_not(run: Run, target: Target) -> str:
@@ -166,6 +162,33 @@ def boiling_note(run: Run) -> str:
     )
 
 
+def _stop_number(run: Run) -> KeyNumber:
+    """Return since when the slide is at rest; of a run whose run.json does not say, when its mean velocity fell."""
+    last = shown(float(run.history["mean_velocity_m_s"][-1]), "m/s")
+    since = run.facts.get("rest_since_s")
+    if since is not None:
+        return KeyNumber("Stop time", shown(float(since), "s"), "at rest from here on")
+    stopped = None if run.moves_at_end else stop_time(run)
+    if stopped is None:
+        return KeyNumber("Stop time", "not reached", f"mean velocity at {run.last_state}: {last}")
+    return KeyNumber("Stop time", shown(stopped, "s"), "mean velocity below 1 % of its peak from here on")
+
+
+def _volume_numbers(run: Run) -> list[KeyNumber]:
+    """Return how the volume has changed by dilation, and what has left."""
+    rows, history, per = [], run.history, "/m of width" if run.per_metre else ""
+    if "dilation_volume_m3" in history:
+        change = f"{float(history['dilation_share'][-1]):+.1%}".replace("-", "−").replace("%", " %")
+        volume = shown(float(history["dilation_volume_m3"][-1]), f"m³{per}")
+        rows.append(KeyNumber("Volume change by dilation", change, f"{volume}; without the bed taken up"))
+    if "left_mass_kg" in history and history["left_mass_kg"][-1] > 0.0:
+        mass = float(history["left_mass_kg"][-1])
+        share = mass / (mass + float(history["mass_kg"][-1]))
+        remark = f"{100.0 * share:.3g} % of the mass: left the domain or the terrain model, or removed by guards"
+        rows.append(KeyNumber("Mass removed", shown(mass / 1e3, f"t{per}"), remark))
+    return rows
+
+
 def _metres(value: float) -> str:
     return f"{value:,.0f} m".replace("-", "−") if abs(value) >= 1000.0 else shown(float(value), "m")
 
@@ -176,10 +199,10 @@ def _front_numbers(run: Run) -> list[KeyNumber]:
     runout = run.history.get("runout_m")
     if runout is not None:
         own = f", {_metres(runout[0])} of it before anything moves" if np.isfinite(runout[0]) else ""
-        rows.append(_along_path("Runout", runout[-1], f"front at the end less rear at the start{own}"))
+        rows.append(_along_path("Runout", runout[-1], f"front at {run.last_state} less rear at the start{own}"))
         first = int(np.argmax(np.isfinite(runout)))  # 0 where none is
         since = "the start" if first == 0 else f"{shown(float(run.history['time_s'][first]), 's')}, the first known"
-        remark = f"front at the end less front at {since}"
+        remark = f"front at {run.last_state} less front at {since}"
         rows.append(_along_path("Way of the front", runout[-1] - runout[first], remark))
     return rows
 
@@ -209,9 +232,11 @@ def _force_numbers(run: Run) -> list[KeyNumber]:
 def _map_numbers(run: Run) -> list[KeyNumber]:
     """Return what run.json says of a slide on a DEM."""
     rows = []
+    what, when = ("Deposit", "") if run.facts.get("at_rest") else ("Slide", f" at {run.last_state}")
     for words, key, text, remark in (
-        ("Deposit volume", "deposit_volume_m3", volume_text, "at the end, where thicker than maps.arrival_thickness"),
-        ("Deposit area", "deposit_area_m2", area_text, "of the same, horizontal"),
+        (f"{what} volume{when}", "covered_volume_m3", volume_text, "where thicker than maps.arrival_thickness"),
+        (f"{what} area{when}", "covered_area_m2", area_text, "of the same, horizontal"),
+        ("Affected area", "affected_area_m2", area_text, "ever thicker than maps.arrival_thickness, horizontal"),
         ("Travel distance", "travel_distance_m", _metres, "along the path, from the release's rear end to the front"),
         ("Drop height", "drop_height_m", _metres, "of the ground at the front below the highest point of the release"),
         ("Angle of reach", "angle_of_reach_degrees", lambda value: f"{value:.1f}°", "drop height over travel distance"),

@@ -93,7 +93,18 @@ def figures_of(run: Run) -> list[str]:
 def _page(run: Run, report: Report) -> str:
     title = html.escape(run.title)
     damage = f"Could not be drawn: {', '.join(report.faults)}. Why stands under Left out." if report.faults else ""
-    notes = [note for note in (ending_note(run), damage, boiling_note(run), *resume_notes(run), *run.warnings) if note]
+    notes = [
+        note
+        for note in (
+            ending_note(run),
+            damage,
+            *result_warnings(run),
+            boiling_note(run),
+            *resume_notes(run),
+            *run.warnings,
+        )
+        if note
+    ]
     parts = [
         f"<h1>{title}</h1>",
         f'<p class="where">Run folder: {html.escape(run.folder.resolve().name)}</p>',
@@ -183,6 +194,11 @@ def ending_note(run: Run) -> str:
     words = "was still running when this was written" if run.ending is Ending.RUNNING else run.ending.value
     note = f"This run did not come to its end ({words}){message}. The figures show what it has written."
     return f"{note} {go_on}" if run.ending is Ending.STOPPED else note
+
+
+def result_warnings(run: Run) -> list[str]:
+    """Return what run.json warns of in the results, such as a slide that is not at rest."""
+    return [f"Warning: {warning[:1000]}" for warning in run.facts.get("warnings", [])[:20]]
 
 
 def resume_notes(run: Run) -> list[str]:

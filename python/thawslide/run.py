@@ -156,16 +156,25 @@ class Run:
         return float(self.history["time_s"][-1] if told is None or of_its_start else told)
 
     @property
+    def moves_at_end(self) -> bool:
+        """Whether the slide was not at rest at the end of the run, as run.json has it."""
+        return self.facts.get("at_rest") is False
+
+    def titled(self, words: str) -> str:
+        """Return the title of a figure of the whole run, which names the time if the slide is not at rest."""
+        return f"{self.title}: {words}" + (f", up to {self.last_state}" if self.ended and self.moves_at_end else "")
+
+    @property
     def last_state(self) -> str:
-        """When the last state of the run is, and how the run ended if not by itself, as "19.5 s (stopped)"."""
-        how = "" if self.ended else f" ({_HOW[self.ending][0]})"
-        return f"{self.last_time:.4g} s{how}"
+        """When the last state of the run is, and what keeps it from being a deposit, as "19.5 s (stopped)"."""
+        how = _HOW[self.ending][0] if not self.ended else "not at rest" if self.moves_at_end else ""
+        return f"{self.last_time:.4g} s{f' ({how})' if how else ''}"
 
     @property
     def end_note(self) -> str:
-        """A sentence for figures of a run that did not come to its end, "" for one that did."""
+        """A sentence for figures of a run that did not come to its end, or not to rest; "" for others."""
         if self.ended:
-            return ""
+            return f"The slide is not at rest at {self.last_time:.4g} s. " if self.moves_at_end else ""
         wanted = self.section("time").get("end")
         return f"The run {_HOW[self.ending][1]} at {self.last_time:.4g} s" + (f" of {wanted:g} s. " if wanted else ". ")
 

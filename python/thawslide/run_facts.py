@@ -18,8 +18,14 @@ LOCK = "run.lock"  # held with flock by the process that runs, for as long as it
 STATUSES = ("running", "done", "stopped", "failed")
 NUMBERS = (
     "simulated_time_s",
-    "deposit_volume_m3",
-    "deposit_area_m2",
+    "rest_since_s",
+    "mean_velocity_m_s",
+    "dilation_volume_m3",
+    "dilation_share",
+    "left_mass_kg",
+    "covered_volume_m3",
+    "covered_area_m2",
+    "affected_area_m2",
     "travel_distance_m",
     "drop_height_m",
     "angle_of_reach_degrees",
@@ -49,6 +55,11 @@ def read_facts(path: Path) -> dict[str, Any]:
         value = facts.get(name)
         if value is not None and not is_number(value):
             raise ReportError(f"{path}: {name} must be a number, found {str(value)[:60]}")
+    if not isinstance(facts.get("at_rest"), bool | None):
+        raise ReportError(f"{path}: at_rest must be true, false or null, found {str(facts['at_rest'])[:60]}")
+    warnings = facts.get("warnings", [])
+    if not isinstance(warnings, list) or not all(isinstance(each, str) for each in warnings):
+        raise ReportError(f"{path}: warnings must be a list of texts, found {str(warnings)[:60]}")
     return facts
 
 

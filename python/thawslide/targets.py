@@ -69,8 +69,8 @@ QUANTITIES: Mapping[str, Quantity] = {
     FORCE: Quantity(_FORCE),
     SOURCE_VOLUME: Quantity(_VOLUME),
     "source_mean_thickness": Quantity(_LENGTH, is_compared=False),  # of which area, reports rarely say
-    "deposit_volume": Quantity(_VOLUME, fact="deposit_volume_m3"),
-    "deposit_area": Quantity(_AREA, fact="deposit_area_m2"),
+    "deposit_volume": Quantity(_VOLUME, fact="covered_volume_m3"),
+    "deposit_area": Quantity(_AREA, fact="covered_area_m2"),
     "travel_distance": Quantity(_LENGTH, fact="travel_distance_m"),
     "drop_height": Quantity(_LENGTH, low=float("-inf"), fact="drop_height_m"),
     "angle_of_reach": Quantity(_ANGLE, low=-90.0, high=90.0, fact="angle_of_reach_degrees"),

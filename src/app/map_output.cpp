@@ -43,19 +43,10 @@ void write_style(const fs::path& folder, const std::string& name, const Raster& 
   gis::write_raster_style((folder / "maps" / (name + ".qml")).string(), stops, unit, nothing_below);
 }
 
-// The cells where the slide was ever thicker than it takes to have arrived.
+// Where the slide ever was.
 gis::Polygons affected_area(const sim::FlowMaps& maps) {
-  const auto& kinds = sim::map_kinds();
-  const auto largest = std::find_if(kinds.begin(), kinds.end(),
-                                    [](const sim::MapKind& kind) { return std::string(kind.name) == "max_thickness"; });
-  Raster mask = maps.raster(*largest, sim::MapExtent::slide);
-  if (mask.empty()) {
-    return {};
-  }
-  for (double& value : mask.values) {
-    value = value > maps.arrival_thickness() ? 1.0 : 0.0;
-  }
-  return gis::areas_of_mask(mask);
+  const Raster mask = maps.affected_cells().mask();
+  return mask.empty() ? gis::Polygons{} : gis::areas_of_mask(mask);
 }
 
 // Width: of lines, or the size of points [mm].
@@ -74,12 +65,13 @@ gis::MapLayer front_layer(const std::vector<FrontAt>& fronts) {
   return {"front", places, {{"time_s", times}}, style(gis::LayerKind::points, blue, 2.0, "time_s")};
 }
 
-void write_layers(const fs::path& folder, const sim::RunRecords<3>& records, const std::vector<FrontAt>& fronts) {
+void write_layers(const fs::path& folder, const sim::RunRecords<3>& records, const std::vector<FrontAt>& fronts,
+                  const std::string& when) {
   const gis::Polygons area = affected_area(*records.maps());
   std::vector<gis::MapLayer> layers;
   layers.push_back({"affected_area",
                     std::vector<gis::Polygons>{area},
-                    {{"area_m2", std::vector{gis::area_of(area)}}},
+                    {{"area_m2", std::vector{gis::area_of(area)}}, {"state", std::vector<std::string>{when}}},
                     style(gis::LayerKind::polygons, dark_red, 0.5, "")});
   if (!records.path().empty()) {
     const std::string kind = records.path_given() ? "given" : "way of the centre of mass";
@@ -117,13 +109,15 @@ void write_ground_maps(const fs::path& folder, const config::Site& site) {
   write_style(folder, "release", release, "m", 0.0);
 }
 
-void write_maps(const fs::path& folder, const sim::RunRecords<3>& records, const std::vector<FrontAt>& fronts) {
+void write_maps(const fs::path& folder, const sim::RunRecords<3>& records, const std::vector<FrontAt>& fronts,
+                const std::string& when) {
   for (const sim::MapKind& kind : sim::map_kinds()) {
     const Raster map = records.maps()->raster(kind, sim::MapExtent::whole_grid);
-    write_map(folder, kind.name, map, {kind.unit, kind.description});
+    const std::string title = kind.of_last_state ? fmt::format("{}: {}", when, kind.description) : kind.description;
+    write_map(folder, kind.name, map, {kind.unit, title});
     write_style(folder, kind.name, map, kind.unit, -HUGE_VAL);
   }
-  write_layers(folder, records, fronts);
+  write_layers(folder, records, fronts, when);
 }
 
 }  // namespace thawslide::app
@@ -141,7 +135,7 @@ void write_ground_maps(const std::filesystem::path& /*folder*/, const config::Si
 }
 
 void write_maps(const std::filesystem::path& folder, const sim::RunRecords<3>& /*records*/,
-                const std::vector<FrontAt>& /*fronts*/) {
+                const std::vector<FrontAt>& /*fronts*/, const std::string& /*when*/) {
   THAWSLIDE_ASSERT(false, "no maps can be written to {} without GDAL", folder.string());
 }
 

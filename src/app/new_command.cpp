@@ -234,6 +234,9 @@ int make_new_case(const NewOptions& options) {
       !note.empty()) {
     fmt::print("note: {}\n", note);
   }
+  if (const std::string warning = config::edge_warning(proposal); !warning.empty()) {
+    fmt::print("warning: {}\n", warning);
+  }
   if (proposal.particles > many_particles) {
     fmt::print("note: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
   }

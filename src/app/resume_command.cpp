@@ -172,7 +172,7 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
     say("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
     return false;
   }
-  if (simulation.is_at_rest()) {
+  if (simulation.ends_at_rest()) {
     if (changes.empty() || is_end_alone) {
       say("{} has come to rest at {:g} s; nothing to do. It goes on with --set time.stop_at_rest=0\n", folder.string(),
           simulation.time());

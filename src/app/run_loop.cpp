@@ -157,7 +157,7 @@ class Loop {
   }
   [[nodiscard]] std::int64_t steps() const { return simulation_.step_number() - first_step_; }
   [[nodiscard]] bool goes_on() const {
-    return simulation_.time() < times_.end - 0.5 * simulation_.last_step() && !simulation_.is_at_rest() &&
+    return simulation_.time() < times_.end - 0.5 * simulation_.last_step() && !simulation_.ends_at_rest() &&
            caught_signal() == 0;
   }
 
@@ -177,7 +177,7 @@ class Loop {
   // At rest the run ends: its last row and snapshot stand before a checkpoint tells that it is.
   void write_what_is_due() {
     const double time = simulation_.time(), dt = simulation_.last_step();
-    const bool rests = simulation_.is_at_rest();
+    const bool rests = simulation_.ends_at_rest();
     if (rests || times_.history_interval <= 0.0 || history_.reached(time, dt)) {
       output_.write_history(simulation_);
     }
@@ -235,7 +235,7 @@ class Loop {
   }
 
   int end_in_time() {
-    const std::string rest = simulation_.is_at_rest() ? simulation_.rest_text() : "";
+    const std::string rest = simulation_.ends_at_rest() ? simulation_.rest_text() : "";
     output_.write_checkpoint(simulation_);
     close("done", rest);
     if (!rest.empty()) {

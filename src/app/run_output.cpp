@@ -258,6 +258,7 @@ void RunOutput<Dim>::after_step(const Simulation& simulation) {
 
 template <int Dim>
 void RunOutput<Dim>::slide_left() {
+  slide_left_ = true;
   records_.slide_left();
 }
 
@@ -272,11 +273,12 @@ double RunOutput<Dim>::front_position(const Simulation& simulation) const {
 }
 
 template <int Dim>
-void RunOutput<Dim>::write_maps(const Simulation& /*simulation*/) {
+void RunOutput<Dim>::write_maps(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     if (can_write_maps()) {
       own_.require();
-      stopwatch_.time("write_maps", [&] { app::write_maps(folder_, records_, fronts_); });
+      const std::string when = sim::when_text(sim::end_state(simulation, slide_left_));
+      stopwatch_.time("write_maps", [&] { app::write_maps(folder_, records_, fronts_, when); });
     }
   }
 }
@@ -293,8 +295,13 @@ void RunOutput<Dim>::add_figures(const Simulation& simulation) {
     return simulation.model().ground ? simulation.model().ground->height(place) + simulation.model().origin[Dim - 1]
                                      : std::nan("");
   };
+  end_state_ = sim::end_state(simulation, slide_left_);
+  provenance_.at_rest = end_state_.is_known ? std::optional(end_state_.at_rest) : std::nullopt;
+  provenance_.warnings = sim::warnings_of(end_state_, provenance_.status == "done");
+  provenance_.figures = sim::named(end_state_);
   if (const auto figures = records_.figures(simulation, height)) {
-    provenance_.figures = sim::named(*figures);
+    const auto of_maps = sim::named(*figures);
+    provenance_.figures.insert(provenance_.figures.end(), of_maps.begin(), of_maps.end());
   }
 }
 

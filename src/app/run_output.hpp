@@ -14,6 +14,7 @@
 #include "io/provenance.hpp"
 #include "io/run_lock.hpp"
 #include "io/snapshot_series.hpp"
+#include "sim/end_state.hpp"
 #include "sim/run_records.hpp"
 #include "sim/simulation.hpp"
 
@@ -67,6 +68,9 @@ class RunOutput {
   void after_step(const Simulation& simulation);
   // In place of it, after a step that none of the slide stayed on (SlideLeft).
   void slide_left();
+  // As run.json has it; of the last call of write_provenance.
+  [[nodiscard]] const sim::EndState& end_state() const { return end_state_; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return provenance_.warnings; }
   // Throws WriteError where the run's folder is not the one any more that it began in.
   void require_own_folder() const { own_.require(); }
   // One row of history.csv, and of probes.csv where there are probes.
@@ -112,6 +116,8 @@ class RunOutput {
   std::vector<FrontAt> fronts_;              // at the moments of snapshots
   std::optional<io::HistoryWriter> probes_;  // none without probes
   io::Provenance provenance_;
+  sim::EndState end_state_;
+  bool slide_left_ = false;
   std::string case_text_;  // resolved, as case.toml has it
   Stopwatch stopwatch_;
   std::chrono::steady_clock::time_point clock_start_;

@@ -40,7 +40,7 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutp
   const auto value = [&](const std::string& name) {
     return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
   };
-  say("at {:g} s: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", simulation.time(),
+  say("{}: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", sim::when_text(output.end_state()),
       value("mean_velocity_m_s"), value("mean_displacement_m"),
       front_text(value("front_position_m"), value("runout_m")));
   for (const auto& [name, number] : output.figures()) {
@@ -50,6 +50,9 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutp
   }
   if (simulation.removed().by_guards() > 0) {
     say("guards have removed {}\n", sim::text_of(simulation.removed()));
+  }
+  for (const std::string& warning : output.warnings()) {
+    say("warning: {}\n", warning);
   }
   say("results in {}\n", folder.string());
 }

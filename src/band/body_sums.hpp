@@ -18,6 +18,7 @@ struct BodySums {
   Real rock = 0, ice = 0, water = 0;                          // [kg]
   Real seeped = 0;                                            // water that seepage brought, less what it took [kg]
   Real gas = 0;                                               // void in the pores of the band's own matter [m3]
+  Real initial_volume = 0, volume_change = 0;                 // at t = 0 or when it joined; since then [m3]
   Real largest_speed2 = 0;                                    // squared [m2/s2]
   // Weighted by mass: the length of particles' ways [kg m] and their plastic strain [kg].
   Real displacement = 0, plastic_strain = 0;
@@ -35,6 +36,8 @@ struct BodySums {
     water += part.water;
     seeped += part.seeped;
     gas += part.gas;
+    initial_volume += part.initial_volume;
+    volume_change += part.volume_change;
     for (int a = 0; a < Dim; ++a) {
       momentum[a] += part.momentum[a];
     }
@@ -80,6 +83,8 @@ struct SumsOfParticle {
     }
     sums.seeped = particles.seeped_water.is_kept() ? particles.seeped_water(p) : Real(0);
     sums.gas = void_in_pores(particles, p);
+    sums.initial_volume = particles.initial_volume(p);
+    sums.volume_change = particles.volume(p) - particles.initial_volume(p);
     if (particles.in_band(p) != 0) {
       sums.band_mass = mass;
       sums.band_temperature = mass * particles.temperature(p);

@@ -108,6 +108,23 @@ ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
   return extent;
 }
 
+// Distance from the bounding box of the release to the nearest edge of the DEM or point without data [m]. Points are
+// looked at no farther away than `most` [m], which is returned where none is nearer.
+double distance_to_edge(const Raster& dem, const ReleaseExtent& release, double most) {
+  double nearest = std::min(
+      {most, release.west - dem.x, dem.x_end() - release.east, release.south - dem.y, dem.y_end() - release.north});
+  for (int row = 0; row < dem.rows; ++row) {
+    const double y = std::max({release.south - dem.y_of(row), dem.y_of(row) - release.north, 0.0});
+    for (int column = 0; column < dem.columns && y < nearest; ++column) {
+      if (std::isnan(dem.at(column, row))) {
+        const double x = std::max({release.west - dem.x_of(column), dem.x_of(column) - release.east, 0.0});
+        nearest = std::min(nearest, std::hypot(x, y));
+      }
+    }
+  }
+  return nearest;
+}
+
 // Without the round-off of a product, which nobody wants to read in a file.
 double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
 
@@ -161,12 +178,24 @@ std::string resolution_note(const std::string& body, double thickness, double ce
       fitting_cell(thickness * particles_per_axis / particles_across, cell, lengths), particles_across);
 }
 
+std::string edge_warning(const Proposal& proposal) {
+  if (proposal.edge_distance >= proposal.length) {
+    return "";
+  }
+  return fmt::format(
+      "--dem: the release is close to the edge of the known terrain (found {:.3g} m; needed its own length, {:.3g} m, "
+      "or more). Particles that pass the edge are removed, and the results lack them. Use a larger terrain model",
+      proposal.edge_distance, proposal.length);
+}
+
 Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell) {
   const ReleaseExtent release = extent_of(dem, thickness);
   Proposal proposal;
   proposal.volume = release.volume;
   proposal.thickness = release.thickness;
   proposal.median_thickness = release.median_thickness;
+  proposal.length = std::max(release.east - release.west, release.north - release.south);
+  proposal.edge_distance = distance_to_edge(dem, release, proposal.length);
   propose_cell(proposal, 3, cell);
 
   Stretch x{release.west, release.east}, y{release.south, release.north};
@@ -255,7 +284,7 @@ dimension = 3  # x is east, y is north, z is up
 cell = {cell}  # m; {across}
 min = {min}
 max = {max}
-leaving = "stop"  # what reaches the edge of the domain or of the DEM ends the run; "remove" counts and removes it
+leaving = "remove"  # what leaves the domain or the DEM is removed, and its mass reported; "stop": it ends the run
 
 [terrain]
 type = "dem"

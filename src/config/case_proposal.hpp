@@ -33,6 +33,8 @@ struct Proposal {
   double thickness = 0.0;         // [m], that the cell follows from: half of the volume is where the release is thinner
   double median_thickness = 0.0;  // [m]: half of the area is where the release is thinner; 0 in 2D
   double volume = 0.0;            // [m3], per metre of width in 2D
+  double length = 0.0;            // longer side of the release's bounding box [m]; 0 in 2D
+  double edge_distance = 0.0;     // from the release to the edge of the known terrain, at most its length [m]
   double particles = 0.0;         // about as many
 };
 
@@ -64,6 +66,10 @@ void propose_times(Proposal& proposal, double farthest);
 // any does, as the domain follows from it.
 [[nodiscard]] std::string resolution_note(const std::string& body, double thickness, double cell,
                                           int particles_per_axis, const std::vector<double>& lengths = {});
+
+// A warning for a release that is nearer to the edge of the DEM, or to points without data, than its own length: an
+// avalanche spreads and travels by more than that. Empty where it is not.
+[[nodiscard]] std::string edge_warning(const Proposal& proposal);
 
 // How many particles the cell puts across the thickness, for the comment at grid.cell.
 [[nodiscard]] std::string cell_comment(const Proposal& proposal);

@@ -62,7 +62,7 @@ dimension = 2  # x is the distance along the line, y is up; masses, forces and e
 cell = {cell}  # m; {across}
 min = [{min_x}, {min_y}]
 max = [{max_x}, {max_y}]
-leaving = "stop"  # what reaches the edge of the domain ends the run; "remove" counts and removes it
+leaving = "remove"  # what leaves the domain is removed, and its mass reported; "stop": it ends the run
 
 [terrain]
 type = "profile"

@@ -146,6 +146,8 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["message"] = p.message;
   json["simulated_time_s"] = p.simulated_time;
   json["steps"] = p.steps;
+  json["at_rest"] = p.at_rest ? Json(*p.at_rest) : Json();
+  json["warnings"] = p.warnings;
   json["particles"] = p.particles;
   for (const auto& [cause, count] : p.removed) {
     json["removed_particles"][cause] = count;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,7 +43,9 @@ struct Provenance {
   double simulated_time = 0.0;
   std::int64_t steps = 0;
   Stopwatch::Seconds seconds_per_stage;                 // of the last part
-  std::vector<std::pair<std::string, double>> figures;  // what the run comes to, in 3D; NaN: not known
+  std::optional<bool> at_rest;                          // of the slide; nothing: not known
+  std::vector<std::string> warnings;                    // about the results
+  std::vector<std::pair<std::string, double>> figures;  // results in numbers; NaN: not known
   std::string crs;                                      // name of the reference system; empty: none is known
   double seconds_beside = 0.0;  // processor time that writing snapshots took while steps went on, in the last part
 };

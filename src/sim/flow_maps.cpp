@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -12,6 +13,10 @@ namespace thawslide::sim {
 
 namespace {
 
+const MapKind thickness_at_start{"", "m", "", [](const MapCell& cell) { return cell.thickness_at_start; }};
+const MapKind thickness_now{"", "m", "", [](const MapCell& cell) { return cell.thickness; }};
+const MapKind largest_thickness{"", "m", "", [](const MapCell& cell) { return cell.max_thickness; }};
+
 // The remainder in [0, divisor), also of negative numbers.
 std::uint64_t modulo(int number, int divisor) {
   return static_cast<std::uint64_t>((number % divisor + divisor) % divisor);
@@ -20,7 +25,7 @@ std::uint64_t modulo(int number, int divisor) {
 }  // namespace
 
 FlowMaps::FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const std::vector<double>& half_sizes,
-                   double arrival_thickness)
+                   double arrival_thickness, DrawnArea drawn)
     : map_grid_(map_grid),
       cells_{map_grid.x - 0.5 * map_grid.cell_x - origin[0],
              map_grid.y - 0.5 * map_grid.cell_y - origin[1],
@@ -31,7 +36,8 @@ FlowMaps::FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const 
              map_grid.columns,
              map_grid.rows,
              0.0},
-      arrival_thickness_(arrival_thickness) {
+      arrival_thickness_(arrival_thickness),
+      drawn_(std::move(drawn)) {
   for (const double half : half_sizes) {
     sizes_.add(half);
     cells_.largest_half = std::max(cells_.largest_half, half);
@@ -325,16 +331,24 @@ Raster FlowMaps::raster(const MapKind& kind, MapExtent extent) const {
   return raster;
 }
 
-Deposit FlowMaps::deposit() const {
-  Deposit deposit;
+double FlowMaps::covered_volume() const {
+  double volume = 0.0;
   for_cells([&](int /*column*/, int /*row*/, const MapCell& cell) {
-    if (cell.thickness > arrival_thickness_) {
-      deposit.volume += cell.thickness * map_grid_.cell_area();
-      deposit.area += map_grid_.cell_area();
-    }
+    volume += cell.thickness > arrival_thickness_ ? cell.thickness * map_grid_.cell_area() : 0.0;
   });
-  return deposit;
+  return volume;
 }
+
+CoveredCells FlowMaps::cells_under(const MapKind& thickness) const {
+  const Raster at_start = raster(thickness_at_start, MapExtent::slide);
+  const auto column = static_cast<int>(std::lround((at_start.x - map_grid_.x) / map_grid_.cell_x));
+  const auto row = static_cast<int>(std::lround((at_start.y - map_grid_.y) / map_grid_.cell_y));
+  return sim::covered_cells(raster(thickness, MapExtent::slide), at_start, drawn_, column, row, arrival_thickness_);
+}
+
+CoveredCells FlowMaps::covered_cells() const { return cells_under(thickness_now); }
+
+CoveredCells FlowMaps::affected_cells() const { return cells_under(largest_thickness); }
 
 std::vector<double> FlowMaps::state() const {
   std::vector<double> numbers{static_cast<double>(map_grid_.columns), static_cast<double>(map_grid_.rows)};

@@ -12,6 +12,7 @@
 #include "mpm/body_sizes.hpp"
 #include "mpm/map_sums.hpp"
 #include "mpm/sparse_grid.hpp"
+#include "sim/covered_area.hpp"
 #include "sim/map_cell.hpp"
 #include "sim/map_grid.hpp"
 #include "sim/map_kinds.hpp"
@@ -19,12 +20,6 @@
 namespace thawslide::sim {
 
 enum class MapExtent { whole_grid, slide };
-
-// What lies on the ground.
-struct Deposit {
-  double volume = 0.0;  // [m3]
-  double area = 0.0;    // [m2], horizontal
-};
 
 // A piece of base with a band column, in the particles' frame.
 struct PieceBelow {
@@ -43,9 +38,10 @@ class FlowMaps {
   using Particles = mpm::Particles<3, double>;
 
   // origin: of the particles' positions [m]; half_sizes: of particles by body [m]; arrival_thickness: maps' [m].
-  // Particle centres lie over the map grid.
+  // Particle centres lie over the map grid. drawn: the releases; not known: the covered area at the start follows from
+  // the thickness there.
   FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const std::vector<double>& half_sizes,
-           double arrival_thickness);
+           double arrival_thickness, DrawnArea drawn = {});
 
   // Takes the particles as they are at a time [s], with the tiles and the order of the step that brought them there.
   // pieces: of the base, where the band is of columns, which then tell its heat and pressure in place of the particles.
@@ -75,8 +71,11 @@ class FlowMaps {
 
   // One map. Over the slide: the smallest raster with every cell it ever was in, empty if there is none.
   [[nodiscard]] Raster raster(const MapKind& kind, MapExtent extent) const;
-  // Volume and area of all that is thicker than the arrival thickness now.
-  [[nodiscard]] Deposit deposit() const;
+  // Volume of all that is thicker than the arrival thickness now [m3].
+  [[nodiscard]] double covered_volume() const;
+  // The ground that the slide covers now, and that it ever covered, by the arrival thickness (sim/covered_area.hpp).
+  [[nodiscard]] CoveredCells covered_cells() const;
+  [[nodiscard]] CoveredCells affected_cells() const;
 
   // All that gathering goes on from, as numbers; and its way back.
   [[nodiscard]] std::vector<double> state() const;
@@ -120,11 +119,13 @@ class FlowMaps {
   void add_box(const Particles& particles, std::size_t particle, const mpm::CellRange& x, const mpm::CellRange& y,
                const Stack& stack);
   [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;
+  [[nodiscard]] CoveredCells cells_under(const MapKind& thickness) const;
 
   MapGrid map_grid_;
   mpm::MapCells cells_;
   mpm::BodySizes<double> sizes_;  // of particles [m]
   double arrival_thickness_;      // [m]
+  DrawnArea drawn_;
   bool band_is_of_particles_ = true;
   KeyIndex tile_index_;
   std::vector<std::unique_ptr<MapTile>> tiles_;     // in the order in which the slide came

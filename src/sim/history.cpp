@@ -190,6 +190,8 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow
   row.emplace_back("band_friction_coefficient",
                    contact.area > Real(0) ? static_cast<double>(contact.friction_area / contact.area) : std::nan(""));
   row.emplace_back("mean_plastic_strain", mean(sums.plastic_strain));
+  row.emplace_back("dilation_volume_m3", width * static_cast<double>(sums.volume_change));
+  row.emplace_back("dilation_share", static_cast<double>(sums.volume_change / sums.initial_volume));
   const char* axes = Dim == 2 ? "xy" : "xyz";
   // Before the first step no force is known.
   const double known = simulation.step_number() > 0 ? width : std::nan("");

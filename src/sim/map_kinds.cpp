@@ -6,8 +6,7 @@ const std::vector<MapKind>& map_kinds() {
   static const std::vector<MapKind> kinds{
       {"max_thickness", "m", "largest vertical thickness of the slide",
        [](const MapCell& c) { return c.max_thickness; }},
-      {"final_thickness", "m", "vertical thickness of the slide at the end",
-       [](const MapCell& c) { return c.thickness; }},
+      {"final_thickness", "m", "vertical thickness of the slide", [](const MapCell& c) { return c.thickness; }, true},
       {"max_speed", "m/s",
        "largest depth-averaged speed, all three components, while the slide was thicker than maps.arrival_thickness",
        [](const MapCell& c) { return c.max_speed; }},
@@ -20,9 +19,9 @@ const std::vector<MapKind>& map_kinds() {
       {"arrival_time", "s", "when the slide first was thicker than maps.arrival_thickness",
        [](const MapCell& c) { return c.arrival_time; }},
       {"elevation_change", "m",
-       "elevation of the surface at the end less that at the start: final thickness less thickness at the start. Of a "
-       "body cut out of the ground too: what it left is lower by the thickness that was cut",
-       [](const MapCell& c) { return c.thickness - c.thickness_at_start; }},
+       "elevation of the surface less that at the start: thickness less thickness at the start. Of a body cut out of "
+       "the ground too: what it left is lower by the thickness that was cut",
+       [](const MapCell& c) { return c.thickness - c.thickness_at_start; }, true},
       {"max_basal_temperature", "C",
        "largest temperature of the band, averaged by volume of its particles, or by area of its columns",
        [](const MapCell& c) { return c.max_basal_temperature; }},

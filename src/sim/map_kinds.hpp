@@ -13,6 +13,7 @@ struct MapKind {
   const char* unit;
   const char* description;
   double (*value)(const MapCell&);
+  bool of_last_state = false;  // of the moment that it is written at, and not of the whole run
 };
 
 // All maps, in the order in which they are told of. A cell that the slide never was in has no data in any of them.

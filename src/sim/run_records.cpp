@@ -70,7 +70,7 @@ RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& si
     const MapGrid map_grid = map_grid_of(parameters, site);
     const auto& origin = simulation.model().origin;
     maps_.emplace(map_grid, std::array<double, 2>{origin[0], origin[1]}, half_sizes(simulation),
-                  parameters.maps.arrival_thickness);
+                  parameters.maps.arrival_thickness, DrawnArea(site.releases, map_grid));
     probes_ = Probes(parameters, site.probes, map_grid);
     if (path_given_ && given_.empty()) {
       throw UserError(fmt::format("{}: the path has no length; allowed: a line of at least two different points.",
@@ -184,8 +184,13 @@ std::optional<RunFigures> RunRecords<Dim>::figures(
   if (!maps_) {
     return {};
   }
-  const Deposit deposit = maps_->deposit();
-  RunFigures figures{deposit.volume, deposit.area, unknown, unknown, unknown, unknown};
+  RunFigures figures{maps_->covered_volume(),
+                     maps_->covered_cells().area(),
+                     maps_->affected_cells().area(),
+                     unknown,
+                     unknown,
+                     unknown,
+                     unknown};
   if (const std::optional<Front> foremost = front(simulation)) {
     figures.front_distance = foremost->along;
     figures.travel_distance = foremost->along - rear_of_release();

@@ -78,8 +78,14 @@ class Simulation {
   // for an adaptive step too short to go on with (guards.smallest_step, guards.most_steps).
   [[nodiscard]] double next_step(double until) const;
 
-  // Whether the slide has come to rest, as time.stop_at_rest has it; and since when, in words.
+  // Whether the slide is at rest: for time.rest_time no more than the stray share has been faster than
+  // time.stop_at_rest or, where that is not given, the usual speed (sim/watch.hpp). The rule in words; and since when
+  // it holds [s].
   [[nodiscard]] bool is_at_rest() const;
+  [[nodiscard]] std::string rest_rule() const;
+  [[nodiscard]] double rest_since() const { return watch_.rest_since; }
+  // Whether the run ends for it: the case asks for that, and the slide has moved before. Since when, in words.
+  [[nodiscard]] bool ends_at_rest() const;
   [[nodiscard]] std::string rest_text() const;
   // What has come to rest is to rest for time.rest_time once more.
   void wait_for_rest_anew();

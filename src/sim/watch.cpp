@@ -25,6 +25,11 @@ constexpr double noticed_fall = 1.0;
 // again on the ground, is none: the level that energy rises from follows it by this share each time it is looked at.
 constexpr double forgotten_share = 0.02;
 
+// The speed below which the slide rests [m/s]: time.stop_at_rest, if the case has one.
+double rest_speed(const config::Time& times) {
+  return times.stop_at_rest > 0.0 ? times.stop_at_rest : usual_rest_speed;
+}
+
 // Watch::has_moved of a run that was not asked to stop at rest.
 constexpr double not_looked_at = -1.0;
 
@@ -63,7 +68,7 @@ template <int Dim, class Real>
 mpm::WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const {
   // A way of more than this in a step is fast. The velocity of a particle has parts beside that the grid does not see,
   // and which move nothing (FLIP).
-  const Real fast_way = static_cast<Real>(parameters_.time.stop_at_rest) * dt_;
+  const Real fast_way = static_cast<Real>(rest_speed(parameters_.time)) * dt_;
   const mpm::LookAtParticle<Dim, Real> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_way,
                                             static_cast<Real>(parameters_.guards.smallest_volume),
                                             static_cast<Real>(parameters_.guards.largest_volume)};
@@ -120,16 +125,17 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::WatchedSums<Real>& s
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>& seen) {
+  const bool moves = seen.fast_mass > static_cast<Real>(stray_share) * seen.mass;
   if (parameters_.time.stop_at_rest <= 0.0) {
     watch_.has_moved = not_looked_at;
-    return;
-  }
-  if (watch_.has_moved == not_looked_at) {
+  } else if (watch_.has_moved == not_looked_at) {
+    // Rest was judged by another speed so far.
+    watch_.rest_since = -1.0;
     watch_.has_moved =
         has_gone_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
   }
-  if (seen.fast_mass > static_cast<Real>(stray_share) * seen.mass) {
-    watch_.has_moved = 1.0;
+  if (moves) {
+    watch_.has_moved = parameters_.time.stop_at_rest > 0.0 ? 1.0 : not_looked_at;
     watch_.rest_since = -1.0;
   } else if (watch_.rest_since < 0.0) {
     watch_.rest_since = time_;
@@ -138,9 +144,18 @@ void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>& seen) {
 
 template <int Dim, class Real>
 bool Simulation<Dim, Real>::is_at_rest() const {
-  const config::Time& times = parameters_.time;
-  return times.stop_at_rest > 0.0 && watch_.has_moved > 0.0 && watch_.rest_since >= 0.0 &&
-         time_ - watch_.rest_since >= times.rest_time * (1.0 - 1e-9);
+  return watch_.rest_since >= 0.0 && time_ - watch_.rest_since >= parameters_.time.rest_time * (1.0 - 1e-9);
+}
+
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::ends_at_rest() const {
+  return parameters_.time.stop_at_rest > 0.0 && watch_.has_moved > 0.0 && is_at_rest();
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::rest_rule() const {
+  return fmt::format("for {:g} s no more than {:g} % of the mass faster than {:g} m/s", parameters_.time.rest_time,
+                     100.0 * stray_share, rest_speed(parameters_.time));
 }
 
 template <int Dim, class Real>
@@ -174,6 +189,8 @@ std::string Simulation<Dim, Real>::rest_text() const {
   template void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::WatchedSums<Real>&); \
   template void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>&);            \
   template bool Simulation<Dim, Real>::is_at_rest() const;                                  \
+  template bool Simulation<Dim, Real>::ends_at_rest() const;                                \
+  template std::string Simulation<Dim, Real>::rest_rule() const;                            \
   template std::string Simulation<Dim, Real>::energy_note() const;                          \
   template void Simulation<Dim, Real>::wait_for_rest_anew();                                \
   template std::string Simulation<Dim, Real>::rest_text() const;

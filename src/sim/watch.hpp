@@ -17,6 +17,10 @@ inline constexpr std::int64_t watch_interval = 10;
 // particle keeps no deposit from being one.
 inline constexpr double stray_share = 0.005;
 
+// The speed that a slide may move at and is at rest where time.stop_at_rest gives none [m/s]: it moves by less than a
+// cell in time.rest_time then.
+inline constexpr double usual_rest_speed = 0.05;
+
 // How a run tells that it has ended at rest.
 inline constexpr const char* at_rest = "the slide is at rest";
 

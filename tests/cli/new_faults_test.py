@@ -283,7 +283,7 @@ def test_a_slide_that_leaves_the_known_ground_stops_there(
     assert made(thawslide, folder, slope(hole=hole), release, "--thickness", THICKNESS).returncode == 0
     case = folder / "case.toml"
     case.write_text(case.read_text().replace("temperature = ", "velocity = [80.0, 0.0, 0.0]\ntemperature = ", 1))
-    words = ["--set", "basal.friction_angle=1", "--set", "basal.friction=constant"]
+    words = sets(basal__friction_angle=1, basal__friction="constant", grid__leaving="stop")
     done = thawslide("run", folder, "--output", run, *words)
     assert done.returncode == 3, done.stderr
     told = re.fullmatch(NO_GROUND, done.stderr)
@@ -309,7 +309,7 @@ def test_a_slide_that_leaves_a_steep_dem_is_told_where_to_and_how_far(
     assert made(thawslide, folder, dem, release, "--thickness", THICKNESS).returncode == 0
     case = folder / "case.toml"
     case.write_text(case.read_text().replace("temperature = ", "velocity = [48.0, 0.0, -36.0]\ntemperature = ", 1))
-    words = sets(basal__friction_angle=5, basal__friction="constant")
+    words = sets(basal__friction_angle=5, basal__friction="constant", grid__leaving="stop")
     done = thawslide("run", folder, "--output", tmp_path / "run", *words)
     assert done.returncode == 3, done.stderr
     told = re.fullmatch(LEFT_DOMAIN + DEM_ENDS, done.stderr)
@@ -330,7 +330,7 @@ def test_a_domain_that_ends_before_its_dem_is_to_be_widened(
     grid["max"][0] = grid["min"][0] + math.ceil((WEST + 330.0 - grid["min"][0]) / grid["cell"]) * grid["cell"]
     with rasterio.open(folder / "dem.tif") as file:
         end = file.bounds.right - 0.5 * CELL
-    words = sets(basal__friction_angle=5, basal__friction="constant", grid__max=grid["max"])
+    words = sets(basal__friction_angle=5, basal__friction="constant", grid__max=grid["max"], grid__leaving="stop")
     done = thawslide("run", folder, "--output", tmp_path / "run", *words)
     assert done.returncode == 3, done.stderr
     told = re.fullmatch(LEFT_DOMAIN + r"The DEM ends (\d+) m ahead of it: widen \[grid\] that way\.\n", done.stderr)

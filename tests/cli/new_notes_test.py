@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import re
+import sqlite3
+import tomllib
+from contextlib import closing
 from pathlib import Path
 
+import numpy as np
+import pytest
 import rasterio
-from conftest import Program
+from conftest import Program, run_facts, sets
 from slope_files import (
+    CELL,
     SOUTH,
     THICKNESS,
     WEST,
@@ -135,3 +142,56 @@ def test_resampling_a_made_case_tells_the_domain_that_fits(
         high.replace(" ", ""),
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_a_release_near_the_edge_of_the_known_terrain(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """`new` warns where the way to the edge, or to points without data, is shorter than the release."""
+
+    def warning(name: str, west: float, hole: slice | None = None) -> str:
+        near = write_release(tmp_path / f"{name}.geojson", WEST + west, SOUTH + 250.0)
+        outcome = made(thawslide, tmp_path / name, slope(hole=hole), near, "--thickness", THICKNESS)
+        assert outcome.returncode == 0, outcome.stderr
+        case = tomllib.loads((tmp_path / name / "case.toml").read_text())
+        assert case["grid"]["leaving"] == "remove"
+        return "".join(line for line in outcome.stdout.splitlines() if line.startswith("warning: "))
+
+    # Its points are those from 205 to 315 m, and it ends a cell beyond them.
+    assert warning("amid", 205.0) == ""
+    advice = (
+        "needed its own length, 130 m, or more). Particles that pass the edge are removed, and the results lack them. "
+        "Use a larger terrain model"
+    )
+    start = "warning: --dem: the release is close to the edge of the known terrain (found "
+    assert warning("west", 75.0) == f"{start}70 m; {advice}"
+    assert warning("hole", 205.0, hole=slice(40, 45)) == f"{start}70 m; {advice}"
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.0, 45.0])
+def test_a_release_at_rest_has_the_area_that_was_drawn(
+    thawslide: Program, tmp_path: Path, slope: Slope, degrees: float
+) -> None:
+    """Of 80 m by 100 m, eight cells of the DEM and more, in any direction; the volume is the particles' own."""
+    angle = np.radians(degrees)
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    corners = np.array([[-40.0, -50.0], [40.0, -50.0], [40.0, 50.0], [-40.0, 50.0], [-40.0, -50.0]]) @ turn
+    path = write_release(tmp_path / "turned.geojson", WEST, SOUTH)
+    drawn = json.loads(path.read_text())
+    drawn["features"][0]["geometry"]["coordinates"] = [(corners + np.array([WEST + 303.0, SOUTH + 301.0])).tolist()]
+    path.write_text(json.dumps(drawn))
+    folder, run = tmp_path / "slide", tmp_path / "run"
+    assert made(thawslide, folder, slope(), path, "--thickness", THICKNESS).returncode == 0
+    assert thawslide("run", folder, "--output", run, *sets(time__end=0.01, maps__cell=CELL)).returncode == 0
+    facts = run_facts(run)
+    assert facts["at_rest"] is False
+    assert facts["affected_area_m2"] == pytest.approx(8000.0, rel=0.05)
+    assert facts["covered_area_m2"] == pytest.approx(8000.0, rel=0.05)
+    with closing(sqlite3.connect(run / "maps" / "results.gpkg")) as database:
+        ((area, state),) = database.execute("SELECT area_m2, state FROM affected_area").fetchall()
+    assert area == pytest.approx(facts["affected_area_m2"], rel=1e-9)
+    assert state == "at 0.01 s, not at rest"
+    with rasterio.open(run / "maps" / "final_thickness.tif") as file:
+        thickness = file.read(1, masked=True)
+        assert file.descriptions == ("at 0.01 s, not at rest: vertical thickness of the slide",)
+    assert thickness.sum() * CELL**2 == pytest.approx(8000.0 * THICKNESS, rel=0.01)
+    whole_cells = (thickness > 0.1).sum() * CELL**2
+    assert whole_cells > 1.25 * 8000.0, "the terrain model makes ramps of the outline"

@@ -130,7 +130,8 @@ def test_a_run_stopped_by_a_signal_goes_on_to_the_same_bits(
     assert outcome.returncode == 0, outcome.stderr
     assert_same_bits(whole, parts)
     after, complete = run_facts(parts), run_facts(whole)
-    for key in ("steps", "deposit_volume_m3", "deposit_area_m2", "travel_distance_m", "angle_of_reach_degrees"):
+    keys = ("steps", "covered_volume_m3", "covered_area_m2", "affected_area_m2")
+    for key in (*keys, "travel_distance_m", "angle_of_reach_degrees"):
         assert complete[key] is not None and after[key] == complete[key], key
     for name in ("checkpoint.bin", "probes.csv"):
         assert (whole / name).read_bytes() == (parts / name).read_bytes(), name

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import rasterio
 from conftest import LAMPLUGH, LIMIT, Program, history, run_facts, sets
-from slope_files import SOUTH, WEST, Slope, made
+from slope_files import DEPTH, SOUTH, WEST, WIDTH, Slope, made
 
 STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| (\d+ min )?\d+ s left \| front \d+ m"
 SPEED = r" at -?\d+\.\d m/s"
@@ -32,7 +32,8 @@ def test_opening_line(said: tuple[list[str], Path]) -> None:
     lines, run = said
     particles = run_facts(run)["particles"]
     assert "note: " in lines[0] and "lamplugh_targets.csv: 7 of its values are later than the run" in lines[0]
-    assert lines[1] == f"Lamplugh rock-ice avalanche, 2016: {particles} particles, 2 s to simulate, on 1 thread"
+    title = "Lamplugh rock-ice avalanche, 2016, reproduction of the paper"
+    assert lines[1] == f"{title}: {particles} particles, 2 s to simulate, on 1 thread"
 
 
 def test_plain_lines_tell_share_speed_time_left_and_front(said: tuple[list[str], Path]) -> None:
@@ -56,14 +57,22 @@ def test_summary_tells_throughput_stages_and_result(said: tuple[list[str], Path]
     )
     assert told and int(told[1]) == facts["particles"]
     assert told[2] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
-    stages = [re.fullmatch(r"  (\w+) +(\d+\.\d\d) s +(\d+\.\d) %", line) for line in lines[first + 1 : -2]]
+    where = next(number for number, line in enumerate(lines) if line.startswith("at 2 s"))
+    stages = [re.fullmatch(r"  (\w+) +(\d+\.\d\d) s +(\d+\.\d) %", line) for line in lines[first + 1 : where]]
     assert all(stages)
     assert {stage[1] for stage in stages if stage} == set(facts["seconds_per_stage"])
     shares = [float(stage[3]) for stage in stages if stage]
     assert shares == sorted(shares, reverse=True) and 50.0 < sum(shares) <= 101.0
     assert re.fullmatch(
-        r"at 2 s: mean velocity \d+\.\d\d m/s, mean displacement \d+ m, front at \d+ m, runout \d+ m", lines[-2]
+        r"at 2 s, not at rest: mean velocity \d+\.\d\d m/s, mean displacement \d+ m, front at \d+ m, runout \d+ m",
+        lines[where],
     )
+    shown = dict(line.split() for line in lines[where + 1 : -2])
+    assert set(shown) == {"mean_velocity_m_s", "dilation_volume_m3", "dilation_share", "left_mass_kg"}
+    assert all(float(value) == pytest.approx(facts[name], rel=1e-5) for name, value in shown.items())
+    assert facts["at_rest"] is False and len(facts["warnings"]) == 1
+    assert lines[-2] == f"warning: {facts['warnings'][0]}"
+    assert lines[-2].startswith("warning: The slide is not at rest at 2 s (mean velocity ")
     assert lines[-1] == f"results in {run}"
 
 
@@ -110,8 +119,8 @@ def test_a_slide_that_hardly_moved_has_no_front(
     assert outcome.returncode == 0, outcome.stderr
     assert "nan" not in outcome.stdout
     assert re.search(
-        r"\nat 0\.05 s: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: maps\.path is not given, and the "
-        r"slide has hardly moved, so there is no path to measure along\n",
+        r"\nat 0\.05 s, not at rest: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: maps\.path is not "
+        r"given, and the slide has hardly moved, so there is no path to measure along\n",
         outcome.stdout,
     )
 
@@ -152,7 +161,16 @@ def test_a_run_whose_whole_slide_has_left_is_done(
     assert columns["mass_kg"][-1] == pytest.approx(float(told[2]), rel=1e-3)
     np.testing.assert_allclose(columns["mass_kg"] + columns["left_mass_kg"], columns["mass_kg"][0], rtol=1e-12)
     # Nothing lies there at the end, and what was largest is kept.
-    assert facts["deposit_volume_m3"] == facts["deposit_area_m2"] == 0.0
+    assert facts["covered_volume_m3"] == facts["covered_area_m2"] == 0.0
+    assert facts["affected_area_m2"] > WIDTH * DEPTH
+    assert facts["at_rest"] is None and facts["left_mass_kg"] == pytest.approx(columns["left_mass_kg"][-1])
+    left = [line for line in outcome.stdout.splitlines() if line.startswith("warning: ")]
+    assert len(left) == 1 and left[0].removeprefix("warning: ") == facts["warnings"][0]
+    assert re.fullmatch(
+        rf"{facts['removed_particles']['left']} particles have left the domain or the known terrain and were removed: "
+        r"\S+ kg, \d+\.?\d* % of the mass\. The results lack them\. Use a larger domain or terrain model\.",
+        facts["warnings"][0],
+    )
     with (
         rasterio.open(run / "maps" / "final_thickness.tif") as final,
         rasterio.open(run / "maps" / "max_thickness.tif") as largest,

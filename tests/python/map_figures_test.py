@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
+import struct
 from pathlib import Path
 
 import imageio_ffmpeg
 import numpy as np
 import pytest
 from map_figure_parts import drawn, field, labels, maps_of, notes
-from map_runs import SOUTH, SPEED, THICKNESS, WEST, centres, write_map
+from map_runs import SOUTH, SPEED, THICKNESS, WEST, centres, write_layer, write_map
+from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, ReportError, Run
 from thawslide.command_line import main
@@ -182,6 +185,42 @@ def test_key_numbers_of_the_deposit(map_run: Path) -> None:
     assert found["Deposit area"] == "4,800 m²"
     assert found["Travel distance"] == "280 m"
     assert found["Angle of reach"] == "21.8°"
+    assert found["Affected area"] == "16,800 m²"
+    assert found["Stop time"] == "8.5 s"
+
+
+def test_a_slide_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
+    """Rows, titles, notes and the page name the time, and nothing is called a deposit."""
+    facts = json.loads((map_run / "run.json").read_text())
+    warning = "The slide is not at rest at 10 s (mean velocity 20 m/s)."
+    facts |= {"at_rest": False, "rest_since_s": None, "simulated_time_s": 10.0, "warnings": [warning]}
+    (map_run / "run.json").write_text(json.dumps(facts))
+    run = Run(map_run)
+    assert (run.last_state, run.end_note) == ("10 s (not at rest)", "The slide is not at rest at 10 s. ")
+    found = {row.words: row for row in key_numbers(run)}
+    assert found["Slide volume at 10 s (not at rest)"].value == "28,800 m³"
+    assert found["Slide area at 10 s (not at rest)"].value == "4,800 m²"
+    assert found["Stop time"].value == "not reached"
+    assert "at 10 s (not at rest)" in found["Runout"].remark
+    assert not any("eposit" in row.words for row in found.values())
+    figure = drawn("extent_maps", map_run)
+    assert figure._suptitle.get_text() == "Slab on a plane: extent of the slide, up to 10 s (not at rest)"
+    assert any("thickness at 10 s (not at rest)" in axes.get_title(loc="left") for axes in figure.axes)
+    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    assert f'<p class="note">Warning: {warning}</p>' in page
+    assert "eposit" not in page
+
+
+def test_the_affected_area_is_drawn_as_its_polygons(map_run: Path) -> None:
+    ring = np.array([[0.0, 0.0], [30.0, 0.0], [30.0, 20.0], [0.0, 0.0]])
+    blob = b"GP\0\1" + struct.pack("<i", 31287) + struct.pack("<BIII", 1, 3, 1, len(ring)) + ring.tobytes()
+    write_layer(map_run / "maps" / "results.gpkg", "affected_area", [blob])
+    site = make_site(Run(map_run))
+    assert site.affected is not None and len(site.affected) == 1
+    np.testing.assert_array_equal(site.affected[0], ring)
+    axes = Figure().subplots()
+    site.draw_reach(axes)
+    np.testing.assert_array_equal(np.column_stack(axes.lines[0].get_data()), ring)
 
 
 def test_missing_maps_have_their_words(map_run: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from conftest import MakeRun, history_columns, write_history
 
-from thawslide import Run
+from thawslide import ReportError, Run
 from thawslide.clock import clock_note, own_time
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
@@ -46,8 +46,8 @@ def test_a_front_that_is_not_known_at_first(make_run: MakeRun) -> None:
     columns["front_position_m"][:2] = columns["runout_m"][:2] = np.nan
     write_history(folder / "history.csv", columns)
     found = numbers(Run(folder))
-    assert found["Runout"] == ("160 m", "front at the end less rear at the start")
-    assert found["Way of the front"] == ("96 m", "front at the end less front at 2 s, the first known")
+    assert found["Runout"] == ("160 m", "front at 10 s less rear at the start")
+    assert found["Way of the front"] == ("96 m", "front at 10 s less front at 2 s, the first known")
 
 
 def test_a_front_that_is_never_known(make_run: MakeRun) -> None:
@@ -67,7 +67,41 @@ def test_a_run_that_has_not_stopped_says_how_fast_it_still_is(make_run: MakeRun)
     write_history(folder / "history.csv", columns)
     run = Run(folder)
     assert stop_time(run) is None
-    assert numbers(run)["Stop time"] == ("not reached", "mean velocity at the end: 10 m/s")
+    assert numbers(run)["Stop time"] == ("not reached", "mean velocity at 10 s: 10 m/s")
+
+
+def test_dilation_and_removed_mass_are_rows(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = history_columns(11, 2)
+    assert "Volume change by dilation" not in numbers(Run(folder)), "of an older run"
+    columns["dilation_share"] = np.linspace(0.0, 0.0625, 11)
+    columns["dilation_volume_m3"] = np.linspace(0.0, 250.0, 11)
+    columns["mass_kg"], columns["left_mass_kg"] = np.linspace(1e6, 0.75e6, 11), np.linspace(0.0, 0.25e6, 11)
+    write_history(folder / "history.csv", columns)
+    found = numbers(Run(folder))
+    assert found["Volume change by dilation"] == ("+6.2 %", "250 m³; without the bed taken up")
+    assert found["Mass removed"] == (
+        "250 t",
+        "25 % of the mass: left the domain or the terrain model, or removed by guards",
+    )
+    columns["left_mass_kg"][:] = 0.0
+    write_history(folder / "history.csv", columns)
+    assert "Mass removed" not in numbers(Run(folder))
+
+
+@pytest.mark.parametrize(
+    ("facts", "message"),
+    [
+        ('{"status": "done", "at_rest": "no"}', "at_rest must be true, false or null, found no"),
+        ('{"status": "done", "warnings": "none"}', "warnings must be a list of texts, found none"),
+        ('{"status": "done", "covered_area_m2": "wide"}', "covered_area_m2 must be a number, found wide"),
+    ],
+)
+def test_facts_of_the_end_are_what_they_should_be(make_run: MakeRun, facts: str, message: str) -> None:
+    folder = make_run()
+    (folder / "run.json").write_text(facts)
+    with pytest.raises(ReportError, match=message):
+        _ = Run(folder).facts
 
 
 def test_a_run_that_never_moved(make_run: MakeRun) -> None:

@@ -161,12 +161,21 @@ def test_the_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
 
 def test_numbers_of_the_end_are_compared(make_run: MakeRun) -> None:
     folder = make_run()
-    (folder / "run.json").write_text('{"status": "done", "deposit_volume_m3": 5e7, "angle_of_reach_degrees": 14.5}')
+    facts = '{"status": "done", "covered_volume_m3": 5e7, "angle_of_reach_degrees": 14.5'
+    (folder / "run.json").write_text(f"{facts}}}")
     (folder / "inputs" / "targets.csv").write_text(
         HEADER + "deposit_volume,0,52,million m3,x\nangle_of_reach,0,14,degrees,x\ndrop_height,0,1,km,x\n"
     )
     run = Run(folder)
     assert [found_for(run, target) for target in run.targets] == ["50 million m3", "14.5 degrees", "not known in 2D"]
+    (folder / "run.json").write_text(f'{facts}, "at_rest": false, "simulated_time_s": 9.0}}')
+    run = Run(folder)
+    when = "at 9 s (not at rest)"
+    assert [found_for(run, target) for target in run.targets] == [
+        f"50 million m3 {when}",
+        f"14.5 degrees {when}",
+        "not known in 2D",
+    ]
 
 
 def test_mistakes_are_told_before_anything_is_drawn(make_run: MakeRun) -> None:

@@ -80,8 +80,8 @@ def _with_heat_in_section(run: Run) -> bool:
 FIGURES: dict[str, FigureKind] = {
     "extent_maps": FigureKind(
         "Extent of the slide",
-        "Largest thickness and speed, arrival and deposit, gathered in every step of the run. White lines: equal "
-        "arrival time.",
+        "Largest thickness and speed, arrival, and the thickness at the last time, gathered in every step of the run. "
+        "White lines: equal arrival time.",
         extent_maps,
         on_map,
     ),

@@ -47,7 +47,7 @@ def band(run: Run) -> Figure:
 def _of_particles(run: Run) -> Figure:
     time = run.history["time_s"]
     figure = Figure(figsize=(10.0, 6.4), layout="constrained")
-    figure.suptitle(f"{run.title}: the shear band", x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled("the shear band"), x=0.01, ha="left", size=12)
     panels: list[Axes] = list(figure.subplots(2, 2, sharex=True).flat)
     for axes, (column, words, unit, colour, quantities) in zip(panels, _PANELS, strict=True):
         axes.set_ylabel(words)
@@ -71,7 +71,7 @@ def _of_particles(run: Run) -> Figure:
 
 def _of_columns(run: Run) -> Figure:
     figure = Figure(figsize=(10.0, 8.6), layout="constrained")
-    figure.suptitle(f"{run.title}: the band along the base", x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled("the band along the base"), x=0.01, ha="left", size=12)
     panels: list[Axes] = list(figure.subplots(3, 2, sharex=True).flat)
     pressure, heat, saturation, thickness, ratio, friction = panels
     _draw_stresses(pressure, run)

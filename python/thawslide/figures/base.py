@@ -32,7 +32,7 @@ def base_along(run: Run) -> Figure:
     loads = [shot.base["normal_pressure_Pa"] for shot in shots]
     divisor, unit = prefixed(np.concatenate(loads), "Pa")
     figure = Figure(figsize=(10.0, 0.9 + _ROW * len(shots)), layout="constrained")
-    figure.suptitle(f"{run.title}: along the base", x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled("along the base"), x=0.01, ha="left", size=12)
     rows = figure.subplots(len(shots), 2, squeeze=False)
     for number, (row, shot) in enumerate(zip(rows, shots, strict=True)):
         _draw_row(row[0], row[1], shot, divisor)

@@ -25,7 +25,7 @@ _MOST_STRETCHES = 4  # beside the slide, that a note tells
 _PLACES = 4  # sections across the path
 _POINTS = 600  # of a section
 _SEEN = 0.06  # of the height of a panel: thinner bodies are drawn thicker than they are
-_RELEASE, _DEPOSIT, _LARGEST = SKY, ORANGE, RED
+_RELEASE, _LAST, _LARGEST = SKY, ORANGE, RED
 _CHORD = 0.02  # of the path, to either side of a place: its direction there
 _MARGINS = (1.0, 1.3)
 _FIRST = (1.6, 5.5)  # inches, least and most height of the section along the path
@@ -142,7 +142,7 @@ def cross_sections(run: Run) -> Figure:
     rows = -(-len(places) // 2)
     height = head + 1.2 + 0.85 + rows * _ROW + 0.3
     figure = Figure(figsize=(_WIDTH, height))
-    figure.suptitle(f"{run.title}: sections", x=_LEFT / _WIDTH, y=1 - 0.14 / height, ha="left", va="top", size=12)
+    figure.suptitle(run.titled("sections"), x=_LEFT / _WIDTH, y=1 - 0.14 / height, ha="left", va="top", size=12)
 
     figure.text(_LEFT / _WIDTH, 1 - 0.4 / height, "\n".join(told), size=7.5, color=NOTE, va="top", linespacing=1.3)
 
@@ -228,7 +228,7 @@ def _reach(cut: Section) -> tuple[tuple[float, float], tuple[float, float]]:
 
 
 def _draw_profile(axes: Axes, cut: Section, window: Window, title: str) -> None:
-    """Draw ground, release, deposit and the largest thickness over it; thin ones are drawn thicker, as told."""
+    """Draw ground, release, last and largest thickness over it; thin ones are drawn thicker, as told."""
     shown = np.isfinite(cut.ground)
     x, ground = cut.distance[shown], cut.ground[shown]
     release, final, largest = cut.release[shown], cut.final[shown], cut.largest[shown]
@@ -236,7 +236,7 @@ def _draw_profile(axes: Axes, cut: Section, window: Window, title: str) -> None:
     times = max(1.0, round_number(max(_SEEN * (window.top - window.bottom) / thickest, 1.0))) if thickest > 0.0 else 1.0
     fill_terrain(axes, (x, ground), window.bottom)
     axes.fill_between(x, ground, ground + times * release, color=_RELEASE, linewidth=0, zorder=2)
-    axes.fill_between(x, ground, ground + times * final, color=_DEPOSIT, linewidth=0, zorder=3)
+    axes.fill_between(x, ground, ground + times * final, color=_LAST, linewidth=0, zorder=3)
     axes.plot(x, np.where(largest > 0.0, ground + times * largest, np.nan), color=_LARGEST, linewidth=1.0, zorder=5)
     window.apply(axes)
     thicker = f", thickness ×{times:g}" if times > 1.0 else ""
@@ -255,7 +255,7 @@ def _mark_places(axes: Axes, profile: Section, places: list[float]) -> None:
 
 def _draw_thicknesses(axes: Axes, cut: Section, window: Window) -> None:
     axes.fill_between(cut.distance, 0.0, cut.release, color=_RELEASE, linewidth=0)
-    axes.fill_between(cut.distance, 0.0, cut.final, color=_DEPOSIT, linewidth=0, alpha=0.9)
+    axes.fill_between(cut.distance, 0.0, cut.final, color=_LAST, linewidth=0, alpha=0.9)
     axes.plot(cut.distance, cut.largest, color=_LARGEST, linewidth=1.0)
     axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
     Window(window.left, window.right, 0.0, max(1.12 * float(cut.largest.max()), 1e-6), 1).apply(axes)
@@ -282,6 +282,6 @@ def _legend(site: Site) -> list[Patch | Line2D]:
     handles: list[Patch | Line2D] = [Patch(facecolor=GROUND, edgecolor=GROUND_LINE, label="ground")]
     if site.release is not None:
         handles.append(Patch(color=_RELEASE, label="release"))
-    handles.append(Patch(color=_DEPOSIT, label=f"at {site.run.last_state}"))
+    handles.append(Patch(color=_LAST, label=f"at {site.run.last_state}"))
     handles.append(Line2D([], [], color=_LARGEST, label="largest thickness"))
     return handles

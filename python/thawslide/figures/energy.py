@@ -83,7 +83,7 @@ def energy(run: Run) -> Figure:
         raise NotInRunError("history.csv has no columns of the energy ledger")
     time = run.history["time_s"]
     figure = Figure(figsize=(10.0, 9.0), layout="constrained")
-    figure.suptitle(f"{run.title}: energy ledger", x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled("energy ledger"), x=0.01, ha="left", size=12)
     mechanical, thermal, residual = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 0.8))
     _draw_accounts(mechanical, run, MECHANICAL)
     _draw_accounts(thermal, run, THERMAL | COLUMNS)

@@ -49,7 +49,7 @@ def entrainment(run: Run) -> Figure:
         raise NotInRunError("the case has no bed: history.csv has no account of what was taken up")
     time = run.history["time_s"]
     figure = Figure(figsize=(10.0, 8.0), layout="constrained")
-    figure.suptitle(f"{run.title}: bed taken up", x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled("bed taken up"), x=0.01, ha="left", size=12)
     mass, work, depth = figure.subplots(3, 1)
     per = "/m of width" if run.per_metre else ""
     divisor, unit = scaled(float(np.nanmax(run.history["mass_kg"])), MASSES)

@@ -75,7 +75,7 @@ def force(run: Run) -> Figure:
     unit += "/m of width" if run.per_metre else ""
 
     figure = Figure(figsize=(10.0, 7.6), layout="constrained")
-    figure.suptitle(f"{run.title}: seismic force and internal deformation", x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled("seismic force and internal deformation"), x=0.01, ha="left", size=12)
     size, components, strain = panels = list(figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1.2, 1.0)))
     time_line(size, time, magnitude / divisor, color=BLACK, linewidth=1.1, label="run")
     bands = reported_bands(run)

@@ -1,4 +1,4 @@
-"""Maps of the largest values of a run: thickness, speed, arrival and deposit; pressures and heat."""
+"""Maps of the largest values of a run, of arrival, and of the thickness at its last time."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 from thawslide.errors import NotInRunError
 from thawslide.figures.colours import colour_range, number_text
 from thawslide.figures.map_page import MapPage
-from thawslide.figures.map_panel import HALO, colour_map, outline, paint, quiet_corner, scale_bar
+from thawslide.figures.map_panel import HALO, colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
-from thawslide.figures.style import BLACK, prefixed, styled
+from thawslide.figures.style import prefixed, styled
 from thawslide.maps import Map
 from thawslide.relief import contour_levels
 from thawslide.run import Numbers, Run
@@ -72,8 +72,8 @@ def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
     fields = [(kind, field) for kind, field in fields if np.isfinite(field.values).any()]
     if not fields:
         raise NotInRunError(f"{site.maps.folder}: none of the maps {', '.join(kind.name for kind in kinds)} has values")
-    note = f"{run.end_note}Thin line: where the slide was thicker than {site.threshold:g} m. {site.scene.note()}"
-    page = MapPage(f"{run.title}: {words}", site.scene, len(fields), note=note, foot=_FOOT, bar=0.72)
+    note = f"{run.end_note}Thin line: affected area, thicker than {site.threshold:g} m. {site.scene.note()}"
+    page = MapPage(run.titled(words), site.scene, len(fields), note=note, foot=_FOOT, bar=0.72)
     corner = quiet_corner(site.reached, site.scene.box)
     panels = []
     for number, (kind, field) in enumerate(fields):
@@ -81,7 +81,7 @@ def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
         words = f"{kind.words} at {run.last_state}" if kind.of_last_state else kind.words
         panels.append((axes, words, _paint(page, axes, kind, field)))
         site.draw_release(axes)
-        outline(axes, site.reached, site.threshold, colors=BLACK, linewidths=0.6)
+        site.draw_reach(axes)
         if kind.name == "arrival_time":
             _isochrones(axes, field)
         if number == 0:

@@ -56,7 +56,7 @@ def motion(run: Run) -> Figure:
     history = run.history
     time = history["time_s"]
     figure = Figure(figsize=(10.0, 4.2), layout="constrained")
-    figure.suptitle(f"{run.title}: motion of the slide", x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled("motion of the slide"), x=0.01, ha="left", size=12)
     speed, distance = figure.subplots(1, 2)
 
     if "max_velocity_m_s" in history:

@@ -56,7 +56,7 @@ def probes(run: Run) -> Figure:
     rows = -(-len(found) // 2)
     across = min(len(found), 2)
     figure = Figure(figsize=(10.0 if across == 2 else 6.0, 0.9 + 2.6 * rows), layout="constrained")
-    figure.suptitle(f"{run.title}: probes", x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled("probes"), x=0.01, ha="left", size=12)
     panels = list(figure.subplots(rows, across, squeeze=False, sharex=True).flat)
     for axes, (quantity, lines) in zip(panels, found.items(), strict=False):
         for name, values in lines.items():

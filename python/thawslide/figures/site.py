@@ -81,6 +81,15 @@ class Site:
         parts = [part for feature in features for part in feature.parts]
         return parts[0] if parts and len(parts[0]) > 1 else None
 
+    @cached_property
+    def affected(self) -> list[Numbers] | None:
+        """The outlines of the affected area, each of shape (n, 2) [m], None where the run has not written it."""
+        try:
+            features = read_layer(self.maps.folder / "results.gpkg", "affected_area")
+        except NotInRunError:
+            return None
+        return [part for feature in features for part in feature.parts]
+
     @property
     def path_is_given(self) -> bool:
         """Whether the case names the path; else it is the way of the centre of mass."""
@@ -96,6 +105,14 @@ class Site:
         """Draw the outline of the release."""
         if self.release is not None:
             outline(axes, self.release, 1e-6, colors=RELEASE, linewidths=width, linestyles="--")
+
+    def draw_reach(self, axes: Axes) -> None:
+        """Draw the outline of the affected area, or without it the line of the least thickness."""
+        if self.affected is None:
+            outline(axes, self.reached, self.threshold, colors=BLACK, linewidths=0.6)
+            return
+        for ring in self.affected:
+            axes.plot(*ring.T, color=BLACK, linewidth=0.6, zorder=5)
 
     def draw_path(self, axes: Axes) -> None:
         """Draw the path line."""

@@ -68,7 +68,7 @@ def water(run: Run) -> Figure:
         raise NotInRunError("the band is not of columns: history.csv has no account of its water")
     time = run.history["time_s"]
     figure = Figure(figsize=(10.0, 9.0), layout="constrained")
-    figure.suptitle(f"{run.title}: water of the band", x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled("water of the band"), x=0.01, ha="left", size=12)
     held, lost, spaces, residual = panels = list(figure.subplots(4, 1, sharex=True, height_ratios=(1.2, 1.0, 1.0, 0.7)))
     _draw(held, run, HELD, "mass", MASSES)
     _draw(lost, run, LOST, "mass", MASSES)

@@ -12,6 +12,7 @@
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
+#include "sim/end_state.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 
@@ -202,6 +203,36 @@ TEST(Append, NewParticlesAreAsThoseAtTheStart) {
       EXPECT_EQ(numbers[before.size() * components + c], numbers[c]) << name;
     }
   }
+}
+
+// What joins counts by its own volume; dilation is the change since then.
+TEST(Append, IsNoDilation) {
+  Simulation<2, double> simulation(leaving_bodies<2>({}));
+  const std::size_t before = simulation.particles().size();
+  simulation.append(some_particles<2>(simulation, false));
+  ASSERT_GT(simulation.particles().size(), before);
+  EXPECT_EQ(value_of(history_row(simulation), "dilation_share"), 0.0);
+  EXPECT_EQ(value_of(history_row(simulation), "dilation_volume_m3"), 0.0);
+  double initial = 0.0;
+  auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    initial += particles.initial_volume(p);
+    particles.volume(p) *= 1.06;
+  }
+  EXPECT_NEAR(value_of(history_row(simulation), "dilation_share"), 0.06, 1e-12);
+  EXPECT_NEAR(value_of(history_row(simulation), "dilation_volume_m3"), 0.06 * initial, 1e-9 * initial);
+  const EndState state = end_state<2>(simulation, false);
+  EXPECT_NEAR(state.dilation_share, 0.06, 1e-12);
+  const std::vector<std::string> warnings = warnings_of(state, false);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].rfind("Dilation has changed the volume of the slide by +6.0 % (found +", 0), 0U) << warnings[0];
+  EXPECT_NE(warnings[0].find(" m3; expected no more than 5 %). Thicknesses, areas and volumes are too large by"),
+            std::string::npos)
+      << warnings[0];
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.volume(p) *= 1.049 / 1.06;
+  }
+  EXPECT_TRUE(warnings_of(end_state<2>(simulation, false), false).empty());
 }
 
 }  // namespace

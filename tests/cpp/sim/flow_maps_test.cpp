@@ -121,8 +121,9 @@ TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
   EXPECT_NEAR(maps.cell(4, 8).thickness, 3.0, 1e-12);
   EXPECT_NEAR(maps.cell(7, 11).thickness, 3.0 * 0.75 / 1.5, 1e-12);
   EXPECT_TRUE(std::isnan(maps.cell(8, 8).max_speed));
-  EXPECT_NEAR(maps.deposit().volume, 72.0, 1e-10);
-  EXPECT_NEAR(maps.deposit().area, 30.0, 1e-12);
+  EXPECT_NEAR(maps.covered_volume(), 72.0, 1e-10);
+  EXPECT_NEAR(maps.covered_cells().area(), 24.0, 1e-12) << "half of two columns of cells, and not all of them";
+  EXPECT_NEAR(maps.affected_cells().area(), 24.0, 1e-12);
 }
 
 TEST(FlowMaps, SumsAreThoseOfTheParticlesOnAnyGrid) {
@@ -229,7 +230,7 @@ TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
     of_thin.gather(simulation.grid(), simulation.particles(), simulation.time());
     note();
   }
-  EXPECT_EQ(maps.deposit().area, 0.0);
+  EXPECT_EQ(maps.covered_cells().area(), 0.0);
   EXPECT_TRUE(std::isnan(maps.cell(0, 0).max_speed));
   EXPECT_TRUE(std::isnan(maps.cell(0, 0).max_pressure));
   EXPECT_TRUE(std::isnan(maps.cell(0, 0).arrival_time));
@@ -245,7 +246,7 @@ TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
   EXPECT_EQ(thin.arrival_time, 0.0);
   EXPECT_NEAR(thin.max_speed, speed, 1e-12 * speed);
   EXPECT_NEAR(thin.max_pressure, pressure, 1e-12 * pressure);
-  EXPECT_EQ(of_thin.deposit().area, area);
+  EXPECT_EQ(of_thin.covered_cells().area(), area);
 }
 
 TEST(FlowMaps, ASlideThatWentOnLeavesNothingWhereItWas) {

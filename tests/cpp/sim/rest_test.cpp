@@ -7,6 +7,7 @@
 #include "../support/case_from_text.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
+#include "sim/end_state.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -51,7 +52,7 @@ enabled = false
 // Steps to rest, or to the end; then the time.
 double end_of(Simulation<2, double>& simulation) {
   set_thread_count(1);
-  while (!simulation.is_at_rest() && simulation.time() < 5.0 - 1e-9) {
+  while (!simulation.ends_at_rest() && simulation.time() < 5.0 - 1e-9) {
     simulation.step(simulation.next_step(5.0));
   }
   return simulation.time();
@@ -60,6 +61,7 @@ double end_of(Simulation<2, double>& simulation) {
 TEST(Rest, EndsARunAfterItsTime) {
   Simulation<2, double> simulation(paper_case(block));
   const double end = end_of(simulation);
+  EXPECT_TRUE(simulation.ends_at_rest());
   EXPECT_TRUE(simulation.is_at_rest());
   EXPECT_GT(end, 1.02 - 0.05 / 2.0 + 0.4);
   EXPECT_LT(end, 1.02 + 0.4 + 0.4) << "it rings for a while";
@@ -70,19 +72,56 @@ TEST(Rest, EndsARunAfterItsTime) {
       << text;
 }
 
-TEST(Rest, IsNotKnownWithoutTheKey) {
+// By the usual speed and the usual 10 s; the run goes on.
+TEST(Rest, IsKnownWithoutTheKeyToo) {
   Simulation<2, double> simulation(
-      paper_case(block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]")), {"time.end=2"}));
-  while (simulation.time() < 2.0 - 1e-9) {
-    simulation.step(simulation.next_step(2.0));
+      paper_case(block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]")), {"time.end=13"}));
+  while (simulation.time() < 13.0 - 1e-9) {
+    simulation.step(simulation.next_step(13.0));
+    EXPECT_FALSE(simulation.ends_at_rest());
+    if (simulation.time() < 10.0) {
+      ASSERT_FALSE(simulation.is_at_rest());
+    }
   }
-  EXPECT_FALSE(simulation.is_at_rest());
+  EXPECT_TRUE(simulation.is_at_rest());
+  EXPECT_GT(simulation.rest_since(), 0.9);
+  EXPECT_LT(simulation.rest_since(), 2.0);
+  EXPECT_EQ(simulation.rest_rule(), "for 10 s no more than 0.5 % of the mass faster than 0.05 m/s");
+}
+
+TEST(Rest, IsPartOfTheEndStateWithAWarningBeforeIt) {
+  Simulation<2, double> simulation(paper_case(block));
+  while (simulation.time() < 0.5) {
+    simulation.step(simulation.next_step(5.0));
+  }
+  const EndState moving = end_state<2>(simulation, false);
+  EXPECT_TRUE(moving.is_known);
+  EXPECT_FALSE(moving.at_rest);
+  EXPECT_TRUE(std::isnan(moving.rest_since));
+  EXPECT_NEAR(moving.mean_velocity, 2.0 - 0.2 * 9.81 * 0.5, 0.1);
+  EXPECT_EQ(when_text(moving), "at 0.5 s, not at rest");
+  const std::vector<std::string> warnings = warnings_of(moving, true);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].rfind("The slide is not at rest at 0.5 s (mean velocity ", 0), 0U) << warnings[0];
+  EXPECT_NE(warnings[0].find(" m/s; at rest: for 0.4 s no more than 0.5 % of the mass faster than 0.05 m/s). Volumes, "
+                             "areas, distances and maps are those of this time and not of a deposit. "),
+            std::string::npos)
+      << warnings[0];
+  EXPECT_TRUE(warnings_of(moving, false).empty()) << "while it runs";
+  EXPECT_FALSE(end_state<2>(simulation, true).is_known) << "nothing of the slide is left";
+  end_of(simulation);
+  const EndState still = end_state<2>(simulation, false);
+  EXPECT_TRUE(still.at_rest);
+  EXPECT_EQ(still.rest_since, simulation.rest_since());
+  EXPECT_TRUE(warnings_of(still, true).empty());
+  EXPECT_NE(when_text(still).find(" s, at rest"), std::string::npos);
 }
 
 TEST(Rest, NeverComesBeforeTheSlideHasMoved) {
   Simulation<2, double> simulation(paper_case(block, {"body.block.velocity=[0.0,0.0]"}));
   EXPECT_EQ(end_of(simulation), 5.0);
-  EXPECT_FALSE(simulation.is_at_rest());
+  EXPECT_FALSE(simulation.ends_at_rest());
+  EXPECT_TRUE(simulation.is_at_rest());
 }
 
 TEST(Rest, AStrayParticleKeepsNoSlideMoving) {

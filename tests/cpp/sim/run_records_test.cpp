@@ -148,7 +148,7 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
   EXPECT_NEAR(figures->travel_distance, front->place[0] - 0.5, 1e-12);
   EXPECT_NEAR(figures->drop_height, 3.0, 1e-12);
   EXPECT_EQ(figures->reach_angle, angle_of_reach(figures->drop_height, figures->travel_distance));
-  EXPECT_NEAR(figures->deposit_volume, 72.0, 0.5);
+  EXPECT_NEAR(figures->covered_volume, 72.0, 0.5);
   const auto on_slope = records.figures(simulation, [](double x, double y) { return 0.25 - 0.1 * x + 0.01 * y; });
   EXPECT_NEAR(on_slope->drop_height, 2.75 + 0.1 * front->place[0] - 0.01 * front->place[1], 1e-12);
   simulation.particles().resize(0);
@@ -166,7 +166,9 @@ TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
   const auto at_rest = records.figures(simulation, level_ground);
   ASSERT_TRUE(at_rest.has_value());
   EXPECT_TRUE(std::isnan(at_rest->travel_distance));
-  EXPECT_NEAR(at_rest->deposit_volume, 72.0, 1e-10);
+  EXPECT_NEAR(at_rest->covered_volume, 72.0, 1e-10);
+  EXPECT_NEAR(at_rest->covered_area, 24.0, 1e-10);
+  EXPECT_NEAR(at_rest->affected_area, 24.0, 1e-10);
   for (int k = 0; k < 100; ++k) {
     simulation.step(0.002);
     records.after_step(simulation);
@@ -190,7 +192,7 @@ TEST(RunRecords, KeepWhatWasLargestWhenTheSlideHasLeft) {
   RunRecords<3> records(simulation, site);
   records.start(simulation);
   records.slide_left();
-  EXPECT_EQ(records.maps()->deposit().volume, 0.0);
+  EXPECT_EQ(records.maps()->covered_volume(), 0.0);
   EXPECT_EQ(value_of(records.probe_row(simulation), "gauge_thickness_m"), 0.0);
   EXPECT_EQ(value_of(records.probe_row(simulation), "gauge_speed_m_s"), 0.0);
   const MapGrid& grid = records.maps()->map_grid();

@@ -1,0 +1,77 @@
+#include "sim/end_state.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace thawslide::sim {
+
+template <int Dim>
+EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const config::Case& parameters = simulation.parameters();
+  const double width = Dim == 2 && parameters.general.width > 0.0 ? parameters.general.width : 1.0;
+  EndState state;
+  state.time = simulation.time();
+  state.rest_rule = simulation.rest_rule();
+  state.left_particles = simulation.removed().left;
+  const Ledger<Dim, double>& ledger = simulation.ledger();
+  state.left_mass = width * ledger.left_mass;
+  state.guarded_mass = width * ledger.removed_mass;
+  state.whole_mass = width * (ledger.initial_mass + ledger.joined_mass);
+  if (slide_left || simulation.device_has_failed() || simulation.particle_count() == 0) {
+    state.rest_since = state.mean_velocity = state.dilation_volume = state.dilation_share = unknown;
+    return state;
+  }
+  const BodySums<Dim, double> sums = simulation.sum_over_body();
+  state.is_known = parameters.mechanics.enabled;
+  state.at_rest = state.is_known && simulation.is_at_rest();
+  state.rest_since = state.at_rest ? simulation.rest_since() : unknown;
+  state.mean_velocity = sums.momentum.norm() / static_cast<double>(sums.mass);
+  state.dilation_volume = width * sums.volume_change;
+  state.dilation_share = sums.volume_change / sums.initial_volume;
+  return state;
+}
+
+std::vector<std::pair<std::string, double>> named(const EndState& state) {
+  return {{"rest_since_s", state.rest_since},
+          {"mean_velocity_m_s", state.mean_velocity},
+          {"dilation_volume_m3", state.dilation_volume},
+          {"dilation_share", state.dilation_share},
+          {"left_mass_kg", state.left_mass}};
+}
+
+std::string when_text(const EndState& state) {
+  return fmt::format("at {:.4g} s{}", state.time, !state.is_known ? "" : state.at_rest ? ", at rest" : ", not at rest");
+}
+
+std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
+  std::vector<std::string> warnings;
+  if (is_over && state.is_known && !state.at_rest) {
+    warnings.push_back(
+        fmt::format("The slide is not at rest at {:.4g} s (mean velocity {:.3g} m/s; at rest: {}). Volumes, areas, "
+                    "distances and maps are those of this time and not of a deposit. Continue with `thawslide resume` "
+                    "and a later --end.",
+                    state.time, state.mean_velocity, state.rest_rule));
+  }
+  if (std::abs(state.dilation_share) > noticed_dilation) {
+    warnings.push_back(fmt::format(
+        "Dilation has changed the volume of the slide by {:+.1f} % (found {:+.4g} m3; expected no more than "
+        "{:g} %). Thicknesses, areas and volumes are too {} by about as much. Reduce the dilation angle, or "
+        "set gaps_close_first = true in materials of little cohesion.",
+        100.0 * state.dilation_share, state.dilation_volume, 100.0 * noticed_dilation,
+        state.dilation_share > 0.0 ? "large" : "small"));
+  }
+  if (state.left_particles > 0) {
+    const double mass = state.left_mass - state.guarded_mass;
+    warnings.push_back(fmt::format(
+        "{} particles have left the domain or the known terrain and were removed: {:.3g} kg, {:.3g} % of the "
+        "mass. The results lack them. Use a larger domain or terrain model.",
+        state.left_particles, mass, 100.0 * mass / state.whole_mass));
+  }
+  return warnings;
+}
+
+template EndState end_state<2>(const Simulation<2, double>&, bool);
+template EndState end_state<3>(const Simulation<3, double>&, bool);
+
+}  // namespace thawslide::sim

@@ -1,0 +1,190 @@
+// The area that a slide covers: as drawn while it does not move, by shares of cells at its edge where it has moved.
+#include "sim/covered_area.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace thawslide::sim {
+namespace {
+
+constexpr double least = 0.1;  // m
+
+// A raster of cells of 10 m about the origin, with the mean of a thickness over each cell.
+Raster cells_of(int half, const std::function<double(double, double)>& thickness) {
+  Raster raster;
+  raster.cell_x = raster.cell_y = 10.0;
+  raster.x = raster.y = -10.0 * half;
+  raster.columns = raster.rows = 2 * half + 1;
+  constexpr int parts = 16;
+  for (int row = 0; row < raster.rows; ++row) {
+    for (int column = 0; column < raster.columns; ++column) {
+      double sum = 0.0;
+      for (int k = 0; k < parts * parts; ++k) {
+        sum += thickness(raster.x_of(column) + 10.0 * ((k % parts + 0.5) / parts - 0.5),
+                         raster.y_of(row) + 10.0 * ((k / parts + 0.5) / parts - 0.5));
+      }
+      raster.values.push_back(sum / (parts * parts));
+    }
+  }
+  return raster;
+}
+
+struct Rectangle {
+  double length, width, degrees, x, y;  // m, m, from east, middle [m]
+
+  [[nodiscard]] bool contains(double east, double north) const {
+    const double angle = degrees * 3.14159265358979323846 / 180.0;
+    const double along = std::cos(angle) * (east - x) + std::sin(angle) * (north - y);
+    const double across = std::cos(angle) * (north - y) - std::sin(angle) * (east - x);
+    return std::abs(along) < 0.5 * length && std::abs(across) < 0.5 * width;
+  }
+  [[nodiscard]] double area() const { return length * width; }
+  [[nodiscard]] config::Polyline2 outline() const {
+    const double angle = degrees * 3.14159265358979323846 / 180.0;
+    config::Polyline2 ring;
+    for (const auto& [a, b] : {std::array{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}) {
+      const double along = 0.5 * length * a, across = 0.5 * width * b;
+      ring.push_back({x + std::cos(angle) * along - std::sin(angle) * across,
+                      y + std::sin(angle) * along + std::cos(angle) * across});
+    }
+    return ring;
+  }
+};
+
+// Eight cells wide and more, level, oblique and off the cells' borders.
+std::vector<Rectangle> rectangles() {
+  std::vector<Rectangle> all;
+  for (const auto& [length, width] : {std::array{80.0, 80.0}, {84.0, 87.0}, {150.0, 80.0}}) {
+    for (const double degrees : {0.0, 10.0, 22.5, 45.0, 70.0}) {
+      for (const double off : {0.0, 2.5, 4.0, 7.3}) {
+        all.push_back({length, width, degrees, off, 0.6 * off});
+      }
+    }
+  }
+  return all;
+}
+
+double mask_area(const CoveredCells& cells) {
+  const Raster mask = cells.mask();
+  return mask.cell_x * mask.cell_y * std::accumulate(mask.values.begin(), mask.values.end(), 0.0);
+}
+
+double area_of_whole_cells(const Raster& thickness) {
+  return 100.0 * static_cast<double>(std::count_if(thickness.values.begin(), thickness.values.end(),
+                                                   [](double h) { return h > least; }));
+}
+
+TEST(CoveredArea, OfWallsIsTheirOwnInAnyDirection) {
+  double largest_of_cells = 0.0;
+  for (const Rectangle& wall : rectangles()) {
+    for (const double height : {0.3, 2.0, 25.0}) {
+      const Raster h = cells_of(14, [&](double x, double y) { return wall.contains(x, y) ? height : 0.0; });
+      // As it was at the start, and as it came to a place where nothing was.
+      for (const Raster& start : {h, h.filled(0.0)}) {
+        const CoveredCells covered = covered_cells(h, start, {}, 0, 0, least);
+        EXPECT_NEAR(covered.area(), wall.area(), 0.05 * wall.area())
+            << wall.length << " x " << wall.width << " m, " << wall.degrees << " degrees, off " << wall.x;
+        EXPECT_NEAR(mask_area(covered), covered.area(), 1e-9 * wall.area());
+      }
+      largest_of_cells = std::max(largest_of_cells, area_of_whole_cells(h) / wall.area());
+    }
+  }
+  EXPECT_GT(largest_of_cells, 1.25) << "whole cells are no measure of the area";
+}
+
+TEST(CoveredArea, OfAReleaseThatDoesNotMoveIsTheDrawnOne) {
+  const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
+  for (const Rectangle& drawn : rectangles()) {
+    // The terrain model's points interpolate the thickness: a ramp, two cells wide, about the outline.
+    const Raster points = cells_of(14, [&](double x, double y) { return drawn.contains(x, y) ? 20.0 : 0.0; });
+    Raster h = points;
+    for (int row = 1; row + 1 < h.rows; ++row) {
+      for (int column = 1; column + 1 < h.columns; ++column) {
+        constexpr std::array<double, 3> weights{0.125, 0.75, 0.125};
+        double mean = 0.0;
+        for (int k = 0; k < 9; ++k) {
+          mean += weights[static_cast<std::size_t>(k % 3)] * weights[static_cast<std::size_t>(k / 3)] *
+                  points.at(column + k % 3 - 1, row + k / 3 - 1);
+        }
+        h.values[h.index(column, row)] = mean;
+      }
+    }
+    config::Release release;
+    release.thickness = points;
+    release.outlines = {drawn.outline()};
+    const CoveredCells covered = covered_cells(h, h, DrawnArea({{"slide", release}}, grid), 0, 0, least);
+    EXPECT_NEAR(covered.area(), drawn.area(), 0.05 * drawn.area()) << drawn.degrees << " degrees, off " << drawn.x;
+    EXPECT_NEAR(mask_area(covered), covered.area(), 1e-9 * drawn.area());
+    EXPECT_GT(area_of_whole_cells(h), 1.3 * drawn.area()) << "cells that the ramp reaches";
+    // It settles by less than a tenth.
+    Raster settled = h;
+    std::for_each(settled.values.begin(), settled.values.end(), [](double& value) { value *= 1.05; });
+    EXPECT_EQ(covered_cells(settled, h, DrawnArea({{"slide", release}}, grid), 0, 0, least).area(), covered.area());
+  }
+}
+
+TEST(CoveredArea, OfARasterReleaseIsThatOfItsCells) {
+  const Rectangle drawn{100.0, 80.0, 0.0, 5.0, 5.0};
+  config::Release release;
+  release.thickness = cells_of(14, [&](double x, double y) { return drawn.contains(x, y) ? 20.0 : 0.0; });
+  for (const double cell : {10.0, 5.0, 20.0}) {
+    const MapGrid grid{-145.0 + 0.5 * cell,
+                       -145.0 + 0.5 * cell,
+                       cell,
+                       cell,
+                       static_cast<int>(280.0 / cell),
+                       static_cast<int>(280.0 / cell),
+                       ""};
+    const DrawnArea area({{"slide", release}}, grid);
+    double parts = 0.0;
+    for (int row = 0; row < grid.rows; ++row) {
+      for (int column = 0; column < grid.columns; ++column) {
+        parts += std::popcount(area.parts(column, row));
+      }
+    }
+    EXPECT_NEAR(parts / parts_of_cell * cell * cell, drawn.area(), 1e-9 * drawn.area()) << cell;
+  }
+}
+
+TEST(CoveredArea, GrowsByWhatTheSlideReaches) {
+  const Rectangle drawn{80.0, 80.0, 0.0, 5.0, 5.0}, reached{200.0, 80.0, 0.0, 5.0, 5.0};
+  const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
+  const auto slab = [&](const Rectangle& place) {
+    return cells_of(14, [&](double x, double y) { return place.contains(x, y) ? 10.0 : 0.0; });
+  };
+  config::Release release;
+  release.thickness = slab(drawn);
+  release.outlines = {drawn.outline()};
+  const DrawnArea area({{"slide", release}}, grid);
+  EXPECT_NEAR(covered_cells(slab(reached), slab(drawn), area, 0, 0, least).area(), reached.area(), 1e-9);
+  EXPECT_EQ(covered_cells(slab(drawn).filled(0.0), slab(drawn), area, 0, 0, least).area(), 0.0) << "it has gone";
+}
+
+TEST(CoveredArea, OfWhatThinsOutEvenlyCountsAllCells) {
+  // A cone of 1 in 10: each cell at its edge is thicker than the least.
+  const Raster cone = cells_of(14, [](double x, double y) { return std::max(0.0, 10.0 - 0.1 * std::hypot(x, y)); });
+  const double area = covered_cells(cone, cone.filled(0.0), {}, 0, 0, least).area();
+  const double exact = 3.14159265358979323846 * 99.0 * 99.0;  // 0.1 m thick and more
+  EXPECT_GT(area, 0.97 * exact);
+  EXPECT_LT(area, 1.05 * exact);
+  EXPECT_EQ(covered_cells(cone.filled(std::nan("")), cone.filled(0.0), {}, 0, 0, least).area(), 0.0);
+}
+
+// A low place amid the slide is no edge of it.
+TEST(CoveredArea, CellsWithinTheSlideCountAsAWhole) {
+  Raster h = cells_of(6, [](double, double) { return 10.0; });
+  h.values[h.index(6, 6)] = 0.5;
+  EXPECT_EQ(covered_share(h, 6, 6, least), 1.0);
+  h.values[h.index(7, 6)] = 0.0;
+  EXPECT_NEAR(covered_share(h, 6, 6, least), 0.05, 1e-12);
+  EXPECT_EQ(covered_share(h, 7, 6, least), 0.0);
+}
+
+}  // namespace
+}  // namespace thawslide::sim
