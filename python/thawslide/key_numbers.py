@@ -179,8 +179,8 @@ def _volume_numbers(run: Run) -> list[KeyNumber]:
     rows, history, per = [], run.history, "/m of width" if run.per_metre else ""
     if "dilation_volume_m3" in history:
         change = f"{float(history['dilation_share'][-1]):+.1%}".replace("-", "−").replace("%", " %")
-        volume = shown(float(history["dilation_volume_m3"][-1]), f"m³{per}")
-        rows.append(KeyNumber("Volume change by dilation", change, f"{volume}; without the bed taken up"))
+        volume = volume_text(abs(float(history["dilation_volume_m3"][-1])))
+        rows.append(KeyNumber("Volume change by dilation", change, f"{volume}{per}; without the bed taken up"))
     if "left_mass_kg" in history and history["left_mass_kg"][-1] > 0.0:
         mass = float(history["left_mass_kg"][-1])
         share = mass / (mass + float(history["mass_kg"][-1]))

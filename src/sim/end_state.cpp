@@ -56,8 +56,8 @@ std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
   if (std::abs(state.dilation_share) > noticed_dilation) {
     warnings.push_back(fmt::format(
         "Dilation has changed the volume of the slide by {:+.1f} % (found {:+.4g} m3; expected no more than "
-        "{:g} %). Thicknesses, areas and volumes are too {} by about as much. Reduce the dilation angle, or "
-        "set gaps_close_first = true in materials of little cohesion.",
+        "{:g} %). Thicknesses, areas and volumes are too {} by about as much. Check dilation_angle and "
+        "gaps_close_first of the materials.",
         100.0 * state.dilation_share, state.dilation_volume, 100.0 * noticed_dilation,
         state.dilation_share > 0.0 ? "large" : "small"));
   }
