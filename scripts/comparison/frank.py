@@ -1,0 +1,183 @@
+"""The Frank slide of SHALTOP and of Thawslide: which runs there are, and their deposits as numbers."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from results import without_gaps
+from runs import Job
+from thawslide.maps import Grid, Map, read_map
+from thawslide.relief import slopes
+from thawslide.run import Numbers, Run
+
+HERE = Path(__file__).resolve().parent
+ANGLES = (10, 15, 20, 25)  # degrees, of SHALTOP's runs
+STUDIED = 15  # degrees: the angle of the runs that isolate causes
+EDGE = 1.0  # m, vertical: least thickness of the deposit and of the area passed
+
+
+@dataclass(frozen=True)
+class Variant:
+    """What a run changes of frank.toml."""
+
+    name: str
+    words: str
+    changes: tuple[str, ...] = ()
+
+
+BASE = Variant("base", "Thawslide")
+FLUID = Variant("fluid", "internal friction 5 degrees", ("material.grains.friction_angle=5",))
+# Of the studied angle alone.
+CAUSES = (
+    Variant("alike", "internal friction 15 degrees, as along the ground", ("material.grains.friction_angle=15",)),
+    Variant("rough", "DEM without filter", ("terrain.smooth=0",)),
+    Variant("stiff", "Young's modulus 400 MPa, not 100", ("material.grains.youngs_modulus=4e8", "time.step=0.03")),
+    Variant("fine", "cells of 10 m, not 20", ("grid.cell=10", "time.step=0.03")),
+)
+
+
+@dataclass(frozen=True)
+class Deposit:
+    """A deposit with what led to it; all maps on SHALTOP's grid."""
+
+    final: Map  # vertical thickness at the end [m]
+    highest: Map  # largest vertical thickness [m]
+    speed: Map  # largest depth-averaged speed [m/s]
+
+
+@dataclass(frozen=True)
+class Figures:
+    """The numbers of a deposit."""
+
+    x: float  # of the centroid [m]
+    y: float
+    area: float  # of the deposit [km2]
+    passed: float  # area passed, deposit included [km2]
+    farthest: float  # largest x of the deposit [m]
+    travel: float  # horizontal, from the top of the pile to the farthest place of the deposit [m]
+    drop: float  # between the two [m]
+    speed: float  # largest where the slide was at least EDGE thick [m/s]
+    usual_speed: float  # median of the same [m/s]
+    thickness: float  # largest of the deposit [m]
+    volume: float  # of the deposit and of what is thinner [million m3]
+
+    @property
+    def reach_angle(self) -> float:
+        """Angle of the line between the top of the pile and the farthest place [degrees]."""
+        return math.degrees(math.atan2(self.drop, self.travel))
+
+
+def jobs(data: Path, runs: Path, angles: tuple[int, ...] = ANGLES, extra: tuple[str, ...] = ()) -> list[Job]:
+    """Return all runs, the cheap ones first; `extra` changes apply to each."""
+    pairs = [(BASE, angle) for angle in angles] + [(FLUID, angle) for angle in angles]
+    pairs += [(variant, STUDIED) for variant in CAUSES]
+    return [job(variant, angle, data, runs, extra) for variant, angle in pairs]
+
+
+def job(variant: Variant, angle: int, data: Path, runs: Path, extra: tuple[str, ...] = ()) -> Job:
+    """Return the run of a variant with an angle of friction along the ground."""
+    changes = (
+        f"terrain.file={data / 'Frankslide_topography.asc'}",
+        f'body.slide.thickness={{ raster = "{data / "Frankslide_pile.asc"}" }}',
+        f"basal.friction_angle={angle}",
+        *variant.changes,
+        *extra,
+    )
+    return Job(HERE / "frank.toml", changes, runs / f"{variant.name}-{angle}")
+
+
+def read_grid(path: Path) -> Map:
+    """Read an ESRI ASCII grid with square cells and its lower left corner given."""
+    lines = path.read_text().splitlines()
+    head = {line.split()[0].lower(): float(line.split()[1]) for line in lines[:6]}
+    cell = head["cellsize"]
+    grid = Grid(
+        head["xllcorner"] + 0.5 * cell, head["yllcorner"] + 0.5 * cell, cell, cell, int(head["ncols"]), int(head["nrows"])
+    )
+    return Map(grid, np.loadtxt(lines[6:])[::-1], "m")
+
+
+def on_grid(field: Map, grid: Grid) -> Map:
+    """Return a map on another grid of the same cells, 0 where it has none; its own cells must coincide with these."""
+    column, row = (field.grid.x0 - grid.x0) / grid.cell_x, (field.grid.y0 - grid.y0) / grid.cell_y
+    if field.grid.cell_x != grid.cell_x or abs(column - round(column)) > 1e-6 or abs(row - round(row)) > 1e-6:
+        raise SystemExit(f"the cells of a map ({field.grid}) are not those of SHALTOP ({grid})")
+    values = np.zeros((grid.rows, grid.columns))
+    rows, columns = (
+        round(row) + np.arange(field.grid.rows)[:, None],
+        round(column) + np.arange(field.grid.columns)[None, :],
+    )
+    inside = (rows >= 0) & (rows < grid.rows) & (columns >= 0) & (columns < grid.columns)
+    rows, columns = np.broadcast_arrays(rows, columns)
+    values[rows[inside], columns[inside]] = without_gaps(field)[inside]
+    return Map(grid, values, field.unit)
+
+
+def read_shaltop(data: Path, angle: int, terrain: Map) -> Deposit:
+    """Read SHALTOP's results; its largest thickness, which is along the normal, becomes vertical."""
+    folder = data / "shaltop"
+    final, highest, speed = (
+        read_map(folder / f"delta{angle}_{kind}.tif") for kind in ("hfinal_vertical", "hmax_normal", "umax")
+    )
+    steepness = np.hypot(*slopes(terrain.values, terrain.grid.cell_x, terrain.grid.cell_y))
+    return Deposit(final, Map(highest.grid, highest.values * np.sqrt(1.0 + steepness**2), "m"), speed)
+
+
+def read_run(folder: Path, grid: Grid) -> Deposit:
+    """Read a run of Thawslide."""
+    maps = Run(folder).folder / "maps"
+    return Deposit(
+        *(on_grid(read_map(maps / f"{name}.tif"), grid) for name in ("final_thickness", "max_thickness", "max_speed"))
+    )
+
+
+def figures(deposit: Deposit, terrain: Map, pile: Map) -> Figures:
+    """Return the numbers of a deposit on a terrain; `pile` is the thickness released."""
+    x, y = np.meshgrid(terrain.grid.x, terrain.grid.y)
+    final = deposit.final.values
+    lies, was = final > EDGE, deposit.highest.values > EDGE
+    weights = np.where(lies, final, 0.0)
+    top = np.unravel_index(np.where(pile.values > 0.0, terrain.values + pile.values, -np.inf).argmax(), x.shape)
+    apart = np.where(lies, np.hypot(x - x[top], y - y[top]), -np.inf)
+    far = np.unravel_index(apart.argmax(), x.shape)
+    cell = terrain.grid.cell_area
+    return Figures(
+        x=float((weights * x).sum() / weights.sum()),
+        y=float((weights * y).sum() / weights.sum()),
+        area=float(lies.sum()) * cell / 1e6,
+        passed=float(was.sum()) * cell / 1e6,
+        farthest=float(x[lies].max()),
+        travel=float(apart[far]),
+        drop=float(terrain.values[top] + pile.values[top] - terrain.values[far]),
+        speed=float(deposit.speed.values[was].max()),
+        usual_speed=float(np.median(deposit.speed.values[was])),
+        thickness=float(final.max()),
+        volume=float(final.sum()) * cell / 1e6,
+    )
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How far one deposit is from another."""
+
+    overlap: float  # area of both over area of either
+    thickness: float  # root mean square difference where either lies [m]
+    moved: float  # volume that lies in another place, over the volume
+
+
+def difference(one: Deposit, other: Deposit) -> Difference:
+    """Return the difference of two deposits."""
+    a, b = one.final.values, other.final.values
+    both, either = (a > EDGE) & (b > EDGE), (a > EDGE) | (b > EDGE)
+    return Difference(
+        overlap=float(both.sum()) / float(either.sum()),
+        thickness=float(np.sqrt(np.mean((a - b)[either] ** 2))),
+        moved=float(np.abs(a - b).sum() / (a.sum() + b.sum())),
+    )
+
+
+def volume_along(thickness: Map) -> Numbers:
+    """Return the section area [m2] of a deposit across each column of the grid, from west to east."""
+    section: Numbers = thickness.values.sum(axis=0) * thickness.grid.cell_y
+    return section

@@ -1,0 +1,239 @@
+"""The page of the Frank slide: tables, two pictures, and the text of frank.md with the numbers filled in."""
+
+from pathlib import Path
+
+import frank
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from runs import Job, processor_time
+from thawslide.figures.map_panel import coordinate_text, outline, scale_bar
+from thawslide.figures.style import BLACK, BLUE, RED, styled
+from thawslide.maps import Map
+from thawslide.run import Run
+
+HERE = Path(__file__).resolve().parent
+SHALTOP, OURS = "SHALTOP", "Thawslide"
+COLOURS = {SHALTOP: BLUE, OURS: RED}
+THICK = 20.0  # m: the second outline of the pictures
+PUBLISHED = {"drop": 760.0, "travel": 3080.0, "area": 3.57, "volume": 36.5}  # Mitchell et al. (2019)
+
+ROWS = {
+    "centroid, x (m)": lambda found: f"{found.x:,.0f}",
+    "centroid, y (m)": lambda found: f"{found.y:,.0f}",
+    "area of the deposit (km2)": lambda found: f"{found.area:.2f}",
+    "area passed (km2)": lambda found: f"{found.passed:.2f}",
+    "farthest x (m)": lambda found: f"{found.farthest:,.0f}",
+    "travel distance (m)": lambda found: f"{found.travel:,.0f}",
+    "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",
+    "maximum speed (m/s)": lambda found: f"{found.speed:.0f}",
+    "maximum speed, median of the area passed (m/s)": lambda found: f"{found.usual_speed:.1f}",
+    "maximum thickness of the deposit (m)": lambda found: f"{found.thickness:.0f}",
+}
+
+
+def markdown(lines: list[list[str]]) -> str:
+    """Return a table, its first line the header."""
+    head, *rest = lines
+    return "\n".join("| " + " | ".join(line) + " |" for line in [head, ["---"] * len(head), *rest])
+
+
+def main_table(found: dict[tuple[str, int], frank.Figures]) -> str:
+    """Return the numbers of both codes for each angle."""
+    head = [""]
+    for angle in frank.ANGLES:
+        head += [f"{SHALTOP} {angle}", f"{OURS} {angle}"]
+    rows = [
+        [words, *(text(found[code, angle]) for angle in frank.ANGLES for code in (SHALTOP, OURS))]
+        for words, text in ROWS.items()
+    ]
+    return markdown([head, *rows])
+
+
+def difference_table(differences: dict[str, frank.Difference], found: dict[str, frank.Figures]) -> str:
+    """Return how far single deposits are from SHALTOP's with the same friction."""
+    lines = [
+        ["", "centroid, x (m)", "area (km2)", "farthest x (m)", "maximum speed (m/s)", "overlap", "moved volume"],
+    ]
+    for name, figures in found.items():
+        apart = differences.get(name)
+        lines.append(
+            [
+                name,
+                f"{figures.x:,.0f}",
+                f"{figures.area:.2f}",
+                f"{figures.farthest:,.0f}",
+                f"{figures.speed:.0f}",
+                f"{apart.overlap:.2f}" if apart else "",
+                f"{100.0 * apart.moved:.0f} %" if apart else "",
+            ]
+        )
+    return markdown(lines)
+
+
+def end_table(runs: dict[str, Run], processor: dict[str, float]) -> str:
+    """Return how each run ended."""
+    lines = [["run", "simulated (s)", "mean velocity at the end (m/s)", "left the DEM", "particles", "processor (s)"]]
+    for name, run in runs.items():
+        history = run.history
+        lines.append(
+            [
+                name,
+                f"{run.last_time:.0f}",
+                f"{history['mean_velocity_m_s'][-1]:.2f}",
+                f"{100.0 * history['left_mass_kg'][-1] / history['mass_kg'][0]:.1f} %",
+                f"{run.facts['particles']:,}",
+                f"{processor[name]:.0f}",
+            ]
+        )
+    return markdown(lines)
+
+
+@styled
+def deposits(found: dict[tuple[str, int], frank.Deposit], numbers: dict[tuple[str, int], frank.Figures], pile: Map) -> Figure:
+    """Return the outlines of the deposits, one panel an angle."""
+    figure = Figure(figsize=(9.0, 9.6), layout="constrained")
+    panels = figure.subplots(2, 2, sharex=True, sharey=True).ravel()
+    for panel, angle, letter in zip(panels, frank.ANGLES, "abcd", strict=True):
+        outline(panel, pile, 0.5, colors=BLACK, linewidths=0.9, linestyles="dotted")
+        for code, colour in COLOURS.items():
+            final = found[code, angle].final
+            outline(panel, final, frank.EDGE, colors=colour, linewidths=1.5)
+            outline(panel, final, THICK, colors=colour, linewidths=0.9, linestyles="dashed")
+            centre = numbers[code, angle]
+            panel.plot(centre.x, centre.y, "o" if code == SHALTOP else "^", color=colour, markeredgecolor="white", ms=8)
+        panel.set_title(f"({letter}) friction angle {angle}°", loc="left")
+        panel.set_aspect("equal")
+        panel.set_xlim(200.0, 4000.0)
+        panel.set_ylim(900.0, 4000.0)
+        for axis in (panel.xaxis, panel.yaxis):
+            axis.set_major_formatter(lambda value, _: coordinate_text(value))
+        panel.grid(True)
+    for panel in panels[2:]:
+        panel.set_xlabel("easting, local (km)")
+    for panel in panels[::2]:
+        panel.set_ylabel("northing, local (km)")
+    scale_bar(panels[0], "upper left")
+    handles = [
+        *(Line2D([], [], color=colour, label=f"{code}, thickness {frank.EDGE:g} m") for code, colour in COLOURS.items()),
+        *(
+            Line2D([], [], color=colour, linestyle="dashed", linewidth=0.9, label=f"{code}, thickness {THICK:g} m")
+            for code, colour in COLOURS.items()
+        ),
+        *(
+            Line2D([], [], color=colour, marker=mark, linestyle="", markeredgecolor="white", ms=8, label=f"{code}, centroid")
+            for (code, colour), mark in zip(COLOURS.items(), "o^", strict=True)
+        ),
+        Line2D([], [], color=BLACK, linestyle="dotted", linewidth=0.9, label="release"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=4)
+    return figure
+
+
+@styled
+def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank.Deposit], pile: Map) -> Figure:
+    """Return the section area of the deposits along x, one panel an angle."""
+    figure = Figure(figsize=(9.0, 6.2), layout="constrained")
+    panels = figure.subplots(2, 2, sharex=True).ravel()
+    for panel, angle, letter in zip(panels, frank.ANGLES, "abcd", strict=True):
+        x = pile.grid.x / 1e3
+        panel.plot(x, frank.volume_along(pile) / 1e3, color=BLACK, linestyle="dotted", linewidth=1.0, label="release")
+        for code, colour in COLOURS.items():
+            panel.plot(x, frank.volume_along(found[code, angle].final) / 1e3, color=colour, label=code)
+        panel.plot(
+            x, frank.volume_along(fluid[angle].final) / 1e3, color=RED, linestyle="dashed", linewidth=1.1,
+            label=f"{OURS}, {frank.FLUID.words}",
+        )  # fmt: skip
+        panel.set_title(f"({letter}) friction angle {angle}°", loc="left")
+        panel.set_xlim(0.2, 4.0)
+        panel.set_ylim(0.0, None)
+        panel.grid(True)
+    for panel in panels[2:]:
+        panel.set_xlabel("easting, local (km)")
+    for panel in panels[::2]:
+        panel.set_ylabel("section area (1,000 m²)")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4)
+    return figure
+
+
+def draw(
+    found: dict[tuple[str, int], frank.Deposit],
+    numbers: dict[tuple[str, int], frank.Figures],
+    fluid: dict[int, frank.Deposit],
+    pile: Map,
+    folder: Path,
+) -> None:
+    """Write both pictures."""
+    folder.mkdir(exist_ok=True)
+    deposits(found, numbers, pile).savefig(folder / "frank-deposits.png", dpi=110)
+    sections(found, fluid, pile).savefig(folder / "frank-sections.png", dpi=110)
+
+
+def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
+    """Return the published slide and, of both codes, what can be set against it."""
+    lines = [["", "drop (m)", "travel distance (m)", "H/L", "area (km2)", "volume (million m3)"]]
+    lines.append(
+        [
+            "Frank slide, Mitchell et al. (2019)",
+            f"{PUBLISHED['drop']:.0f}",
+            f"{PUBLISHED['travel']:,.0f}",
+            f"{PUBLISHED['drop'] / PUBLISHED['travel']:.2f}",
+            f"{PUBLISHED['area']:.2f}",
+            f"{PUBLISHED['volume']:.1f}",
+        ]
+    )
+    for (code, angle), figures in found.items():
+        ratio = figures.drop / figures.travel
+        lines.append(
+            [
+                f"{code}, {angle} degrees",
+                f"{figures.drop:.0f}",
+                f"{figures.travel:,.0f}",
+                f"{ratio:.2f}",
+                f"{figures.passed:.2f}",
+                f"{figures.volume:.1f}",
+            ]
+        )
+    return markdown(lines)
+
+
+def write(data: Path, jobs: list[Job], folder: Path) -> None:
+    """Write frank.md and its pictures into a folder, from the runs that are there."""
+    terrain, pile = (frank.read_grid(data / f"Frankslide_{kind}.asc") for kind in ("topography", "pile"))
+    ours = {job.output.name: frank.read_run(job.output, terrain.grid) for job in jobs if job.is_done}
+    deposits = {
+        (code, angle): frank.read_shaltop(data, angle, terrain) if code == SHALTOP else ours[f"base-{angle}"]
+        for angle in frank.ANGLES
+        for code in COLOURS
+    }
+    numbers = {key: frank.figures(deposit, terrain, pile) for key, deposit in deposits.items()}
+    fluid = {angle: ours[f"fluid-{angle}"] for angle in frank.ANGLES}
+    draw(deposits, numbers, fluid, pile, folder / "comparison")
+    rows = {f"{SHALTOP}, {angle}": numbers[SHALTOP, angle] for angle in frank.ANGLES}
+    apart = {}
+    for variant in (frank.BASE, frank.FLUID, *frank.CAUSES):
+        for angle in frank.ANGLES:
+            deposit = ours.get(f"{variant.name}-{angle}")
+            if deposit is not None:
+                name = f"{variant.words}, {angle}"
+                rows[name] = frank.figures(deposit, terrain, pile)
+                apart[name] = frank.difference(deposit, deposits[SHALTOP, angle])
+    done = {job.output.name: job for job in jobs if job.is_done}
+    parts = [
+        (HERE / "frank.md").read_text().strip(),
+        main_table(numbers),
+        "![deposits](comparison/frank-deposits.png)",
+        "![section areas](comparison/frank-sections.png)",
+        "## The published slide",
+        published_table(numbers),
+        (HERE / "frank-published.md").read_text().strip(),
+        "## Causes of the differences",
+        difference_table(apart, rows),
+        (HERE / "frank-causes.md").read_text().strip(),
+        "## How the runs ended",
+        end_table(
+            {name: Run(job.output) for name, job in done.items()},
+            {name: processor_time(job.log.with_suffix(".json")) for name, job in done.items()},
+        ),
+    ]
+    (folder / "frank.md").write_text("\n\n".join(parts) + "\n")
