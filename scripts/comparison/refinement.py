@@ -1,0 +1,112 @@
+"""Runs of the same slide on cells of several sizes: travel distance, reach angle, and the order at which they converge."""
+
+import math
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from grounds import ALR, PLANE, write_ground
+from runs import Job, processor_time
+from thawslide.run import Run
+
+HERE = Path(__file__).resolve().parent
+PLANE_CELLS = (20.0, 10.0, 5.0)  # m
+ALR_CELLS = (10.0, 6.6, 5.0, 3.3)  # m
+ROUGH_CELLS = (10.0, 6.6, 5.0)  # m, on the DEM as it is
+ALR_LOW, ALR_SIZE = (255215.0, 377350.0, 540.0), (2046.0, 4521.0, 2059.2)  # m, of the domain
+STEP_PER_CELL = 0.0045  # s/m: three quarters of what the elastic wave allows
+
+
+@dataclass(frozen=True)
+class Found:
+    """The numbers of a run that should not depend on its cell."""
+
+    cell: float  # [m]
+    travel: float  # along the path, from the rear of the release to the front with 99.5 % of the mass behind it [m]
+    reach_angle: float  # [degrees]
+    centre: float  # horizontal, of the centre of mass, straight [m]
+    speed: float  # largest mean speed [m/s]
+    end_speed: float  # mean speed at the end [m/s]
+    simulated: float  # [s]
+    left: float  # share of the mass that left the DEM
+    particles: int
+    processor: float  # [s]
+
+
+def alr_domain(cell: float) -> tuple[str, str]:
+    """Return the changes of the domain of AlR to a whole number of cells: inside the DEM, and high enough."""
+    counts = [math.floor(ALR_SIZE[axis] / cell + 1e-9) for axis in (0, 1)] + [math.ceil(ALR_SIZE[2] / cell - 1e-9)]
+    high = [low + count * cell for low, count in zip(ALR_LOW, counts, strict=True)]
+    return f"grid.min={list(ALR_LOW)}", f"grid.max={[round(value, 6) for value in high]}"
+
+
+def cells_of(cell: float) -> tuple[str, str]:
+    """Return the changes of the cell and the step."""
+    return f"grid.cell={cell:g}", f"time.step={STEP_PER_CELL * cell:g}"
+
+
+def plane_job(cell: float, runs: Path, extra: tuple[str, ...] = ()) -> Job:
+    """Return a run on the plane."""
+    return Job(runs / "plane" / "refined-plane.toml", (*cells_of(cell), *extra), runs / f"plane-{cell:g}")
+
+
+def alr_job(cell: float, runs: Path, is_rough: bool, extra: tuple[str, ...] = ()) -> Job:
+    """Return a run of AlR, with the default filter of the DEM or without."""
+    rough = ("terrain.smooth=0",) if is_rough else ()
+    changes = (*cells_of(cell), *alr_domain(cell), *rough, *extra)
+    return Job(runs / "alr" / "alr.toml", changes, runs / f"alr-{'rough-' if is_rough else ''}{cell:g}")
+
+
+def jobs(runs: Path, extra: tuple[str, ...] = ()) -> list[Job]:
+    """Return all runs, the cheap ones first."""
+    result = [plane_job(cell, runs, extra) for cell in PLANE_CELLS]
+    result += [alr_job(cell, runs, False, extra) for cell in ALR_CELLS[:-1]]
+    result += [alr_job(cell, runs, True, extra) for cell in ROUGH_CELLS]
+    return [*result, alr_job(ALR_CELLS[-1], runs, False, extra)]
+
+
+def write_inputs(runs: Path, alr: Path | None) -> None:
+    """Write grounds and case files into the folders of the two grounds."""
+    for ground, names in ((PLANE, ("refined-plane.toml",)), (ALR, ("alr.toml",))):
+        folder = runs / ground.name
+        if not (folder / "dem.tif").exists():
+            write_ground(ground, folder, alr)
+        for name in ("common.toml", *names):
+            shutil.copy(HERE / name, folder / name)
+
+
+def read_found(job: Job) -> Found:
+    """Read the numbers of a run."""
+    run = Run(job.output)
+    first, last = (run.snapshot(place, fields=["mass"]) for place in (0, -1))
+    centres = [np.average(each.points[:, :2], axis=0, weights=each["mass"]) for each in (first, last)]
+    history = run.history
+    return Found(
+        cell=float(run.section("grid")["cell"]),
+        travel=float(run.facts["travel_distance_m"]),
+        reach_angle=float(run.facts["angle_of_reach_degrees"]),
+        centre=float(np.hypot(*(centres[1] - centres[0]))),
+        speed=float(history["mean_velocity_m_s"].max()),
+        end_speed=float(history["mean_velocity_m_s"][-1]),
+        simulated=run.last_time,
+        left=float(history["left_mass_kg"][-1] / history["mass_kg"][0]),
+        particles=int(run.facts["particles"]),
+        processor=processor_time(job.log.with_suffix(".json")),
+    )
+
+
+def order(coarse: float, middle: float, fine: float, ratio: float = 2.0) -> float:
+    """Return the observed order of convergence of a value on three grids; nan where it does not converge evenly."""
+    first, second = middle - coarse, fine - middle
+    return math.log(first / second) / math.log(ratio) if first * second > 0.0 else math.nan
+
+
+def limit(middle: float, fine: float, order: float, ratio: float = 2.0) -> float:
+    """Return the value that Richardson extrapolation gives for cells of no size."""
+    return fine + (fine - middle) / (ratio**order - 1.0)
+
+
+def spread(values: list[float]) -> float:
+    """Return the range of values over their mean."""
+    return (max(values) - min(values)) / (sum(values) / len(values))

@@ -1,0 +1,157 @@
+"""The page of refinement: tables of the plane and of AlR, and apparent friction next to the wedge factor of the ground."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+from grounds import ALR
+from matplotlib.figure import Figure
+from refinement import HERE, Found, limit, order, read_found, spread
+from runs import Job
+from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, styled
+from thawslide.maps import Map, read_map
+from thawslide.run import Run
+from wedge import Interval, intervals
+
+LENGTH = 10.0  # s, of the intervals of apparent friction
+SLOWEST = 2.0  # m/s: mean speed from which on an interval is compared
+COLOURS = (BLUE, ORANGE, GREEN, RED)
+
+ROWS = {
+    "travel distance (m)": lambda found: f"{found.travel:,.0f}",
+    "reach angle (degrees)": lambda found: f"{found.reach_angle:.2f}",
+    "displacement of the centre of mass (m)": lambda found: f"{found.centre:,.0f}",
+    "maximum mean velocity (m/s)": lambda found: f"{found.speed:.1f}",
+    "mean velocity at the end (m/s)": lambda found: f"{found.end_speed:.2f}",
+    "simulated (s)": lambda found: f"{found.simulated:.0f}",
+    "mass that left the DEM": lambda found: f"{100.0 * found.left:.1f} %",
+    "particles": lambda found: f"{found.particles:,}",
+    "processor time (s)": lambda found: f"{found.processor:,.0f}",
+}
+
+
+def markdown(lines: list[list[str]]) -> str:
+    """Return a table, its first line the header."""
+    head, *rest = lines
+    return "\n".join("| " + " | ".join(line) + " |" for line in [head, ["---"] * len(head), *rest])
+
+
+def cells_table(found: list[Found], more: dict[str, list[str]] | None = None) -> str:
+    """Return the numbers of runs that differ by their cell; `more` has further columns by their header."""
+    more = more or {}
+    lines = [["cell (m)", *(f"{each.cell:g}" for each in found), *more]]
+    for place, (words, text) in enumerate(ROWS.items()):
+        lines.append([words, *(text(each) for each in found), *(column[place] for column in more.values())])
+    return markdown(lines)
+
+
+def convergence(found: list[Found]) -> dict[str, list[str]]:
+    """Return the columns of the observed order and of the limit, for three cells that halve."""
+    orders, limits = [], []
+    for name, digits in (("travel", 0), ("reach_angle", 2), ("centre", 0), ("speed", 1)):
+        coarse, middle, fine = (getattr(each, name) for each in found)
+        observed = order(coarse, middle, fine)
+        orders.append("not monotonic" if math.isnan(observed) else f"{observed:.1f}")
+        limits.append("" if not observed > 0.0 else f"{limit(middle, fine, observed):,.{digits}f}")
+    empty = [""] * (len(ROWS) - len(orders))
+    return {"observed order": orders + empty, "extrapolated": limits + empty}
+
+
+def spread_words(found: list[Found]) -> str:
+    """Return a sentence on how far runs that differ by their cell are apart."""
+    parts = [
+        f"{words} {100.0 * spread([getattr(each, name) for each in found]):.1f} %"
+        for words, name in (
+            ("travel distance", "travel"),
+            ("reach angle", "reach_angle"),
+            ("displacement of the centre", "centre"),
+        )
+    ]
+    return f"Range over mean of the {len(found)} cells: {', '.join(parts)}."
+
+
+def friction_rows(job: Job, terrain: Map) -> list[Interval]:
+    """Return the intervals of a run in which it moves fast enough for a friction."""
+    run = Run(job.output)
+    speed, time = run.history["mean_velocity_m_s"], run.history["time_s"]
+    found = intervals(run, terrain, math.tan(math.radians(ALR.friction_angle)), LENGTH)
+    return [each for each in found if float(speed[(time >= each.start) & (time <= each.end)].min()) > SLOWEST or each.start == 0.0]
+
+
+def friction_table(rows: dict[str, list[Interval]]) -> str:
+    """Return apparent friction and wedge factor over time, a group of columns for each run."""
+    longest = max(rows.values(), key=len)
+    lines = [["time (s)"]]
+    for name in rows:
+        lines[0] += [f"{name}: wedge factor", "apparent friction / coefficient", "difference"]
+    for place, interval in enumerate(longest):
+        line = [f"{interval.start:.0f} to {interval.end:.0f}"]
+        for each in rows.values():
+            if place < len(each):
+                found = each[place]
+                line += [f"{found.wedge:.3f}", f"{found.ground:.3f}", f"{100.0 * (found.ground / found.wedge - 1.0):+.1f} %"]
+            else:
+                line += ["", "", ""]
+        lines.append(line)
+    return markdown(lines)
+
+
+@styled
+def friction_picture(filtered: dict[float, list[Interval]], rough: dict[float, list[Interval]]) -> Figure:
+    """Return apparent friction over time, with the DEM filtered and as it is."""
+    figure = Figure(figsize=(9.0, 4.2), layout="constrained")
+    panels = figure.subplots(1, 2, sharey=True)
+    for panel, runs, title in zip(panels, (filtered, rough), ("DEM filtered (default)", "DEM as it is"), strict=True):
+        for colour, (cell, rows) in zip(COLOURS, runs.items(), strict=False):
+            middle = [0.5 * (each.start + each.end) for each in rows]
+            panel.plot(middle, [each.ground for each in rows], "o-", color=colour, ms=4, label=f"cells of {cell:g} m")
+        finest = runs[min(runs)]
+        middle = np.array([0.5 * (each.start + each.end) for each in finest])
+        wedge = np.array([each.wedge for each in finest])
+        panel.plot(middle, wedge, color=BLACK, linestyle="dashed", label=f"wedge factor, cells of {min(runs):g} m")
+        panel.fill_between(middle, 0.9 * wedge, 1.1 * wedge, color=BLACK, alpha=0.12, linewidth=0, label="within 10 %")
+        panel.set_title(title, loc="left")
+        panel.set_xlabel("time (s)")
+        panel.grid(True)
+        panel.legend(loc="upper right")
+    panels[0].set_ylabel("apparent friction / friction coefficient")
+    return figure
+
+
+def write(jobs: list[Job], runs: Path, folder: Path) -> None:
+    """Write refinement.md and its picture into a folder, from the runs that are there."""
+    done = {job.output.name: job for job in jobs if job.is_done}
+
+    def found(start: str) -> list[Found]:
+        return [read_found(job) for name, job in done.items() if name.rpartition("-")[0] == start]
+
+    plane, alr, rough = (found(start) for start in ("plane", "alr", "alr-rough"))
+    by_cell = {each: sorted(values, key=lambda one: -one.cell) for each, values in (("alr", alr), ("rough", rough))}
+    grounds = {each.cell: done[f"alr-{each.cell:g}"].output / "maps" / "terrain.tif" for each in alr}
+    filtered = {each.cell: friction_rows(done[f"alr-{each.cell:g}"], read_map(grounds[each.cell])) for each in by_cell["alr"]}
+    unfiltered = {
+        each.cell: friction_rows(done[f"alr-rough-{each.cell:g}"], read_map(grounds[each.cell])) for each in by_cell["rough"]
+    }
+    (folder / "comparison").mkdir(exist_ok=True)
+    friction_picture(filtered, unfiltered).savefig(folder / "comparison" / "alr-friction.png", dpi=110)
+    finest = min(filtered)
+    shared = {f"filtered, {finest:g} m": filtered[finest]}
+    if unfiltered:
+        finest_rough = min(unfiltered)
+        shared[f"as it is, {finest_rough:g} m"] = unfiltered[finest_rough]
+    parts = [
+        (HERE / "refinement.md").read_text().strip(),
+        cells_table(plane, convergence(plane) if len(plane) == 3 else None),
+        (HERE / "refinement-plane.md").read_text().strip(),
+        "## A slope of the Alps",
+        cells_table(by_cell["alr"]),
+        spread_words(alr),
+        (HERE / "refinement-alr.md").read_text().strip(),
+        "The same on the DEM as it is (`terrain.smooth = 0`):",
+        cells_table(by_cell["rough"]),
+        "## Apparent friction on the slope of the Alps",
+        "![apparent friction and wedge factor over time](comparison/alr-friction.png)",
+        friction_table(shared),
+        (HERE / "refinement-friction.md").read_text().strip(),
+    ]
+    (folder / "refinement.md").write_text("\n\n".join(part for part in parts if part) + "\n")
