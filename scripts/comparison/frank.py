@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from jobs import Job
 from results import without_gaps
-from runs import Job
 from thawslide.maps import Grid, Map, read_map
 from thawslide.relief import slopes
 from thawslide.run import Numbers, Run
@@ -93,7 +93,12 @@ def read_grid(path: Path) -> Map:
     head = {line.split()[0].lower(): float(line.split()[1]) for line in lines[:6]}
     cell = head["cellsize"]
     grid = Grid(
-        head["xllcorner"] + 0.5 * cell, head["yllcorner"] + 0.5 * cell, cell, cell, int(head["ncols"]), int(head["nrows"])
+        head["xllcorner"] + 0.5 * cell,
+        head["yllcorner"] + 0.5 * cell,
+        cell,
+        cell,
+        int(head["ncols"]),
+        int(head["nrows"]),
     )
     return Map(grid, np.loadtxt(lines[6:])[::-1], "m")
 

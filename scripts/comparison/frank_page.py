@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import frank
+from jobs import Job, processor_time
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from runs import Job, processor_time
 from thawslide.figures.map_panel import coordinate_text, outline, scale_bar
 from thawslide.figures.style import BLACK, BLUE, RED, styled
 from thawslide.maps import Map
@@ -89,7 +89,9 @@ def end_table(runs: dict[str, Run], processor: dict[str, float]) -> str:
 
 
 @styled
-def deposits(found: dict[tuple[str, int], frank.Deposit], numbers: dict[tuple[str, int], frank.Figures], pile: Map) -> Figure:
+def deposits(
+    found: dict[tuple[str, int], frank.Deposit], numbers: dict[tuple[str, int], frank.Figures], pile: Map
+) -> Figure:
     """Return the outlines of the deposits, one panel an angle."""
     figure = Figure(figsize=(9.0, 9.6), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True, sharey=True).ravel()
@@ -114,13 +116,16 @@ def deposits(found: dict[tuple[str, int], frank.Deposit], numbers: dict[tuple[st
         panel.set_ylabel("northing, local (km)")
     scale_bar(panels[0], "upper left")
     handles = [
-        *(Line2D([], [], color=colour, label=f"{code}, thickness {frank.EDGE:g} m") for code, colour in COLOURS.items()),
+        *(
+            Line2D([], [], color=colour, label=f"{code}, thickness {frank.EDGE:g} m")
+            for code, colour in COLOURS.items()
+        ),
         *(
             Line2D([], [], color=colour, linestyle="dashed", linewidth=0.9, label=f"{code}, thickness {THICK:g} m")
             for code, colour in COLOURS.items()
         ),
         *(
-            Line2D([], [], color=colour, marker=mark, linestyle="", markeredgecolor="white", ms=8, label=f"{code}, centroid")
+            Line2D([], [], color=colour, marker=mark, ls="", mec="white", ms=8, label=f"{code}, centroid")
             for (code, colour), mark in zip(COLOURS.items(), "o^", strict=True)
         ),
         Line2D([], [], color=BLACK, linestyle="dotted", linewidth=0.9, label="release"),

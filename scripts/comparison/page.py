@@ -79,14 +79,16 @@ def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: lis
         shown = [np.where(each.thickness.values >= AFFECTED, getattr(each, field).values, np.nan) for each in outcomes]
         most = max(float(np.nanquantile(values, 0.998)) for values in shown)
         painter = ScalarMappable(Normalize(0.0, most), colours)
+        panels = []
         for number, (outcome, values) in enumerate(zip(outcomes, shown, strict=True)):
             axes = page.panel(number, labels=False)
             paint(axes, Map(terrain.grid, values), painter)
             outline(axes, outcome.thickness, AFFECTED, colors="#222222", linewidths=0.6)
             axes.plot(*zip(*corners, strict=True), color="#0072B2", linewidth=1.0, zorder=6)
-            page.name(axes, number, outcome.program)
+            panels.append((axes, outcome.program, ""))
             page.figure.colorbar(painter, cax=page.panel_bar(axes), extend="max")
             scale_bar(axes, "lower left")
+        page.name(panels)
         page.figure.savefig(folder / f"{ground.name}-{field}.png", dpi=100)
 
 

@@ -1,4 +1,4 @@
-"""Runs of the same slide on cells of several sizes: travel distance, reach angle, and the order at which they converge."""
+"""Runs of the same slide on cells of several sizes: travel distance, reach angle, and their order of convergence."""
 
 import math
 import shutil
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from grounds import ALR, PLANE, write_ground
-from runs import Job, processor_time
+from jobs import Job, processor_time
 from thawslide.run import Run
 
 HERE = Path(__file__).resolve().parent

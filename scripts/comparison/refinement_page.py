@@ -1,13 +1,13 @@
-"""The page of refinement: tables of the plane and of AlR, and apparent friction next to the wedge factor of the ground."""
+"""The page of refinement: tables of the plane and of AlR, apparent friction next to the wedge factor of the ground."""
 
 import math
 from pathlib import Path
 
 import numpy as np
 from grounds import ALR
+from jobs import Job
 from matplotlib.figure import Figure
 from refinement import HERE, Found, limit, order, read_found, spread
-from runs import Job
 from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, styled
 from thawslide.maps import Map, read_map
 from thawslide.run import Run
@@ -75,7 +75,11 @@ def friction_rows(job: Job, terrain: Map) -> list[Interval]:
     run = Run(job.output)
     speed, time = run.history["mean_velocity_m_s"], run.history["time_s"]
     found = intervals(run, terrain, math.tan(math.radians(ALR.friction_angle)), LENGTH)
-    return [each for each in found if float(speed[(time >= each.start) & (time <= each.end)].min()) > SLOWEST or each.start == 0.0]
+    return [
+        each
+        for each in found
+        if float(speed[(time >= each.start) & (time <= each.end)].min()) > SLOWEST or each.start == 0.0
+    ]
 
 
 def friction_table(rows: dict[str, list[Interval]]) -> str:
@@ -89,7 +93,11 @@ def friction_table(rows: dict[str, list[Interval]]) -> str:
         for each in rows.values():
             if place < len(each):
                 found = each[place]
-                line += [f"{found.wedge:.3f}", f"{found.ground:.3f}", f"{100.0 * (found.ground / found.wedge - 1.0):+.1f} %"]
+                line += [
+                    f"{found.wedge:.3f}",
+                    f"{found.ground:.3f}",
+                    f"{100.0 * (found.ground / found.wedge - 1.0):+.1f} %",
+                ]
             else:
                 line += ["", "", ""]
         lines.append(line)
@@ -126,12 +134,17 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
         return [read_found(job) for name, job in done.items() if name.rpartition("-")[0] == start]
 
     plane, alr, rough = (found(start) for start in ("plane", "alr", "alr-rough"))
-    by_cell = {each: sorted(values, key=lambda one: -one.cell) for each, values in (("alr", alr), ("rough", rough))}
-    grounds = {each.cell: done[f"alr-{each.cell:g}"].output / "maps" / "terrain.tif" for each in alr}
-    filtered = {each.cell: friction_rows(done[f"alr-{each.cell:g}"], read_map(grounds[each.cell])) for each in by_cell["alr"]}
-    unfiltered = {
-        each.cell: friction_rows(done[f"alr-rough-{each.cell:g}"], read_map(grounds[each.cell])) for each in by_cell["rough"]
-    }
+    alr, rough = (sorted(each, key=lambda one: -one.cell) for each in (alr, rough))
+
+    def friction(start: str, cells: list[Found]) -> dict[float, list[Interval]]:
+        return {
+            each.cell: friction_rows(
+                done[f"{start}-{each.cell:g}"], read_map(done[f"alr-{each.cell:g}"].output / "maps" / "terrain.tif")
+            )
+            for each in cells
+        }
+
+    filtered, unfiltered = friction("alr", alr), friction("alr-rough", rough)
     (folder / "comparison").mkdir(exist_ok=True)
     friction_picture(filtered, unfiltered).savefig(folder / "comparison" / "alr-friction.png", dpi=110)
     finest = min(filtered)
@@ -144,11 +157,11 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
         cells_table(plane, convergence(plane) if len(plane) == 3 else None),
         (HERE / "refinement-plane.md").read_text().strip(),
         "## A slope of the Alps",
-        cells_table(by_cell["alr"]),
+        cells_table(alr),
         spread_words(alr),
         (HERE / "refinement-alr.md").read_text().strip(),
         "The same on the DEM as it is (`terrain.smooth = 0`):",
-        cells_table(by_cell["rough"]),
+        cells_table(rough),
         "## Apparent friction on the slope of the Alps",
         "![apparent friction and wedge factor over time](comparison/alr-friction.png)",
         friction_table(shared),

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from jobs import processor_time
 from matplotlib.path import Path as Outline
 from thawslide.maps import Map, read_map
 from thawslide.relief import slopes
@@ -33,11 +34,6 @@ class Outcome:
 def without_gaps(field: Map) -> Numbers:
     """Return the values of a map, 0 where the slide never was."""
     return np.nan_to_num(field.values, nan=0.0)
-
-
-def processor_time(file: Path) -> float:
-    """Return the time [s] that a program took of its core, with its start and its output."""
-    return float(json.loads(file.read_text())["processor_s"])
 
 
 def read_avaframe(folder: Path, terrain: Map) -> Outcome:

@@ -1,10 +1,10 @@
 """Apparent friction of a slide on a DEM, next to the wedge factor of the ground below it.
 
-On a column of the slide that moves with speed v along the horizontal direction t over ground z(x, y), let s = grad z . t
-be the slope along the motion and k = t . H t / (1 + s^2)^(3/2) its curvature (H: second derivatives of z). The load
-across the ground per mass, in the vertical plane of the motion, is l = g / sqrt(1 + s^2) + k v^2. Walls at the side
-carry it by their normals: with a pressure that depends on the depth alone, the sum of the pressure over the ground is
-larger than the load by the wedge factor
+On a column of the slide that moves with speed v along the horizontal direction t over ground z(x, y), let
+s = grad z . t be the slope along the motion and k = t . H t / (1 + s^2)^(3/2) its curvature, with the second
+derivatives H of z. The load across the ground per mass, in the vertical plane of the motion, is
+l = g / sqrt(1 + s^2) + k v^2. Walls at the side carry it by their normals: with a pressure that depends on the depth
+alone, the sum of the pressure over the ground is larger than the load by the wedge factor
 
     w = sqrt((1 + |grad z|^2) / (1 + s^2)),
 
@@ -16,6 +16,7 @@ which is 1 on a plane and 1 / sin(half angle) in a V channel, whatever its slope
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from thawslide.maps import Map
@@ -92,7 +93,7 @@ def intervals(run: Run, terrain: Map, coefficient: float, length: float) -> list
         if time >= times[ends[-1]] + length - 1e-6:
             ends.append(index)
     result = []
-    for first, last in zip(ends[:-1], ends[1:], strict=True):
+    for first, last in pairwise(ends):
         load, wedged = paths[last] - paths[first]
         result.append(
             Interval(
