@@ -1,0 +1,60 @@
+"""Cases of the comparisons with other codes and of cells are sound; a short run keeps the volume of the pile."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, Program
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
+
+import frank
+import refinement
+from jobs import Job
+
+DATA = ROOT.parent / "shared" / "data"
+
+
+def options(job: Job) -> list[str]:
+    """Return the options of a job on the command line."""
+    return [word for change in job.changes for word in ("--set", change)]
+
+
+def needs(*names: str) -> None:
+    """Pass the test over where the data of a user are not there."""
+    absent = [name for name in names if not (DATA / name).exists()]
+    if absent:
+        pytest.skip(f"the comparison needs data that are not in the repository: {', '.join(absent)} in ../shared/data")
+
+
+def test_each_run_of_the_frank_slide_is_a_sound_case(thawslide: Program, tmp_path: Path) -> None:
+    needs("frank")
+    for job in frank.jobs(DATA / "frank", tmp_path):
+        checked = thawslide("check", job.case, *options(job))
+        assert checked.returncode == 0, checked.stderr
+        assert "3.6e+07 m3" in checked.stdout
+
+
+def test_each_run_on_refined_cells_is_a_sound_case(thawslide: Program, tmp_path: Path) -> None:
+    needs("alr/alr.tif", "alr/release.shp")
+    refinement.write_inputs(tmp_path, DATA / "alr")
+    for job in refinement.jobs(tmp_path):
+        checked = thawslide("check", job.case, *options(job))
+        assert checked.returncode == 0, checked.stderr
+
+
+def test_short_run_of_the_frank_slide_has_the_pile_on_the_grid_of_shaltop(thawslide: Program, tmp_path: Path) -> None:
+    needs("frank")
+    data = DATA / "frank"
+    terrain, pile = (frank.read_grid(data / f"Frankslide_{kind}.asc") for kind in ("topography", "pile"))
+    job = frank.job(frank.BASE, 15, data, tmp_path, ("time.end=0.12", "time.output_interval=0.12"))
+    done = thawslide("run", job.case, *options(job), "--threads", "1", "--output", job.output)
+    assert done.returncode == 0, done.stderr
+    deposit = frank.read_run(job.output, terrain.grid)
+    found = frank.figures(deposit, terrain, pile)
+    assert found.volume == pytest.approx(36.0, rel=2e-3)
+    released = frank.figures(frank.Deposit(pile, pile, pile), terrain, pile)
+    assert (found.x, found.y) == pytest.approx((released.x, released.y), abs=1.0)
+    assert found.area == pytest.approx(released.area, rel=0.05)

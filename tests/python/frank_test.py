@@ -1,0 +1,142 @@
+"""The comparisons with SHALTOP and of cells: numbers of deposits, orders of convergence, runs that are done."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
+
+import frank
+import jobs
+import refinement
+
+from thawslide.maps import Grid, Map
+
+DATA = Path(__file__).resolve().parents[3] / "shared" / "data" / "frank"
+GRID = Grid(30.0, 30.0, 20.0, 20.0, 60, 40)
+
+
+def block(first: int, last: int, value: float) -> Map:
+    """Return a map that has a value in some columns of rows 10 to 19."""
+    values = np.zeros((GRID.rows, GRID.columns))
+    values[10:20, first:last] = value
+    return Map(GRID, values, "m")
+
+
+def test_numbers_of_a_known_deposit() -> None:
+    x, _ = np.meshgrid(GRID.x, GRID.y)
+    terrain, pile = Map(GRID, 1_000.0 - 0.5 * x), block(2, 6, 30.0)
+    final = block(30, 40, 4.0)
+    final.values[10:20, 40:50] = 0.9  # too thin to count
+    highest, speed = block(2, 40, 5.0), block(2, 40, 12.0)
+    speed.values[15, 20], speed.values[30, 50] = 50.0, 99.0  # the latter where nothing was thick
+    found = frank.figures(frank.Deposit(final, highest, speed), terrain, pile)
+    assert found.x == pytest.approx(30.0 + 20.0 * 34.5)
+    assert found.y == pytest.approx(30.0 + 20.0 * 14.5)
+    assert found.area == pytest.approx(100 * 400e-6)
+    assert found.passed == pytest.approx(380 * 400e-6)
+    assert found.farthest == 30.0 + 20.0 * 39
+    assert (found.speed, found.usual_speed, found.thickness) == (50.0, 12.0, 4.0)
+    assert found.volume == pytest.approx((100 * 4.0 + 100 * 0.9) * 400e-6)
+    # From the top of the pile, its uppermost column, to the farthest corner.
+    assert found.travel == pytest.approx(math.hypot(37 * 20.0, 9 * 20.0))
+    assert found.drop == pytest.approx(30.0 + 0.5 * 37 * 20.0)
+    assert found.reach_angle == pytest.approx(math.degrees(math.atan2(found.drop, found.travel)))
+
+
+def test_difference_of_deposits_that_half_overlap() -> None:
+    empty = block(0, 0, 0.0)
+    one, other = (frank.Deposit(block(first, first + 10, 4.0), empty, empty) for first in (10, 15))
+    found = frank.difference(one, other)
+    assert found.overlap == pytest.approx(1.0 / 3.0)
+    assert found.moved == pytest.approx(0.5)
+    assert found.thickness == pytest.approx(math.sqrt(16.0 * 2.0 / 3.0))
+    same = frank.difference(one, one)
+    assert (same.overlap, same.moved, same.thickness) == (1.0, 0.0, 0.0)
+
+
+def test_maps_of_a_run_are_placed_on_the_grid_of_the_other_code() -> None:
+    part = Map(Grid(10.0, 70.0, 20.0, 20.0, 3, 2), np.array([[1.0, 2.0, np.nan], [4.0, 5.0, 6.0]]))
+    placed = frank.on_grid(part, GRID).values
+    assert placed[2, :3].tolist() == [2.0, 0.0, 0.0]  # the first column lies outside
+    assert placed[3, :3].tolist() == [5.0, 6.0, 0.0]
+    assert placed.sum() == 13.0
+    with pytest.raises(SystemExit, match=r"the cells of a map .* are not those of SHALTOP"):
+        frank.on_grid(Map(Grid(35.0, 70.0, 20.0, 20.0, 3, 2), part.values), GRID)
+
+
+def test_grid_file_is_read_from_south_to_north(tmp_path: Path) -> None:
+    file = tmp_path / "a.asc"
+    file.write_text("ncols 3\nnrows 2\nxllcorner 20\nyllcorner 40\ncellsize 10\nNODATA_value -9999\n1 2 3\n4 5 6\n")
+    found = frank.read_grid(file)
+    assert found.grid == Grid(25.0, 45.0, 10.0, 10.0, 3, 2)
+    assert found.values.tolist() == [[4.0, 5.0, 6.0], [1.0, 2.0, 3.0]]
+
+
+@pytest.mark.parametrize(
+    ("angle", "area", "x", "y", "farthest"),
+    [
+        (10, 2.78, 2696, 2919, 3910),
+        (15, 1.83, 2121, 2580, 3150),
+        (20, 1.24, 1778, 2326, 2530),
+        (25, 1.02, 1538, 2147, 2210),
+    ],
+)
+def test_results_of_shaltop_have_the_numbers_that_their_source_states(
+    angle: int, area: float, x: float, y: float, farthest: float
+) -> None:
+    if not DATA.is_dir():
+        pytest.skip("the Frank slide (frank/) is not in ../shared/data")
+    terrain, pile = (frank.read_grid(DATA / f"Frankslide_{kind}.asc") for kind in ("topography", "pile"))
+    assert pile.volume() == pytest.approx(36.0e6, rel=1e-4)
+    found = frank.figures(frank.read_shaltop(DATA, angle, terrain), terrain, pile)
+    assert round(found.area, 2) == area
+    assert (round(found.x), round(found.y), round(found.farthest)) == (x, y, farthest)
+
+
+@pytest.mark.parametrize("power", [0.5, 1.0, 2.0])
+def test_order_and_limit_of_a_power_law_are_exact(power: float) -> None:
+    values = [1_000.0 - 3.0 * cell**power for cell in (20.0, 10.0, 5.0)]
+    found = refinement.order(*values)
+    assert found == pytest.approx(power)
+    assert refinement.limit(values[1], values[2], found) == pytest.approx(1_000.0)
+    assert math.isnan(refinement.order(1.0, 2.0, 1.5))
+    assert math.isnan(refinement.order(1.0, 1.0, 1.0))
+
+
+def test_spread_is_the_range_over_the_mean() -> None:
+    assert refinement.spread([90.0, 100.0, 110.0]) == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("cell", refinement.ALR_CELLS)
+def test_domain_of_each_cell_is_a_whole_number_of_cells(cell: float) -> None:
+    low, high = (np.array(json.loads(change.split("=")[1])) for change in refinement.alr_domain(cell))
+    counts = (high - low) / cell
+    assert counts == pytest.approx(np.round(counts), abs=1e-6)
+    size = high - low
+    assert (size[:2] <= np.array([2046.0, 4521.0]) + 1e-9).all()
+    assert size[2] >= 2059.2 - 1e-9
+    assert (np.abs(size - [2046.0, 4521.0, 2059.2]) < cell).all()
+
+
+def test_run_is_done_only_with_the_same_changes(tmp_path: Path) -> None:
+    job = jobs.Job(tmp_path / "case.toml", ("grid.cell=5",), tmp_path / "plane-5")
+    assert not job.is_done
+    jobs.call([sys.executable, "-c", "print('moving')"], job.log, job.changes)
+    assert job.is_done
+    assert job.log.read_text() == "moving\n"
+    assert 0.0 < jobs.processor_time(job.log.with_suffix(".json")) < 10.0
+    assert not jobs.Job(job.case, ("grid.cell=10",), job.output).is_done
+
+
+def test_command_that_fails_ends_the_program_with_the_place_of_its_output(tmp_path: Path) -> None:
+    log = tmp_path / "a.log"
+    with pytest.raises(SystemExit, match=r"exit code 3; .*a\.log has the output of the command"):
+        jobs.call([sys.executable, "-c", "raise SystemExit(3)"], log)
+    assert not log.with_suffix(".json").exists()
