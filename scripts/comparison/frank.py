@@ -32,8 +32,8 @@ FLUID = Variant("fluid", "internal friction 5 degrees", ("material.grains.fricti
 CAUSES = (
     Variant("alike", "internal friction 15 degrees, as along the ground", ("material.grains.friction_angle=15",)),
     Variant("rough", "DEM without filter", ("terrain.smooth=0",)),
-    Variant("stiff", "Young's modulus 400 MPa, not 100", ("material.grains.youngs_modulus=4e8", "time.step=0.03")),
-    Variant("fine", "cells of 10 m, not 20", ("grid.cell=10", "time.step=0.03")),
+    Variant("stiff", "Young's modulus 400 MPa, not 100", ("material.grains.youngs_modulus=4e8", "time.step=0.036")),
+    Variant("fine", "cells of 10 m, not 20", ("grid.cell=10", "time.step=0.036")),
 )
 
 

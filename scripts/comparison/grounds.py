@@ -18,6 +18,15 @@ THICKNESS = 10.0  # of the releases, along the normal [m]
 
 
 @dataclass(frozen=True)
+class Variant:
+    """A run that differs in single settings, to isolate a cause."""
+
+    name: str  # of its folder
+    words: str
+    changes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Ground:
     """What the two programs are given, and how the page tells it."""
 
@@ -26,7 +35,13 @@ class Ground:
     text: str
     friction_angle: float  # along the ground [degrees]
     is_straight: bool  # whether the middle of the slide goes due east
+    avaframe: tuple[Variant, ...] = ()  # besides the run by AvaFrame's defaults
+    thawslide: tuple[Variant, ...] = ()  # besides the run of the case file
 
+
+INVISCID = Variant("avaframe-inviscid", "no artificial viscosity", ("viscOption=0",))
+NO_PRESSURE = Variant("avaframe-no-pressure", "no pressure gradient", ("sphOption=0",))
+FLUID = Variant("thawslide-fluid", "internal friction 5 degrees", ("material.grains.friction_angle=5",))
 
 PLANE = Ground(
     "plane",
@@ -34,6 +49,7 @@ PLANE = Ground(
     "A slope of 30 degrees, rounded by a parabola over 300 m, then level ground; 200 m x 200 m of release on it.",
     20.0,
     is_straight=True,
+    avaframe=(INVISCID, NO_PRESSURE),
 )
 BOWL = Ground(
     "bowl",
@@ -41,6 +57,8 @@ BOWL = Ground(
     "A paraboloid, z = r2/2000 m; 150 m x 150 m of release where it is 600 m from the middle, a slope of 31 degrees.",
     15.0,
     is_straight=True,
+    avaframe=(INVISCID, NO_PRESSURE),
+    thawslide=(FLUID,),
 )
 ALR = Ground(
     "alr",

@@ -36,10 +36,10 @@ def without_gaps(field: Map) -> Numbers:
     return np.nan_to_num(field.values, nan=0.0)
 
 
-def read_avaframe(folder: Path, terrain: Map) -> Outcome:
+def read_avaframe(folder: Path, terrain: Map, name: str = "avaframe", words: str = "") -> Outcome:
     """Read AvaFrame's results; its thickness, which is along the normal, is turned to the vertical."""
-    facts = json.loads((folder / "com1dfa.json").read_text())
-    peaks = folder / "avaframe" / "Outputs" / "com1DFA" / "peakFiles"
+    facts = json.loads((folder / f"{name}.facts.json").read_text())
+    peaks = folder / name / "Outputs" / "com1DFA" / "peakFiles"
     found = {kind: read_map(next(iter(peaks.glob(f"*_{kind}.tif")))) for kind in ("pft", "pfv", "FT")}
     steepness = np.nan_to_num(np.hypot(*slopes(terrain.values, terrain.grid.cell_x, terrain.grid.cell_y)), nan=0.0)
     over_cosine = np.sqrt(1.0 + steepness**2)
@@ -48,7 +48,7 @@ def read_avaframe(folder: Path, terrain: Map) -> Outcome:
         return Map(found[kind].grid, without_gaps(found[kind]) * over_cosine, "m")
 
     return Outcome(
-        f"AvaFrame {facts['version']}",
+        ", ".join(part for part in (f"AvaFrame {facts['version']}", words) if part),
         vertical("pft"),
         found["pfv"],
         vertical("FT"),
@@ -56,7 +56,7 @@ def read_avaframe(folder: Path, terrain: Map) -> Outcome:
         float(facts["simulated_s"]),
         float(facts["released_m3"]),
         float(facts["left_share"]),
-        processor_time(folder / "avaframe.json"),
+        processor_time(folder / f"{name}.json"),
     )
 
 
@@ -70,16 +70,16 @@ def on_grid(field: Map, terrain: Map) -> Map:
     return Map(grid, values, field.unit)
 
 
-def read_thawslide(folder: Path, terrain: Map) -> Outcome:
+def read_thawslide(folder: Path, terrain: Map, name: str = "thawslide", words: str = "") -> Outcome:
     """Read the results of our own run, whose maps cover the domain."""
-    run = Run(folder / "thawslide")
+    run = Run(folder / name)
     thickness, speed, final = (
         on_grid(read_map(run.folder / "maps" / f"{name}.tif"), terrain)
         for name in ("max_thickness", "max_speed", "final_thickness")
     )
     volumes = run.snapshot(0, fields=["volume"])["volume"]
     return Outcome(
-        f"Thawslide {run.facts['version']}",
+        ", ".join(part for part in (f"Thawslide {run.facts['version']}", words) if part),
         thickness,
         speed,
         final,
@@ -87,7 +87,7 @@ def read_thawslide(folder: Path, terrain: Map) -> Outcome:
         float(run.facts["simulated_time_s"]),
         float(volumes.sum()),
         float(run.history["left_mass_kg"][-1] / run.history["mass_kg"][0]),
-        processor_time(folder / "thawslide.json"),
+        processor_time(folder / f"{name}.json"),
     )
 
 

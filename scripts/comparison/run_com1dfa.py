@@ -1,8 +1,8 @@
-"""Runs AvaFrame's com1DFA with plain Coulomb friction: python run_com1dfa.py FOLDER FRICTION_ANGLE.
+"""Runs AvaFrame's com1DFA with plain Coulomb friction: run_com1dfa.py FOLDER FRICTION_ANGLE NAME [KEY=VALUE ...].
 
 scripts/compare-avaframe starts it with the Python that AvaFrame is installed in. FOLDER holds dem.tif and release.json:
-the corners of the outline [m] and the thickness along the normal [m]. Leaves FOLDER/avaframe (AvaFrame's own folders)
-and FOLDER/com1dfa.json (version, what it began and ended with, AvaFrame's report).
+the corners of the outline [m] and the thickness along the normal [m]. Writes FOLDER/NAME (AvaFrame's own folders) and
+FOLDER/NAME.facts.json (version, particles, times and volumes, AvaFrame's report). KEY=VALUE are settings of com1DFA.
 """
 
 import json
@@ -30,9 +30,9 @@ SETTINGS = {
 }
 
 
-def prepare(folder: Path, friction_angle: float) -> Path:
+def prepare(folder: Path, friction_angle: float, name: str, changes: list[str]) -> Path:
     """Write AvaFrame's folders; return the one it runs in."""
-    place = folder / "avaframe"
+    place = folder / name
     shutil.rmtree(place, ignore_errors=True)
     inputs = place / "Inputs"
     (inputs / "REL").mkdir(parents=True)
@@ -45,6 +45,7 @@ def prepare(folder: Path, friction_angle: float) -> Path:
         file.poly([release["corners"]])
         file.record("slide", release["thickness"])
     settings = {**SETTINGS, "mucoulomb": f"{math.tan(math.radians(friction_angle)):.9g}"}
+    settings |= dict(change.split("=", 1) for change in changes)
     lines = ["[GENERAL]", *(f"{key} = {value}" for key, value in settings.items())]
     (inputs / "CFGs" / "com1DFACfg.ini").write_text("\n".join(lines) + "\n")
     return place
@@ -58,8 +59,8 @@ def particles_in(place: Path) -> int:
 
 def main() -> None:
     """Run it and write what the comparison needs to know besides the maps."""
-    folder, friction_angle = Path(sys.argv[1]).resolve(), float(sys.argv[2])
-    place = prepare(folder, friction_angle)
+    folder, friction_angle, name = Path(sys.argv[1]).resolve(), float(sys.argv[2]), sys.argv[3]
+    place = prepare(folder, friction_angle, name, sys.argv[4:])
     general = cfgUtils.getGeneralConfig()
     general["MAIN"]["avalancheDir"] = str(place)
     general["MAIN"]["nCPU"] = "1"
@@ -76,7 +77,7 @@ def main() -> None:
         "left_share": 1.0 - float(report["Final mass [kg]"]) / float(report["Initial mass [kg]"]),
         "report": reports[0],
     }
-    (folder / "com1dfa.json").write_text(json.dumps(facts, indent=1, default=str) + "\n")
+    (folder / f"{name}.facts.json").write_text(json.dumps(facts, indent=1, default=str) + "\n")
 
 
 if __name__ == "__main__":
