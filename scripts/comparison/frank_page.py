@@ -14,7 +14,7 @@ from thawslide.run import Run
 HERE = Path(__file__).resolve().parent
 SHALTOP, OURS = "SHALTOP", "Thawslide"
 COLOURS = {SHALTOP: BLUE, OURS: RED}
-THICK = 20.0  # m: the second outline of the pictures
+MARKS = {SHALTOP: "o", OURS: "^"}
 PUBLISHED = {"drop": 760.0, "travel": 3080.0, "area": 3.57, "volume": 36.5}  # Mitchell et al. (2019)
 
 ROWS = {
@@ -90,23 +90,25 @@ def end_table(runs: dict[str, Run], processor: dict[str, float]) -> str:
 
 @styled
 def deposits(
-    found: dict[tuple[str, int], frank.Deposit], numbers: dict[tuple[str, int], frank.Figures], pile: Map
+    found: dict[tuple[str, int], frank.Deposit],
+    numbers: dict[tuple[str, int], frank.Figures],
+    fluid: dict[int, frank.Deposit],
+    pile: Map,
 ) -> Figure:
     """Return the outlines of the deposits, one panel an angle."""
-    figure = Figure(figsize=(9.0, 9.6), layout="constrained")
+    figure = Figure(figsize=(9.0, 8.4), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True, sharey=True).ravel()
     for panel, angle, letter in zip(panels, frank.ANGLES, "abcd", strict=True):
         outline(panel, pile, 0.5, colors=BLACK, linewidths=0.9, linestyles="dotted")
+        outline(panel, fluid[angle].final, frank.EDGE, colors=RED, linewidths=1.0, linestyles="dashed")
         for code, colour in COLOURS.items():
-            final = found[code, angle].final
-            outline(panel, final, frank.EDGE, colors=colour, linewidths=1.5)
-            outline(panel, final, THICK, colors=colour, linewidths=0.9, linestyles="dashed")
+            outline(panel, found[code, angle].final, frank.EDGE, colors=colour, linewidths=1.6)
             centre = numbers[code, angle]
-            panel.plot(centre.x, centre.y, "o" if code == SHALTOP else "^", color=colour, markeredgecolor="white", ms=8)
+            panel.plot(centre.x, centre.y, MARKS[code], color=colour, markeredgecolor="white", ms=8)
         panel.set_title(f"({letter}) friction angle {angle}°", loc="left")
         panel.set_aspect("equal")
-        panel.set_xlim(200.0, 4000.0)
-        panel.set_ylim(900.0, 4000.0)
+        panel.set_xlim(200.0, 4040.0)
+        panel.set_ylim(900.0, 4040.0)
         for axis in (panel.xaxis, panel.yaxis):
             axis.set_major_formatter(lambda value, _: coordinate_text(value))
         panel.grid(True)
@@ -114,23 +116,17 @@ def deposits(
         panel.set_xlabel("easting, local (km)")
     for panel in panels[::2]:
         panel.set_ylabel("northing, local (km)")
-    scale_bar(panels[0], "upper left")
-    handles = [
-        *(
-            Line2D([], [], color=colour, label=f"{code}, thickness {frank.EDGE:g} m")
-            for code, colour in COLOURS.items()
-        ),
-        *(
-            Line2D([], [], color=colour, linestyle="dashed", linewidth=0.9, label=f"{code}, thickness {THICK:g} m")
-            for code, colour in COLOURS.items()
-        ),
-        *(
-            Line2D([], [], color=colour, marker=mark, ls="", mec="white", ms=8, label=f"{code}, centroid")
-            for (code, colour), mark in zip(COLOURS.items(), "o^", strict=True)
-        ),
-        Line2D([], [], color=BLACK, linestyle="dotted", linewidth=0.9, label="release"),
-    ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=4)
+    scale_bar(panels[0], "lower right")
+    handles = []
+    for code, colour in COLOURS.items():
+        handles.append(Line2D([], [], color=colour, label=f"{code}, deposit"))
+        handles.append(
+            Line2D([], [], color=colour, marker=MARKS[code], ls="", mec="white", ms=8, label=f"{code}, centroid")
+        )
+    words = f"{OURS}, {frank.FLUID.words}, deposit"
+    handles.append(Line2D([], [], color=RED, linestyle="dashed", linewidth=1.0, label=words))
+    handles.append(Line2D([], [], color=BLACK, linestyle="dotted", linewidth=0.9, label="release"))
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
 
@@ -170,7 +166,7 @@ def draw(
 ) -> None:
     """Write both pictures."""
     folder.mkdir(exist_ok=True)
-    deposits(found, numbers, pile).savefig(folder / "frank-deposits.png", dpi=110)
+    deposits(found, numbers, fluid, pile).savefig(folder / "frank-deposits.png", dpi=110)
     sections(found, fluid, pile).savefig(folder / "frank-sections.png", dpi=110)
 
 

@@ -87,19 +87,17 @@ def friction_table(rows: dict[str, list[Interval]]) -> str:
     longest = max(rows.values(), key=len)
     lines = [["time (s)"]]
     for name in rows:
-        lines[0] += [f"{name}: wedge factor", "apparent friction / coefficient", "difference"]
+        lines[0] += [f"{name}: wedge factor w", "ground", "ground and inside", "ground / w", "both / w"]
     for place, interval in enumerate(longest):
         line = [f"{interval.start:.0f} to {interval.end:.0f}"]
         for each in rows.values():
             if place < len(each):
                 found = each[place]
-                line += [
-                    f"{found.wedge:.3f}",
-                    f"{found.ground:.3f}",
-                    f"{100.0 * (found.ground / found.wedge - 1.0):+.1f} %",
-                ]
+                both = found.ground + found.inside
+                values = (found.wedge, found.ground, both, found.ground / found.wedge, both / found.wedge)
+                line += [f"{value:.3f}" for value in values]
             else:
-                line += ["", "", ""]
+                line += [""] * 5
         lines.append(line)
     return markdown(lines)
 
@@ -109,20 +107,23 @@ def friction_picture(filtered: dict[float, list[Interval]], rough: dict[float, l
     """Return apparent friction over time, with the DEM filtered and as it is."""
     figure = Figure(figsize=(9.0, 4.2), layout="constrained")
     panels = figure.subplots(1, 2, sharey=True)
-    for panel, runs, title in zip(panels, (filtered, rough), ("DEM filtered (default)", "DEM as it is"), strict=True):
+    for panel, runs, title in zip(panels, (filtered, rough), ("(a) DEM filtered", "(b) DEM as it is"), strict=True):
         for colour, (cell, rows) in zip(COLOURS, runs.items(), strict=False):
             middle = [0.5 * (each.start + each.end) for each in rows]
-            panel.plot(middle, [each.ground for each in rows], "o-", color=colour, ms=4, label=f"cells of {cell:g} m")
+            both = [each.ground + each.inside for each in rows]
+            panel.plot(middle, both, "o-", color=colour, ms=4, label=f"ground and inside, {cell:g} m")
+            panel.plot(middle, [each.ground for each in rows], ":", color=colour, label=f"ground, {cell:g} m")
         finest = runs[min(runs)]
         middle = np.array([0.5 * (each.start + each.end) for each in finest])
         wedge = np.array([each.wedge for each in finest])
-        panel.plot(middle, wedge, color=BLACK, linestyle="dashed", label=f"wedge factor, cells of {min(runs):g} m")
+        panel.plot(middle, wedge, color=BLACK, linestyle="dashed", label=f"wedge factor, {min(runs):g} m")
         panel.fill_between(middle, 0.9 * wedge, 1.1 * wedge, color=BLACK, alpha=0.12, linewidth=0, label="within 10 %")
         panel.set_title(title, loc="left")
         panel.set_xlabel("time (s)")
         panel.grid(True)
-        panel.legend(loc="upper right")
     panels[0].set_ylabel("apparent friction / friction coefficient")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4)
     return figure
 
 
@@ -162,7 +163,7 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
         (HERE / "refinement-alr.md").read_text().strip(),
         "The same on the DEM as it is (`terrain.smooth = 0`):",
         cells_table(rough),
-        "## Apparent friction on the slope of the Alps",
+        (HERE / "refinement-wedge.md").read_text().strip(),
         "![apparent friction and wedge factor over time](comparison/alr-friction.png)",
         friction_table(shared),
         (HERE / "refinement-friction.md").read_text().strip(),
