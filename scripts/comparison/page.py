@@ -15,23 +15,26 @@ from thawslide.maps import Map
 
 FOLDER = Path(__file__).resolve().parent
 
-OPENING = f"""# Beside AvaFrame
+OPENING = f"""# Comparison with AvaFrame
 
-[AvaFrame](https://avaframe.org) is what practitioners run: its `com1DFA` is a depth-averaged model, whose particles
-move in the surface and hold each other apart by an SPH gradient of their thickness. Thawslide resolves the thickness.
-Both get the same DEM, the same release and the same friction, plain Coulomb; no entrainment, no heat, no pore pressure,
-no cohesion. This page is written by `scripts/compare-avaframe`, from what the two programs left; the reasons are ours.
+[AvaFrame](https://avaframe.org) is what practitioners run: its `com1DFA` is a depth-averaged model whose particles move
+in the surface and repel each other by an SPH gradient of their thickness. Thawslide resolves the thickness. Both get the
+same DEM, the same release and the same friction, plain Coulomb; there is no entrainment, heat, pore pressure or
+cohesion. This page is written by `scripts/compare-avaframe`. Further comparisons: [the Frank slide with
+SHALTOP](frank.md), [the same slide on finer cells](refinement.md).
 
-- AvaFrame: friction model `Coulomb`, 2,063 kg/m3, all else by its defaults: cells and SPH kernels of 5 m, steps of
+- *AvaFrame.* Friction model `Coulomb`, 2,063 kg/m3, all else by its defaults: cells and SPH kernels of 5 m, steps of
   0.1 s, artificial viscosity, curvature in the friction, the end where the kinetic energy is below 1 % of its largest.
-- Thawslide: cells of 3.3 m, particles 1.65 m apart, friction inside 35 degrees, no tension; to a given time.
-- Release: 10 m along the normal for both, which is how AvaFrame takes a thickness. Its maps of thickness are turned to
-  the vertical here, by the slope of the DEM, as ours are.
-- "Reached" is a place where the largest thickness is at least {AFFECTED} m. The travel distance is horizontal, from
-  the top of the release to the farthest place reached, the reach angle that of the straight line between them. Run
-  times are what the processes took of their core, one thread each, on a machine that had other work: good to a quarter.
-- "Point mass": a point that slides from the middle of the release, with friction on its weight across the ground and on
-  the centrifugal force, integrated along the DEM. Where the way is straight the centre of a slide should do about that.
+- *Thawslide.* Cells of 3.3 m, particles 1.65 m apart, internal friction 35 degrees, no tension; the DEM is filtered by
+  default, which leaves the plane and the bowl as they are.
+- *Release.* 10 m along the normal for both, which is how AvaFrame takes a thickness. Its maps of thickness are made
+  vertical here, by the slope of the DEM.
+- *Reached.* A place is reached if the largest thickness is at least {AFFECTED} m. The travel distance is horizontal, from
+  the top of the release to the farthest place reached; the reach angle is that of the straight line between them.
+- *Run times* are processor times of one thread on a machine with much other work, which makes them up to twice as long.
+- *Point mass.* A point that slides from the middle of the release, with friction on its weight across the ground and on
+  the centrifugal force, integrated along the DEM. On a straight path the centre of a slide should do about that.
+- *Causes* are isolated by runs that differ in one setting; their columns name it.
 
 """
 
@@ -42,7 +45,7 @@ FIELDS = [
 ROWS = {
     "travel distance (m)": lambda found: f"{found.travel:,.0f}",
     "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",
-    "way of the centre (m)": lambda found: f"{found.centre_way:,.0f}",
+    "displacement of the centre (m)": lambda found: f"{found.centre_way:,.0f}",
     "largest speed (m/s)": lambda found: f"{found.largest_speed:.1f}",
     "largest speed, median of places reached (m/s)": lambda found: f"{found.usual_speed:.1f}",
     "largest thickness (m, vertical)": lambda found: f"{found.largest_thickness:.1f}",
@@ -63,7 +66,10 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
     ]
     if point is not None:
         columns.append("point mass")
-        told = {"way of the centre (m)": f"{point.way:,.0f}", "largest speed (m/s)": f"{point.largest_speed:.1f}"}
+        told = {
+            "displacement of the centre (m)": f"{point.way:,.0f}",
+            "largest speed (m/s)": f"{point.largest_speed:.1f}",
+        }
         rows = [[*row, told.get(row[0], "")] for row in rows]
     lines = [["", *columns], ["---"] * (len(columns) + 1), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
