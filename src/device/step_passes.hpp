@@ -97,7 +97,7 @@ class StepPasses {
   // The records that a pass reads (device/passes.hpp).
   template <class Name>
   [[nodiscard]] const Real* numbers() const {
-    if constexpr (std::is_same_v<Name, terrain::Ground>) {
+    if constexpr (std::is_same_v<Name, mpm::Planes>) {
       return ground.records();
     } else {
       return nodes.template of<typename mpm::OwnerOf<Name>::Type>().data();

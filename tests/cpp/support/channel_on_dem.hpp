@@ -13,11 +13,17 @@ using Section = std::function<double(double across)>;
 
 struct Channel {
   Section ground;
-  double surface = 0.0;   // of the fill above the thalweg [m]
-  double azimuth = 0.0;   // of the thalweg, from +x towards +y [degrees]
-  double aside = 0.0;     // of the thalweg from the domain's middle, which is on grid lines [m]
-  double spacing = 1.25;  // of the terrain model's points [m]
+  double surface = 0.0;       // of the fill above the thalweg [m]
+  double half_width = 120.0;  // of the fill at most [m]
+  double azimuth = 0.0;       // of the thalweg, from +x towards +y [degrees]
+  double aside = 0.0;         // of the thalweg from the domain's middle, which is on grid lines [m]
+  double spacing = 1.25;      // of the terrain model's points [m]
 };
+
+// No channel at all: a plane, with a fill of a width and a thickness [m] across it.
+inline Channel plane_channel(double width, double thickness) {
+  return {.ground = [](double) { return 0.0; }, .surface = thickness, .half_width = 0.5 * width};
+}
 
 // V of half an opening angle [degrees], filled to a width [m].
 inline Channel v_channel(double half_opening, double width) {
@@ -40,11 +46,14 @@ inline Channel u_channel(double width) {
 // Cells of 5 m; the thalweg falls by 35 degrees; friction of the ground 15 degrees.
 inline constexpr double channel_cell = 5.0, channel_slope = 35.0, channel_friction = 15.0;
 
+// The ground's points before the slide gets to know them.
+using Treatment = std::function<Raster(Raster)>;
+
 // How much more than the coefficient of the ground the fill is held back, on average between two times [s]: by the
-// velocity of its centre of mass along the thalweg. `noise`: added to the ground at its points [m].
+// velocity of its centre of mass along the thalweg.
 inline double friction_in_channel(
     const Channel& channel, const std::string& material, double from, double to,
-    const std::function<double()>& noise = [] { return 0.0; }) {
+    const Treatment& treat = [](Raster ground) { return ground; }) {
   constexpr double degree = pi<double> / 180.0, gravity = 9.81, length = 60.0;
   const double sine = std::sin(channel_slope * degree), cosine = std::cos(channel_slope * degree);
   const Place along(std::cos(channel.azimuth * degree), std::sin(channel.azimuth * degree)), aside(-along[1], along[0]);
@@ -53,16 +62,17 @@ inline double friction_in_channel(
   const auto on_slope = [&](double x, double y, double above) { return (above - way(x, y) * sine) / cosine; };
   const Raster ground =
       raster_between(Place(-130.0, -130.0), Place(130.0, 130.0), channel.spacing,
-                     [&](double x, double y) { return on_slope(x, y, channel.ground(across(x, y))) + noise(); });
+                     [&](double x, double y) { return on_slope(x, y, channel.ground(across(x, y))); });
   // The ends of the fill are vertical; in the map it is `length` long.
   const Place half(120.0, 120.0);
   const Raster thickness = thickness_between(-half, half, 0.625, [&](double x, double y) {
     const double depth = (channel.surface - channel.ground(across(x, y))) / cosine;
-    return std::abs(way(x, y) + 40.0) < 0.5 * length ? std::max(0.0, depth) : 0.0;
+    const bool is_in = std::abs(way(x, y) + 40.0) < 0.5 * length && std::abs(across(x, y)) < channel.half_width;
+    return is_in ? std::max(0.0, depth) : 0.0;
   });
   const std::string text = release_on_dem({to, 0.002, channel_cell, {-120.0, -120.0, -150.0}, {120.0, 120.0, 250.0}},
                                           material, channel_friction);
-  sim::Simulation<3, double> simulation(case_on_dem(text), site_of(ground, thickness));
+  sim::Simulation<3, double> simulation(case_on_dem(text), site_of(treat(ground), thickness));
   const Position down(along[0] * cosine, along[1] * cosine, -sine);
   run_until(simulation, from);
   const double first = CentreOfMass(simulation).velocity.dot(down), began = simulation.time();
