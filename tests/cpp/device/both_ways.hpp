@@ -247,7 +247,9 @@ void expect_the_bits_of_lanes(const Pass<Records, Takes, Asked>& pass, Scene<Dim
       }
     }
   }
-  constexpr bool reads = !std::is_same_v<Reads, mpm::RecordList<>>;
+  // Planes are read where nodes add up what particles bring, which is after barrier 1.
+  constexpr bool reads =
+      !std::is_same_v<Reads, mpm::RecordList<>> && !std::is_same_v<Reads, mpm::RecordList<mpm::Planes>>;
   constexpr bool adds_up = (!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...);
   constexpr int added = PatchesOf<Adds>::count, first = reads ? 0 : 1, last = added > 0 ? 2 * added : adds_up ? 1 : 0;
   for (int barrier = first; barrier <= last && pass.shows_barriers; ++barrier) {
