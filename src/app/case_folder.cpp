@@ -48,6 +48,7 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps) {
   trial.terrain.kind = config::TerrainKind::dem;
   trial.terrain.file = maps.dem;
   trial.terrain.crs = maps.crs;
+  trial.terrain.smooth = {};
   trial.grid.cell = 1.0;
   trial.grid.min = {span.min_x, span.min_y, 0.0};
   trial.grid.max = {span.max_x, span.max_y, 1.0};

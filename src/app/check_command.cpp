@@ -86,6 +86,7 @@ SetupFacts facts_of(const sim::Simulation<Dim, double>& simulation, const sim::R
   facts.dimension = Dim;
   facts.bodies = sim::body_figures(simulation);
   facts.substrates = substrate_facts(parameters, simulation.site());
+  facts.roughness = simulation.site().roughness;
   facts.particles = simulation.particles().size();
   facts.cells = 1.0;
   for (std::size_t a = 0; a < Dim; ++a) {

@@ -6,6 +6,7 @@
 
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/holes.hpp"
+#include "gis/roughness.hpp"
 #include "gis/site.hpp"
 #include "sim/direction.hpp"
 #endif
@@ -21,6 +22,7 @@ config::Site read_map_files(const config::Case& parameters, [[maybe_unused]] Not
   notes.add(read.notes);
   notes.add(gis::holes_note(parameters, read.site));
   notes.add(sim::orient_lines(parameters, read.site));
+  notes.add(gis::roughness_note(parameters, read.site));
   return std::move(read.site);
 #else
   throw UserError(

@@ -92,6 +92,9 @@ void complete(io::Provenance& provenance, const sim::Simulation<Dim, double>& si
   provenance.parts.back().from_time = simulation.time();
   provenance.particles = simulation.particles_at_start();
   provenance.crs = simulation.site().crs_name;
+  if (simulation.site().roughness) {
+    provenance.roughness = config::named(*simulation.site().roughness);
+  }
   for (int a = 0; a < Dim; ++a) {
     provenance.origin.push_back(model.origin[a]);
     provenance.gravity.push_back(static_cast<double>(model.motion.gravity[a]));

@@ -53,6 +53,29 @@ Cut cut_along_line(const config::Site& site, const std::string& line_file) {
   return cut;
 }
 
+// Of the case that the profile is cut for; `otherwise` where it has no body.
+double cell_of(const config::ProfileTable& profile, double otherwise) {
+  if (profile.surface.empty()) {
+    return otherwise;
+  }
+  const config::SurfaceBody body = config::body_on(profile);
+  return body.area > 0.0 ? config::propose_section(profile, body).cell : otherwise;
+}
+
+// The ground as a run in space would have it, with the filter for such cells and the noise of the whole terrain model.
+config::Site smoothed_site(config::Case trial, double cell) {
+  trial.grid.cell = cell;
+  trial.terrain.smooth.is_auto = true;
+  return look_again(trial);
+}
+
+std::string words_of_filter(const SectionOptions& options, const config::Roughness& ground) {
+  return fmt::format(
+      "{} was smoothed with a standard deviation of {:g} m, as a run in space on {:g} m cells would do: the whole of it "
+      "has noise of {:.2g} m rms",
+      name_of(options.maps.dem), ground.width, ground.cell, ground.noise);
+}
+
 // `taper`: of the edges of what is cut out [m].
 std::vector<std::string> comments_on(const SectionOptions& options, const config::Site& site, const Cut& cut,
                                      double taper) {
@@ -75,6 +98,9 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
         "The edges of the cut are ramps {:g} m wide, half of it beyond the outline: a slide does not get out "
         "of a pit with walls.",
         taper));
+  }
+  if (site.roughness->width > 0.0) {
+    comments.push_back(words_of_filter(options, *site.roughness) + ".");
   }
   return comments;
 }
@@ -108,7 +134,12 @@ int make_section(const SectionOptions& options) {
     trial.bodies.at(body_name).placement = config::Placement::cut;
     site = look_again(trial);
   }
-  const Cut cut = cut_along_line(site, options.line);
+  Cut cut = cut_along_line(site, options.line);
+  site = smoothed_site(trial, cell_of(cut.profile, site.roughness->spacing));
+  cut = cut_along_line(site, options.line);
+  if (site.roughness->width > 0.0) {
+    fmt::print("note: {}\n", words_of_filter(options, *site.roughness));
+  }
   const fs::path folder = options.folder;
   const std::vector<std::string> comments = comments_on(options, site, cut, taper);
   if (options.maps.release.empty()) {

@@ -41,6 +41,20 @@ std::string text_of(const SubstrateFacts& substrate, int dimension) {
                      substrate.covered, dimension == 3 ? "m2" : "m", 100.0 * substrate.share, substrate.strength);
 }
 
+std::string text_of(const config::Roughness& ground) {
+  const std::string filter = ground.width > 0.0 ? fmt::format("smoothed with a standard deviation of {:g} m", ground.width)
+                                                : std::string("not smoothed");
+  const std::string valleys =
+      ground.width > 0.0 ? fmt::format("              V valleys of 90 degrees narrower than {:g} m lose more than 3 % of "
+                                       "their wedge effect by the filter\n",
+                                       ground.narrow_valley)
+                         : "";
+  return fmt::format(
+      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; {}; what is left adds about {:.2g} % "
+      "to the friction\n{}",
+      ground.noise, ground.noise / ground.cell, ground.spacing, filter, 100.0 * ground.apparent_friction, valleys);
+}
+
 // "3 checkpoints of 1.2 MB", and how they grow where they do.
 std::string checkpoints_text(const DiskNeed& need) {
   std::string text =
@@ -167,6 +181,9 @@ std::string text_of(const SetupFacts& facts) {
   for (const SubstrateFacts& substrate : facts.substrates) {
     text += text_of(substrate, facts.dimension);
   }
+  if (facts.roughness) {
+    text += text_of(*facts.roughness);
+  }
   text += fmt::format("  particles   {}\n", facts.particles);
   text += fmt::format("  cells       {:.0f} in the domain; blocks of {} nodes held: {}\n", facts.cells,
                       facts.nodes_of_block, facts.blocks);
@@ -200,6 +217,10 @@ std::string json_of(const SetupFacts& facts) {
   json["notes"] = facts.notes;
   json["bodies"] = list_of(facts.bodies);
   json["substrates"] = list_of(facts.substrates);
+  json["roughness"] = Json();
+  for (const auto& [name, value] : facts.roughness ? config::named(*facts.roughness) : config::NamedFigures{}) {
+    json["roughness"][name] = value;
+  }
   json["particles"] = facts.particles;
   json["cells"] = facts.cells;
   json["blocks"] = facts.blocks;

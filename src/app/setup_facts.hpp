@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "app/disk_need.hpp"
 #include "app/substrate_list.hpp"
 #include "base/available_memory.hpp"
+#include "config/site.hpp"
 #include "sim/body_figures.hpp"
 #include "sim/memory_need.hpp"
 #include "sim/time_step.hpp"
@@ -29,6 +31,7 @@ struct SetupFacts {
   std::vector<std::string> notes;
   std::vector<sim::BodyFigures> bodies;
   std::vector<SubstrateFacts> substrates;
+  std::optional<config::Roughness> roughness;  // of a terrain model
   std::size_t particles = 0;
   double cells = 0.0;                          // in the domain
   std::size_t blocks = 0, nodes_of_block = 0;  // held at the start

@@ -93,6 +93,12 @@ struct Guards {
   double most_steps = 1e9;                                          // to the end
 };
 
+// A number, or the word "auto": the program chooses it.
+struct NumberOrAuto {
+  bool is_auto = false;
+  double number = 0.0;
+};
+
 struct Terrain {
   TerrainKind kind = TerrainKind::none;
   double elevation = 0.0;  // m: of the flat ground, or of the plane at x = 0
@@ -103,7 +109,7 @@ struct Terrain {
   int layers = 2;         // of rigid points, two to a cell
   std::string crs;        // of a DEM whose file does not tell, or tells a wrong one; "EPSG:31287"
   double resample = 0.0;  // m, new distance of the DEM's points; 0: as the file has them
-  double smooth = 0.0;    // m, standard deviation of a Gaussian filter over the DEM; 0: none
+  NumberOrAuto smooth = {.is_auto = true};  // m, standard deviation of a Gaussian filter over the DEM; 0: none
 };
 
 struct Phases {

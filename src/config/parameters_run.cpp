@@ -146,7 +146,8 @@ std::vector<Parameter<Terrain>> dem_parameters() {
       parameter(&Terrain::smooth, {.key = "smooth",
                                    .unit = "m",
                                    .range = at_least(0),
-                                   .text = "standard deviation of a Gaussian filter over the DEM; 0: no filter"})
+                                   .text = "standard deviation of a Gaussian filter over the DEM; 0: no filter; auto: "
+                                           "what the DEM's noise needs, none on clean ground"})
           .only_if(when_dem, "type", is_dem),
   };
 }

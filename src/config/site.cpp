@@ -6,4 +6,14 @@ ProfileTable profile_of(const Case& parameters, const Site& site) {
   return site.profile.empty() ? read_profile(parameters.terrain.file) : site.profile;
 }
 
+NamedFigures named(const Roughness& ground) {
+  return {{"noise_m", ground.noise},
+          {"noise_cells", ground.noise / ground.cell},
+          {"spacing_m", ground.spacing},
+          {"filter_m", ground.width},
+          {"slope_left", ground.slope_left},
+          {"apparent_friction", ground.apparent_friction},
+          {"narrow_valley_m", ground.narrow_valley}};
+}
+
 }  // namespace thawslide::config

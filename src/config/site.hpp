@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/raster.hpp"
@@ -42,10 +43,26 @@ struct SubstrateStretch {
   double from, to;
 };
 
+// Noise of a terrain model, and the filter against it.
+struct Roughness {
+  double noise = 0.0;              // rms of white noise on points `spacing` apart that is as rough [m]
+  double spacing = 0.0;            // [m]
+  double cell = 0.0;               // of the grid [m]
+  double width = 0.0;              // standard deviation of the filter [m]; 0: none
+  double slope_left = 0.0;         // rms slope of the noise at the scale of the cell, after the filter
+  double apparent_friction = 0.0;  // that it adds, as a share of the friction
+  double narrow_valley = 0.0;      // narrower ones lose a part of their wedge effect by the filter [m]
+};
+
+// With their names in files of JSON.
+using NamedFigures = std::vector<std::pair<std::string, double>>;
+[[nodiscard]] NamedFigures named(const Roughness& ground);
+
 struct Site {
   std::shared_ptr<const Raster> ground;  // what bodies slide on, less what is cut out of it; null: no raster
   // Outermost points of the terrain model that the ground was cropped from [m]; empty: it was not cropped.
   std::optional<std::array<std::array<double, 2>, 2>> terrain_model;  // south-west, north-east
+  std::optional<Roughness> roughness;                                 // of the terrain model
   std::map<std::string, Release> releases;                            // by name of the body
   ProfileTable profile;  // of a 2D case cut out of maps, instead of terrain.file; empty: there is the file
   std::map<std::string, SubstrateArea> substrates;  // by name, those that maps give

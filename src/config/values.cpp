@@ -13,6 +13,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* automatic = "auto";
+
 bool in_words(const std::vector<Word>& words, const std::string& found) {
   for (const Word& word : words) {
     if (word.word == found) {
@@ -107,6 +109,24 @@ bool Value<double>::read(const toml::node& node, const ValueReader& at, double& 
 }
 std::string Value<double>::write(const double& value, const Rule&, const WriteContext&) { return number_text(value); }
 json Value<double>::schema(const Rule& rule) { return range_schema(rule.range, "number"); }
+
+// number or "auto"
+std::string Value<NumberOrAuto>::type(const Rule& rule) { return with_range("a number", rule) + ", or \"auto\""; }
+bool Value<NumberOrAuto>::read(const toml::node& node, const ValueReader& at, NumberOrAuto& value) {
+  const auto* text = node.as_string();
+  NumberOrAuto found{.is_auto = text != nullptr && text->get() == automatic};
+  if (!found.is_auto && !at.number_in_range(node, found.number)) {
+    return false;
+  }
+  value = found;
+  return true;
+}
+std::string Value<NumberOrAuto>::write(const NumberOrAuto& value, const Rule&, const WriteContext&) {
+  return value.is_auto ? quoted(automatic) : number_text(value.number);
+}
+json Value<NumberOrAuto>::schema(const Rule& rule) {
+  return {{"anyOf", json::array({json{{"enum", json::array({automatic})}}, range_schema(rule.range, "number")})}};
+}
 
 // int
 std::string Value<int>::type(const Rule& rule) { return with_range("a whole number", rule); }

@@ -53,6 +53,7 @@ THAWSLIDE_DECLARE_VALUE(Names)     // texts
 THAWSLIDE_DECLARE_VALUE(Point)     // as many numbers as the case has dimensions, or x and y
 THAWSLIDE_DECLARE_VALUE(Vertices)  // [[x, y], ...]
 THAWSLIDE_DECLARE_VALUE(Numbers)   // ascending
+THAWSLIDE_DECLARE_VALUE(NumberOrAuto)
 THAWSLIDE_DECLARE_VALUE(Table)     // number | { time = [...], value = [...] }
 // number | { depth = [...], value = [...] } | { x = [...], value = [...] } | { attribute = "..." } | { raster = "..." }
 THAWSLIDE_DECLARE_VALUE(InitialField)

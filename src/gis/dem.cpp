@@ -4,12 +4,15 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "config/input_limits.hpp"
 #include "gis/pits.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/resampling.hpp"
+#include "gis/roughness.hpp"
+#include "gis/smoothing.hpp"
 #include "gis/told_at.hpp"
 
 namespace thawslide::gis {
@@ -127,6 +130,14 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
   return resampled(raster, target);
 }
 
+// Points that were interpolated between those of the file have no noise of their own.
+config::Roughness roughness_of_file(const config::Case& parameters, const RasterFile& file, const Raster& raster) {
+  const Rectangle domain = domain_of(parameters);
+  const bool interpolated = raster.cell_x * raster.cell_y < file.layout().cell_x * file.layout().cell_y;
+  return roughness_of(interpolated ? file.read(area_to_read(parameters, file.layout())) : raster, domain, parameters.grid.cell,
+                      parameters.terrain.smooth);
+}
+
 }  // namespace
 
 Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
@@ -148,19 +159,33 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   dem.span = span_of_points(layout);
   check_domain(parameters, file.file(), dem.span);
   const Rectangle area = area_to_read(parameters, layout);
-  // The filter's reach, and the points that a window holds beyond its sides.
-  const double reach = smoothing_reach * terrain.smooth + 2.0 * std::max(layout.cell_x, layout.cell_y);
-  dem.raster =
-      read_and_resample(parameters, file, layout, terrain.smooth > 0.0 ? area.widened(reach, reach) : area, notes);
+  std::vector<std::string> of_reading;
+  dem.raster = read_and_resample(parameters, file, layout, area, of_reading);
+  dem.roughness = roughness_of_file(parameters, file, dem.raster);
+  const double width = dem.roughness.width;
+  if (width > 0.0) {
+    // The filter's reach, and the points that a window holds beyond its sides.
+    const double reach = smoothing_reach * width + 2.0 * std::max(layout.cell_x, layout.cell_y);
+    dem.before_smoothing = std::move(dem.raster);
+    of_reading.clear();
+    dem.raster =
+        smoothed(read_and_resample(parameters, file, layout, area.widened(reach, reach), of_reading), width);
+    dem.raster = part_of(dem.raster, points_in(dem.raster, area));
+    THAWSLIDE_ASSERT(dem.raster.values.size() == dem.before_smoothing.values.size(), "{} smoothed points of {}",
+                     dem.raster.values.size(), dem.before_smoothing.values.size());
+  }
+  notes.insert(notes.end(), of_reading.begin(), of_reading.end());
   const std::string name = std::filesystem::path(file.file()).filename().string();
   if (terrain.resample > 0.0) {
     notes.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,
                                 file.layout().cell_x, file.layout().cell_y, terrain.resample));
   }
-  if (terrain.smooth > 0.0) {
-    dem.raster = smoothed(dem.raster, terrain.smooth);
-    dem.raster = part_of(dem.raster, points_in(dem.raster, area));
-    notes.push_back(fmt::format("{} was smoothed with a standard deviation of {:g} m", name, terrain.smooth));
+  if (width > 0.0) {
+    notes.push_back(fmt::format("{} was smoothed with a standard deviation of {:g} m{}", name, width,
+                                terrain.smooth.is_auto
+                                    ? fmt::format(", as it has noise of {:.2g} m rms (terrain.smooth = \"auto\")",
+                                                  dem.roughness.noise)
+                                    : ""));
   }
   dem.raster.crs = system;
   return dem;

@@ -76,7 +76,7 @@ void note_tower(const std::string& name, const config::Release& release, std::ve
 LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
                            std::vector<std::string>& notes) {
   ReleaseArea area = load_release_area(parameters, body, ground, notes);
-  const Raster thickness = vertical_thickness_of(parameters, body, area, ground.raster, notes);
+  const Raster thickness = vertical_thickness_of(parameters, body, area, ground, notes);
   check_volume(parameters, body, thickness);
   LoadedRelease loaded;
   config::Release& release = loaded.release;

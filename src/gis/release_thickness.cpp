@@ -20,13 +20,14 @@ using config::MapValue;
 
 class ThicknessMaker {
  public:
-  ThicknessMaker(const config::Case& parameters, const std::string& body, const ReleaseArea& area, const Raster& ground,
+  ThicknessMaker(const config::Case& parameters, const std::string& body, const ReleaseArea& area, const Dem& ground,
                  std::vector<std::string>& notes)
       : case_(parameters),
         name_(body),
         body_(parameters.bodies.at(body)),
         area_(area),
-        ground_(ground),
+        ground_(ground.raster),
+        measured_(ground.as_measured()),
         notes_(notes) {}
 
   Raster make() {
@@ -198,7 +199,7 @@ class ThicknessMaker {
       if (!has_ground(column, row, i, j)) {
         return;
       }
-      const double difference = above - ground_.at(i, j);
+      const double difference = above - measured_.at(i, j);
       if (difference < -body_.surface_tolerance) {
         told(fmt::format(
             "the surface before the slide lies {:.4g} m below the terrain model; allowed: above it, or below "
@@ -237,13 +238,14 @@ class ThicknessMaker {
   const config::Body& body_;
   const ReleaseArea& area_;
   const Raster& ground_;
+  const Raster& measured_;  // not smoothed, as a surface before the slide is not either
   std::vector<std::string>& notes_;
 };
 
 }  // namespace
 
 Raster vertical_thickness_of(const config::Case& parameters, const std::string& body, const ReleaseArea& area,
-                             const Raster& ground, std::vector<std::string>& notes) {
+                             const Dem& ground, std::vector<std::string>& notes) {
   return ThicknessMaker(parameters, body, area, ground, notes).make();
 }
 

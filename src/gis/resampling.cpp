@@ -148,29 +148,4 @@ Raster resampled(const Raster& raster, const Raster& new_layout) {
   return result;
 }
 
-Raster smoothed(const Raster& raster, double standard_deviation) {
-  const auto along = [&](double cell, int count) {
-    const double s = standard_deviation / cell;
-    const auto reach = static_cast<int>(std::min(std::ceil(smoothing_reach * s), static_cast<double>(count)));
-    std::vector<Weights> all;
-    for (int k = 0; k < count; ++k) {
-      Weights made{std::max(k - reach, 0), {}};
-      for (int other = made.first; other <= std::min(k + reach, count - 1); ++other) {
-        const double d = (other - k) / s;
-        made.weights.push_back(std::exp(-0.5 * d * d));
-      }
-      all.push_back(std::move(made));
-    }
-    return all;
-  };
-  Raster result = raster;
-  sum_columns(sum_rows(raster, along(raster.cell_x, raster.columns)), along(raster.cell_y, raster.rows), 0.0, result);
-  for (std::size_t k = 0; k < result.values.size(); ++k) {
-    if (std::isnan(raster.values[k])) {
-      result.values[k] = raster.values[k];
-    }
-  }
-  return result;
-}
-
 }  // namespace thawslide::gis

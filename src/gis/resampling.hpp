@@ -1,12 +1,9 @@
-// New points for a raster, and smoothing. What is asked for is done at the points of a layout alone, from a part of the
+// New points for a raster. What is asked for is done at the points of a layout alone, from a part of the
 // file that is large enough, so that cropping does not change a value.
 //
 // Along each axis a value of the new points is a weighted sum of the old ones. Points as near to one another as the old
 // ones or nearer are interpolated linearly. Points farther apart get the mean of the linear interpolation over the
 // distance of the new points, centred on each. Both leave a plane as it is.
-//
-// Smoothing weighs the points about each by exp(-d^2 / (2 s^2)), d [m] along each axis, to four standard deviations s.
-// Points without data do not count.
 #pragma once
 
 #include "base/raster.hpp"
@@ -24,8 +21,5 @@ namespace thawslide::gis {
 // Values at the points of the new layout. NaN where an old point that an interpolation needs has no data, or where half
 // of those that a mean is made of have none.
 [[nodiscard]] Raster resampled(const Raster& raster, const Raster& new_layout);
-
-inline constexpr double smoothing_reach = 4.0;  // standard deviations
-[[nodiscard]] Raster smoothed(const Raster& raster, double standard_deviation);
 
 }  // namespace thawslide::gis

@@ -88,6 +88,7 @@ SiteAndNotes load_site(const config::Case& parameters) {
   Dem dem;
   if (parameters.terrain.kind == config::TerrainKind::dem) {
     dem = load_dem(parameters, loaded.notes);
+    site.roughness = dem.roughness;
     site.crs = dem.raster.crs;
     site.crs_name = name_of(site.crs);
   }

@@ -160,6 +160,10 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["origin_m"] = p.origin;
   json["gravity_m_s2"] = p.gravity;
   json["crs"] = p.crs.empty() ? Json() : Json(p.crs);
+  json["roughness"] = Json();
+  for (const auto& [name, value] : p.roughness) {
+    json["roughness"][name] = value;
+  }
   for (const auto& [name, value] : p.figures) {
     json[name] = std::isfinite(value) ? Json(value) : Json();
   }

@@ -52,7 +52,8 @@ config::Case case_from(Provider& bytes) {
   made.terrain.kind = config::TerrainKind::dem;
   made.terrain.file = fuzz::raster_from(bytes, "dem.tif", 1000.0, 1100.0);
   made.terrain.resample = fuzz::chance(bytes, 8) ? bytes.ConsumeIntegralInRange(1, 40) : 0.0;
-  made.terrain.smooth = fuzz::chance(bytes, 8) ? bytes.ConsumeIntegralInRange(1, 40) : 0.0;
+  made.terrain.smooth.is_auto = fuzz::chance(bytes, 2);
+  made.terrain.smooth.number = fuzz::chance(bytes, 4) ? bytes.ConsumeIntegralInRange(1, 40) : 0.0;
   made.terrain.crs = fuzz::chance(bytes, 8) ? "EPSG:31287" : "";
   made.grid.cell = bytes.ConsumeIntegralInRange(1, 20);
   made.grid.min = {fuzz::west + bytes.ConsumeIntegralInRange(-1, 6) * 10.0,

@@ -36,7 +36,7 @@ TEST_F(Maps, HaveDefaults) {
   EXPECT_EQ(found.terrain.file, path_of("dem.tif"));
   EXPECT_EQ(found.terrain.crs, "");
   EXPECT_EQ(found.terrain.resample, 0.0);
-  EXPECT_EQ(found.terrain.smooth, 0.0);
+  EXPECT_TRUE(found.terrain.smooth.is_auto);
   EXPECT_EQ(found.grid.leaving, Policy::stop);
   const Body& slide = found.bodies.at("slide");
   EXPECT_EQ(slide.shape, BodyShape::release);

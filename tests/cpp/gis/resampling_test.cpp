@@ -1,4 +1,4 @@
-// New points, smoothing, tapers and values between points.
+// New points, tapers and values between points.
 #include "gis/resampling.hpp"
 
 #include <numeric>
@@ -66,24 +66,6 @@ TEST(ResamplingTest, HolesStayHolesButDoNotGrow) {
   EXPECT_FALSE(std::isnan(fine.at(6, 8)));
   const Raster coarse = resampled(raster, resampled_layout(raster, 4.0));
   EXPECT_FALSE(std::isnan(coarse.at(0, 0)));
-}
-
-TEST(ResamplingTest, SmoothingKeepsPlanesAndMeansAndHoles) {
-  Raster raster = raster_of(plane, 0.0, 0.0, 2.0, 61, 61);
-  const Raster smooth = smoothed(raster, 3.0);
-  for (int k = 10; k < 50; ++k) {
-    EXPECT_NEAR(smooth.at(k, 30), raster.at(k, 30), 1e-9);
-  }
-  const Raster wave = raster_of([](double x, double) { return std::cos(0.3 * x); }, 0.0, 0.0, 0.5, 201, 3);
-  // A wave of number k keeps exp(-k^2 s^2 / 2) of its height.
-  EXPECT_NEAR(smoothed(wave, 2.0).at(100, 1) / wave.at(100, 1), std::exp(-0.5 * 0.3 * 0.3 * 2.0 * 2.0), 1e-4);
-  // So wide that no integer counts the points: the mean of all.
-  const Raster level = smoothed(raster, 1e12);
-  EXPECT_NEAR(level.at(0, 0), raster.at(30, 30), 1e-9);
-  raster.values[raster.index(30, 30)] = missing;
-  const Raster with_hole = smoothed(raster, 3.0);
-  EXPECT_TRUE(std::isnan(with_hole.at(30, 30)));
-  EXPECT_NEAR(with_hole.at(31, 30), raster.at(31, 30), 0.2);
 }
 
 TEST(ResamplingTest, TaperKeepsTheVolumeAndReachesHalfItsWidth) {

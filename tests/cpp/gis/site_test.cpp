@@ -33,7 +33,7 @@ TEST(SiteTest, CroppingChangesNoValueOfResampledAndSmoothedGround) {
   for (const double distance : {0.0, 3.0, 12.5}) {
     config::Case small = plain_case(raster_of(hills, west, south, 5.0, 201, 161));
     small.terrain.resample = distance;
-    small.terrain.smooth = 8.0;
+    small.terrain.smooth = {.number = 8.0};
     config::Case large = small;
     large.grid.min = {west + 50.0, south + 50.0, 0.0};
     large.grid.max = {west + 950.0, south + 750.0, 3000.0};

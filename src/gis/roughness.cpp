@@ -1,0 +1,202 @@
+#include "gis/roughness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "gis/point_window.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+constexpr int tile_size = 16;                 // points along each axis
+constexpr double median_of_unit = 0.6745;  // of |x| for a normal distribution of variance 1
+constexpr std::size_t least_of_tile = 16;  // deviations
+
+// What the centre of nine points in a line has beyond their best parabola: weights of the centre and of the neighbours
+// 1 to 4 points away (Savitzky and Golay 1964: 59, 54, 39, 14, -21 over 231 make the parabola's value there).
+constexpr std::array<double, 5> deviation_weights{172.0 / 231.0, -54.0 / 231.0, -39.0 / 231.0, -14.0 / 231.0,
+                                                  21.0 / 231.0};
+
+// Of white noise with rms 1: the fit at the centre has the weight 59/231, and a least-squares fit leaves 1 less that of
+// the variance.
+const double rms_of_deviation = std::sqrt(deviation_weights[0]);
+
+double quantile(std::vector<double>& values, double share) {
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return values[static_cast<std::size_t>(place)];
+}
+
+// The points within the rectangle, and no others.
+Raster points_within(const Raster& raster, const Rectangle& rectangle) {
+  constexpr double rounding = 1e-9;
+  const auto first = [](double low, double start, double cell) {
+    return std::max(0, static_cast<int>(std::ceil((low - start) / cell - rounding)));
+  };
+  const auto end = [](double high, double start, double cell, int count) {
+    return std::min(count, static_cast<int>(std::floor((high - start) / cell + rounding)) + 1);
+  };
+  PointWindow window;
+  window.first_column = first(rectangle.min_x, raster.x, raster.cell_x);
+  window.first_row = first(rectangle.min_y, raster.y, raster.cell_y);
+  window.columns = std::max(0, end(rectangle.max_x, raster.x, raster.cell_x, raster.columns) - window.first_column);
+  window.rows = std::max(0, end(rectangle.max_y, raster.y, raster.cell_y, raster.rows) - window.first_row);
+  return window.columns > 0 && window.rows > 0 ? part_of(raster, window) : Raster{};
+}
+
+// Means over squares of points, without data where one of them has none.
+Raster block_means(const Raster& raster, int block) {
+  Raster means = raster;
+  means.columns = raster.columns / block;
+  means.rows = raster.rows / block;
+  means.values.assign(static_cast<std::size_t>(means.columns) * static_cast<std::size_t>(means.rows), 0.0);
+  for (int row = 0; row < means.rows * block; ++row) {
+    for (int column = 0; column < means.columns * block; ++column) {
+      means.values[means.index(column / block, row / block)] += raster.at(column, row) / (block * block);
+    }
+  }
+  return means;
+}
+
+struct Step {
+  int column, row;
+};
+
+// Where the line of points fits in and is known.
+void add_deviation(const Raster& raster, int column, int row, const Step& step, std::vector<double>& deviations) {
+  constexpr int reach = points_of_fit / 2;
+  const auto is_in = [&](int k) {
+    return column + k * step.column >= 0 && column + k * step.column < raster.columns && row + k * step.row >= 0 &&
+           row + k * step.row < raster.rows;
+  };
+  if (!is_in(-reach) || !is_in(reach)) {
+    return;
+  }
+  const auto at = [&](int k) { return raster.at(column + k * step.column, row + k * step.row); };
+  // From the centre's height, so that a high plane leaves no rounding.
+  double deviation = 0.0;
+  for (int k = 1; k <= reach; ++k) {
+    deviation += deviation_weights[static_cast<std::size_t>(k)] * ((at(k) - at(0)) + (at(-k) - at(0)));
+  }
+  if (!std::isnan(deviation)) {
+    deviations.push_back(std::abs(deviation));
+  }
+}
+
+struct Tile {
+  int first_column, end_column, first_row, end_row;
+};
+
+// Where the k-th of `parts` equal parts of so many points begins.
+int edge(int points, int k, int parts) {
+  return static_cast<int>(static_cast<std::int64_t>(points) * k / parts);
+}
+
+// NaN where the tile knows too little.
+double noise_of_tile(const Raster& raster, const Tile& part) {
+  double least = std::numeric_limits<double>::quiet_NaN();
+  for (const Step step : {Step{1, 0}, Step{0, 1}, Step{1, 1}, Step{1, -1}}) {
+    std::vector<double> deviations;
+    for (int row = part.first_row; row < part.end_row; ++row) {
+      for (int column = part.first_column; column < part.end_column; ++column) {
+        add_deviation(raster, column, row, step, deviations);
+      }
+    }
+    if (deviations.size() >= least_of_tile) {
+      least = std::fmin(least, quantile(deviations, 0.5) / (median_of_unit * rms_of_deviation));
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+double noise_rms(const Raster& raster, const Rectangle& rectangle, int block) {
+  const Raster within = block_means(points_within(raster, rectangle), block);
+  const int across = std::max(1, within.columns / tile_size), along = std::max(1, within.rows / tile_size);
+  std::vector<double> of_tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(along));
+  parallel_for(of_tiles.size(), [&](std::size_t k) {
+    const int i = static_cast<int>(k) % across, j = static_cast<int>(k) / across;
+    of_tiles[k] = noise_of_tile(within, {edge(within.columns, i, across), edge(within.columns, i + 1, across),
+                                         edge(within.rows, j, along), edge(within.rows, j + 1, along)});
+  });
+  of_tiles.erase(std::remove_if(of_tiles.begin(), of_tiles.end(), [](double noise) { return std::isnan(noise); }),
+                 of_tiles.end());
+  // The mean of block x block points has 1 / block of the rms of white noise.
+  return of_tiles.empty() ? 0.0 : block * quantile(of_tiles, 0.75);
+}
+
+double noise_slope(double rms, double spacing, double cell, double width) {
+  // The slope of triangles between the points is 2 rms / spacing; 0.0225 follows from the friction that was measured
+  // with points half a cell apart.
+  const double without_filter = spacing * spacing / (4.0 * std::sqrt(std::numbers::pi)) + 0.0225 * cell * cell;
+  return rms * spacing / (2.0 * std::sqrt(std::numbers::pi) * std::max(width * width, without_filter));
+}
+
+double apparent_friction(double slope) {
+  struct Measured {
+    double slope, friction;
+  };
+  constexpr std::array<Measured, 7> measured{
+      {{0.0, 0.0}, {0.03, 0.01}, {0.06, 0.025}, {0.11, 0.07}, {0.23, 0.20}, {0.28, 0.31}, {0.56, 0.76}}};
+  std::size_t k = 1;
+  while (k + 1 < measured.size() && slope > measured[k].slope) {
+    ++k;
+  }
+  const Measured &low = measured[k - 1], &high = measured[k];
+  return low.friction + (high.friction - low.friction) * (slope - low.slope) / (high.slope - low.slope);
+}
+
+double fitting_width(double rms, double spacing, double cell) {
+  const double unit = std::max(cell, spacing);
+  double width = 0.0;
+  while (width < 2.0 * unit && noise_slope(rms, spacing, cell, width) > largest_slope) {
+    width += 0.5 * unit;
+  }
+  return width;
+}
+
+double narrow_valley(double width) { return 40.0 * width; }
+
+config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle, double cell,
+                               const config::NumberOrAuto& smooth) {
+  config::Roughness found;
+  found.cell = cell;
+  found.spacing = std::sqrt(raster.cell_x * raster.cell_y);
+  const double points_of_cell = std::floor(cell / found.spacing * (1.0 + 1e-9));
+  const double most = std::max(raster.columns, raster.rows);
+  found.noise = noise_rms(raster, rectangle, static_cast<int>(std::clamp(points_of_cell, 1.0, most)));
+  found.width = smooth.is_auto ? fitting_width(found.noise, found.spacing, cell) : smooth.number;
+  found.slope_left = noise_slope(found.noise, found.spacing, cell, found.width);
+  found.apparent_friction = apparent_friction(found.slope_left);
+  found.narrow_valley = narrow_valley(found.width);
+  return found;
+}
+
+std::string roughness_note(const config::Case& parameters, const config::Site& site) {
+  constexpr double much_friction = 0.05;
+  const config::Roughness& found = *site.roughness;
+  const bool is_auto = parameters.terrain.smooth.is_auto;
+  if (is_auto ? found.slope_left <= largest_slope : found.apparent_friction <= much_friction) {
+    return "";
+  }
+  const std::string remedy =
+      is_auto ? "That is the widest filter. Use larger cells (grid.cell), or a terrain model with less noise."
+              : fmt::format("Set terrain.smooth = \"auto\", which is {:g} m here.",
+                            fitting_width(found.noise, found.spacing, parameters.grid.cell));
+  return fmt::format(
+      "terrain.smooth: noise of {:.2g} m rms on the points of the terrain model adds about {:.2g} % to the friction, "
+      "with a filter of {:g} m (rms slope {:.2g}; at most {:g} is intended). {}",
+      found.noise, 100.0 * found.apparent_friction, found.width, found.slope_left, largest_slope, remedy);
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,54 @@
+// Noise on the points of a terrain model, which acts on a slide as friction, and the width of a filter against it.
+//
+// The formulas and numbers of friction are measurements of Thawslide itself: blocks on planes and in V channels with
+// white noise on the points (docs/theory/contact.md, "Roughness").
+#pragma once
+
+#include <string>
+
+#include "base/raster.hpp"
+#include "config/case.hpp"
+#include "config/site.hpp"
+#include "gis/rectangle.hpp"
+
+namespace thawslide::gis {
+
+// Points of a terrain model in a line that the estimate of noise fits a parabola to.
+inline constexpr int points_of_fit = 9;
+
+// Rms of the white noise on the points of a raster within a rectangle [m]; 0 where there are too few points.
+//
+// In each of four directions (along the axes and the diagonals) the deviation of a point from the parabola that fits
+// it and four neighbours on each side best (Savitzky and Golay 1964). Its median over a tile of 16 x 16 points, over
+// 0.6745 and the share of white noise that is left of it, estimates the rms there; the least of the four directions
+// counts, so that an edge, a thalweg or a step is not noise. Of the tiles the upper quartile counts: a slide runs where
+// it is rough too. Curvature that the points resolve deviates in the fourth order of their distance only.
+//
+// `block`: the same from means over block x block points, which see noise at that scale alone.
+[[nodiscard]] double noise_rms(const Raster& raster, const Rectangle& rectangle, int block = 1);
+
+// Rms slope of white noise of `rms` on points `spacing` apart, at the scale of a cell, after a Gaussian filter.
+[[nodiscard]] double noise_slope(double rms, double spacing, double cell, double width);
+
+// Friction that noise of an rms slope adds, as a share of the friction.
+[[nodiscard]] double apparent_friction(double slope);
+
+inline constexpr double largest_slope = 0.065;  // that the choice of a width leaves
+
+// The least of 0, 0.5, 1, 1.5 and 2 times the larger of cell and spacing that leaves `largest_slope`; the widest where
+// none does.
+[[nodiscard]] double fitting_width(double rms, double spacing, double cell);
+
+// What there is of noise in a rectangle, at the scale of a cell where that is several points wide, and the filter
+// against it.
+[[nodiscard]] config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle, double cell,
+                                             const config::NumberOrAuto& smooth);
+
+// What the user should know of noise that stays; empty where it adds little to the friction.
+[[nodiscard]] std::string roughness_note(const config::Case& parameters, const config::Site& site);
+
+// Width between its walls, along the level, of the V valley with walls of 45 degrees that loses 3 % of its wedge effect
+// by the filter.
+[[nodiscard]] double narrow_valley(double width);
+
+}  // namespace thawslide::gis
