@@ -42,15 +42,18 @@ std::string text_of(const SubstrateFacts& substrate, int dimension) {
 }
 
 std::string text_of(const config::Roughness& ground) {
-  const std::string filter = ground.width > 0.0 ? fmt::format("smoothed with a standard deviation of {:g} m", ground.width)
-                                                : std::string("not smoothed");
+  const std::string filter = ground.width > 0.0
+                                 ? fmt::format("smoothed with a standard deviation of {:g} m", ground.width)
+                                 : std::string("not smoothed");
   const std::string valleys =
-      ground.width > 0.0 ? fmt::format("              V valleys of 90 degrees narrower than {:g} m lose more than 3 % of "
-                                       "their wedge effect by the filter\n",
-                                       ground.narrow_valley)
+      ground.width > 0.0 ? fmt::format(
+                               "              V valleys of 90 degrees narrower than {:g} m lose more than 3 % of "
+                               "their wedge effect by the filter\n",
+                               ground.narrow_valley)
                          : "";
   return fmt::format(
-      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; {}; what is left adds about {:.2g} % "
+      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; {}; what is left adds about {:.2g} "
+      "% "
       "to the friction\n{}",
       ground.noise, ground.noise / ground.cell, ground.spacing, filter, 100.0 * ground.apparent_friction, valleys);
 }

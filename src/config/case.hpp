@@ -106,9 +106,9 @@ struct Terrain {
   std::string file;        // of the profile or DEM; absolute once read
   bool extend = false;
   TerrainForm form = TerrainForm::signed_distance;
-  int layers = 2;         // of rigid points, two to a cell
-  std::string crs;        // of a DEM whose file does not tell, or tells a wrong one; "EPSG:31287"
-  double resample = 0.0;  // m, new distance of the DEM's points; 0: as the file has them
+  int layers = 2;                           // of rigid points, two to a cell
+  std::string crs;                          // of a DEM whose file does not tell, or tells a wrong one; "EPSG:31287"
+  double resample = 0.0;                    // m, new distance of the DEM's points; 0: as the file has them
   NumberOrAuto smooth = {.is_auto = true};  // m, standard deviation of a Gaussian filter over the DEM; 0: none
 };
 

@@ -134,8 +134,8 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
 config::Roughness roughness_of_file(const config::Case& parameters, const RasterFile& file, const Raster& raster) {
   const Rectangle domain = domain_of(parameters);
   const bool interpolated = raster.cell_x * raster.cell_y < file.layout().cell_x * file.layout().cell_y;
-  return roughness_of(interpolated ? file.read(area_to_read(parameters, file.layout())) : raster, domain, parameters.grid.cell,
-                      parameters.terrain.smooth);
+  return roughness_of(interpolated ? file.read(area_to_read(parameters, file.layout())) : raster, domain,
+                      parameters.grid.cell, parameters.terrain.smooth);
 }
 
 }  // namespace
@@ -168,8 +168,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
     const double reach = smoothing_reach * width + 2.0 * std::max(layout.cell_x, layout.cell_y);
     dem.before_smoothing = std::move(dem.raster);
     of_reading.clear();
-    dem.raster =
-        smoothed(read_and_resample(parameters, file, layout, area.widened(reach, reach), of_reading), width);
+    dem.raster = smoothed(read_and_resample(parameters, file, layout, area.widened(reach, reach), of_reading), width);
     dem.raster = part_of(dem.raster, points_in(dem.raster, area));
     THAWSLIDE_ASSERT(dem.raster.values.size() == dem.before_smoothing.values.size(), "{} smoothed points of {}",
                      dem.raster.values.size(), dem.before_smoothing.values.size());
@@ -181,11 +180,11 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
                                 file.layout().cell_x, file.layout().cell_y, terrain.resample));
   }
   if (width > 0.0) {
-    notes.push_back(fmt::format("{} was smoothed with a standard deviation of {:g} m{}", name, width,
-                                terrain.smooth.is_auto
-                                    ? fmt::format(", as it has noise of {:.2g} m rms (terrain.smooth = \"auto\")",
-                                                  dem.roughness.noise)
-                                    : ""));
+    notes.push_back(fmt::format(
+        "{} was smoothed with a standard deviation of {:g} m{}", name, width,
+        terrain.smooth.is_auto
+            ? fmt::format(", as it has noise of {:.2g} m rms (terrain.smooth = \"auto\")", dem.roughness.noise)
+            : ""));
   }
   dem.raster.crs = system;
   return dem;

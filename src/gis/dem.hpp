@@ -12,7 +12,7 @@
 namespace thawslide::gis {
 
 struct Dem {
-  Raster raster;   // about the domain, with the system to compute in; NaN in holes
+  Raster raster;            // about the domain, with the system to compute in; NaN in holes
   Raster before_smoothing;  // at the same points; empty: nothing was smoothed
   config::Roughness roughness;
   Rectangle span;  // from the first to the last point that the file has room for, where a domain may be

@@ -17,7 +17,7 @@ namespace thawslide::gis {
 
 namespace {
 
-constexpr int tile_size = 16;                 // points along each axis
+constexpr int tile_size = 16;              // points along each axis
 constexpr double median_of_unit = 0.6745;  // of |x| for a normal distribution of variance 1
 constexpr std::size_t least_of_tile = 16;  // deviations
 
@@ -53,20 +53,6 @@ Raster points_within(const Raster& raster, const Rectangle& rectangle) {
   return window.columns > 0 && window.rows > 0 ? part_of(raster, window) : Raster{};
 }
 
-// Means over squares of points, without data where one of them has none.
-Raster block_means(const Raster& raster, int block) {
-  Raster means = raster;
-  means.columns = raster.columns / block;
-  means.rows = raster.rows / block;
-  means.values.assign(static_cast<std::size_t>(means.columns) * static_cast<std::size_t>(means.rows), 0.0);
-  for (int row = 0; row < means.rows * block; ++row) {
-    for (int column = 0; column < means.columns * block; ++column) {
-      means.values[means.index(column / block, row / block)] += raster.at(column, row) / (block * block);
-    }
-  }
-  return means;
-}
-
 struct Step {
   int column, row;
 };
@@ -97,9 +83,7 @@ struct Tile {
 };
 
 // Where the k-th of `parts` equal parts of so many points begins.
-int edge(int points, int k, int parts) {
-  return static_cast<int>(static_cast<std::int64_t>(points) * k / parts);
-}
+int edge(int points, int k, int parts) { return static_cast<int>(static_cast<std::int64_t>(points) * k / parts); }
 
 // NaN where the tile knows too little.
 double noise_of_tile(const Raster& raster, const Tile& part) {
@@ -120,8 +104,8 @@ double noise_of_tile(const Raster& raster, const Tile& part) {
 
 }  // namespace
 
-double noise_rms(const Raster& raster, const Rectangle& rectangle, int block) {
-  const Raster within = block_means(points_within(raster, rectangle), block);
+double noise_rms(const Raster& raster, const Rectangle& rectangle) {
+  const Raster within = points_within(raster, rectangle);
   const int across = std::max(1, within.columns / tile_size), along = std::max(1, within.rows / tile_size);
   std::vector<double> of_tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(along));
   parallel_for(of_tiles.size(), [&](std::size_t k) {
@@ -131,8 +115,7 @@ double noise_rms(const Raster& raster, const Rectangle& rectangle, int block) {
   });
   of_tiles.erase(std::remove_if(of_tiles.begin(), of_tiles.end(), [](double noise) { return std::isnan(noise); }),
                  of_tiles.end());
-  // The mean of block x block points has 1 / block of the rms of white noise.
-  return of_tiles.empty() ? 0.0 : block * quantile(of_tiles, 0.75);
+  return of_tiles.empty() ? 0.0 : quantile(of_tiles, 0.75);
 }
 
 double noise_slope(double rms, double spacing, double cell, double width) {
@@ -172,9 +155,7 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
   config::Roughness found;
   found.cell = cell;
   found.spacing = std::sqrt(raster.cell_x * raster.cell_y);
-  const double points_of_cell = std::floor(cell / found.spacing * (1.0 + 1e-9));
-  const double most = std::max(raster.columns, raster.rows);
-  found.noise = noise_rms(raster, rectangle, static_cast<int>(std::clamp(points_of_cell, 1.0, most)));
+  found.noise = noise_rms(raster, rectangle);
   found.width = smooth.is_auto ? fitting_width(found.noise, found.spacing, cell) : smooth.number;
   found.slope_left = noise_slope(found.noise, found.spacing, cell, found.width);
   found.apparent_friction = apparent_friction(found.slope_left);

@@ -23,9 +23,7 @@ inline constexpr int points_of_fit = 9;
 // 0.6745 and the share of white noise that is left of it, estimates the rms there; the least of the four directions
 // counts, so that an edge, a thalweg or a step is not noise. Of the tiles the upper quartile counts: a slide runs where
 // it is rough too. Curvature that the points resolve deviates in the fourth order of their distance only.
-//
-// `block`: the same from means over block x block points, which see noise at that scale alone.
-[[nodiscard]] double noise_rms(const Raster& raster, const Rectangle& rectangle, int block = 1);
+[[nodiscard]] double noise_rms(const Raster& raster, const Rectangle& rectangle);
 
 // Rms slope of white noise of `rms` on points `spacing` apart, at the scale of a cell, after a Gaussian filter.
 [[nodiscard]] double noise_slope(double rms, double spacing, double cell, double width);
@@ -39,8 +37,7 @@ inline constexpr double largest_slope = 0.065;  // that the choice of a width le
 // none does.
 [[nodiscard]] double fitting_width(double rms, double spacing, double cell);
 
-// What there is of noise in a rectangle, at the scale of a cell where that is several points wide, and the filter
-// against it.
+// The noise in a rectangle, and the filter against it.
 [[nodiscard]] config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle, double cell,
                                              const config::NumberOrAuto& smooth);
 

@@ -85,8 +85,7 @@ std::vector<RowSums> sum_rows(const Raster& raster, const std::vector<double>& w
 }  // namespace
 
 Raster smoothed(const Raster& raster, double standard_deviation) {
-  const std::vector<RowSums> rows =
-      sum_rows(raster, weights_of(standard_deviation, raster.cell_x, raster.columns));
+  const std::vector<RowSums> rows = sum_rows(raster, weights_of(standard_deviation, raster.cell_x, raster.columns));
   const std::vector<double> weights = weights_of(standard_deviation, raster.cell_y, raster.rows);
   const int reach = static_cast<int>(weights.size()) - 1;
   Raster result = raster;

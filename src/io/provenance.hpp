@@ -42,12 +42,12 @@ struct Provenance {
   std::string status, message;  // running, done, stopped, failed
   double simulated_time = 0.0;
   std::int64_t steps = 0;
-  Stopwatch::Seconds seconds_per_stage;                 // of the last part
-  std::optional<bool> at_rest;                          // of the slide; nothing: not known
-  std::vector<std::string> warnings;                    // about the results
-  std::vector<std::pair<std::string, double>> figures;  // results in numbers; NaN: not known
+  Stopwatch::Seconds seconds_per_stage;                   // of the last part
+  std::optional<bool> at_rest;                            // of the slide; nothing: not known
+  std::vector<std::string> warnings;                      // about the results
+  std::vector<std::pair<std::string, double>> figures;    // results in numbers; NaN: not known
   std::vector<std::pair<std::string, double>> roughness;  // of a terrain model, and the filter; empty: there is none
-  std::string crs;                                      // name of the reference system; empty: none is known
+  std::string crs;                                        // name of the reference system; empty: none is known
   double seconds_beside = 0.0;  // processor time that writing snapshots took while steps went on, in the last part
 };
 

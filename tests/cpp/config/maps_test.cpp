@@ -242,6 +242,25 @@ TEST_F(Maps, LetBodiesOfOtherShapesStandOnADem) {
       << "where the ground is, the simulation knows";
 }
 
+TEST_F(Maps, AreSmoothedByANumberOrAsTheirNoiseNeeds) {
+  const Case given = read({{"[terrain]", "[terrain]\nsmooth = 2.5"}});
+  EXPECT_FALSE(given.terrain.smooth.is_auto);
+  EXPECT_EQ(given.terrain.smooth.number, 2.5);
+  EXPECT_EQ(read({{"[terrain]", "[terrain]\nsmooth = 0"}}).terrain.smooth.number, 0.0);
+  EXPECT_TRUE(read({{"[terrain]", "[terrain]\nsmooth = \"auto\""}}).terrain.smooth.is_auto);
+  EXPECT_TRUE(read({{"[terrain]", "[terrain]\nsmooth = 2.5"}}, {"terrain.smooth=\"auto\""}).terrain.smooth.is_auto);
+  EXPECT_EQ(error_on_dem({{"[terrain]", "[terrain]\nsmooth = \"aut\""}}),
+            "FOLDER/case.toml:11:10: terrain.smooth is the text \"aut\"; allowed: a number, >= 0 [m], or \"auto\". "
+            "Correct it, or leave it out for the default \"auto\".");
+  EXPECT_EQ(error_on_dem({{"[terrain]", "[terrain]\nsmooth = \"2.5\""}}),
+            "FOLDER/case.toml:11:10: terrain.smooth is the text \"2.5\"; allowed: a number, >= 0 [m], or \"auto\"; "
+            "remove the quotes. Correct it, or leave it out for the default \"auto\".");
+  EXPECT_EQ(error_on_dem({{"[terrain]", "[terrain]\nsmooth = -1.0"}}),
+            "FOLDER/case.toml:11:10: terrain.smooth is -1; allowed: >= 0 m (standard deviation of a Gaussian filter "
+            "over the DEM; 0: no filter; auto: what the DEM's noise needs, none on clean ground). Correct it, or leave "
+            "it out for the default \"auto\".");
+}
+
 TEST_F(Maps, TellTheNewNameOfTheRepresentation) {
   const std::string found =
       "key 'terrain.description' is not known in [terrain]; it is called 'terrain.representation' now. Allowed here: "

@@ -27,7 +27,8 @@ std::map<std::string, Shape> shapes() {
       {"level", [](double, double) { return 0.0; }},
       {"plane", [](double x, double y) { return 0.7 * x - 0.2 * y; }},
       {"smooth hills", [](double x, double y) { return 4.0 * std::sin(0.15 * x) * std::cos(0.12 * y); }},
-      {"two scarps", [](double x, double y) { return (across(x, y, 20.0) > 0.0 ? 12.0 : 0.0) + (y > 90.0 ? 5.0 : 0.0); }},
+      {"two scarps",
+       [](double x, double y) { return (across(x, y, 20.0) > 0.0 ? 12.0 : 0.0) + (y > 90.0 ? 5.0 : 0.0); }},
       {"U of 16 points", [](double x, double y) {
          const double a = std::min(std::abs(across(x, y, 10.0)), 8.0);
          return -std::sqrt(64.0 - a * a);
@@ -107,22 +108,6 @@ TEST(RoughnessTest, NoiseCountsWithinTheRectangleAlone) {
   EXPECT_NEAR(noise_rms(raster, {45.0 * spacing, 0.0, 120.0 * spacing, 120.0 * spacing}), 0.3 * spacing, 0.3);
 }
 
-// Points that are not one noise each: interpolated to half the distance, white noise shows at the scale of the cell.
-TEST(RoughnessTest, NoiseAtTheScaleOfTheCellIsThatOfItsPoints) {
-  const Shape level = [](double, double) { return 0.0; };
-  for (const int block : {2, 3, 5}) {
-    const Raster raster = ground_of(level, 0.2, 4, 301, 301);
-    EXPECT_NEAR(noise_rms(raster, span_of_points(raster), block) / spacing, 0.2, 0.04) << block;
-  }
-  const Raster coarse = ground_of(level, 0.2, 4, 201, 201);
-  const Raster fine = raster_of(
-      [&](double x, double y) {
-        return coarse.at(static_cast<int>(x / 2.0 / spacing), static_cast<int>(y / 2.0 / spacing));
-      },
-      0.0, 0.0, spacing, 401, 401);
-  EXPECT_NEAR(noise_rms(fine, span_of_points(fine), 2) / spacing, 0.4, 0.06);
-}
-
 // The table of widths over rms and spacing (in cells) that the friction found in runs asks for: none of them leaves
 // more than 3 %, and at 0.5 cells rms 5 %.
 TEST(RoughnessTest, WidthIsTheLeastThatLeavesLittleFriction) {
@@ -142,10 +127,10 @@ TEST(RoughnessTest, ApparentFrictionIsThatOfTheRuns) {
   struct Row {
     double rms, spacing, width, friction;
   };
-  for (const Row& row : {Row{0.1, 1.0, 0.0, 0.157}, Row{0.1, 0.5, 0.0, 0.227}, Row{0.2, 1.0, 0.0, 0.418},
-                         Row{0.2, 0.5, 0.0, 0.627}, Row{0.1, 1.0, 0.5, 0.067}, Row{0.1, 0.5, 0.5, 0.019},
-                         Row{0.2, 1.0, 0.5, 0.202}, Row{0.2, 0.5, 0.5, 0.073}, Row{0.5, 1.0, 0.5, 0.75},
-                         Row{0.5, 0.5, 0.5, 0.31}, Row{0.2, 1.0, 1.0, 0.016}, Row{0.5, 1.0, 1.0, 0.083}}) {
+  for (const Row& row :
+       {Row{0.1, 1.0, 0.0, 0.157}, Row{0.1, 0.5, 0.0, 0.227}, Row{0.2, 1.0, 0.0, 0.418}, Row{0.2, 0.5, 0.0, 0.627},
+        Row{0.1, 1.0, 0.5, 0.067}, Row{0.1, 0.5, 0.5, 0.019}, Row{0.2, 1.0, 0.5, 0.202}, Row{0.2, 0.5, 0.5, 0.073},
+        Row{0.5, 1.0, 0.5, 0.75}, Row{0.5, 0.5, 0.5, 0.31}, Row{0.2, 1.0, 1.0, 0.016}, Row{0.5, 1.0, 1.0, 0.083}}) {
     const double found = apparent_friction(noise_slope(row.rms, row.spacing, 1.0, row.width));
     EXPECT_NEAR(found, row.friction, std::max(0.025, 0.2 * row.friction)) << row.rms << ", " << row.spacing;
   }

@@ -68,8 +68,8 @@ TEST(SmoothingTest, WavesAreLoweredAsByTheGaussian) {
   wave.cell_y = 0.8;
   for (int row = 0; row < wave.rows; ++row) {
     for (int column = 0; column < wave.columns; ++column) {
-      wave.values[wave.index(column, row)] = std::cos(0.3 * (wave.x_of(column) - 50.0)) *
-                                             std::cos(0.2 * (wave.y_of(row) - 48.0));
+      wave.values[wave.index(column, row)] =
+          std::cos(0.3 * (wave.x_of(column) - 50.0)) * std::cos(0.2 * (wave.y_of(row) - 48.0));
     }
   }
   EXPECT_NEAR(smoothed(wave, 2.0).at(100, 60), std::exp(-0.5 * (0.09 + 0.04) * 4.0), 1e-4);

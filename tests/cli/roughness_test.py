@@ -1,0 +1,164 @@
+"""Noise on a terrain model: what check says of it, and that every command slides on the same ground."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rasterio
+from conftest import Program, history, run_facts, sets
+from terrain_files import write_dem, write_line, write_release
+
+NOISE = 1.0  # m rms, a tenth of the points' distance of 10 m
+RELEASE = [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)]
+KEYS = [
+    "noise_m",
+    "noise_cells",
+    "spacing_m",
+    "filter_m",
+    "slope_left",
+    "apparent_friction",
+    "narrow_valley_m",
+]
+
+
+def make_case(thawslide: Program, folder: Path, noise: float) -> Path:
+    """Make a case on a plane with white noise on its points."""
+    random = np.random.default_rng(1)
+    dem = write_dem(
+        folder / "dem.tif",
+        lambda x, y: 1000.0 - 0.5 * x + noise * random.standard_normal(x.shape),
+        columns=160,
+    )
+    release = write_release(folder / "release.geojson", RELEASE, thickness=20.0)
+    case = folder / "case"
+    made = thawslide("new", case, "--dem", dem, "--release", release, "--cell", 10)
+    assert made.returncode == 0, made.stderr
+    assert "smoothed" not in made.stdout
+    return case
+
+
+@pytest.fixture
+def rough_case(thawslide: Program, tmp_path: Path) -> Path:
+    return make_case(thawslide, tmp_path, NOISE)
+
+
+def test_new_keeps_the_terrain_model_as_it_is(
+    thawslide: Program, rough_case: Path
+) -> None:
+    with (
+        rasterio.open(rough_case / "dem.tif") as kept,
+        rasterio.open(rough_case.parent / "dem.tif") as given,
+    ):
+        column, row = map(
+            round, ~given.transform * (kept.transform.c, kept.transform.f)
+        )
+        whole = given.read(1)
+        assert np.array_equal(
+            kept.read(1), whole[row : row + kept.height, column : column + kept.width]
+        )
+
+
+def test_check_reports_noise_filter_and_what_is_left(
+    thawslide: Program, rough_case: Path
+) -> None:
+    checked = thawslide("check", rough_case)
+    assert checked.returncode == 0, checked.stderr
+    assert (
+        "smoothed with a standard deviation of 10 m; what is left adds about 0."
+        in checked.stdout
+    )
+    assert (
+        "V valleys of 90 degrees narrower than 400 m lose more than 3 % of their wedge effect"
+        in checked.stdout
+    )
+    assert (
+        "dem.tif was smoothed with a standard deviation of 10 m, as it has noise of 1 m rms"
+        in checked.stdout
+    )
+    facts = json.loads(thawslide("check", rough_case, "--json").stdout)["roughness"]
+    assert list(facts) == KEYS
+    assert facts["noise_m"] == pytest.approx(NOISE, rel=0.2)
+    assert facts["noise_cells"] == pytest.approx(facts["noise_m"] / 10.0)
+    assert (facts["spacing_m"], facts["filter_m"], facts["narrow_valley_m"]) == (
+        10.0,
+        10.0,
+        400.0,
+    )
+    assert facts["slope_left"] == pytest.approx(
+        facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * 10.0**2)
+    )
+    assert facts["apparent_friction"] < 0.03
+
+
+def test_noise_that_the_user_leaves_is_warned_of(
+    thawslide: Program, rough_case: Path
+) -> None:
+    left = json.loads(
+        thawslide("check", rough_case, "--json", *sets(terrain__smooth=0)).stdout
+    )
+    note = next(note for note in left["notes"] if note.startswith("terrain.smooth: "))
+    assert note.endswith(
+        'at most 0.065 is intended). Set terrain.smooth = "auto", which is 10 m here.'
+    )
+    assert 0.1 < left["roughness"]["apparent_friction"] < 0.25
+    smooth = json.loads(
+        thawslide("check", rough_case, "--json", *sets(terrain__smooth=20)).stdout
+    )
+    assert not [note for note in smooth["notes"] if note.startswith("terrain.smooth: ")]
+
+
+def test_clean_ground_is_not_smoothed(thawslide: Program, tmp_path: Path) -> None:
+    case = make_case(thawslide, tmp_path, 0.0)
+    checked = json.loads(thawslide("check", case, "--json").stdout)
+    assert checked["roughness"]["filter_m"] == 0.0
+    assert not [note for note in checked["notes"] if "smooth" in note]
+
+
+def test_run_its_own_case_and_resume_slide_on_the_same_ground(
+    thawslide: Program, rough_case: Path, tmp_path: Path
+) -> None:
+    run, again = tmp_path / "run", tmp_path / "again"
+    short = sets(time__end=0.5, time__output_interval=0.5)
+    assert thawslide("run", rough_case, "--output", run, *short).returncode == 0
+    facts = run_facts(run)["roughness"]
+    assert (
+        facts
+        == json.loads(thawslide("check", rough_case, "--json", *short).stdout)[
+            "roughness"
+        ]
+    )
+    assert 'smooth = "auto"' in (run / "case.toml").read_text()
+    assert thawslide("run", run, "--output", again).returncode == 0
+    assert (again / "history.csv").read_bytes() == (run / "history.csv").read_bytes()
+    assert run_facts(again)["roughness"] == facts
+    with rasterio.open(run / "maps" / "terrain.tif") as ground:
+        noise = ground.read(1, masked=True)
+    across = np.diff(noise, axis=0)
+    assert np.ma.std(across) < 0.5 * NOISE
+    assert thawslide("resume", run, "--end", 1.0).returncode == 0
+    assert run_facts(run)["roughness"] == facts
+    assert history(run)["time_s"][-1] == pytest.approx(1.0, abs=0.1)
+
+
+def test_section_is_cut_out_of_the_ground_that_a_run_in_space_has(
+    thawslide: Program, rough_case: Path, tmp_path: Path
+) -> None:
+    line = write_line(tmp_path / "line.geojson", [(15.0, 200.0), (1500.0, 200.0)])
+    folder = tmp_path / "section"
+    made = thawslide(
+        "section", folder, "--dem", rough_case.parent / "dem.tif", "--line", line
+    )
+    assert made.returncode == 0, made.stderr
+    said = "dem.tif was smoothed with a standard deviation of 10 m, as a run in space on 10 m cells would do"
+    assert f"note: {said}" in made.stdout
+    text = (folder / "profile.csv").read_text()
+    assert f"# {said}" in text
+    rows = np.array(
+        [row.split(",")[:2] for row in text.splitlines() if row[:1].isdigit()],
+        dtype=float,
+    )
+    fall = rows[:, 1] + 0.5 * rows[:, 0]
+    assert np.std(fall) < 0.5 * NOISE
