@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "base/raster_sampling.hpp"
 #include "gis/smoothing.hpp"
 #include "site_case.hpp"
 
@@ -228,7 +229,8 @@ TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
   EXPECT_EQ(raw.site.ground->at(20, 20), rough.at(column + 20, row + 20));
   EXPECT_EQ(roughness_note(parameters, raw.site).substr(0, 16), "terrain.smooth: ");
   // Points that were interpolated between those of the file are as rough as these.
-  parameters.terrain = {.kind = config::TerrainKind::dem, .file = parameters.terrain.file, .resample = 2.5};
+  parameters.terrain.smooth.is_auto = true;
+  parameters.terrain.resample = 2.5;
   EXPECT_EQ(load_site(parameters).site.roughness->noise, found.noise);
 }
 
