@@ -45,9 +45,10 @@ TEST(EdgeWarning, ComesWhereTheEdgeIsNearerThanTheReleaseIsLong) {
       EXPECT_EQ(edge_warning(proposal).empty(), distance >= 110.0) << first;
     }
   }
-  EXPECT_EQ(edge_warning(propose(dem, release_at(dem, 4, 25), 20.0)),
-            "--dem: the release is close to the edge of the known terrain (found 30 m; needed its own length, 110 m, or "
-            "more). Particles that pass the edge are removed, and the results lack them. Use a larger terrain model");
+  EXPECT_EQ(
+      edge_warning(propose(dem, release_at(dem, 4, 25), 20.0)),
+      "--dem: the release is close to the edge of the known terrain (found 30 m; needed its own length, 110 m, or "
+      "more). Particles that pass the edge are removed, and the results lack them. Use a larger terrain model");
 }
 
 TEST(EdgeWarning, ComesForPointsWithoutDataToo) {
@@ -67,8 +68,9 @@ TEST(EdgeWarning, ComesWithACaseThatRemovesWhatLeaves) {
   input.release_file = "release.geojson";
   input.thickness = {MapValue::From::number, 20.0, ""};
   const std::string text = case_text(input, propose(dem, release_at(dem, 25, 25), 20.0));
-  EXPECT_NE(text.find("\nleaving = \"remove\"  # what leaves the domain or the DEM is removed, and its mass reported; "),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("\nleaving = \"remove\"  # what leaves the domain or the DEM is removed, and its mass reported; "),
+      std::string::npos)
       << text;
 }
 
