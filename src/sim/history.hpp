@@ -23,7 +23,7 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation);
 template <int Dim, class Real>
 HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow& front);
 
-// x behind which 99.5 % of the mass lies [m].
+// x up to which 99.5 % of the mass has come, in the direction in which the slide left [m].
 template <int Dim, class Real>
 double front_position(const Simulation<Dim, Real>& simulation);
 
