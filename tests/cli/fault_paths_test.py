@@ -252,6 +252,25 @@ def test_slide_towards_lower_x_is_the_mirror_image_of_one_towards_higher_x(
         assert left[column] == pytest.approx(right[column], rel=1e-6, abs=1e-6, nan_ok=True), column
 
 
+def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: Program, tmp_path: Path) -> None:
+    case = write_slope_in_plane(tmp_path / "case.toml", 1.0, "profile")
+    text = (
+        case.read_text()
+        .replace("min = [0.0, 0.0]", "min = [-4100.0, 0.0]")
+        .replace("\nfile =", "\nextend = true\nfile =")
+    )
+    case.write_text(text)
+    rows = ["0.0,300.0", "200.0,180.0", "200.00000000000003,180.0", "400.0,60.0"]
+    (tmp_path / "case.csv").write_text("\n".join(["distance_m,terrain_elevation_m", *rows]) + "\n")
+    for command in ("check", "block"):
+        refused = thawslide(command, case)
+        assert refused.returncode == 2, refused.stderr
+        assert (
+            "case.csv:4: distance_m is 200.00000000000003 after 200; allowed: steps of 1e-06 m and more."
+            in refused.stderr
+        )
+
+
 def fault(name: str) -> Path:
     folder = FAULTS / name
     if not folder.is_dir():
