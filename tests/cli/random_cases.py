@@ -23,7 +23,8 @@ from terrain_files import CRS_NAME, EAST, NORTH, place, write_geojson
 Generator = np.random.Generator
 Corners = list[tuple[float, float]]
 SOUND = {0, 2, 3}  # done, refused, and a run that went bad with a message
-LONGEST = 120.0  # s of one command
+LONGEST = 60.0  # s of one command, which is then ended
+CUT_OFF = -1
 FEW_THREADS = {"OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"}
 
 MATERIAL = """
@@ -290,15 +291,19 @@ def attempt(program: Path, drawn: Drawn) -> Tried:
     """Start the program with each command, and return the faults: whatever is not done, refused or told."""
     tried = Tried()
     for words in drawn.commands:
-        done = subprocess.run(
-            [str(program), *words],
-            env=os.environ | FEW_THREADS,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            timeout=LONGEST,
-            check=False,
-        )
+        try:
+            done = subprocess.run(
+                [str(program), *words],
+                env=os.environ | FEW_THREADS,
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                text=True,
+                timeout=LONGEST,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            tried.codes[words[0], CUT_OFF] += 1
+            continue
         tried.codes[words[0], done.returncode] += 1
         if done.returncode not in SOUND or "internal error" in done.stderr:
             tried.faults.append(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()[-2000:]}")
