@@ -273,7 +273,7 @@ class Simulation {
   std::unique_ptr<BedOfDevice<Dim, Real>> bed_of_device_;  // null: it lies below no step of a device
   terrain::ContactWork<Dim, Real> contact_;
   std::unique_ptr<mpm::BodyContact<Dim, Real>> body_contact_;  // null: all bodies share nodes
-  Ledger<Dim, Real> ledger_, ledger_before_;  // of now, and before the step
+  Ledger<Dim, Real> ledger_, ledger_before_;                   // of now, and before the step
   Watch watch_;
   Removed removed_;
   mpm::BadParticle bad_;
