@@ -31,7 +31,7 @@ SHALTOP](frank.md), [the same slide on finer cells](refinement.md).
   vertical here, by the slope of the DEM.
 - *Reached.* A place is reached if the largest thickness is at least {AFFECTED} m. The travel distance is horizontal, from
   the top of the release to the farthest place reached; the reach angle is that of the straight line between them.
-- *Run times* are processor times of one thread on a machine with much other work, which makes them up to twice as long.
+- *Run times* are processor times of one thread on a machine with other work: good to a quarter.
 - *Point mass.* A point that slides from the middle of the release, with friction on its weight across the ground and on
   the centrifugal force, integrated along the DEM. On a straight path the centre of a slide should do about that.
 - *Causes* are isolated by runs that differ in one setting; their columns name it.
