@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "base/error.hpp"
@@ -198,14 +199,17 @@ class LayerReader {
     const std::unique_ptr<OGRGeometry> geometry(source.GetGeometryRef()->getLinearGeometry());
     geometry->flattenTo2D();
     take_geometry(*geometry, feature);
-    for (const std::string& name : result_.attributes) {
-      const int index = source.GetFieldIndex(name.c_str());
+    for (int index = 0; index < source.GetFieldCount(); ++index) {
       if (!source.IsFieldSetAndNotNull(index)) {
         continue;
       }
-      feature.texts[name] = source.GetFieldAsString(index);
+      const std::string& name = result_.attributes[static_cast<std::size_t>(index)];
       const OGRFieldType type = source.GetFieldDefnRef(index)->GetType();
-      if (type == OFTReal || type == OFTInteger || type == OFTInteger64) {
+      const bool is_boolean = source.GetFieldDefnRef(index)->GetSubType() == OFSTBoolean;
+      feature.texts[name] = !is_boolean                            ? source.GetFieldAsString(index)
+                            : source.GetFieldAsInteger(index) == 0 ? "false"
+                                                                   : "true";
+      if (!is_boolean && (type == OFTReal || type == OFTInteger || type == OFTInteger64)) {
         feature.numbers[name] = source.GetFieldAsDouble(index);
       }
     }
@@ -215,7 +219,9 @@ class LayerReader {
   // Its number, and what an attribute "name" says.
   std::string title_of(const OGRFeature& source) const {
     const char* kind = kind_ == Kind::polygons ? "polygon" : kind_ == Kind::lines ? "line" : "point";
-    const int index = source.GetFieldIndex("name");
+    const auto found = std::find(result_.attributes.begin(), result_.attributes.end(), "name");
+    const int index = found == result_.attributes.end() ? source.GetFieldIndex("name")
+                                                        : static_cast<int>(found - result_.attributes.begin());
     const std::string name =
         index >= 0 && source.IsFieldSetAndNotNull(index) != 0 ? source.GetFieldAsString(index) : "";
     return fmt::format("{} {}{}", kind, result_.features.size() + 1,
@@ -314,10 +320,20 @@ VectorLayer read_points(const std::string& file, const std::string& crs) {
 }
 
 std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key) {
-  for (const std::string& attribute : layer.attributes) {
-    if (lower(attribute) == lower(name)) {
-      return attribute;
-    }
+  if (std::count(layer.attributes.begin(), layer.attributes.end(), name) == 1) {
+    return name;
+  }
+  std::vector<std::string> alike;
+  std::copy_if(layer.attributes.begin(), layer.attributes.end(), std::back_inserter(alike),
+               [&](const std::string& attribute) { return lower(attribute) == lower(name); });
+  if (alike.size() > 1) {
+    throw UserError(
+        fmt::format("{}: several attributes are called like '{}', which {} asks for: {}; allowed: one, or "
+                    "one of exactly this name. Write the name as the file does, or rename the others.",
+                    layer.file, name, key, config::list_words(all_shown(alike))));
+  }
+  if (alike.size() == 1) {
+    return alike.front();
   }
   const std::vector<std::string> there = all_shown(layer.attributes);
   const std::string hint = config::did_you_mean(name, there);

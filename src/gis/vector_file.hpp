@@ -16,7 +16,7 @@ struct Feature {
   std::vector<Polyline2> lines;
   std::vector<std::array<double, 2>> points;
   std::map<std::string, std::string> texts;  // of all its attributes; without those that are null
-  std::map<std::string, double> numbers;     // of those that are numbers
+  std::map<std::string, double> numbers;     // of those that are numbers; truth values are none
 };
 
 // The features of one layer, in the ground's coordinates. What the functions throw is a UserError that begins with the
@@ -35,7 +35,8 @@ struct VectorLayer {
 [[nodiscard]] VectorLayer read_lines(const std::string& file, const std::string& crs);
 [[nodiscard]] VectorLayer read_points(const std::string& file, const std::string& crs);
 
-// An attribute's name as the file writes it, whatever the case of its letters. `key` asks for it, for the message.
+// An attribute's name as the file writes it: the same name, or without it the one that differs in the case of letters
+// alone. Throws UserError for none and for several. `key` asks for it, for the message.
 [[nodiscard]] std::string attribute_named(const VectorLayer& layer, const std::string& name, const std::string& key);
 
 // The features that carry the names; all of them if there are no names. An error names those that the file has.

@@ -4,6 +4,7 @@
 #include <ogrsf_frmts.h>
 
 #include "gis/geopackage.hpp"
+#include "gis/valued_areas.hpp"
 #include "map_files.hpp"
 
 namespace thawslide::gis {
@@ -115,6 +116,43 @@ TEST(VectorFileTest, FeaturesAreChosenByName) {
   EXPECT_EQ(error_of([&] { static_cast<void>(features_named(layer, {"north"}, "title")); }),
             "FOLDER/r.geojson: there is no attribute 'title', which name_attribute asks for; the file has: name. "
             "Correct the name, or add the attribute.");
+}
+
+TEST(VectorFileTest, NamesAreMatchedExactlyBeforeTheCaseOfLettersIsLeftOut) {
+  const std::string box = box_json(0, 0, 10, 10);
+  const VectorLayer layer = read_polygons(
+      geojson("r.geojson", {{R"("Thickness":2.0,"thickness":10.0,"NAME":"old","name":"a","Density":5)", box}}),
+      ground());
+  EXPECT_EQ(attribute_named(layer, "thickness", "key"), "thickness");
+  EXPECT_EQ(attribute_named(layer, "Thickness", "key"), "Thickness");
+  EXPECT_EQ(attribute_named(layer, "DENSITY", "key"), "Density");
+  EXPECT_EQ(layer.features.front().numbers.at("thickness"), 10.0);
+  EXPECT_EQ(layer.features.front().numbers.at("Thickness"), 2.0);
+  EXPECT_EQ(layer.features.front().title, "polygon 1 (a)");
+  EXPECT_EQ(features_named(layer, {"a"}, "name").size(), 1U);
+  EXPECT_EQ(features_named(layer, {"old"}, "NAME").size(), 1U);
+  EXPECT_EQ(error_of([&] { static_cast<void>(attribute_named(layer, "THICKNESS", "body.rock.thickness")); }),
+            "FOLDER/r.geojson: several attributes are called like 'THICKNESS', which body.rock.thickness asks for: "
+            "Thickness, thickness; allowed: one, or one of exactly this name. Write the name as the file does, or "
+            "rename the others.");
+}
+
+TEST(VectorFileTest, TruthValuesDatesAndTextsAreNoNumbers) {
+  const std::string box = box_json(0, 0, 10, 10);
+  const VectorLayer layer = read_polygons(
+      geojson("r.geojson",
+              {{R"("is_thick":true,"is_thin":false,"day":"2016-06-28","text":"10","list":[1,2],"n":7)", box}}),
+      ground());
+  const Feature& feature = layer.features.front();
+  EXPECT_EQ(feature.numbers, (std::map<std::string, double>{{"n", 7.0}}));
+  EXPECT_EQ(feature.texts.at("is_thick"), "true");
+  EXPECT_EQ(feature.texts.at("is_thin"), "false");
+  for (const auto& [name, value] :
+       {std::pair("is_thick", "true"), {"is_thin", "false"}, {"text", "10"}, {"day", "2016/06/28"}}) {
+    EXPECT_EQ(error_of([&] { static_cast<void>(areas_by_value(layer, name, "body.rock.thickness")); }),
+              fmt::format("FOLDER/r.geojson: the attribute '{}' of polygon 1 is '{}'; needed: a number. Fill it in.",
+                          name, value));
+  }
 }
 
 TEST(VectorFileTest, WrongFiles) {
