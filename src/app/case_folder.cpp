@@ -32,7 +32,7 @@ namespace {
 
 gis::Rectangle span_of_dem(const std::string& dem) {
   try {
-    return gis::span_of_points(gis::RasterFile(dem).layout());
+    return gis::span_of_points(gis::RasterFile(dem, gis::Quantity::length).layout());
   } catch (const UserError& error) {
     throw UserError(fmt::format("--dem: {}", error.what()));
   }

@@ -19,7 +19,7 @@ std::string in_capitals(std::string text) {
 
 // The files beside a map that belong to it, of those that there are.
 std::vector<fs::path> companions(const fs::path& map) {
-  std::vector<fs::path> result{map.string() + ".aux.xml"};
+  std::vector<fs::path> result{map.string() + ".aux.xml", map.string() + ".msk"};
   for (const std::string ending : {".shx", ".dbf", ".prj", ".cpg", ".tfw"}) {
     result.push_back(fs::path(map).replace_extension(ending));
     result.push_back(fs::path(map).replace_extension(in_capitals(ending)));

@@ -15,7 +15,9 @@ Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::ve
   }
   const std::string key = "bed.depth";
   const Rectangle domain = domain_of(parameters);
-  const Raster map = read_map(parameters, {key, depth.source, ground.raster.crs, domain, "the domain"}, notes);
+  const Rectangle about = domain.widened(ground.raster.cell_x, ground.raster.cell_y);
+  const Raster map =
+      read_map(parameters, {key, depth.source, Quantity::length, ground.raster.crs, about, "the domain"}, notes);
   return told_at(parameters, key, [&] {
     Raster made = sampled(map, ground.raster, Missing::unknown);
     for (int row = 0; row < made.rows; ++row) {

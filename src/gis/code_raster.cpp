@@ -76,7 +76,8 @@ std::string share_words(const CodesFound::Points& points, const CodesFound& foun
 
 Raster read_codes(const config::Case& parameters, const std::string& key, const std::string& file, const Raster& ground,
                   std::vector<std::string>& notes) {
-  const Raster codes = read_map(parameters, {key, file, ground.crs, domain_of(parameters), "the domain"}, notes);
+  const Raster codes =
+      read_map(parameters, {key, file, Quantity::code, ground.crs, domain_of(parameters), "the domain"}, notes);
   return told_at(parameters, key, [&] {
     check_whole(file, codes);
     if (Reprojection(codes.crs, ground.crs).changes_nothing()) {

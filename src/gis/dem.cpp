@@ -37,16 +37,6 @@ std::string system_of(const config::Case& parameters, const RasterFile& file, st
   return system;
 }
 
-void check_unit(const config::Case& parameters, const RasterFile& file) {
-  std::string unit = file.unit();
-  std::transform(unit.begin(), unit.end(), unit.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  const bool spelled = unit.find("foot") != std::string::npos || unit.find("feet") != std::string::npos;
-  if (spelled || unit == "ft" || unit == "us-ft" || unit == "ftus") {
-    fail_at(parameters, "terrain.file", feet_message(file.file(), file.unit()));
-  }
-}
-
 // Numbers that stand for no data although the file does not say so, which a slide would take for a pit.
 void check_elevations(const config::Case& parameters, const RasterFile& file, const Raster& raster) {
   constexpr double deepest = -11000.0, highest = 9000.0;  // m, on Earth
@@ -142,10 +132,11 @@ config::Roughness roughness_of_file(const config::Case& parameters, const Raster
 
 Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   const config::Terrain& terrain = parameters.terrain;
-  const auto opened = told_at(parameters, "terrain.file", [&] { return std::make_unique<RasterFile>(terrain.file); });
+  const auto opened =
+      told_at(parameters, "terrain.file", [&] { return std::make_unique<RasterFile>(terrain.file, Quantity::length); });
   const RasterFile& file = *opened;
   const std::string system = system_of(parameters, file, notes);
-  check_unit(parameters, file);
+  add_note(file.conversion().note, notes);
   check_distance(parameters, file);
   const Raster made = terrain.resample > 0.0 ? resampled_layout(file.layout(), terrain.resample) : Raster{};
   const Raster& layout = terrain.resample > 0.0 ? made : file.layout();

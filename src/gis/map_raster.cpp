@@ -8,11 +8,10 @@ namespace thawslide::gis {
 
 Raster read_map(const config::Case& parameters, const MapRequest& request, std::vector<std::string>& notes) {
   return told_at(parameters, request.key, [&] {
-    const RasterFile file(request.file);
+    const RasterFile file(request.file, request.quantity);
     const LikelySystem system = likely_system(request.file, file.layout().crs, file.extent(), request.crs);
-    if (!system.note.empty()) {
-      notes.push_back(system.note);
-    }
+    add_note(system.note, notes);
+    add_note(file.conversion().note, notes);
     const bool same_place = Reprojection(system.wkt, request.crs).changes_nothing();
     if (same_place && request.area && !request.area->touches(span_of_points(file.layout()))) {
       throw UserError(fmt::format(

@@ -8,12 +8,14 @@
 #include "base/raster.hpp"
 #include "config/case.hpp"
 #include "gis/rectangle.hpp"
+#include "gis/value_unit.hpp"
 
 namespace thawslide::gis {
 
 struct MapRequest {
   std::string key;  // that named the file
   std::string file;
+  Quantity quantity;                   // of its values
   std::string crs;                     // of the ground
   std::optional<Rectangle> area;       // where it is needed, in the ground's coordinates; without one all of it is read
   std::string reason = "the release";  // what it is needed for there

@@ -8,6 +8,15 @@
 
 namespace thawslide::gis {
 
+Polygon box_polygon(const Rectangle& box) {
+  return {{{box.min_x, box.min_y},
+           {box.max_x, box.min_y},
+           {box.max_x, box.max_y},
+           {box.min_x, box.max_y},
+           {box.min_x, box.min_y}},
+          {}};
+}
+
 double signed_area(const Polyline2& ring) {
   double twice = 0.0;
   for (std::size_t k = 0; k + 1 < ring.size(); ++k) {

@@ -18,6 +18,8 @@ struct Polygon {
 
 using Polygons = std::vector<Polygon>;
 
+[[nodiscard]] Polygon box_polygon(const Rectangle& box);
+
 // Area that a closed ring bounds [m2], by the trapezoid formula (Gauss) from its first corner; positive if it runs
 // anticlockwise.
 [[nodiscard]] double signed_area(const Polyline2& ring);

@@ -20,8 +20,9 @@ namespace thawslide::gis {
 struct RasterFile::Handle {
   GDALDatasetUniquePtr dataset;
   GDALRasterBand* band = nullptr;
-  double scale = 1.0, offset = 0.0;  // of the values stored
-  bool is_single = false;            // 32-bit reals
+  std::vector<GDALRasterBand*> masks;  // 0 where there is no data
+  double scale = 1.0, offset = 0.0;    // of the values stored
+  bool is_single = false;              // 32-bit reals
 };
 
 namespace {
@@ -104,6 +105,38 @@ double nodata_of(GDALRasterBand& band, bool& has) {
   return value;
 }
 
+// The band with the values; one more may hold the opacity. `alpha`: null without one.
+GDALRasterBand* band_of_values(const std::string& file, GDALDataset& dataset, GDALRasterBand*& alpha) {
+  std::vector<GDALRasterBand*> of_values;
+  for (GDALRasterBand* band : dataset.GetBands()) {
+    if (band->GetColorInterpretation() == GCI_AlphaBand && alpha == nullptr) {
+      alpha = band;
+    } else {
+      of_values.push_back(band);
+    }
+  }
+  if (of_values.size() != 1) {
+    throw UserError(
+        fmt::format("{}: the raster has {} bands; allowed: one. Take one out: gdal_translate -b 1 {} one-band.tif",
+                    file, dataset.GetRasterCount(), file));
+  }
+  return of_values.front();
+}
+
+// GDAL opens a mask beside a raster whatever its format is.
+void require_plain_mask(const std::string& file) {
+  const std::string mask = file + ".msk";
+  std::error_code ignored;
+  if (!std::filesystem::exists(mask, ignored)) {
+    return;
+  }
+  GDALDriverH driver = GDALIdentifyDriver(mask.c_str(), nullptr);
+  if (driver == nullptr || std::string(GDALGetDescription(driver)) != "GTiff") {
+    throw UserError(fmt::format("{}: the mask of {} is no GeoTIFF. Remove it, or write the raster with its mask again.",
+                                mask, file));
+  }
+}
+
 }  // namespace
 
 void require_readable(const std::string& file, double columns, double rows) {
@@ -126,27 +159,40 @@ void require_readable(const std::string& file, double columns, double rows) {
   }
 }
 
-RasterFile::RasterFile(const std::string& file) : handle_(std::make_unique<Handle>()), file_(file) {
+RasterFile::RasterFile(const std::string& file, Quantity quantity) : handle_(std::make_unique<Handle>()), file_(file) {
   handle_->dataset = open_raster(file);
   const GdalMessages messages;
   GDALDataset& dataset = *handle_->dataset;
-  if (dataset.GetRasterCount() != 1) {
-    throw UserError(
-        fmt::format("{}: the raster has {} bands; allowed: one. Take one out: gdal_translate -b 1 {} one-band.tif",
-                    file, dataset.GetRasterCount(), file));
-  }
+  GDALRasterBand* alpha = nullptr;
+  handle_->band = band_of_values(file, dataset, alpha);
   layout_ = layout_from(file, dataset, north_up_);
-  handle_->band = dataset.GetRasterBand(1);
-  const GDALDataType type = handle_->band->GetRasterDataType();
+  GDALRasterBand& band = *handle_->band;
+  const GDALDataType type = band.GetRasterDataType();
   if (GDALDataTypeIsComplex(type) != 0) {
     throw UserError(fmt::format("{}: the values are of the type {}; allowed: real numbers or integers.", file,
                                 GDALGetDataTypeName(type)));
   }
   handle_->is_single = type == GDT_Float32;
-  handle_->scale = handle_->band->GetScale();
-  handle_->offset = handle_->band->GetOffset();
-  unit_ = handle_->band->GetUnitType();
-  nodata_ = nodata_of(*handle_->band, has_nodata_);
+  handle_->scale = band.GetScale();
+  handle_->offset = band.GetOffset();
+  if (!std::isfinite(handle_->scale) || handle_->scale == 0.0 || !std::isfinite(handle_->offset)) {
+    throw UserError(fmt::format(
+        "{}: the values are stored with a scale of {:g} and an offset of {:g}; allowed: finite numbers, and "
+        "a scale other than 0. Correct them: gdal_edit.py -scale 1 -offset 0 {}",
+        file, handle_->scale, handle_->offset, shell_word(file)));
+  }
+  const HeightUnit heights = height_unit_of(dataset.GetSpatialRef());
+  conversion_ = conversion_from({file, band.GetUnitType(), heights.name, heights.metres}, quantity);
+  nodata_ = nodata_of(band, has_nodata_);
+  require_plain_mask(file);
+  // GDAL's own mask leaves out bands of opacity that are not whole numbers, and those beside a nodata value.
+  const int flags = band.GetMaskFlags();
+  if ((flags & GMF_PER_DATASET) != 0 && (flags & GMF_ALPHA) == 0) {
+    handle_->masks.push_back(band.GetMaskBand());
+  }
+  if (alpha != nullptr) {
+    handle_->masks.push_back(alpha);
+  }
 }
 
 RasterFile::~RasterFile() = default;
@@ -176,18 +222,41 @@ Raster RasterFile::read(const std::optional<Rectangle>& window) const {
   }
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   const auto nodata_single = static_cast<float>(nodata_);
-  bool any = false;
   for (double& value : raster.values) {
     const bool is_nodata =
         has_nodata_ && (value == nodata_ || (handle_->is_single && static_cast<float>(value) == nodata_single));
-    value = is_nodata || !std::isfinite(value) ? missing : value * handle_->scale + handle_->offset;
-    any = any || !is_nodata;
+    value = is_nodata ? missing : conversion_.factor * (value * handle_->scale + handle_->offset) + conversion_.offset;
+    value = std::isfinite(value) ? value : missing;
   }
+  remove_masked(part, raster);
+  const bool any = std::any_of(raster.values.begin(), raster.values.end(), [](double v) { return !std::isnan(v); });
   if (!any) {
     throw UserError(fmt::format("{}: no point holds a value, all are nodata{}. Check that it is the right file.", file_,
                                 window ? " in the area asked for" : ""));
   }
   return raster;
+}
+
+// Line by line: a mask needs no second raster in memory.
+void RasterFile::remove_masked(const PointWindow& part, Raster& raster) const {
+  const GdalMessages messages;
+  std::vector<double> mask(static_cast<std::size_t>(part.columns));
+  for (GDALRasterBand* band : handle_->masks) {
+    for (int row = 0; row < part.rows; ++row) {
+      const int line = north_up_ ? layout_.rows - 1 - part.first_row - row : part.first_row + row;
+      const CPLErr result = band->RasterIO(GF_Read, part.first_column, line, part.columns, 1, mask.data(), part.columns,
+                                           1, GDT_Float64, 0, 0, nullptr);
+      if (result != CE_None || messages.any_error()) {
+        throw UserError(
+            fmt::format("{}: the mask cannot be read{}. The file seems to be damaged or cut off: copy it again.", file_,
+                        messages.remark()));
+      }
+      for (int column = 0; column < part.columns; ++column) {
+        double& value = raster.values[raster.index(column, row)];
+        value = mask[static_cast<std::size_t>(column)] == 0.0 ? std::numeric_limits<double>::quiet_NaN() : value;
+      }
+    }
+  }
 }
 
 bool is_raster_file(const std::string& file) {

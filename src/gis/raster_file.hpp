@@ -8,6 +8,7 @@
 #include "base/raster.hpp"
 #include "gis/point_window.hpp"
 #include "gis/rectangle.hpp"
+#include "gis/value_unit.hpp"
 
 namespace thawslide::gis {
 
@@ -18,8 +19,9 @@ void require_readable(const std::string& file, double columns, double rows);
 // A file that is open. What it throws is a UserError that begins with the file's name.
 class RasterFile {
  public:
-  // Opens the file and checks what can be checked without its values: one band, straight to the axes.
-  explicit RasterFile(const std::string& file);
+  // Opens the file and checks what can be checked without its values: one band, and at most one more with the opacity;
+  // straight to the axes; in a known unit.
+  RasterFile(const std::string& file, Quantity quantity);
   ~RasterFile();
   RasterFile(const RasterFile&) = delete;
   RasterFile& operator=(const RasterFile&) = delete;
@@ -29,20 +31,22 @@ class RasterFile {
   [[nodiscard]] const Raster& layout() const { return layout_; }
   // The outer edges of the cells about the points.
   [[nodiscard]] Rectangle extent() const;
-  // Of the values, as the file tells it; empty: it does not.
-  [[nodiscard]] const std::string& unit() const { return unit_; }
-  [[nodiscard]] bool has_nodata() const { return has_nodata_; }
+  // How the values come to the unit that they are read in.
+  [[nodiscard]] const UnitConversion& conversion() const { return conversion_; }
 
   // The points that lie in the window, and one more on each side where the file has one; without a window, all of them.
-  // Reads nothing else. Nodata and what is not finite becomes NaN. An error if no value is left.
+  // Reads nothing else. Values are scaled as the file states, and converted. NaN: nodata, what the file's mask or its
+  // band of opacity leaves out, and what is not finite. An error if no value is left.
   [[nodiscard]] Raster read(const std::optional<Rectangle>& window = std::nullopt) const;
 
  private:
   struct Handle;
+  void remove_masked(const PointWindow& part, Raster& raster) const;
+
   std::unique_ptr<Handle> handle_;
   std::string file_;
   Raster layout_;
-  std::string unit_;
+  UnitConversion conversion_;
   bool north_up_ = true;
   bool has_nodata_ = false;
   double nodata_ = 0.0;

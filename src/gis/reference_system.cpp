@@ -46,6 +46,24 @@ std::string wkt_from_reference(const OGRSpatialReference* reference) {
   return "";
 }
 
+HeightUnit height_unit_of(const OGRSpatialReference* reference) {
+  if (reference == nullptr) {
+    return {};
+  }
+  const GdalMessages messages;
+  HeightUnit unit;
+  if (reference->IsCompound() != 0) {
+    const char* name = nullptr;
+    unit.metres = reference->GetTargetLinearUnits("COMPD_CS|VERT_CS", &name);
+    unit.name = name == nullptr ? "" : name;
+  } else if (reference->GetAxesCount() == 3) {
+    OGRAxisOrientation direction = OAO_Other;
+    reference->GetAxis(nullptr, 2, &direction, &unit.metres);
+    unit.name = fmt::format("{:.9g} m", unit.metres);
+  }
+  return std::isfinite(unit.metres) && unit.metres > 0.0 ? unit : HeightUnit{};
+}
+
 namespace {
 
 // The zone of the Universal Transverse Mercator projection: 6 degrees wide, numbered from 180 degrees west (Snyder
@@ -162,11 +180,15 @@ bool is_web_mercator(const OGRSpatialReference& reference) {
       raster.file, name_of(wkt), latitude, stretch, warp_command(raster, "", longitude, latitude, 1.0 / stretch)));
 }
 
-// A system may tell of heights too.
-void check_vertical_unit(const Located& raster, const OGRSpatialReference& reference) {
-  const char* unit = nullptr;
-  if (reference.IsCompound() != 0 && std::abs(reference.GetTargetLinearUnits("VERT_CS", &unit) - 1.0) > 1e-9) {
-    throw UserError(feet_message(raster.file, unit == nullptr ? "unknown" : unit));
+// The key places a DEM and does not change its values.
+void require_metric_heights(const OGRSpatialReference& reference, const std::string& name) {
+  const HeightUnit heights = height_unit_of(&reference);
+  if (std::abs(heights.metres - 1.0) > 1e-9) {
+    throw UserError(
+        fmt::format("{} has heights in the unit '{}'; allowed: a map projection in metres, without heights or with "
+                    "heights in metres. Name its horizontal part alone, and state the unit of the elevations in the "
+                    "file: gdal_edit.py -units",
+                    name, heights.name));
   }
 }
 
@@ -266,8 +288,11 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   if (is_web_mercator(reference)) {
     fail_with_web_mercator(raster, wkt, from_key);
   }
-  check_vertical_unit(raster, reference);
+  if (from_key) {
+    require_metric_heights(reference, name_of(wkt));
+  }
   reference.StripVertical();
+  reference.DemoteTo2D(nullptr);
   return wkt_from_reference(&reference);
 }
 
@@ -300,13 +325,6 @@ std::string place_note(const Located& raster, const std::string& wkt) {
       "latitudes {:.4g} to {:.4g}: is it the right system? If not, set terrain.crs to the one the numbers are in",
       std::filesystem::path(raster.file).filename().string(), longitude, latitude, name_of(wkt), west, east, south,
       north);
-}
-
-std::string feet_message(const std::string& file, const std::string& unit) {
-  return fmt::format(
-      "{}: the elevations are in the unit '{}'; allowed: metres. Convert them, from feet: gdal_translate -ot "
-      "Float64 -a_srs EPSG:... -scale 0 1 0 0.3048 {} metres.tif",
-      file, unit, file);
 }
 
 }  // namespace thawslide::gis

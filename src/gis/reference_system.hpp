@@ -38,7 +38,4 @@ void require_projection_database();
 // What the user should know of a raster that lies far outside the area its system is made for; empty where it does not.
 [[nodiscard]] std::string place_note(const Located& raster, const std::string& wkt);
 
-// What the user is told of elevations in feet.
-[[nodiscard]] std::string feet_message(const std::string& file, const std::string& unit);
-
 }  // namespace thawslide::gis

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/shell_word.hpp"
+#include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/reference_system.hpp"
@@ -140,14 +141,17 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
 Raster thickness_without_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
                                   std::vector<std::string>& notes) {
   const config::MapValue& thickness = parameters.bodies.at(name).thickness;
-  Raster map =
-      read_map(parameters, {key_of_place(parameters, name), thickness.source, ground.raster.crs, std::nullopt}, notes);
+  Raster map = read_map(
+      parameters, {key_of_place(parameters, name), thickness.source, Quantity::length, ground.raster.crs, std::nullopt},
+      notes);
   if (thickness.from == config::MapValue::From::raster) {
     return map;
   }
-  Raster above = sampled(map, ground.raster, Missing::nothing);
+  Raster above = is_finer(map, ground.raster)
+                     ? averaged(above_ground(map, ground.raster), ground.raster, Missing::nothing)
+                     : above_ground(sampled(map, ground.raster, Missing::nothing), ground.raster);
   for (std::size_t k = 0; k < above.values.size(); ++k) {
-    const double difference = above.values[k] - ground.raster.values[k];
+    const double difference = above.values[k];
     above.values[k] = difference > parameters.bodies.at(name).surface_tolerance ? difference : 0.0;
   }
   return above;

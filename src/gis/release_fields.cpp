@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "base/nearest_known.hpp"
+#include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
+#include "gis/geopackage.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
 #include "gis/sampling.hpp"
@@ -21,13 +23,14 @@ struct MappedField {
   InitialField config::Body::*member;
   double low, high;
   const char* unit;
+  Quantity quantity;
 };
 
 constexpr MappedField mapped_fields[] = {
-    {"temperature", &config::Body::temperature, -273.15, 100.0, " C"},
-    {"porosity", &config::Body::porosity, 0.0, 0.95, ""},
-    {"saturation", &config::Body::saturation, 0.0, 1.0, ""},
-    {"ice_content", &config::Body::ice_content, 0.0, 0.95, ""},
+    {"temperature", &config::Body::temperature, -273.15, 100.0, " C", Quantity::temperature},
+    {"porosity", &config::Body::porosity, 0.0, 0.95, "", Quantity::share},
+    {"saturation", &config::Body::saturation, 0.0, 1.0, "", Quantity::share},
+    {"ice_content", &config::Body::ice_content, 0.0, 0.95, "", Quantity::share},
 };
 
 // Means of the polygons' values over each point's cell; NaN where none of them lies.
@@ -50,11 +53,14 @@ Raster from_attribute(const ReleaseArea& area, const std::string& attribute, con
   return sum;
 }
 
-void check_values(const Raster& field, const Raster& share, const MappedField& what, const std::string& source) {
+// `missing`: whether a point without data is an error.
+void check_values(const Raster& field, const Raster& share, const MappedField& what, const std::string& source,
+                  bool missing = true) {
   for (int row = 0; row < field.rows; ++row) {
     for (int column = 0; column < field.columns; ++column) {
       const double value = field.at(column, row);
-      if (share.at(column, row) > 0.0 && !(value > what.low && value <= what.high)) {
+      const bool is_allowed = (value > what.low && value <= what.high) || (std::isnan(value) && !missing);
+      if (share.at(column, row) > 0.0 && !is_allowed) {
         throw UserError(
             fmt::format("{}: at {:.10g}, {:.10g}, within the release, the {} is {}; allowed: above {:g}{} and "
                         "up to {:g}{}.",
@@ -64,6 +70,17 @@ void check_values(const Raster& field, const Raster& share, const MappedField& w
       }
     }
   }
+}
+
+// Single values of a finer raster are checked too: a mean may hide one that is not allowed.
+Raster from_raster(const ReleaseArea& area, const Raster& map, const MappedField& what, const std::string& source) {
+  if (!is_finer(map, area.share)) {
+    return sampled(map, area.share, Missing::nothing);
+  }
+  const Polygons polygons = area.is_raster() ? areas_of_mask(area.share) : area.polygons;
+  const CoveredRaster part = covered_part(map, polygons, area.share.crs);
+  check_values(part.values, part.share, what, source, false);
+  return averaged(part, area.share).mean;
 }
 
 }  // namespace
@@ -80,10 +97,11 @@ std::map<std::string, Raster> fields_of(const config::Case& parameters, const st
     const std::string key = key_of(body, what.key);
     const bool is_raster = field.over == InitialField::Over::raster;
     const Raster map =
-        is_raster ? read_map(parameters, {key, field.source, area.share.crs, span_of_points(area.share)}, notes)
+        is_raster ? read_map(parameters, {key, field.source, what.quantity, area.share.crs, span_of_points(area.share)},
+                             notes)
                   : Raster{};
     fields[what.key] = told_at(parameters, key, [&] {
-      Raster made = is_raster ? sampled(map, area.share, Missing::nothing) : from_attribute(area, field.source, key);
+      Raster made = is_raster ? from_raster(area, map, what, field.source) : from_attribute(area, field.source, key);
       check_values(made, area.share, what, is_raster ? field.source : area.layer.file);
       for (std::size_t k = 0; k < made.values.size(); ++k) {
         if (!(area.share.values[k] > 0.0)) {

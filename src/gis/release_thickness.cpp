@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/shell_word.hpp"
+#include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
@@ -163,16 +164,54 @@ class ThicknessMaker {
     return thickness;
   }
 
-  Raster map_at_points(const std::string& file, Missing missing) const {
-    const std::string key = key_of(name_, "thickness");
-    const Raster raster = read_map(case_, {key, file, ground_.crs, span_of_points(area_.share)}, notes_);
-    return told_at(case_, key, [&] { return sampled(raster, area_.share, missing); });
+  Raster read_thickness_map() const {
+    return read_map(case_,
+                    {key_of(name_, "thickness"), body_.thickness.source, Quantity::length, ground_.crs,
+                     span_of_points(area_.share)},
+                    notes_);
+  }
+
+  template <class Work>
+  auto at_thickness(const Work& work) const {
+    return told_at(case_, key_of(name_, "thickness"), work);
   }
 
   Raster of_raster() const {
-    const Raster map = map_at_points(body_.thickness.source, Missing::zero);
+    const Raster source = read_thickness_map();
+    if (at_thickness([&] { return is_finer(source, area_.share); })) {
+      return of_finer_raster(source);
+    }
+    const Raster map = at_thickness([&] { return sampled(source, area_.share, Missing::zero); });
     require_not_negative(map, &area_.share, "thickness", body_.thickness.source);
     return times_share([&](std::size_t k) { return map.values[k]; });
+  }
+
+  // Cells of the raster that lie across an outline may share an area with a cell of the ground that lies beyond it:
+  // this volume goes to the others.
+  Raster of_finer_raster(const Raster& source) const {
+    const CoveredRaster part = at_thickness([&] { return covered_part(source, area_.polygons, ground_.crs); });
+    require_not_negative(part.values, &part.share, "thickness", body_.thickness.source);
+    const Raster amount = at_thickness([&] { return averaged(part, area_.share).amount; });
+    Raster within = amount;
+    for (std::size_t k = 0; k < within.values.size(); ++k) {
+      within.values[k] = area_.share.values[k] > 0.0 ? within.values[k] : 0.0;
+    }
+    const double scale = volume_of(within) > 0.0 ? volume_of(amount) / volume_of(within) : 1.0;
+    for (double& value : within.values) {
+      value *= scale;
+    }
+    return within;
+  }
+
+  // Heights of the surface above the ground at the points of the area.
+  Raster above_ground_of_area() const {
+    const Raster surface = read_thickness_map();
+    return at_thickness([&] {
+      if (is_finer(surface, area_.share)) {
+        return averaged(covered_part(above_ground(surface, measured_), area_.polygons, ground_.crs), area_.share).mean;
+      }
+      return above_ground(sampled(surface, area_.share, Missing::nothing), measured_);
+    });
   }
 
   Raster of_surface() const {
@@ -184,22 +223,21 @@ class ThicknessMaker {
     if (body_.thickness_along == config::ThicknessAlong::normal) {
       fail("thickness_along", "the difference of two surfaces is vertical. Set \"vertical\", or leave the key out.");
     }
-    const Raster surface = map_at_points(body_.thickness.source, Missing::nothing);
+    const Raster above = above_ground_of_area();
     Raster thickness = area_.share;
     for_each_positive(thickness, [&](int column, int row, double& value) {
       int i = 0, j = 0;
-      const double above = surface.at(column, row);
+      const double difference = above.at(column, row);
       const auto told = [&](const std::string& what) {
         fail("thickness", fmt::format("{}: at {:.10g}, {:.10g}, within the release, {}", body_.thickness.source,
-                                      surface.x_of(column), surface.y_of(row), what));
+                                      above.x_of(column), above.y_of(row), what));
       };
-      if (std::isnan(above)) {
-        told("the surface has no data. Fill it, or draw the release smaller.");
-      }
       if (!has_ground(column, row, i, j)) {
         return;
       }
-      const double difference = above - measured_.at(i, j);
+      if (std::isnan(difference)) {
+        told("the surface has no data. Fill it, or draw the release smaller.");
+      }
       if (difference < -body_.surface_tolerance) {
         told(fmt::format(
             "the surface before the slide lies {:.4g} m below the terrain model; allowed: above it, or below "

@@ -18,8 +18,13 @@ Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wk
     return;
   }
   const GdalMessages messages;
-  const OGRSpatialReference from = reference_from_wkt(from_wkt);
-  const OGRSpatialReference to = reference_from_wkt(to_wkt);
+  // Heights stay what they are: coordinates of the plane alone are taken from one system to the other.
+  OGRSpatialReference from = reference_from_wkt(from_wkt);
+  OGRSpatialReference to = reference_from_wkt(to_wkt);
+  for (OGRSpatialReference* system : {&from, &to}) {
+    system->StripVertical();
+    system->DemoteTo2D(nullptr);
+  }
   const char* const options[] = {"CRITERION=EQUIVALENT", nullptr};
   if (from.IsSame(&to, options) != 0) {
     return;

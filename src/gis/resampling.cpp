@@ -1,20 +1,14 @@
 #include "gis/resampling.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
+#include "gis/axis_weights.hpp"
 
 namespace thawslide::gis {
 
 namespace {
-
-// The old points that make a new one along an axis.
-struct Weights {
-  int first = 0;
-  std::vector<double> weights;  // of old points first, first + 1, ...
-};
 
 // Integral from minus infinity to t of the linear shape function, which is 1 at 0 and falls to 0 at -1 and 1.
 double linear_integral(double t) {
@@ -23,7 +17,7 @@ double linear_integral(double t) {
 }
 
 // One axis: places in units of the old points' distance, from the first old one.
-Weights interpolation(double place, int count) {
+AxisWeights interpolation(double place, int count) {
   const int first = std::clamp(static_cast<int>(std::floor(place)), 0, std::max(count - 2, 0));
   const double share = place - first;
   // A new point on an old one needs no neighbour, which may have no data.
@@ -37,11 +31,11 @@ Weights interpolation(double place, int count) {
   return {first, {1.0 - share, share}};
 }
 
-Weights mean(double place, double width, int count) {
+AxisWeights mean(double place, double width, int count) {
   const double low = place - 0.5 * width, high = place + 0.5 * width;
   const int first = std::clamp(static_cast<int>(std::floor(low)), 0, count - 1);
   const int last = std::clamp(static_cast<int>(std::ceil(high)), 0, count - 1);
-  Weights result{first, {}};
+  AxisWeights result{first, {}};
   for (int k = first; k <= last; ++k) {
     result.weights.push_back((linear_integral(high - k) - linear_integral(low - k)) / width);
   }
@@ -55,63 +49,18 @@ struct Axis {
 
 bool is_mean(double old_cell, double new_cell) { return new_cell > old_cell * (1.0 + 1e-9); }
 
-std::vector<Weights> weights_of(const Axis& old_axis, const Axis& new_axis) {
-  std::vector<Weights> all;
+std::vector<AxisWeights> weights_of(const Axis& old_axis, const Axis& new_axis) {
+  std::vector<AxisWeights> all;
   for (int k = 0; k < new_axis.count; ++k) {
     const double place = (new_axis.first + k * new_axis.cell - old_axis.first) / old_axis.cell;
     const bool averaged = is_mean(old_axis.cell, new_axis.cell);
     all.push_back(averaged ? mean(place, new_axis.cell / old_axis.cell, old_axis.count)
                            : interpolation(place, old_axis.count));
-    const Weights& made = all.back();
+    const AxisWeights& made = all.back();
     THAWSLIDE_ASSERT(made.first + static_cast<int>(made.weights.size()) <= old_axis.count,
                      "point {} needs old points from {} of {}", k, made.first, old_axis.count);
   }
   return all;
-}
-
-// Weighted sums of values, and of the weights of those that have data.
-struct Sums {
-  std::vector<double> values, weights;
-};
-
-Sums sum_rows(const Raster& raster, const std::vector<Weights>& along_x) {
-  const std::size_t columns = along_x.size();
-  Sums sums{std::vector<double>(columns * static_cast<std::size_t>(raster.rows)), {}};
-  sums.weights = sums.values;
-  parallel_for(static_cast<std::size_t>(raster.rows), [&](std::size_t row) {
-    for (std::size_t column = 0; column < columns; ++column) {
-      const Weights& made = along_x[column];
-      const double* old = raster.values.data() + raster.index(made.first, static_cast<int>(row));
-      double value = 0.0, weight = 0.0;
-      for (std::size_t k = 0; k < made.weights.size(); ++k) {
-        if (!std::isnan(old[k])) {
-          value += made.weights[k] * old[k];
-          weight += made.weights[k];
-        }
-      }
-      sums.values[row * columns + column] = value;
-      sums.weights[row * columns + column] = weight;
-    }
-  });
-  return sums;
-}
-
-// `least`: the share of the weights that must have data.
-void sum_columns(const Sums& rows, const std::vector<Weights>& along_y, double least, Raster& result) {
-  const auto columns = static_cast<std::size_t>(result.columns);
-  parallel_for(along_y.size(), [&](std::size_t row) {
-    const Weights& made = along_y[row];
-    for (std::size_t column = 0; column < columns; ++column) {
-      double value = 0.0, weight = 0.0;
-      for (std::size_t k = 0; k < made.weights.size(); ++k) {
-        const std::size_t from = (static_cast<std::size_t>(made.first) + k) * columns + column;
-        value += made.weights[k] * rows.values[from];
-        weight += made.weights[k] * rows.weights[from];
-      }
-      result.values[row * columns + column] =
-          weight > least ? value / weight : std::numeric_limits<double>::quiet_NaN();
-    }
-  });
 }
 
 }  // namespace
@@ -142,10 +91,7 @@ Raster resampled(const Raster& raster, const Raster& new_layout) {
   const auto along_y =
       weights_of({raster.y, raster.cell_y, raster.rows}, {new_layout.y, new_layout.cell_y, new_layout.rows});
   const bool is_averaged = is_mean(raster.cell_x, new_layout.cell_x) || is_mean(raster.cell_y, new_layout.cell_y);
-  Raster result = new_layout;
-  result.values.resize(along_x.size() * along_y.size());
-  sum_columns(sum_rows(raster, along_x), along_y, is_averaged ? 0.5 : 1.0 - 1e-9, result);
-  return result;
+  return means_of(weighted_sums(raster, along_x, along_y, new_layout), is_averaged ? 0.5 : 1.0 - 1e-9);
 }
 
 }  // namespace thawslide::gis

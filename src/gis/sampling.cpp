@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "gis/averaging.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
 
@@ -24,6 +25,9 @@ Gradient gradient_at(const Raster& raster, int column, int row) {
 }
 
 Raster sampled(const Raster& raster, const Raster& layout, Missing missing) {
+  if (is_finer(raster, layout)) {
+    return averaged(raster, layout, missing);
+  }
   const Reprojection reprojection(layout.crs, raster.crs);
   Raster result = layout;
   result.values.resize(static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows));
@@ -46,6 +50,14 @@ Raster sampled(const Raster& raster, const Raster& layout, Missing missing) {
     }
   }
   return result;
+}
+
+Raster above_ground(const Raster& surface, const Raster& ground) {
+  Raster above = sampled(ground, surface, Missing::unknown);
+  for (std::size_t k = 0; k < above.values.size(); ++k) {
+    above.values[k] = surface.values[k] - above.values[k];
+  }
+  return above;
 }
 
 }  // namespace thawslide::gis

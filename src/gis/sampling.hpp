@@ -11,7 +11,11 @@ struct Gradient {
 };
 [[nodiscard]] Gradient gradient_at(const Raster& raster, int column, int row);
 
-// A raster of any reference system at the points of a layout.
+// A raster of any reference system at the points of a layout: bilinear between its points, or the mean over the cell
+// about a point if its own points are nearer to one another (averaging.hpp).
 [[nodiscard]] Raster sampled(const Raster& raster, const Raster& layout, Missing missing);
+
+// Heights of a surface above the ground at its own points, which are finer than the ground's; NaN without a ground.
+[[nodiscard]] Raster above_ground(const Raster& surface, const Raster& ground);
 
 }  // namespace thawslide::gis

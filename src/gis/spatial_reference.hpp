@@ -12,4 +12,11 @@ namespace thawslide::gis {
 // Empty for null and for a system without content.
 [[nodiscard]] std::string wkt_from_reference(const OGRSpatialReference* reference);
 
+// The unit of the heights of a compound or three-dimensional system; without a name: it has none.
+struct HeightUnit {
+  std::string name;
+  double metres = 1.0;
+};
+[[nodiscard]] HeightUnit height_unit_of(const OGRSpatialReference* reference);
+
 }  // namespace thawslide::gis

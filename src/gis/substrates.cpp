@@ -33,15 +33,6 @@ std::string key_of_place(const std::string& name, const config::Substrate& subst
                                                        : "x_max");
 }
 
-Polygons box_of(const Rectangle& box) {
-  return {{{{box.min_x, box.min_y},
-            {box.max_x, box.min_y},
-            {box.max_x, box.max_y},
-            {box.min_x, box.max_y},
-            {box.min_x, box.min_y}},
-           {}}};
-}
-
 // Also fills `inside` with what lies in the domain.
 config::SubstrateArea area_of_outline(const config::Case& parameters, const std::string& name, const Dem& ground,
                                       Polygons& inside, std::vector<std::string>& notes) {
@@ -59,7 +50,7 @@ config::SubstrateArea area_of_outline(const config::Case& parameters, const std:
   const Polygons polygons = union_of(all);
   const Rectangle domain = domain_of(parameters);
   config::SubstrateArea area;
-  inside = intersection_of(polygons, box_of(domain));
+  inside = intersection_of(polygons, {box_polygon(domain)});
   area.area = area_of(inside);
   if (!(area.area > 0.0)) {
     fail_at(parameters, key,
@@ -95,15 +86,15 @@ Polygons polygons_of(const config::Case& parameters, const std::string& name, co
   const Rectangle domain = domain_of(parameters);
   const config::Substrate& substrate = parameters.substrates.at(name);
   if (substrate.is_strip()) {
-    return box_of(
-        {std::max(domain.min_x, substrate.x_min), domain.min_y, std::min(domain.max_x, substrate.x_max), domain.max_y});
+    return {box_polygon({std::max(domain.min_x, substrate.x_min), domain.min_y, std::min(domain.max_x, substrate.x_max),
+                         domain.max_y})};
   }
   const config::SubstrateArea& area = areas.at(name);
   Raster mask = *area.codes;
   for (double& value : mask.values) {
     value = value == area.code ? 1.0 : 0.0;
   }
-  return intersection_of(areas_of_mask(mask), box_of(domain));
+  return intersection_of(areas_of_mask(mask), {box_polygon(domain)});
 }
 
 void check_overlap(const config::Case& parameters, const std::string& first, const std::string& second,

@@ -1,7 +1,5 @@
 #include "gis/told_at.hpp"
 
-#include <vector>
-
 namespace thawslide::gis {
 
 void fail_at(const config::Case& parameters, const std::string& key, const std::string& message) {
@@ -9,6 +7,12 @@ void fail_at(const config::Case& parameters, const std::string& key, const std::
   // An option of a command, as --dem, says enough; a place in a file and --set want the key.
   const bool is_option = place.rfind("--", 0) == 0 && place.rfind("--set", 0) != 0;
   throw UserError(is_option ? fmt::format("{}: {}", place, message) : fmt::format("{}: {}: {}", place, key, message));
+}
+
+void add_note(const std::string& note, std::vector<std::string>& notes) {
+  if (!note.empty()) {
+    notes.push_back(note);
+  }
 }
 
 std::string words_beyond(const Rectangle& inner, const Rectangle& outer) {

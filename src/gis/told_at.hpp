@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "config/case.hpp"
@@ -20,6 +21,9 @@ auto told_at(const config::Case& parameters, const std::string& key, const Work&
     fail_at(parameters, key, error.what());
   }
 }
+
+// Adds a note that has a text.
+void add_note(const std::string& note, std::vector<std::string>& notes);
 
 // How far a rectangle reaches beyond another: "120 m in the west and 30 m in the north"; empty: it does not.
 [[nodiscard]] std::string words_beyond(const Rectangle& inner, const Rectangle& outer);

@@ -16,7 +16,7 @@ constexpr std::size_t most_points = 1U << 22U;  // of a raster that is read whol
 
 void read_raster(const std::string& file) {
   fuzz::gives_value(file, [&] {
-    const gis::RasterFile raster(file);
+    const gis::RasterFile raster(file, gis::Quantity::length);
     const Raster& layout = raster.layout();
     const gis::Rectangle corner{layout.x, layout.y, layout.x + 3.0 * layout.cell_x, layout.y + 3.0 * layout.cell_y};
     const bool small = static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows) <= most_points;

@@ -57,7 +57,7 @@ inline Raster raster_of(const std::function<double(double, double)>& z, double x
 }
 
 inline std::string geotiff(const std::string& name, const Raster& raster) {
-  write_geotiff(in_folder(name), raster, {"m", "test"});
+  write_geotiff(in_folder(name), raster, {"", "test"});
   return in_folder(name);
 }
 

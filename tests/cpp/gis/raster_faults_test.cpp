@@ -8,7 +8,7 @@ namespace {
 using namespace map_files;
 
 std::string error_of_file(const std::string& file) {
-  return error_of([&] { static_cast<void>(RasterFile(file).read()); });
+  return error_of([&] { static_cast<void>(RasterFile(file, Quantity::length).read()); });
 }
 
 TEST(RasterFaultsTest, MissingFile) {

@@ -18,7 +18,7 @@ TEST(RasterFileTest, GeotiffRoundTripKeepsEveryBit) {
   raster.values[raster.index(2, 1)] = missing;
   const std::string file = in_folder("map.tif");
   write_geotiff(file, raster, {"m", "largest thickness"});
-  const RasterFile opened(file);
+  const RasterFile opened(file, Quantity::length);
   const Raster read = opened.read();
   EXPECT_EQ(read.columns, 7);
   EXPECT_EQ(read.rows, 5);
@@ -27,7 +27,7 @@ TEST(RasterFileTest, GeotiffRoundTripKeepsEveryBit) {
   EXPECT_EQ(read.cell_x, raster.cell_x);
   EXPECT_EQ(read.cell_y, raster.cell_y);
   EXPECT_EQ(name_of(read.crs), "EPSG:31287");
-  EXPECT_EQ(opened.unit(), "m");
+  EXPECT_EQ(opened.conversion().note, "");
   for (std::size_t k = 0; k < raster.values.size(); ++k) {
     if (k == raster.index(2, 1)) {
       EXPECT_TRUE(std::isnan(read.values[k]));
@@ -66,7 +66,7 @@ TEST(RasterFileTest, EveryTypeIsReadInBothDirectionsOfRows) {
       what.transform[3] = direction < 0.0 ? 300030.0 : 300000.0;
       what.transform[5] = direction * 10.0;
       what.nodata = 6.0;
-      const Raster read = RasterFile(foreign("dem.tif", what)).read();
+      const Raster read = RasterFile(foreign("dem.tif", what), Quantity::length).read();
       SCOPED_TRACE(fmt::format("{} {}", GDALGetDataTypeName(type), direction));
       EXPECT_EQ(read.x, 400005.0);
       EXPECT_EQ(read.y, 300005.0);
@@ -82,7 +82,7 @@ TEST(RasterFileTest, NodataOfFloatsAndWhatIsNotFiniteIsMissing) {
   ForeignRaster what;
   what.nodata = -9999.9;  // as a float it is another number
   what.values = {-9999.9, missing, std::numeric_limits<double>::infinity(), 7.5};
-  const Raster read = RasterFile(foreign("dem.tif", what)).read();
+  const Raster read = RasterFile(foreign("dem.tif", what), Quantity::length).read();
   EXPECT_TRUE(std::isnan(read.at(0, 2)));
   EXPECT_TRUE(std::isnan(read.at(1, 2)));
   EXPECT_TRUE(std::isnan(read.at(2, 2)));
@@ -98,7 +98,7 @@ TEST(RasterFileTest, StoredNumbersAreScaled) {
   dataset->GetRasterBand(1)->SetScale(0.5);
   dataset->GetRasterBand(1)->SetOffset(1000.0);
   dataset.reset();
-  const Raster read = RasterFile(file).read();
+  const Raster read = RasterFile(file, Quantity::length).read();
   EXPECT_EQ(read.at(0, 2), 1000.5);
   EXPECT_TRUE(std::isnan(read.at(1, 2)));
   EXPECT_EQ(read.at(2, 2), 1001.5);
@@ -106,7 +106,7 @@ TEST(RasterFileTest, StoredNumbersAreScaled) {
 
 TEST(RasterFileTest, WindowIsPartOfTheWhole) {
   const Raster raster = raster_of([](double x, double y) { return x + 1000.0 * y; }, 10.0, 20.0, 5.0, 40, 30);
-  const RasterFile file(geotiff("dem.tif", raster));
+  const RasterFile file(geotiff("dem.tif", raster), Quantity::length);
   const Raster part = file.read(Rectangle{32.0, 41.0, 70.0, 55.0});
   EXPECT_EQ(part.x, 30.0);
   EXPECT_EQ(part.x_end(), 70.0);
@@ -126,7 +126,7 @@ TEST(RasterFileTest, AsciiGridKeepsItsDigitsAndCellSize) {
   // Integers first: a reader that guesses the type from the beginning of the file would lose the fractions.
   std::string text = "ncols 3\nnrows 2\nxllcorner 400000.5\nyllcorner 300000.25\ncellsize 4.9977\nNODATA_value -9999\n";
   text += "1234 1235 -9999\n1300 2345.6789012 1302\n";
-  const Raster read = RasterFile(text_file("dem.asc", text)).read();
+  const Raster read = RasterFile(text_file("dem.asc", text), Quantity::length).read();
   EXPECT_EQ(read.cell_x, 4.9977);
   EXPECT_EQ(read.cell_y, 4.9977);
   EXPECT_NEAR(read.x, 400000.5 + 0.5 * 4.9977, 1e-9);
@@ -140,7 +140,7 @@ TEST(RasterFileTest, AsciiGridKeepsItsDigitsAndCellSize) {
 TEST(RasterFileTest, AsciiGridByCentresWithItsPrj) {
   text_file("dem.prj", reference_system_named("EPSG:31254"));
   const std::string text = "ncols 2\nnrows 2\nxllcenter 10\nyllcenter 20\ncellsize 2.5\n1 2\n3 4\n";
-  const Raster read = RasterFile(text_file("dem.asc", text)).read();
+  const Raster read = RasterFile(text_file("dem.asc", text), Quantity::length).read();
   EXPECT_EQ(read.x, 10.0);
   EXPECT_EQ(read.y, 20.0);
   EXPECT_EQ(read.at(0, 0), 3.0);
@@ -157,7 +157,7 @@ TEST(RasterFileTest, LargeModelIsReadInSeconds) {
   }
   const std::string file = geotiff("large.tif", raster);
   const auto start = std::chrono::steady_clock::now();
-  const Raster read = RasterFile(file).read();
+  const Raster read = RasterFile(file, Quantity::length).read();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_EQ(read.values, raster.values);
   EXPECT_LT(seconds, 10.0);

@@ -22,11 +22,16 @@ TEST(ReferenceSystemTest, ProjectionsInMetresAreTaken) {
   EXPECT_EQ(name_of(metric_system(metric_raster, "", "EPSG:32632")), "EPSG:32632");
 }
 
-TEST(ReferenceSystemTest, HeightsAreLeftOutOfASystemButTheirUnitCounts) {
+TEST(ReferenceSystemTest, HeightsAreLeftOutOfASystem) {
   EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:31254+5778"), "")), "EPSG:31254");
-  EXPECT_EQ(error_of_system(metric_raster, "EPSG:26910+6360"),
-            "dem.tif: the elevations are in the unit 'US survey foot'; allowed: metres. Convert them, from feet: "
-            "gdal_translate -ot Float64 -a_srs EPSG:... -scale 0 1 0 0.3048 dem.tif metres.tif");
+  EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:26910+6360"), "")), "EPSG:26910")
+      << "the unit of the heights is that of the values, which are converted";
+  const std::string message = error_of_system(metric_raster, "", "EPSG:26910+6360");
+  EXPECT_NE(message.find(" has heights in the unit 'US survey foot'; allowed: a map projection in metres, without "
+                         "heights or with heights in metres. Name its horizontal part alone, and state the unit of "
+                         "the elevations in the file: gdal_edit.py -units"),
+            std::string::npos)
+      << message;
 }
 
 TEST(ReferenceSystemTest, NumberWithoutItsRegistry) {

@@ -30,7 +30,7 @@ class SharedDataTest : public testing::Test {
 };
 
 TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
-  const RasterFile file((shared_data() / "fluchthorn" / "fluchthorn.tif").string());
+  const RasterFile file((shared_data() / "fluchthorn" / "fluchthorn.tif").string(), Quantity::length);
   EXPECT_EQ(file.layout().columns, 300);
   EXPECT_EQ(file.layout().rows, 220);
   EXPECT_EQ(file.layout().cell_x, 10.0);
@@ -68,7 +68,7 @@ TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
 }
 
 TEST_F(SharedDataTest, ReleaseOfAlrIsComputed) {
-  const RasterFile file((shared_data() / "alr" / "alr.tif").string());
+  const RasterFile file((shared_data() / "alr" / "alr.tif").string(), Quantity::length);
   const VectorLayer layer = read_polygons((shared_data() / "alr" / "release.shp").string(), file.layout().crs);
   ASSERT_EQ(layer.features.size(), 1U);
   const Rectangle about = extent_of(layer.features[0].polygons).widened(60.0, 60.0);

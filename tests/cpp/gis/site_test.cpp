@@ -118,13 +118,14 @@ TEST(SiteTest, ElevationsThatAreNone) {
       "with-nodata.tif");
 }
 
-TEST(SiteTest, ElevationsInFeet) {
+TEST(SiteTest, ElevationsInAnUnknownUnit) {
   config::Case parameters = plain_case(ground());
-  write_geotiff(parameters.terrain.file, ground(), {"ft", "elevation"});
-  EXPECT_EQ(error_of_site(parameters),
-            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the elevations are in the unit 'ft'; allowed: metres. "
-            "Convert them, "
-            "from feet: gdal_translate -ot Float64 -a_srs EPSG:... -scale 0 1 0 0.3048 FOLDER/dem.tif metres.tif");
+  write_geotiff(parameters.terrain.file, ground(), {"chains", "elevation"});
+  EXPECT_EQ(
+      error_of_site(parameters),
+      "case.toml:5:8: terrain.file: FOLDER/dem.tif: the unit of the values is 'chains'; allowed: a unit of length "
+      "(m, mm, cm, dm, km, in, ft, US survey foot, yd). Check that it is the right file, or state the unit that "
+      "the values have: gdal_edit.py -units m FOLDER/dem.tif");
 }
 
 TEST(SiteTest, PathAndProbes) {

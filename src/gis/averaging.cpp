@@ -1,0 +1,236 @@
+#include "gis/averaging.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "gis/axis_weights.hpp"
+#include "gis/coverage.hpp"
+#include "gis/point_window.hpp"
+#include "gis/reference_system.hpp"
+#include "gis/reprojection.hpp"
+
+namespace thawslide::gis {
+
+namespace {
+
+constexpr double finer_by = 1.01;
+constexpr double no_data = std::numeric_limits<double>::quiet_NaN();
+
+struct Axis {
+  double first, cell;
+  int count;
+};
+
+// Shares of the interval about a place in the cells of old points; places in units of their distance. What lies beyond
+// the outermost cells is left out.
+AxisWeights overlaps(double place, double width, int count) {
+  const double low = place - 0.5 * width, high = place + 0.5 * width;
+  const int first = static_cast<int>(std::clamp(std::floor(low + 0.5), 0.0, count - 1.0));
+  const int last = static_cast<int>(std::clamp(std::floor(high + 0.5), 0.0, count - 1.0));
+  AxisWeights made{first, {}};
+  for (int k = first; k <= last; ++k) {
+    made.weights.push_back(std::max(0.0, std::min(high, k + 0.5) - std::max(low, k - 0.5)) / width);
+  }
+  return made;
+}
+
+// Linear interpolation, without the points beyond the outermost.
+AxisWeights between_points(double place, int count) {
+  const double below = std::floor(place), share = place - below;
+  AxisWeights made;
+  for (const auto& [point, weight] : {std::pair(below, 1.0 - share), std::pair(below + 1.0, share)}) {
+    if (point >= 0.0 && point < count) {
+      made.first = made.weights.empty() ? static_cast<int>(point) : made.first;
+      made.weights.push_back(weight);
+    }
+  }
+  return made;
+}
+
+std::vector<AxisWeights> weights_along(const Axis& old_axis, const Axis& new_axis) {
+  std::vector<AxisWeights> all;
+  const double width = new_axis.cell / old_axis.cell;
+  for (int k = 0; k < new_axis.count; ++k) {
+    const double place = (new_axis.first + k * new_axis.cell - old_axis.first) / old_axis.cell;
+    all.push_back(width > finer_by ? overlaps(place, width, old_axis.count) : between_points(place, old_axis.count));
+  }
+  return all;
+}
+
+WeightedSums sums_in_one_system(const Raster& raster, const Raster& layout) {
+  return weighted_sums(
+      raster, weights_along({raster.x, raster.cell_x, raster.columns}, {layout.x, layout.cell_x, layout.columns}),
+      weights_along({raster.y, raster.cell_y, raster.rows}, {layout.y, layout.cell_y, layout.rows}), layout);
+}
+
+using Place = std::array<double, 2>;
+
+// The corners of the cells of a layout's row, from its lower (0) or upper (1) side, in columns and rows of a raster.
+std::vector<Place> corners_of(const Reprojection& reprojection, const Raster& raster, const Raster& layout, int row,
+                              int side) {
+  const auto count = static_cast<std::size_t>(layout.columns) + 1;
+  std::vector<double> x(count), y(count, layout.y_of(row) + (side - 0.5) * layout.cell_y);
+  for (std::size_t k = 0; k < count; ++k) {
+    x[k] = layout.x + (static_cast<double>(k) - 0.5) * layout.cell_x;
+  }
+  if (!reprojection.apply(x, y)) {
+    throw UserError(
+        fmt::format("points of the ground near {:.10g}, {:.10g} have no place in the coordinate reference system {}. "
+                    "Reproject the raster to {}.",
+                    layout.x, layout.y_of(row), name_of(raster.crs), name_of(layout.crs)));
+  }
+  std::vector<Place> corners(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    corners[k] = {(x[k] - raster.x) / raster.cell_x, (y[k] - raster.y) / raster.cell_y};
+  }
+  return corners;
+}
+
+double distance(const Place& one, const Place& other) {
+  return std::max(std::abs(one[0] - other[0]), std::abs(one[1] - other[1]));
+}
+
+// Three parts for each of the raster's cells along a side: a whole number of parts a cell, or nearly so, has no pattern
+// of its own against that of the cells.
+int parts_of(double side) {
+  constexpr double parts_per_cell = 3.0, most_parts = 255.0;
+  return static_cast<int>(std::clamp(parts_per_cell * std::round(side), 1.0, most_parts));
+}
+
+// Sums over the parts of the cell between four corners: lower left, lower right, upper left, upper right.
+std::array<double, 2> sum_over_parts(const Raster& raster, const std::array<Place, 4>& corners) {
+  const int across = parts_of(distance(corners[0], corners[1])), up = parts_of(distance(corners[0], corners[2]));
+  double value = 0.0, weight = 0.0;
+  for (int j = 0; j < up; ++j) {
+    for (int i = 0; i < across; ++i) {
+      const double s = (i + 0.5) / across, t = (j + 0.5) / up;
+      Place place;
+      for (std::size_t a = 0; a < 2; ++a) {
+        place[a] = std::floor(0.5 + (1.0 - t) * ((1.0 - s) * corners[0][a] + s * corners[1][a]) +
+                              t * ((1.0 - s) * corners[2][a] + s * corners[3][a]));
+      }
+      const bool inside = place[0] >= 0.0 && place[1] >= 0.0 && place[0] < raster.columns && place[1] < raster.rows;
+      const double there = inside ? raster.at(static_cast<int>(place[0]), static_cast<int>(place[1])) : no_data;
+      if (!std::isnan(there)) {
+        value += there;
+        weight += 1.0;
+      }
+    }
+  }
+  const double parts = static_cast<double>(across) * up;
+  return {value / parts, weight / parts};
+}
+
+WeightedSums sums_between_systems(const Reprojection& reprojection, const Raster& raster, const Raster& layout) {
+  WeightedSums sums{layout.filled(0.0), layout.filled(0.0)};
+  sums.values.values.resize(static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows));
+  sums.weights.values = sums.values.values;
+  for (int row = 0; row < layout.rows; ++row) {
+    const std::vector<Place> lower = corners_of(reprojection, raster, layout, row, 0);
+    const std::vector<Place> upper = corners_of(reprojection, raster, layout, row, 1);
+    parallel_for(static_cast<std::size_t>(layout.columns), [&](std::size_t column) {
+      const std::size_t k = layout.index(static_cast<int>(column), row);
+      const auto [value, weight] =
+          sum_over_parts(raster, {lower[column], lower[column + 1], upper[column], upper[column + 1]});
+      sums.values.values[k] = value;
+      sums.weights.values[k] = weight;
+    });
+  }
+  return sums;
+}
+
+// Over the area of each new cell.
+WeightedSums sums_over_cells(const Raster& raster, const Raster& layout) {
+  const Reprojection reprojection(layout.crs, raster.crs);
+  return reprojection.changes_nothing() ? sums_in_one_system(raster, layout)
+                                        : sums_between_systems(reprojection, raster, layout);
+}
+
+Polygons in_system(const Polygons& polygons, const Reprojection& reprojection, const std::string& name) {
+  Polygons taken = polygons;
+  const auto take = [&](Polyline2& ring) {
+    std::vector<double> x, y;
+    for (const auto& corner : ring) {
+      x.push_back(corner[0]);
+      y.push_back(corner[1]);
+    }
+    if (!reprojection.apply(x, y)) {
+      throw UserError(
+          fmt::format("the release has no place in the coordinate reference system {} of the raster. "
+                      "Reproject the raster to the system of the terrain model.",
+                      name));
+    }
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      ring[k] = {x[k], y[k]};
+    }
+  };
+  for (Polygon& polygon : taken) {
+    take(polygon.outline);
+    std::for_each(polygon.holes.begin(), polygon.holes.end(), take);
+  }
+  return taken;
+}
+
+}  // namespace
+
+bool is_finer(const Raster& raster, const Raster& layout) {
+  const Reprojection reprojection(layout.crs, raster.crs);
+  if (reprojection.changes_nothing()) {
+    return layout.cell_x > finer_by * raster.cell_x || layout.cell_y > finer_by * raster.cell_y;
+  }
+  const Raster middle = layout_of(layout, {layout.columns / 2, layout.rows / 2, 1, 1});
+  const std::vector<Place> lower = corners_of(reprojection, raster, middle, 0, 0);
+  const std::vector<Place> upper = corners_of(reprojection, raster, middle, 0, 1);
+  return distance(lower[0], lower[1]) > finer_by || distance(lower[0], upper[0]) > finer_by;
+}
+
+Raster averaged(const Raster& raster, const Raster& layout, Missing missing) {
+  WeightedSums sums = sums_over_cells(raster, layout);
+  return missing == Missing::zero ? std::move(sums.values)
+                                  : means_of(std::move(sums), missing == Missing::unknown ? 0.5 - 1e-9 : 1e-9);
+}
+
+CoveredRaster covered_part(const Raster& raster, const Polygons& polygons, const std::string& crs) {
+  const Polygons there = in_system(polygons, Reprojection(crs, raster.crs), name_of(raster.crs));
+  constexpr double half = 0.499999;  // of a cell, so that rounding leads no corner out of the outermost ones
+  const Rectangle all = span_of_points(raster).widened(half * raster.cell_x, half * raster.cell_y);
+  const Polygons inside = intersection_of(there, {box_polygon(all)});
+  if (inside.empty()) {
+    return {};
+  }
+  CoveredRaster part;
+  part.values = part_of(raster, points_in(raster, extent_of(inside)));
+  part.share = coverage_of(inside, part.values);
+  return part;
+}
+
+CoveredMeans averaged(const CoveredRaster& part, const Raster& layout) {
+  CoveredMeans means;
+  if (part.values.empty()) {
+    const std::size_t count = static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows);
+    means.amount = means.mean = layout;
+    means.amount.values.assign(count, 0.0);
+    means.mean.values.assign(count, no_data);
+    return means;
+  }
+  Raster amount = part.values, known = part.share;
+  for (std::size_t k = 0; k < amount.values.size(); ++k) {
+    amount.values[k] *= part.share.values[k];
+    known.values[k] = std::isnan(amount.values[k]) ? 0.0 : known.values[k];
+  }
+  means.amount = averaged(amount, layout, Missing::zero);
+  means.mean = averaged(part.values, layout, Missing::nothing);  // beside slivers that the parts of cells miss
+  const Raster weight = averaged(known, layout, Missing::zero);
+  for (std::size_t k = 0; k < weight.values.size(); ++k) {
+    if (weight.values[k] > 0.0) {
+      means.mean.values[k] = means.amount.values[k] / weight.values[k];
+    }
+  }
+  return means;
+}
+
+}  // namespace thawslide::gis

@@ -1,0 +1,200 @@
+// Rasters finer than the ground are averaged over its cells: volumes stay, whatever the points and the systems.
+#include "gis/averaging.hpp"
+
+#include <random>
+
+#include "gis/polygons.hpp"
+#include "site_case.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace site_case;
+
+// Any thickness from 0 to 20 m at points of any distances, in 30 m x 24 m and with nothing about it.
+Raster random_raster(std::mt19937& random, double cell_x, double cell_y) {
+  std::uniform_real_distribution<double> thickness(0.0, 20.0), place(0.0, 10.0);
+  Raster raster =
+      raster_of([&](double, double) { return thickness(random); }, 400000.0 + place(random), 300000.0 + place(random),
+                cell_x, static_cast<int>(30.0 / cell_x), static_cast<int>(24.0 / cell_y));
+  raster.cell_y = cell_y;
+  return raster;
+}
+
+Raster points_about(const Raster& raster, double cell, double shift) {
+  return raster_of([](double, double) { return 0.0; }, raster.x - 5.0 * cell + shift, raster.y - 5.0 * cell - shift,
+                   cell, 10 + static_cast<int>(40.0 / cell), 10 + static_cast<int>(40.0 / cell));
+}
+
+TEST(AveragingTest, VolumesAreExactForPointsOfAnyDistanceAndPlace) {
+  std::mt19937 random(7);
+  for (const auto& [cell_x, cell_y] : {std::pair(1.0, 1.0), {0.3, 0.7}, {2.3, 0.9}, {2.9, 2.9}}) {
+    for (const double shift : {0.0, 0.37, 1.5, 2.9}) {
+      const Raster raster = random_raster(random, cell_x, cell_y);
+      const Raster layout = points_about(raster, 3.0, shift);
+      ASSERT_TRUE(is_finer(raster, layout));
+      EXPECT_NEAR(volume_of(averaged(raster, layout, Missing::zero)), volume_of(raster), 1e-9 * volume_of(raster))
+          << cell_x << " " << cell_y << " " << shift;
+    }
+  }
+}
+
+TEST(AveragingTest, MeansAreThoseOfTheCellsWithin) {
+  const Raster ribs = raster_of([](double x, double) { return x == 2.0 ? 20.0 : 4.0; }, 0.0, 0.0, 1.0, 10, 10);
+  const Raster layout = raster_of([](double, double) { return 0.0; }, 2.0, 2.0, 5.0, 2, 2);
+  const Raster means = averaged(ribs, layout, Missing::unknown);
+  EXPECT_NEAR(means.at(0, 0), (20.0 + 4.0 * 4.0) / 5.0, 1e-12);
+  EXPECT_NEAR(means.at(1, 1), 4.0, 1e-12);
+}
+
+TEST(AveragingTest, PointsWithoutDataAreLeftOutOrNothing) {
+  Raster raster = raster_of([](double, double) { return 8.0; }, 0.0, 0.0, 1.0, 4, 4);
+  raster.values[raster.index(0, 0)] = raster.values[raster.index(1, 0)] = missing;
+  const Raster layout = raster_of([](double, double) { return 0.0; }, 0.5, 0.5, 2.0, 3, 2);
+  const auto mean_at = [&](int column, Missing rule) { return averaged(raster, layout, rule).at(column, 0); };
+  EXPECT_NEAR(mean_at(0, Missing::zero), 4.0, 1e-12);
+  EXPECT_NEAR(mean_at(0, Missing::nothing), 8.0, 1e-12);
+  EXPECT_NEAR(mean_at(0, Missing::unknown), 8.0, 1e-12) << "half of the cell";
+  raster.values[raster.index(0, 1)] = missing;
+  EXPECT_NEAR(mean_at(0, Missing::nothing), 8.0, 1e-12);
+  EXPECT_TRUE(std::isnan(mean_at(0, Missing::unknown)));
+  EXPECT_EQ(mean_at(2, Missing::zero), 0.0) << "beyond the raster";
+  EXPECT_TRUE(std::isnan(mean_at(2, Missing::nothing)));
+}
+
+TEST(AveragingTest, FinerIsByMoreThanAHundredthAlongAnyAxis) {
+  Raster raster = raster_of([](double, double) { return 1.0; }, 400000.0, 300000.0, 5.0, 20, 20);
+  const Raster layout = raster_of([](double, double) { return 0.0; }, 400000.0, 300000.0, 5.0, 20, 20);
+  EXPECT_FALSE(is_finer(raster, layout));
+  raster.cell_y = 4.99;
+  EXPECT_FALSE(is_finer(raster, layout));
+  raster.cell_y = 4.9;
+  EXPECT_TRUE(is_finer(raster, layout));
+  EXPECT_FALSE(is_finer(layout, raster));
+}
+
+// Ribs of 20 m, one metre in five, over 200 m x 200 m; `cell`: of the raster.
+Raster ribs(const std::string& crs, double x, double y, double cell) {
+  const auto count = static_cast<int>(std::lround(240.0 / cell));
+  return raster_of(
+      [&](double east, double north) {
+        const double across = east - x - 20.0, up = north - y - 20.0;
+        const bool inside = across > 0.0 && across < 200.0 && up > 0.0 && up < 200.0;
+        return inside && std::fmod(across, 5.0) < 1.0 ? 20.0 : 0.0;
+      },
+      x + 0.5 * cell, y + 0.5 * cell, cell, count, count, crs);
+}
+
+constexpr double volume_of_ribs = 200.0 * 200.0 * 20.0 / 5.0;
+
+TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRaster) {
+  for (const double shift : {0.0, 0.4, 2.5}) {
+    for (const double cell : {1.0, 0.5}) {
+      const Raster raster = ribs("EPSG:31287", west + 300.0 + shift, south + 300.0 + shift, cell);
+      ASSERT_NEAR(volume_of(raster), volume_of_ribs, 1e-6);
+      config::Case parameters = plain_case(ground());
+      parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
+      EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs, 1e-6);
+      // Within the outline, which runs along cells of the ground or across them.
+      parameters.bodies.at("rock").release =
+          geojson("outline.geojson", {{"", box_at(320 + shift, 320 + shift, 520 + shift, 520 + shift)}});
+      EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs, 1e-4);
+      // In the western half.
+      parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(250, 250, 420 + shift, 700)}});
+      EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), 0.5 * volume_of_ribs, 1e-4);
+    }
+  }
+}
+
+// The lengths of the other system differ by up to 4 in 10,000, areas by twice as much.
+TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRasterOfAnotherSystem) {
+  std::vector<double> x{west + 300.0}, y{south + 300.0};
+  ASSERT_TRUE(Reprojection(reference_system_named("EPSG:31287"), reference_system_named("EPSG:32633")).apply(x, y));
+  const Raster raster = ribs("EPSG:32633", x[0], y[0], 1.0);
+  config::Case parameters = plain_case(ground());
+  parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
+  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs,
+              5e-3 * volume_of_ribs);
+  parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(250, 250, 600, 600)}});
+  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs,
+              5e-3 * volume_of_ribs);
+}
+
+// The two systems differ by less than a metre in place and not in length.
+TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRasterOfNearlyTheSameSystem) {
+  const Raster raster = ribs("EPSG:25833", west + 300.0, south + 300.0, 1.0);
+  config::Case parameters = plain_case(ground("EPSG:32633"));
+  parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
+  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs,
+              5e-3 * volume_of_ribs);
+}
+
+TEST(AveragingTest, SurfacesFinerThanTheGroundKeepTheVolumeAboveIt) {
+  const Raster thickness = ribs("EPSG:31287", west + 300.0, south + 300.0, 1.0);
+  Raster surface = thickness;
+  for (int row = 0; row < surface.rows; ++row) {
+    for (int column = 0; column < surface.columns; ++column) {
+      surface.values[surface.index(column, row)] += plane(surface.x_of(column), surface.y_of(row));
+    }
+  }
+  config::Case parameters = plain_case(ground());
+  parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
+  parameters.bodies.at("rock").thickness.from = config::MapValue::From::surface;
+  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs,
+              1e-6 * volume_of_ribs);
+  parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(322, 322, 518, 518)}});
+  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs * 196.0 * 196.0 / 4e4,
+              0.01 * volume_of_ribs);
+}
+
+// Two stripes a metre wide, of -4 and -8 C, are -6 C on average; a single value that none may have is refused.
+TEST(AveragingTest, TemperaturesAreMeansAndEachIsChecked) {
+  config::Case parameters = case_with_release({{"", box_at(302, 302, 398, 398)}});
+  InitialField& temperature = parameters.bodies.at("rock").temperature;
+  temperature.over = InitialField::Over::raster;
+  Raster stripes = raster_of([](double x, double) { return std::fmod(x - west, 2.0) < 1.0 ? -4.0 : -8.0; },
+                             west + 250.5, south + 250.5, 1.0, 200, 200);
+  temperature.source = geotiff("temperature.tif", stripes);
+  const Raster field = load_site(parameters).site.releases.at("rock").fields.at("temperature");
+  for (int row = 3; row + 3 < field.rows; ++row) {
+    for (int column = 3; column + 3 < field.columns; ++column) {
+      EXPECT_NEAR(field.at(column, row), -6.0, 1e-9);
+    }
+  }
+  stripes.values[stripes.index(100, 100)] = -9999.0;
+  temperature.source = geotiff("other.tif", stripes);
+  EXPECT_NE(error_of_site(parameters).find("the temperature is -9999 C; allowed: above -273.15 C"), std::string::npos);
+}
+
+TEST(AveragingTest, NegativeThicknessIsNotHiddenByAMean) {
+  Raster raster = ribs("EPSG:31287", west + 300.0, south + 300.0, 1.0);
+  raster.values[raster.index(100, 100)] = -1.0;
+  config::Case parameters = plain_case(ground());
+  parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
+  parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(320, 320, 520, 520)}});
+  EXPECT_NE(error_of_site(parameters).find("is -1 m; allowed: 0 and more."), std::string::npos);
+}
+
+TEST(AveragingTest, BedsAreMeans) {
+  config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
+  parameters.bed.law = config::BedLaw::strength;
+  parameters.bed.depth.over = InitialField::Over::raster;
+  parameters.bed.depth.source =
+      geotiff("bed.tif", raster_of([](double x, double) { return std::fmod(x - west, 5.0) < 1.0 ? 5.0 : 0.0; },
+                                   west + 50.5, south + 50.5, 1.0, 900, 700));
+  const Raster depth = load_site(parameters).site.bed_depth;
+  int inside = 0;
+  for (int row = 0; row < depth.rows; ++row) {
+    for (int column = 0; column < depth.columns; ++column) {
+      const double x = depth.x_of(column) - west, y = depth.y_of(row) - south;
+      if (x >= 100.0 && x <= 900.0 && y >= 100.0 && y <= 700.0) {
+        ASSERT_NEAR(depth.at(column, row), 1.0, 1e-9);
+        ++inside;
+      }
+    }
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+}  // namespace
+}  // namespace thawslide::gis

@@ -1,0 +1,174 @@
+// Masks of rasters count as no data, however a file holds them.
+#include "base/raster_sampling.hpp"
+#include "site_case.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace site_case;
+
+enum class MaskKind { internal, beside, alpha, real_alpha };
+
+// A raster of the foreign kind, whose points are masked where `is_masked` says so.
+std::string masked(const std::string& name, MaskKind kind, const ForeignRaster& what,
+                   const std::function<bool(int, int)>& is_masked) {
+  GDALAllRegister();
+  const bool has_alpha = kind == MaskKind::alpha || kind == MaskKind::real_alpha;
+  const std::string file = in_folder(name);
+  CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", kind == MaskKind::internal ? "YES" : "NO");
+  const char* const with_alpha[] = {"ALPHA=YES", nullptr};
+  const GDALDatasetUniquePtr dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+      file.c_str(), what.columns, what.rows, has_alpha ? 2 : 1, kind == MaskKind::alpha ? GDT_Byte : what.type,
+      has_alpha ? const_cast<char**>(with_alpha) : nullptr));
+  std::array<double, 6> transform = what.transform;
+  dataset->SetGeoTransform(transform.data());
+  OGRSpatialReference reference;
+  reference.SetFromUserInput(what.crs.c_str());
+  dataset->SetSpatialRef(&reference);
+  if (!has_alpha) {
+    EXPECT_EQ(dataset->CreateMaskBand(GMF_PER_DATASET), CE_None);
+  }
+  GDALRasterBand& mask = has_alpha ? *dataset->GetRasterBand(2) : *dataset->GetRasterBand(1)->GetMaskBand();
+  if (!std::isnan(what.nodata)) {
+    dataset->GetRasterBand(1)->SetNoDataValue(what.nodata);
+  }
+  std::vector<double> values = what.values, opacity;
+  for (int line = 0; line < what.rows; ++line) {
+    for (int column = 0; column < what.columns; ++column) {
+      if (what.values.empty()) {
+        values.push_back(static_cast<double>(values.size() + 1));
+      }
+      opacity.push_back(is_masked(column, line) ? 0.0 : kind == MaskKind::real_alpha ? 0.4 : 255.0);
+    }
+  }
+  const auto write = [&](GDALRasterBand& band, std::vector<double>& numbers) {
+    EXPECT_EQ(band.RasterIO(GF_Write, 0, 0, what.columns, what.rows, numbers.data(), what.columns, what.rows,
+                            GDT_Float64, 0, 0, nullptr),
+              CE_None);
+  };
+  write(*dataset->GetRasterBand(1), values);
+  write(mask, opacity);
+  CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", nullptr);
+  return file;
+}
+
+constexpr MaskKind kinds[] = {MaskKind::internal, MaskKind::beside, MaskKind::alpha, MaskKind::real_alpha};
+
+TEST(RasterMaskTest, MaskedPointsHaveNoDataInBothDirectionsOfRowsAndInWindows) {
+  const auto is_masked = [](int column, int line) { return (column + 2 * line) % 3 == 0; };
+  for (const MaskKind kind : kinds) {
+    for (const double direction : {-1.0, 1.0}) {
+      ForeignRaster what;
+      what.transform[3] = direction < 0.0 ? 300030.0 : 300000.0;
+      what.transform[5] = direction * 10.0;
+      SCOPED_TRACE(fmt::format("{} {}", static_cast<int>(kind), direction));
+      const RasterFile file(masked("map.tif", kind, what, is_masked), Quantity::length);
+      const Raster read = file.read();
+      ASSERT_EQ(read.values.size(), 12U);
+      for (int line = 0; line < 3; ++line) {
+        for (int column = 0; column < 4; ++column) {
+          const double value = read.at(column, direction < 0.0 ? 2 - line : line);
+          EXPECT_EQ(std::isnan(value), is_masked(column, line)) << column << " " << line;
+          EXPECT_TRUE(std::isnan(value) || value == 1.0 + column + 4.0 * line) << value;
+        }
+      }
+      const Raster part = file.read(Rectangle{400015.0, 300005.0, 400015.0, 300005.0});
+      EXPECT_EQ(part.columns, 1);
+      EXPECT_EQ(part.rows, 1);
+      EXPECT_EQ(std::isnan(part.at(0, 0)), is_masked(1, direction < 0.0 ? 2 : 0));
+      std::filesystem::remove(in_folder("map.tif.msk"));
+    }
+  }
+}
+
+TEST(RasterMaskTest, NodataAndMaskBothCount) {
+  for (const MaskKind kind : kinds) {
+    ForeignRaster what;
+    what.nodata = 2.0;
+    const Raster read =
+        RasterFile(masked("map.tif", kind, what, [](int column, int line) { return column == 3 && line == 0; }),
+                   Quantity::length)
+            .read();
+    EXPECT_TRUE(std::isnan(read.at(1, 2))) << static_cast<int>(kind);
+    EXPECT_TRUE(std::isnan(read.at(3, 2))) << static_cast<int>(kind);
+    EXPECT_EQ(read.at(0, 2), 1.0);
+    std::filesystem::remove(in_folder("map.tif.msk"));
+  }
+}
+
+TEST(RasterMaskTest, NothingButMaskedPointsIsAnError) {
+  for (const MaskKind kind : kinds) {
+    EXPECT_EQ(error_of([&] {
+                static_cast<void>(
+                    RasterFile(masked("map.tif", kind, {}, [](int, int) { return true; }), Quantity::length).read());
+              }),
+              "FOLDER/map.tif: no point holds a value, all are nodata. Check that it is the right file.");
+    std::filesystem::remove(in_folder("map.tif.msk"));
+  }
+}
+
+TEST(RasterMaskTest, MaskBesideARasterIsAGeotiff) {
+  const std::string file = foreign("map.tif", {});
+  text_file("map.tif.msk", "<VRTDataset rasterXSize=\"4\" rasterYSize=\"3\"></VRTDataset>");
+  EXPECT_EQ(error_of([&] { static_cast<void>(RasterFile(file, Quantity::length)); }),
+            "FOLDER/map.tif.msk: the mask of FOLDER/map.tif is no GeoTIFF. Remove it, or write the raster with its "
+            "mask again.");
+}
+
+// Points 10 m apart, as many as hold the ground; leftovers below the mask.
+ForeignRaster leftovers(double value) {
+  ForeignRaster what;
+  what.columns = 101;
+  what.rows = 81;
+  what.transform = {west - 5.0, 10.0, 0.0, south + 805.0, 0.0, -10.0};
+  what.values.assign(101 * 81, value);
+  return what;
+}
+
+// Masked but for columns 30 to 49 and lines 30 to 49.
+bool beyond_box(int column, int line) { return column < 30 || column >= 50 || line < 30 || line >= 50; }
+
+TEST(RasterMaskTest, LeftoversBelowAMaskAreNoThickness) {
+  for (const MaskKind kind : kinds) {
+    config::Case parameters = plain_case(ground());
+    parameters.bodies["rock"] = raster_body(masked("thickness.tif", kind, leftovers(10.0), beyond_box));
+    EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), 200.0 * 200.0 * 10.0, 1e-6);
+    std::filesystem::remove(in_folder("thickness.tif.msk"));
+  }
+}
+
+TEST(RasterMaskTest, MaskedTemperatureBedAndGroundAreMissing) {
+  const std::string box = box_at(250, 250, 450, 450);
+  config::Case parameters = case_with_release({{"", box}});
+  parameters.bodies.at("rock").temperature.over = InitialField::Over::raster;
+  parameters.bodies.at("rock").temperature.source =
+      masked("temperature.tif", MaskKind::internal, leftovers(-5.0), beyond_box);
+  EXPECT_NE(error_of_site(parameters).find("within the release, the temperature is missing"), std::string::npos);
+
+  parameters = case_with_release({{"", box}});
+  parameters.bed.law = config::BedLaw::strength;
+  parameters.bed.depth.over = InitialField::Over::raster;
+  parameters.bed.depth.source = masked("bed.tif", MaskKind::internal, leftovers(1.0), beyond_box);
+  EXPECT_NE(error_of_site(parameters).find("in the domain, the depth of the bed is missing"), std::string::npos);
+
+  parameters = case_with_release({{"", box}});
+  const Raster heights = ground();
+  ForeignRaster dem;
+  dem.type = GDT_Float64;
+  dem.columns = heights.columns;
+  dem.rows = heights.rows;
+  dem.transform = {west - 2.5, 5.0, 0.0, south + 802.5, 0.0, -5.0};
+  for (int line = 0; line < dem.rows; ++line) {
+    for (int column = 0; column < dem.columns; ++column) {
+      dem.values.push_back(heights.at(column, dem.rows - 1 - line));
+    }
+  }
+  parameters.terrain.file =
+      masked("dem.tif", MaskKind::internal, dem, [](int column, int line) { return column == 60 && line == 100; });
+  EXPECT_NE(error_of_site(parameters)
+                .find("the release lies over nodata of the terrain model at 1 of its points, such as 400300, 300300"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace thawslide::gis

@@ -1,0 +1,180 @@
+// Units of rasters: converted where they are known, refused where they are not.
+#include "gis/value_unit.hpp"
+
+#include "base/raster_sampling.hpp"
+#include "site_case.hpp"
+
+namespace thawslide::gis {
+namespace {
+
+using namespace site_case;
+
+double computed(const std::string& unit, Quantity quantity, double stated) {
+  const UnitConversion conversion = conversion_from({"folder/map.tif", unit, "", 1.0}, quantity);
+  return conversion.factor * stated + conversion.offset;
+}
+
+std::string error_of_unit(const StatedUnits& stated, Quantity quantity) {
+  return error_of([&] { static_cast<void>(conversion_from(stated, quantity)); });
+}
+
+TEST(ValueUnitTest, LengthsInEverySpellingAreMetres) {
+  const double survey_foot = 1200.0 / 3937.0;
+  const std::pair<const char*, double> units[] = {{"", 1.0},
+                                                  {"m", 1.0},
+                                                  {"Metre", 1.0},
+                                                  {"meters", 1.0},
+                                                  {"[m]", 1.0},
+                                                  {"m a.s.l.", 1.0},
+                                                  {"unknown", 1.0},
+                                                  {"mm", 0.001},
+                                                  {"cm", 0.01},
+                                                  {"CM", 0.01},
+                                                  {"centimetre", 0.01},
+                                                  {"dm", 0.1},
+                                                  {"km", 1000.0},
+                                                  {"in", 0.0254},
+                                                  {"ft", 0.3048},
+                                                  {"feet", 0.3048},
+                                                  {"Foot", 0.3048},
+                                                  {"yd", 0.9144},
+                                                  {"US survey foot", survey_foot},
+                                                  {"us-ft", survey_foot},
+                                                  {"ftUS", survey_foot},
+                                                  {"US_survey_foot", survey_foot},
+                                                  {"Foot_US", survey_foot}};
+  for (const auto& [unit, metres] : units) {
+    EXPECT_NEAR(computed(unit, Quantity::length, 50.0), 50.0 * metres, 1e-12) << unit;
+    const std::string note = conversion_from({"folder/map.tif", unit, "", 1.0}, Quantity::length).note;
+    EXPECT_EQ(note, metres == 1.0
+                        ? ""
+                        : fmt::format("map.tif states the unit '{}': its values were converted to metres", unit));
+  }
+}
+
+TEST(ValueUnitTest, TemperaturesAndSharesAreConverted) {
+  for (const char* unit : {"", "C", "°C", "degC", "Celsius"}) {
+    EXPECT_EQ(computed(unit, Quantity::temperature, -5.0), -5.0) << unit;
+  }
+  for (const char* unit : {"K", "kelvin", "Kelvin"}) {
+    EXPECT_NEAR(computed(unit, Quantity::temperature, 273.15), 0.0, 1e-12) << unit;
+  }
+  for (const char* unit : {"F", "°F", "degF", "Fahrenheit"}) {
+    EXPECT_NEAR(computed(unit, Quantity::temperature, 32.0), 0.0, 1e-12) << unit;
+    EXPECT_NEAR(computed(unit, Quantity::temperature, 23.0), -5.0, 1e-12) << unit;
+  }
+  EXPECT_NEAR(computed("%", Quantity::share, 30.0), 0.3, 1e-15);
+  EXPECT_EQ(computed("1", Quantity::share, 0.3), 0.3);
+  EXPECT_EQ(computed("whatever", Quantity::code, 7.0), 7.0);
+  EXPECT_EQ(conversion_from({"map.tif", "K", "", 1.0}, Quantity::temperature).note,
+            "map.tif states the unit 'K': its values were converted to degrees Celsius");
+}
+
+TEST(ValueUnitTest, UnknownUnitsAndThoseOfAnotherQuantityAreRefused) {
+  EXPECT_EQ(error_of_unit({"map.tif", "furlong", "", 1.0}, Quantity::length),
+            "map.tif: the unit of the values is 'furlong'; allowed: a unit of length (m, mm, cm, dm, km, in, ft, US "
+            "survey foot, yd). Check that it is the right file, or state the unit that the values have: gdal_edit.py "
+            "-units m map.tif");
+  EXPECT_EQ(error_of_unit({"map.tif", "m", "", 1.0}, Quantity::temperature),
+            "map.tif: the unit of the values is 'm'; allowed: a unit of temperature (C, K, F). Check that it is the "
+            "right file, or state the unit that the values have: gdal_edit.py -units C map.tif");
+  EXPECT_EQ(error_of_unit({"map.tif", "kg", "", 1.0}, Quantity::share),
+            "map.tif: the unit of the values is 'kg'; allowed: a unit of share (1, %). Check that it is the right "
+            "file, or state the unit that the values have: gdal_edit.py -units 1 map.tif");
+}
+
+// GDAL gives a band without a unit that of the heights of its reference system, whatever the band measures.
+TEST(ValueUnitTest, HeightsOfTheReferenceSystemHoldForLengthsAlone) {
+  const StatedUnits heights{"map.tif", "US survey foot", "US survey foot", 1200.0 / 3937.0};
+  EXPECT_NEAR(conversion_from(heights, Quantity::length).factor, 1200.0 / 3937.0, 1e-15);
+  EXPECT_EQ(conversion_from(heights, Quantity::temperature).factor, 1.0);
+  EXPECT_EQ(conversion_from(heights, Quantity::share).factor, 1.0);
+  EXPECT_NEAR(conversion_from({"map.tif", "", "clarke's foot", 0.3047972654}, Quantity::length).factor, 0.3047972654,
+              1e-15);
+  EXPECT_EQ(conversion_from({"map.tif", "cm", "", 1.0}, Quantity::length).factor, 0.01);
+  EXPECT_EQ(error_of_unit({"map.tif", "m", "US survey foot", 1200.0 / 3937.0}, Quantity::length),
+            "map.tif: two units are stated for the values: 'm' by the band, 'US survey foot' by the heights of the "
+            "coordinate reference system; allowed: one. State the right one in both: gdal_edit.py -units m -a_srs "
+            "EPSG:... map.tif");
+}
+
+TEST(ValueUnitTest, UnitIsThatOfTheScaledValues) {
+  ForeignRaster what;
+  what.type = GDT_Int16;
+  what.unit = "cm";
+  const std::string file = foreign("map.tif", what);
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+  dataset->GetRasterBand(1)->SetScale(10.0);
+  dataset->GetRasterBand(1)->SetOffset(500.0);
+  dataset.reset();
+  EXPECT_NEAR(RasterFile(file, Quantity::length).read().at(0, 2), 0.01 * (10.0 * 1.0 + 500.0), 1e-12);
+}
+
+TEST(ValueUnitTest, ScalesThatAreNoneAreRefused) {
+  const std::string file = foreign("map.tif", {});
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+  dataset->GetRasterBand(1)->SetScale(0.0);
+  dataset.reset();
+  EXPECT_EQ(
+      error_of([&] { static_cast<void>(RasterFile(file, Quantity::length)); }),
+      "FOLDER/map.tif: the values are stored with a scale of 0 and an offset of 0; allowed: finite numbers, and a "
+      "scale other than 0. Correct them: gdal_edit.py -scale 1 -offset 0 FOLDER/map.tif");
+}
+
+Raster times(Raster raster, double factor) {
+  for (double& value : raster.values) {
+    value *= factor;
+  }
+  return raster;
+}
+
+// The same release whatever the units of the ground and the thickness.
+TEST(ValueUnitTest, VolumesAreThoseOfMetresInEveryUnit) {
+  const Raster thickness = raster_of(
+      [](double x, double y) {
+        return std::abs(x - west - 350.0) < 50.0 && std::abs(y - south - 350.0) < 50.0 ? 8 : 0;
+      },
+      west, south, 5.0, 201, 161);
+  for (const auto& [unit, metres] : {std::pair("ft", 0.3048), {"cm", 0.01}, {"dm", 0.1}, {"km", 1000.0}}) {
+    config::Case parameters = plain_case(ground());
+    write_geotiff(parameters.terrain.file, times(ground(), 1.0 / metres), {unit, "elevation"});
+    write_geotiff(in_folder("thickness.tif"), times(thickness, 1.0 / metres), {unit, "thickness"});
+    parameters.bodies["rock"] = raster_body(in_folder("thickness.tif"));
+    const SiteAndNotes loaded = load_site(parameters);
+    EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), volume_of(thickness), 1e-6) << unit;
+    EXPECT_NEAR(bilinear(*loaded.site.ground, west + 400.0, south + 400.0, Missing::unknown), 1700.0, 1e-6) << unit;
+    EXPECT_EQ(loaded.notes,
+              (std::vector<std::string>{
+                  fmt::format("dem.tif states the unit '{}': its values were converted to metres", unit),
+                  fmt::format("thickness.tif states the unit '{}': its values were converted to metres", unit)}));
+    std::filesystem::remove(in_folder("thickness.tif"));
+  }
+}
+
+TEST(ValueUnitTest, CompoundSystemsAreInThePlaceOfTheirHorizontalPart) {
+  const Raster thickness = raster_of(
+      [](double x, double y) {
+        return std::abs(x - west - 350.0) < 50.0 && std::abs(y - south - 350.0) < 50.0 ? 8 : 0;
+      },
+      west, south, 5.0, 201, 161, "EPSG:31287+6360");
+  config::Case parameters = plain_case(ground());
+  parameters.bodies["rock"] = raster_body(in_folder("thickness.tif"));
+  write_geotiff(in_folder("thickness.tif"), times(thickness, 3937.0 / 1200.0), {"", "thickness"});
+  const SiteAndNotes loaded = load_site(parameters);
+  EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), volume_of(thickness), 1e-6);
+  EXPECT_EQ(loaded.notes, std::vector<std::string>{"thickness.tif states the unit 'US survey foot': its values were "
+                                                   "converted to metres"});
+}
+
+TEST(ValueUnitTest, UnitOfAnotherQuantityIsToldAtTheKey) {
+  config::Case parameters = case_with_release({{"", box_at(250, 250, 450, 450)}});
+  parameters.places["body.rock.temperature"] = "case.toml:11:3";
+  parameters.bodies.at("rock").temperature.over = InitialField::Over::raster;
+  parameters.bodies.at("rock").temperature.source = in_folder("temperature.tif");
+  write_geotiff(in_folder("temperature.tif"), ground(), {"m", "elevation"});
+  EXPECT_EQ(error_of_site(parameters).substr(0, 103),
+            "case.toml:11:3: body.rock.temperature: FOLDER/temperature.tif: the unit of the values is 'm'; allowed: ");
+}
+
+}  // namespace
+}  // namespace thawslide::gis
