@@ -82,7 +82,7 @@ def test_what_a_mask_hides_is_no_thickness(maker: Maker, name: str) -> None:
 def test_what_a_mask_hides_is_no_thickness_within_polygons(
     maker: Maker, name: str
 ) -> None:
-    maker.made(MASKS / "dem.tif", MASKS / "release.gpkg", "--thickness", 3)
+    maker.made(MASKS / "dem.tif", MASKS / "release.gpkg", "--thickness", 10)
     with rasterio.open(MASKS / name) as file:
         valid = file.read_masks(1) > 0
         rows, columns = np.nonzero(valid)
@@ -145,7 +145,7 @@ def test_thickness_is_converted_to_metres(maker: Maker, name: str, unit: str) ->
 def test_thickness_within_polygons_is_converted_to_metres(
     maker: Maker, name: str
 ) -> None:
-    maker.made(UNITS / "dem.tif", UNITS / "release.gpkg", "--thickness", 3)
+    maker.made(UNITS / "dem.tif", UNITS / "release.gpkg", "--thickness", 10)
     with rasterio.open(UNITS / name) as file:
         rows, columns = np.nonzero(file.read(1))
         east, north = file.xy(rows, columns)
@@ -157,7 +157,7 @@ def test_thickness_within_polygons_is_converted_to_metres(
 
 
 def test_surface_is_converted_to_metres(maker: Maker) -> None:
-    maker.made(UNITS / "dem.tif", UNITS / "release.gpkg", "--thickness", 3)
+    maker.made(UNITS / "dem.tif", UNITS / "release.gpkg", "--thickness", 10)
     volume = maker.volume(thickness=from_file("surface", UNITS / "surface-ft.tif"))
     assert volume == pytest.approx(BLOCK, rel=1e-3)
 
@@ -208,7 +208,7 @@ def test_fine_thickness_keeps_its_volume(
     if name != "thickness-1m-rough":
         assert expected == pytest.approx(RIBS)
     if polygons:
-        maker.made(FINE / dem, FINE / "release.gpkg", "--thickness", 3)
+        maker.made(FINE / dem, FINE / "release.gpkg", "--thickness", 10)
         volume = maker.volume(thickness=from_file("raster", raster))
     else:
         maker.made(FINE / dem, raster)
