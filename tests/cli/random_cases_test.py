@@ -5,16 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from pathlib import Path
 
-import pytest
 from random_cases import attempt, draw
 
 SEEDS = range(16)
-ONCE_AT_FAULT: list[int] = []  # seeds that ended in an internal error
-
-
-@pytest.mark.parametrize("seed", ONCE_AT_FAULT)
-def test_case_once_at_fault_ends_with_a_result_or_a_refusal(binary: Path, tmp_path: Path, seed: int) -> None:
-    assert attempt(binary, draw(seed, tmp_path / "case")).faults == []
 
 
 def test_random_cases_end_with_a_result_or_a_refusal_and_most_with_a_result(binary: Path, tmp_path: Path) -> None:
