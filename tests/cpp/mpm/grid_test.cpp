@@ -281,6 +281,31 @@ TEST(Tile, FindsTheNodeBesideAnother) {
   }
 }
 
+// The layer of a tile changes nothing of its place, and no particle's key has all bits set.
+template <int Dim>
+void expect_layers_above_places() {
+  using T = Tile<Dim>;
+  typename T::Index lowest, highest, middle;
+  lowest.fill(-T::axis_offset);
+  highest.fill(T::axis_offset - 1);
+  middle.fill(-3);
+  for (const typename T::Index& index : {lowest, middle, highest}) {
+    for (std::uint64_t layer = 0; layer < T::most_layers; ++layer) {
+      const std::uint64_t key = T::in_layer(T::key(index), layer);
+      EXPECT_EQ(T::index(key), index);
+      EXPECT_EQ(T::layer(key), layer);
+      EXPECT_EQ(T::place(key), T::key(index));
+      EXPECT_EQ(key << T::node_bits >> T::node_bits, key) << "there is room for the node";
+      EXPECT_NE((key << T::node_bits | (T::nodes - 1)), ~std::uint64_t{0});
+    }
+  }
+}
+
+TEST(Tile, HasItsLayerAboveItsPlace) {
+  expect_layers_above_places<2>();
+  expect_layers_above_places<3>();
+}
+
 // A block that says it has no constraints has none, and many say so.
 TEST(BlockConstraints, AreTheOnesOfTheirNodes) {
   Constraints<2, double> constraints;
