@@ -1,0 +1,65 @@
+// Slides on terrain models with noise on their points, filtered by default: for the tests of some and of all.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "../support/channel_on_dem.hpp"
+#include "../support/record.hpp"
+#include "gis/roughness.hpp"
+#include "gis/smoothing.hpp"
+
+namespace thawslide::verification {
+
+namespace rough_dem {
+
+using namespace testing_support;
+
+// White noise of an rms [m] on the points, and the filter that terrain.smooth = "auto" chooses.
+inline Treatment noise_and_filter(double rms, unsigned seed) {
+  return [=](Raster ground) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, rms);
+    for (double& height : ground.values) {
+      height += noise(random);
+    }
+    const gis::Rectangle domain{-120.0, -120.0, 120.0, 120.0};
+    const double width =
+        gis::roughness_of(ground, domain, channel_cell, config::NumberOrAuto{.is_auto = true, .number = 0.0}).width;
+    return width > 0.0 ? gis::smoothed(ground, width) : ground;
+  };
+}
+
+inline Record make_record(const std::string& title) {
+  return Record(
+      title,
+      "Loose rock, 60 m long, on a slope of 35 degrees with a friction angle of 15 degrees, cells of 5 m; white "
+      "noise on the points of the DEM, filtered by terrain.smooth = \"auto\". Mean from 1 to 3 s.",
+      "that of the clean ground: 1 on the plane, 1/sin(a) in a V of half an opening angle a",
+      "noise of the terrain model is no friction");
+}
+
+// A slab of 40 m x 10 m across the slope; noise and distance of points in cells.
+inline void expect_no_friction_on_plane(Record& record, double noise, double spacing, double allowed) {
+  Channel plane = plane_channel(40.0, 10.0);
+  plane.spacing = spacing * channel_cell;
+  const double found = friction_in_channel(plane, loose_rock, 1.0, 3.0, noise_and_filter(noise * channel_cell, 3));
+  record.expect_near(
+      fmt::format("apparent friction over that of the ground, plane, noise {} cells rms, points {} cells "
+                  "apart",
+                  noise, spacing),
+      found, 1.0, allowed);
+}
+
+inline void expect_wedge_with_noise(Record& record) {
+  Channel valley = v_channel(45.0, 8.0 * channel_cell);
+  valley.spacing = 0.5 * channel_cell;
+  const double found = friction_in_channel(valley, loose_rock, 1.0, 3.0, noise_and_filter(0.2 * channel_cell, 3));
+  record.expect_near("apparent friction over exact, V of 90 degrees, 8 cells wide, noise 0.2 cells rms",
+                     found / std::sqrt(2.0), 1.0, 0.08);
+}
+
+}  // namespace rough_dem
+
+}  // namespace thawslide::verification
