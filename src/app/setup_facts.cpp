@@ -52,9 +52,8 @@ std::string text_of(const config::Roughness& ground) {
                                ground.narrow_valley)
                          : "";
   return fmt::format(
-      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; {}; what is left adds about {:.2g} "
-      "% "
-      "to the friction\n{}",
+      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; {}; remaining friction by noise "
+      "about {:.2g} %\n{}",
       ground.noise, ground.noise / ground.cell, ground.spacing, filter, 100.0 * ground.apparent_friction, valleys);
 }
 

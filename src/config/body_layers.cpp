@@ -77,8 +77,8 @@ BodyLayers body_layers(const Case& parameters, std::string* contradiction, std::
       continue;
     }
     if (layer == other) {
-      report(name, fmt::format("contact_pair.{}: {} and {} are to rub on one another, and are bonded by way of other "
-                               "bodies. Set contact.between_bodies = \"frictional\", and make only those pairs "
+      report(name, fmt::format("contact_pair.{}: {} and {} are frictional here, but bonded through other bodies. Set "
+                               "contact.between_bodies = \"frictional\", and make only those pairs "
                                "\"bonded\" that move as one.",
                                name, pair.bodies[0], pair.bodies[1]));
       continue;

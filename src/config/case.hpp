@@ -1,6 +1,5 @@
-// The case: everything a run needs to know, typed, fully checked and never changed after it was read. Units are SI,
-// angles in degrees, temperatures in degrees Celsius. parameters_*.cpp declare each member once (key, unit, range,
-// default).
+// The case: all that a run needs, typed, fully checked and never changed after it was read. Units are SI, angles in
+// degrees, temperatures in degrees Celsius. parameters_*.cpp declare each member once (key, unit, range, default).
 #pragma once
 
 #include <algorithm>

@@ -73,24 +73,26 @@ void check_contact(const Case& checked, Reading& reading) {
   const std::string key =
       checked.contact.between_bodies == BodyContact::frictional ? "contact.between_bodies" : "contact_pair";
   if (layers.count > most_layers) {
-    reading.report_misfit({key},
-                          fmt::format("{}: {} bodies, or groups of bonded ones, rub on one another; allowed: {}. "
-                                      "Bond those that move as one by [contact_pair.NAME] with contact = "
-                                      "\"bonded\".",
-                                      key, layers.count, most_layers));
+    reading.report_misfit(
+        {key},
+        fmt::format("{}: too many bodies, or groups of bonded ones, in frictional contact (found {}; allowed {}). "
+                    "Bond those that move as one by [contact_pair.NAME] with contact = "
+                    "\"bonded\".",
+                    key, layers.count, most_layers));
   }
   if (layers.count > 1 && reading.sound({"band.model"}) && has_band_columns(checked)) {
     reading.report_misfit({key, "band.model"},
-                          fmt::format("{}: bodies rub on one another, and band.model is \"columns\"; band columns lie "
-                                      "below one body. Set contact.between_bodies = \"bonded\", or band.model = "
+                          fmt::format("{}: frictional contact between bodies and band.model = \"columns\" exclude each "
+                                      "other. Set contact.between_bodies = \"bonded\", or band.model = "
                                       "\"scaled\".",
                                       key));
   }
   if (layers.count > 1 && reading.sound({"bed.law"}) && checked.bed.law != BedLaw::none) {
-    reading.report_misfit({key, "bed.law"},
-                          fmt::format("{}: bodies rub on one another, and bed.law is given; what is taken up of a bed "
-                                      "joins one body. Set contact.between_bodies = \"bonded\", or remove [bed].",
-                                      key));
+    reading.report_misfit(
+        {key, "bed.law"},
+        fmt::format("{}: frictional contact between bodies and an erodible bed (bed.law) exclude each "
+                    "other. Set contact.between_bodies = \"bonded\", or remove [bed].",
+                    key));
   }
 }
 

@@ -50,8 +50,8 @@ inline std::vector<Choice<BodyContact>> choices(BodyContact) {
        "bodies share one velocity field: they act on one another across a gap of up to two cells, stick, and resist "
        "being pulled apart as one body does"},
       {BodyContact::frictional, "frictional",
-       "each body has a velocity field of its own; they press and rub on one another once the gap between them is "
-       "closed, and part freely"}};
+       "a velocity field per body, with Coulomb friction between bodies once the gap between them is closed; they "
+       "separate freely"}};
 }
 inline std::vector<Choice<BedLaw>> choices(BedLaw) {
   return {{BedLaw::none, "none", "there is no bed that the slide could take up"},

@@ -140,12 +140,13 @@ double apparent_friction(double slope) {
 }
 
 double fitting_width(double rms, double spacing, double cell) {
-  const double unit = std::max(cell, spacing);
-  double width = 0.0;
-  while (width < 2.0 * unit && noise_slope(rms, spacing, cell, width) > largest_slope) {
-    width += 0.5 * unit;
+  if (noise_slope(rms, spacing, cell, 0.0) <= largest_slope) {
+    return 0.0;
   }
-  return width;
+  const double step = 0.1 * std::max(cell, spacing), widest = 20.0 * step;
+  const double fitting = std::sqrt(rms * spacing / (2.0 * std::sqrt(std::numbers::pi) * largest_slope));
+  const double steps = std::ceil(std::max(0.0, fitting - 0.5 * spacing) / step - 1e-9);
+  return std::min(widest, 0.5 * spacing + steps * step);
 }
 
 double narrow_valley(double width) { return 40.0 * width; }

@@ -31,10 +31,10 @@ inline constexpr int points_of_fit = 9;
 // Friction that noise of an rms slope adds, as a share of the friction.
 [[nodiscard]] double apparent_friction(double slope);
 
-inline constexpr double largest_slope = 0.065;  // that the choice of a width leaves
+inline constexpr double largest_slope = 0.06;  // that the choice of a width leaves: 2.5 % of friction
 
-// The least of 0, 0.5, 1, 1.5 and 2 times the larger of cell and spacing that leaves `largest_slope`; the widest where
-// none does.
+// The least width that leaves `largest_slope`: 0, or from half a spacing on, where the law of noise_slope holds, in
+// steps of a tenth of the larger of cell and spacing up to twice that.
 [[nodiscard]] double fitting_width(double rms, double spacing, double cell);
 
 // The noise in a rectangle, and the filter against it.

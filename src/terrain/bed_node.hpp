@@ -63,7 +63,7 @@ struct BedBelowNode {
   Real area, strength, dt, mass;
 
   template <int>
-  [[nodiscard]] THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& impulse,
+  [[nodiscard]] THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& impulse, Real normal_pressure,
                                              const Vector<Real, Dim>& along, Real tangential_size) const {
     using Layout = mpm::BedLayout<Dim>;
     if (matter == nullptr || !impulse.slides || !(record[Layout::available] > Real(0))) {
@@ -71,7 +71,7 @@ struct BedBelowNode {
     }
     const Real speed = (tangential_size - impulse.tangential) / mass;
     const Bite<Real> bite =
-        bite_of(*matter, record[Layout::available], mass, speed, strength, impulse.normal / (area * dt), area, dt);
+        bite_of(*matter, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
     record[Layout::taken] = bite.taken;
     for (std::size_t a = 0; a < Dim; ++a) {
       record[Layout::impulse + a] = bite.impulse * along[static_cast<int>(a)];

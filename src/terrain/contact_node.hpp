@@ -160,8 +160,8 @@ struct Bite {
 // Where there is no bed.
 struct NoBed {
   template <int Dim, class Real>
-  THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& /*impulse*/, const Vector<Real, Dim>& /*along*/,
-                               Real /*tangential_size*/) const {
+  THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& /*impulse*/, Real /*normal_pressure*/,
+                               const Vector<Real, Dim>& /*along*/, Real /*tangential_size*/) const {
     return {};
   }
   template <class Real>
@@ -195,7 +195,7 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const HoldOnNode<Dim, Real>&
   if (tangential_size > Real(0)) {
     along = tangential / tangential_size;
   }
-  const Bite<Real> bite = bed.template bite<Dim>(impulse, along, tangential_size);
+  const Bite<Real> bite = bed.template bite<Dim>(impulse, hold.load / (hold.area * dt), along, tangential_size);
   impulse.tangential -= bite.of_friction;
   const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
   const Vector<Real, Dim> to_bed = bite.impulse * along;

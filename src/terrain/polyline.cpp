@@ -91,7 +91,7 @@ double linear_shape_above(double q) {
 }  // namespace
 
 Polyline::LinearShare Polyline::linear_share(double x, double z, double cell) const {
-  // Between these abscissae the integrands are polynomials of at most fourth degree: three points of Gauss are exact.
+  // Between these abscissae the integrands are polynomials of at most third degree: three points of Gauss are exact.
   std::vector<double> breaks{x - cell, x, x + cell};
   for (std::size_t k = segment(x - cell); k + 1 < x_.size() && (k == 0 || x_[k] < x + cell); ++k) {
     breaks.push_back(x_[k]);

@@ -12,6 +12,7 @@ from conftest import Program, history, run_facts, sets
 from terrain_files import write_dem, write_line, write_release
 
 NOISE = 1.0  # m rms, a tenth of the points' distance of 10 m
+WIDTH = 7.0  # m, of the filter for it
 RELEASE = [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)]
 KEYS = [
     "noise_m",
@@ -67,15 +68,15 @@ def test_check_reports_noise_filter_and_what_is_left(
     checked = thawslide("check", rough_case)
     assert checked.returncode == 0, checked.stderr
     assert (
-        "smoothed with a standard deviation of 10 m; what is left adds about 0."
+        f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise about "
         in checked.stdout
     )
     assert (
-        "V valleys of 90 degrees narrower than 400 m lose more than 3 % of their wedge effect"
+        f"V valleys of 90 degrees narrower than {40 * WIDTH:g} m lose more than 3 % of their wedge effect"
         in checked.stdout
     )
     assert (
-        "dem.tif was smoothed with a standard deviation of 10 m, as it has noise of 1 m rms"
+        f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as it has noise of 0.98 m rms"
         in checked.stdout
     )
     facts = json.loads(thawslide("check", rough_case, "--json").stdout)["roughness"]
@@ -84,11 +85,11 @@ def test_check_reports_noise_filter_and_what_is_left(
     assert facts["noise_cells"] == pytest.approx(facts["noise_m"] / 10.0)
     assert (facts["spacing_m"], facts["filter_m"], facts["narrow_valley_m"]) == (
         10.0,
-        10.0,
-        400.0,
+        WIDTH,
+        40 * WIDTH,
     )
     assert facts["slope_left"] == pytest.approx(
-        facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * 10.0**2)
+        facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * WIDTH**2)
     )
     assert facts["apparent_friction"] < 0.03
 
@@ -101,7 +102,7 @@ def test_noise_that_the_user_leaves_is_warned_of(
     )
     note = next(note for note in left["notes"] if note.startswith("terrain.smooth: "))
     assert note.endswith(
-        'at most 0.065 is intended). Set terrain.smooth = "auto", which is 10 m here.'
+        f'at most 0.06 is intended). Set terrain.smooth = "auto", which is {WIDTH:g} m here.'
     )
     assert 0.1 < left["roughness"]["apparent_friction"] < 0.25
     smooth = json.loads(
@@ -152,7 +153,7 @@ def test_section_is_cut_out_of_the_ground_that_a_run_in_space_has(
         "section", folder, "--dem", rough_case.parent / "dem.tif", "--line", line
     )
     assert made.returncode == 0, made.stderr
-    said = "dem.tif was smoothed with a standard deviation of 10 m, as a run in space on 10 m cells would do"
+    said = f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as a run in space on 10 m cells would do"
     assert f"note: {said}" in made.stdout
     text = (folder / "profile.csv").read_text()
     assert f"# {said}" in text

@@ -61,8 +61,8 @@ TEST(ContactOfBodies, NamesNoTwoBodies) {
 
 TEST(ContactOfBodies, ContradictsItself) {
   EXPECT_EQ(error_of(pair("slip", "[\"block\", \"ice\"]", rubs)),
-            "FOLDER/case.toml:32:11: contact_pair.slip: block and ice are to rub on one another, and are bonded by way "
-            "of other bodies. Set contact.between_bodies = \"frictional\", and make only those pairs \"bonded\" that "
+            "FOLDER/case.toml:32:11: contact_pair.slip: block and ice are frictional here, but bonded through other "
+            "bodies. Set contact.between_bodies = \"frictional\", and make only those pairs \"bonded\" that "
             "move as one.");
   EXPECT_EQ(error_of(frictional + pair("a", "[\"block\", \"ice\"]", bonded) + pair("b", "[\"ice\", \"wall\"]", rubs) +
                      pair("c", "[\"block\", \"wall\"]", "\"frictional\"\nfriction_angle = 12.5")),
@@ -72,13 +72,13 @@ TEST(ContactOfBodies, ContradictsItself) {
 
 TEST(ContactOfBodies, FitsNeitherBandColumnsNorABed) {
   EXPECT_NE(error_of(frictional + "[band]\nmodel = \"columns\"\nthickness = 0.5\n")
-                .find("contact.between_bodies: bodies rub on one another, and band.model is \"columns\"; band columns "
-                      "lie below one body. Set contact.between_bodies = \"bonded\", or band.model = \"scaled\"."),
+                .find("contact.between_bodies: frictional contact between bodies and band.model = \"columns\" exclude "
+                      "each other. Set contact.between_bodies = \"bonded\", or band.model = \"scaled\"."),
             std::string::npos);
   EXPECT_NE(error_of(frictional + "[bed]\nlaw = \"momentum\"\ndepth = 2.0\nstrength = 1e3\ndepth_per_slip = 0.5\n"
                                   "material = \"rock\"\n")
-                .find("contact.between_bodies: bodies rub on one another, and bed.law is given; what is taken up of a "
-                      "bed joins one body. Set contact.between_bodies = \"bonded\", or remove [bed]."),
+                .find("contact.between_bodies: frictional contact between bodies and an erodible bed (bed.law) exclude "
+                      "each other. Set contact.between_bodies = \"bonded\", or remove [bed]."),
             std::string::npos);
 }
 

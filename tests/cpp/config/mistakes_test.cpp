@@ -13,7 +13,7 @@ const std::string all_tables =
     "[case], [time], [grid], [grid.boundary], [guards], [terrain], [checkpoint], [maps], [probe.NAME], [report], "
     "[phases], "
     "[freezing], [material.NAME], [body.NAME], [frame.NAME], [initial], [mechanics], [basal], [substrate.NAME], "
-    "[bed], [mechanisms], [band], "
+    "[bed], [contact], [contact_pair.NAME], [mechanisms], [band], "
     "[heat], [heat.boundary], [pressure], [block].";
 
 TEST(Mistakes, SoundCaseHasNone) { EXPECT_EQ(error_of_text(sound), "no error"); }
@@ -187,7 +187,7 @@ TEST(Mistakes, UnknownTable) {
                 "\nFOLDER/case.toml:21:2: table [bandd] is not known; did you mean 'band'? Allowed: " + all_tables);
   EXPECT_EQ(error_of_changed({{"[time]", "friction_angle = 3.0\n[time]"}}),
             "FOLDER/case.toml:1:1: key 'friction_angle' outside of a table is not known; it belongs in [material.NAME] "
-            "or [basal] or [substrate.NAME] or [bed]. Allowed: " +
+            "or [basal] or [substrate.NAME] or [bed] or [contact] or [contact_pair.NAME]. Allowed: " +
                 all_tables);
 }
 

@@ -49,8 +49,9 @@ TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
   parameters.bodies["summit"].thickness.number = 10.0;
   const SiteAndNotes loaded = load_site(parameters);
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31254");
-  ASSERT_EQ(loaded.notes.size(), 2U);
-  EXPECT_EQ(loaded.notes[1],
+  ASSERT_EQ(loaded.notes.size(), 3U);
+  EXPECT_EQ(loaded.notes[1].rfind("fluchthorn.tif was smoothed with a standard deviation of ", 0), 0U);
+  EXPECT_EQ(loaded.notes[2],
             "scarpFluchthorn_perimeter.shp names no coordinate reference system: taken to be in the "
             "ground's, EPSG:31254");
   const config::Release& release = loaded.site.releases.at("summit");

@@ -170,7 +170,7 @@ TEST(HelicalChannel, BlockRunsLikeAPointOnTheSurface) {
   for (std::size_t k = 0; k < whole.size(); ++k) {
     record.expect_near(fmt::format("place along the channel over exact, after {:.2f} turns",
                                    k + 1 < whole.size() ? 0.25 * static_cast<double>(k + 1) : curve.exact.back()),
-                       whole[k], 1.0, 0.02);
+                       whole[k], 1.0, 0.03);
   }
   record.draw(curve);
   // At the edges of the triangles the ground turns by an angle that falls with their size, and each takes its part of
@@ -186,6 +186,8 @@ TEST(HelicalChannel, BlockRunsLikeAPointOnTheSurface) {
   record.explain(
       "The block is late because the ground is made of triangles, at whose edges impact and viscosity take "
       "energy: by a part that falls with the distance of the points. The same cells serve all three.");
+  record.expect_near("place along the channel after a quarter of a turn, finest points, exact less found",
+                     errors.back(), 0.0, 0.01);
 }
 
 }  // namespace
