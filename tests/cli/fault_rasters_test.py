@@ -17,9 +17,7 @@ FAULTS = ROOT.parent / "shared" / "data" / "faults"
 MASKS, UNITS = FAULTS / "g01-mask-band", FAULTS / "g02-unit-of-values"
 FINE, NAMES = FAULTS / "g11-fine-thickness", FAULTS / "g04-names-by-case"
 
-pytestmark = pytest.mark.skipif(
-    not FAULTS.is_dir(), reason=f"there are no input files at {FAULTS}"
-)
+pytestmark = pytest.mark.skipif(not FAULTS.is_dir(), reason=f"there are no input files at {FAULTS}")
 
 US_FOOT = 1200.0 / 3937.0
 RIBS = 160_000.0  # m3, of ribs 20 m thick, one metre in five, over 200 m x 200 m
@@ -34,30 +32,20 @@ class Maker:
 
     def made(self, dem: Path, release: Path, *words: object) -> str:
         """Make the case and return what `new` printed."""
-        outcome = self.thawslide(
-            "new", self.folder, "--dem", dem, "--release", release, *words
-        )
+        outcome = self.thawslide("new", self.folder, "--dem", dem, "--release", release, *words)
         assert outcome.returncode == 0, outcome.stderr
         return outcome.stdout
 
     def volume(self, **keys: object) -> float:
         """Return the volume of the release [m3] with keys of the body replaced."""
-        words = [
-            word
-            for key, value in keys.items()
-            for word in ("--set", f"body.slide.{key}={value}")
-        ]
+        words = [word for key, value in keys.items() for word in ("--set", f"body.slide.{key}={value}")]
         outcome = self.thawslide("check", self.folder, "--json", *words)
         assert outcome.returncode == 0, outcome.stderr
         return float(json.loads(outcome.stdout)["bodies"][0]["volume_m3"])
 
     def refused(self, **keys: object) -> str:
         """Return the message of a case that is refused."""
-        words = [
-            word
-            for key, value in keys.items()
-            for word in ("--set", f"body.slide.{key}={value}")
-        ]
+        words = [word for key, value in keys.items() for word in ("--set", f"body.slide.{key}={value}")]
         outcome = self.thawslide("check", self.folder, *words)
         assert outcome.returncode == 2, outcome.stdout
         return outcome.stderr
@@ -79,9 +67,7 @@ def test_what_a_mask_hides_is_no_thickness(maker: Maker, name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["thickness-masked.tif", "thickness-msk.tif"])
-def test_what_a_mask_hides_is_no_thickness_within_polygons(
-    maker: Maker, name: str
-) -> None:
+def test_what_a_mask_hides_is_no_thickness_within_polygons(maker: Maker, name: str) -> None:
     maker.made(MASKS / "dem.tif", MASKS / "release.gpkg", "--thickness", 10)
     with rasterio.open(MASKS / name) as file:
         valid = file.read_masks(1) > 0
@@ -89,9 +75,7 @@ def test_what_a_mask_hides_is_no_thickness_within_polygons(
         east, north = file.xy(rows, columns)
     within = (np.array(east) < 500_300.0) & (np.array(north) > 5_200_200.0)
     expected = 10.0 * 100.0 * float(within.sum())
-    assert maker.volume(thickness=from_file("raster", MASKS / name)) == pytest.approx(
-        expected, rel=1e-6
-    )
+    assert maker.volume(thickness=from_file("raster", MASKS / name)) == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", ["dem-masked.tif", "dem-alpha.tif"])
@@ -109,17 +93,12 @@ def test_masked_ground_is_none(thawslide: Program, tmp_path: Path) -> None:
     words = ("--dem", MASKS / "dem-masked.tif", "--release", release, "--thickness", 10)
     outcome = thawslide("new", tmp_path / "slide", *words)
     assert outcome.returncode == 2
-    assert (
-        "the release lies over nodata of the terrain model at 100 of its points"
-        in outcome.stderr
-    )
+    assert "the release lies over nodata of the terrain model at 100 of its points" in outcome.stderr
 
 
 def test_masked_temperature_is_missing(maker: Maker) -> None:
     maker.made(MASKS / "dem.tif", MASKS / "release.gpkg", "--thickness", 10)
-    message = maker.refused(
-        temperature=from_file("raster", MASKS / "temperature-masked.tif")
-    )
+    message = maker.refused(temperature=from_file("raster", MASKS / "temperature-masked.tif"))
     assert "within the release, the temperature is missing" in message
 
 
@@ -132,28 +111,20 @@ def test_masked_temperature_is_missing(maker: Maker) -> None:
     ],
 )
 def test_thickness_is_converted_to_metres(maker: Maker, name: str, unit: str) -> None:
-    note = (
-        f"note: {name} states the unit '{unit}': its values were converted to metres\n"
-    )
+    note = f"note: {name} states the unit '{unit}': its values were converted to metres\n"
     assert note in maker.made(UNITS / "dem.tif", UNITS / name)
     assert maker.volume() == pytest.approx(BLOCK, rel=1e-4)
 
 
-@pytest.mark.parametrize(
-    "name", ["thickness-ft.tif", "thickness-cm.tif", "thickness-compound-ft.tif"]
-)
-def test_thickness_within_polygons_is_converted_to_metres(
-    maker: Maker, name: str
-) -> None:
+@pytest.mark.parametrize("name", ["thickness-ft.tif", "thickness-cm.tif", "thickness-compound-ft.tif"])
+def test_thickness_within_polygons_is_converted_to_metres(maker: Maker, name: str) -> None:
     maker.made(UNITS / "dem.tif", UNITS / "release.gpkg", "--thickness", 10)
     with rasterio.open(UNITS / name) as file:
         rows, columns = np.nonzero(file.read(1))
         east, north = file.xy(rows, columns)
     within = (np.array(east) < 500_300.0) & (np.array(north) > 5_200_200.0)
     expected = 10.0 * 100.0 * float(within.sum())
-    assert maker.volume(thickness=from_file("raster", UNITS / name)) == pytest.approx(
-        expected, rel=1e-4
-    )
+    assert maker.volume(thickness=from_file("raster", UNITS / name)) == pytest.approx(expected, rel=1e-4)
 
 
 def test_surface_is_converted_to_metres(maker: Maker) -> None:
@@ -173,12 +144,8 @@ def test_surface_is_converted_to_metres(maker: Maker) -> None:
         ("dem-low-cm.tif", "centimetre", 0.01),
     ],
 )
-def test_elevations_are_converted_to_metres(
-    maker: Maker, name: str, unit: str, metres: float
-) -> None:
-    note = (
-        f"note: {name} states the unit '{unit}': its values were converted to metres\n"
-    )
+def test_elevations_are_converted_to_metres(maker: Maker, name: str, unit: str, metres: float) -> None:
+    note = f"note: {name} states the unit '{unit}': its values were converted to metres\n"
     assert note in maker.made(UNITS / name, UNITS / "release.gpkg", "--thickness", 10)
     assert maker.volume() == pytest.approx(BLOCK, rel=1e-6)
     with (
@@ -186,9 +153,7 @@ def test_elevations_are_converted_to_metres(
         rasterio.open(maker.folder / "dem.tif") as made,
     ):
         rows, columns = stated.index(*made.xy(0, 0))
-        expected = metres * stated.read(1)[
-            rows : rows + made.height, columns : columns + made.width
-        ].astype(float)
+        expected = metres * stated.read(1)[rows : rows + made.height, columns : columns + made.width].astype(float)
         assert made.units == ("m",)
         assert np.abs(made.read(1) - expected).max() < 1e-6
 
@@ -199,9 +164,7 @@ def test_elevations_are_converted_to_metres(
     ["thickness-1m", "thickness-1m-wide", "thickness-1m-25833", "thickness-1m-rough"],
 )
 @pytest.mark.parametrize("polygons", [False, True])
-def test_fine_thickness_keeps_its_volume(
-    maker: Maker, dem: str, name: str, polygons: bool
-) -> None:
+def test_fine_thickness_keeps_its_volume(maker: Maker, dem: str, name: str, polygons: bool) -> None:
     raster = FINE / f"{name}.tif"
     with rasterio.open(raster) as file:
         expected = float(file.read(1).astype(float).sum())  # cells of 1 m2
@@ -219,9 +182,7 @@ def test_fine_thickness_keeps_its_volume(
 def test_names_are_matched_exactly_first(maker: Maker) -> None:
     maker.made(NAMES / "dem.tif", NAMES / "release.geojson")
     assert maker.volume() == pytest.approx(BLOCK, rel=1e-6)
-    assert maker.volume(thickness='{ attribute = "Thickness" }') == pytest.approx(
-        BLOCK / 5.0, rel=1e-6
-    )
+    assert maker.volume(thickness='{ attribute = "Thickness" }') == pytest.approx(BLOCK / 5.0, rel=1e-6)
     assert maker.volume(polygons='["a"]') == pytest.approx(BLOCK, rel=1e-6)
     message = maker.refused(thickness='{ attribute = "THICKNESS" }')
     assert (

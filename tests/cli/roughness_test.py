@@ -46,31 +46,20 @@ def rough_case(thawslide: Program, tmp_path: Path) -> Path:
     return make_case(thawslide, tmp_path, NOISE)
 
 
-def test_new_keeps_the_terrain_model_as_it_is(
-    thawslide: Program, rough_case: Path
-) -> None:
+def test_new_keeps_the_terrain_model_as_it_is(thawslide: Program, rough_case: Path) -> None:
     with (
         rasterio.open(rough_case / "dem.tif") as kept,
         rasterio.open(rough_case.parent / "dem.tif") as given,
     ):
-        column, row = map(
-            round, ~given.transform * (kept.transform.c, kept.transform.f)
-        )
+        column, row = map(round, ~given.transform * (kept.transform.c, kept.transform.f))
         whole = given.read(1)
-        assert np.array_equal(
-            kept.read(1), whole[row : row + kept.height, column : column + kept.width]
-        )
+        assert np.array_equal(kept.read(1), whole[row : row + kept.height, column : column + kept.width])
 
 
-def test_check_reports_noise_filter_and_what_is_left(
-    thawslide: Program, rough_case: Path
-) -> None:
+def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_case: Path) -> None:
     checked = thawslide("check", rough_case)
     assert checked.returncode == 0, checked.stderr
-    assert (
-        f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise about "
-        in checked.stdout
-    )
+    assert f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise about " in checked.stdout
     assert (
         f"V valleys of 90 degrees narrower than {40 * WIDTH:g} m lose more than 3 % of their wedge effect"
         in checked.stdout
@@ -88,26 +77,16 @@ def test_check_reports_noise_filter_and_what_is_left(
         WIDTH,
         40 * WIDTH,
     )
-    assert facts["slope_left"] == pytest.approx(
-        facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * WIDTH**2)
-    )
+    assert facts["slope_left"] == pytest.approx(facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * WIDTH**2))
     assert facts["apparent_friction"] < 0.03
 
 
-def test_noise_that_the_user_leaves_is_warned_of(
-    thawslide: Program, rough_case: Path
-) -> None:
-    left = json.loads(
-        thawslide("check", rough_case, "--json", *sets(terrain__smooth=0)).stdout
-    )
+def test_noise_that_the_user_leaves_is_warned_of(thawslide: Program, rough_case: Path) -> None:
+    left = json.loads(thawslide("check", rough_case, "--json", *sets(terrain__smooth=0)).stdout)
     note = next(note for note in left["notes"] if note.startswith("terrain.smooth: "))
-    assert note.endswith(
-        f'at most 0.06 is intended). Set terrain.smooth = "auto", which is {WIDTH:g} m here.'
-    )
+    assert note.endswith(f'at most 0.06 is intended). Set terrain.smooth = "auto", which is {WIDTH:g} m here.')
     assert 0.1 < left["roughness"]["apparent_friction"] < 0.25
-    smooth = json.loads(
-        thawslide("check", rough_case, "--json", *sets(terrain__smooth=20)).stdout
-    )
+    smooth = json.loads(thawslide("check", rough_case, "--json", *sets(terrain__smooth=20)).stdout)
     assert not [note for note in smooth["notes"] if note.startswith("terrain.smooth: ")]
 
 
@@ -125,12 +104,7 @@ def test_run_its_own_case_and_resume_slide_on_the_same_ground(
     short = sets(time__end=0.5, time__output_interval=0.5)
     assert thawslide("run", rough_case, "--output", run, *short).returncode == 0
     facts = run_facts(run)["roughness"]
-    assert (
-        facts
-        == json.loads(thawslide("check", rough_case, "--json", *short).stdout)[
-            "roughness"
-        ]
-    )
+    assert facts == json.loads(thawslide("check", rough_case, "--json", *short).stdout)["roughness"]
     assert 'smooth = "auto"' in (run / "case.toml").read_text()
     assert thawslide("run", run, "--output", again).returncode == 0
     assert (again / "history.csv").read_bytes() == (run / "history.csv").read_bytes()
@@ -149,9 +123,7 @@ def test_section_is_cut_out_of_the_ground_that_a_run_in_space_has(
 ) -> None:
     line = write_line(tmp_path / "line.geojson", [(15.0, 200.0), (1500.0, 200.0)])
     folder = tmp_path / "section"
-    made = thawslide(
-        "section", folder, "--dem", rough_case.parent / "dem.tif", "--line", line
-    )
+    made = thawslide("section", folder, "--dem", rough_case.parent / "dem.tif", "--line", line)
     assert made.returncode == 0, made.stderr
     said = f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as a run in space on 10 m cells would do"
     assert f"note: {said}" in made.stdout
