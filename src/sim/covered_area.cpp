@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/raster_sampling.hpp"
+
 namespace thawslide::sim {
 
 namespace {
@@ -69,29 +71,39 @@ std::vector<double> crossings(const std::vector<config::Polyline2>& rings, doubl
   return places;
 }
 
-// The west, south, east and north end of a release [m].
-std::array<double, 4> ends_of(const config::Release& release) {
+using Ends = std::array<double, 4>;  // the west, south, east and north one [m]
+
+Ends ends_of(const config::Release& release) {
   const Raster& t = release.thickness;
   return {t.x - t.cell_x, t.y - t.cell_y, t.x_end() + t.cell_x, t.y_end() + t.cell_y};
 }
+
+Ends ends_of(const config::Body& box) { return {box.min[0], box.min[1], box.max[0], box.max[1]}; }
 
 bool has_thickness(const Raster& raster, double x, double y) {
   return thickness_at(raster, static_cast<int>(std::lround((x - raster.x) / raster.cell_x)),
                       static_cast<int>(std::lround((y - raster.y) / raster.cell_y))) > 0.0;
 }
 
+// A narrower taper than two cells of the ground reaches none of its points.
+bool spreads_by_taper(const config::Body& body, const Raster& thickness) {
+  return body.taper > 2.0 * std::min(thickness.cell_x, thickness.cell_y);
+}
+
 }  // namespace
 
-DrawnArea::DrawnArea(const std::map<std::string, config::Release>& releases, const MapGrid& grid)
+DrawnArea::DrawnArea(const config::Case& parameters, const std::map<std::string, config::Release>& releases,
+                     const MapGrid& grid)
     : is_known_(!releases.empty()) {
   if (!is_known_) {
     return;
   }
-  std::array<double, 4> ends{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (const auto& [name, release] : releases) {
-    const std::array<double, 4> of_release = ends_of(release);
-    ends = {std::min(ends[0], of_release[0]), std::min(ends[1], of_release[1]), std::max(ends[2], of_release[2]),
-            std::max(ends[3], of_release[3])};
+  Ends ends{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const auto& [name, body] : parameters.bodies) {
+    const auto release = releases.find(name);
+    const Ends of_body = release == releases.end() ? ends_of(body) : ends_of(release->second);
+    ends = {std::min(ends[0], of_body[0]), std::min(ends[1], of_body[1]), std::max(ends[2], of_body[2]),
+            std::max(ends[3], of_body[3])};
   }
   const auto cell = [](double place, int cells) {
     return std::clamp(static_cast<int>(std::floor(place)), 0, cells - 1);
@@ -101,20 +113,45 @@ DrawnArea::DrawnArea(const std::map<std::string, config::Release>& releases, con
   columns_ = cell(grid.column_of(ends[2]), grid.columns) - first_column_ + 1;
   rows_ = cell(grid.row_of(ends[3]), grid.rows) - first_row_ + 1;
   parts_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
-  for (const auto& [name, release] : releases) {
-    add(release, grid);
+  for (const auto& [name, body] : parameters.bodies) {
+    const auto found = releases.find(name);
+    if (found == releases.end()) {
+      const auto& [west, south, east, north] = ends_of(body);
+      add_rings({{{west, south}, {east, south}, {east, north}, {west, north}, {west, south}}}, grid);
+      continue;
+    }
+    const Raster& thickness = found->second.thickness;
+    if (spreads_by_taper(body, thickness)) {
+      const double least = parameters.maps.arrival_thickness;
+      add(grid, [&](double x, double y) { return bilinear(thickness, x, y, Missing::zero) > least; });
+    } else if (found->second.outlines.empty()) {
+      add(grid, [&](double x, double y) { return has_thickness(thickness, x, y); });
+    } else {
+      add_rings(found->second.outlines, grid);
+    }
   }
 }
 
-void DrawnArea::add(const config::Release& release, const MapGrid& grid) {
+void DrawnArea::add_rings(const std::vector<config::Polyline2>& rings, const MapGrid& grid) {
+  double crossed_at = std::nan("");
+  std::vector<double> crossed;
+  add(grid, [&](double x, double y) {
+    if (y != crossed_at) {
+      crossed = crossings(rings, y);
+      crossed_at = y;
+    }
+    return (std::upper_bound(crossed.begin(), crossed.end(), x) - crossed.begin()) % 2 != 0;
+  });
+}
+
+template <class IsCovered>
+void DrawnArea::add(const MapGrid& grid, const IsCovered& is_covered) {
   for (int k = 0; k < rows_ * parts_along; ++k) {
     const int row = k / parts_along;
     const double y = grid.y + (first_row_ + (k + 0.5) / parts_along - 0.5) * grid.cell_y;
-    const std::vector<double> crossed = crossings(release.outlines, y);
     for (int j = 0; j < columns_ * parts_along; ++j) {
       const double x = grid.x + (first_column_ + (j + 0.5) / parts_along - 0.5) * grid.cell_x;
-      const auto before = std::upper_bound(crossed.begin(), crossed.end(), x) - crossed.begin();
-      if (release.outlines.empty() ? has_thickness(release.thickness, x, y) : before % 2 != 0) {
+      if (is_covered(x, y)) {
         const int part = k % parts_along * parts_along + j % parts_along;
         CellParts& parts = parts_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                                   static_cast<std::size_t>(j / parts_along)];

@@ -8,8 +8,9 @@
 // without an uncovered neighbour are covered as a whole. The slide has reached a cell since the start where it is
 // thicker than at the start by more than a tenth and, where it is covered, by `least`.
 //
-// Elsewhere a cell is covered as at the start, where that is drawn by the outlines of the release. The terrain model's
-// points make ramps of these outlines, a cell wide, which are not counted.
+// Elsewhere a cell is covered as at the start, where that is drawn by the outlines of the releases and the sides of
+// boxes. The terrain model's points make ramps of the outlines, a cell wide, which are not counted. The ring by which a
+// taper spreads a release beyond its outline is, where it is thicker than the least.
 #pragma once
 
 #include <cstdint>
@@ -28,19 +29,23 @@ using CellParts = std::uint16_t;
 inline constexpr int parts_along = 4;  // of a cell, along each axis
 inline constexpr int parts_of_cell = parts_along * parts_along;
 
-// The parts of map cells whose middles lie in the releases: within the outlines of polygons, or in the cells about the
-// points of a raster that have a thickness.
+// The parts of map cells whose middles lie in a body at the start: within the outlines of a release's polygons, or in
+// the cells about the points of its raster that have a thickness, or, if it has a taper, where it is thicker than
+// maps.arrival_thickness; and within boxes.
 class DrawnArea {
  public:
   DrawnArea() = default;
-  DrawnArea(const std::map<std::string, config::Release>& releases, const MapGrid& grid);
+  DrawnArea(const config::Case& parameters, const std::map<std::string, config::Release>& releases,
+            const MapGrid& grid);
 
-  // Whether there are releases at all.
+  // Whether there are releases at all: boxes alone make no ramps.
   [[nodiscard]] bool is_known() const { return is_known_; }
   [[nodiscard]] CellParts parts(int column, int row) const;
 
  private:
-  void add(const config::Release& release, const MapGrid& grid);
+  void add_rings(const std::vector<config::Polyline2>& rings, const MapGrid& grid);
+  template <class IsCovered>
+  void add(const MapGrid& grid, const IsCovered& is_covered);
 
   bool is_known_ = false;
   int first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0;  // the cells about all releases

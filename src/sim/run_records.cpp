@@ -70,7 +70,7 @@ RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& si
     const MapGrid map_grid = map_grid_of(parameters, site);
     const auto& origin = simulation.model().origin;
     maps_.emplace(map_grid, std::array<double, 2>{origin[0], origin[1]}, half_sizes(simulation),
-                  parameters.maps.arrival_thickness, DrawnArea(site.releases, map_grid));
+                  parameters.maps.arrival_thickness, DrawnArea(parameters, site.releases, map_grid));
     probes_ = Probes(parameters, site.probes, map_grid);
     if (path_given_ && given_.empty()) {
       throw UserError(fmt::format("{}: the path has no length; allowed: a line of at least two different points.",

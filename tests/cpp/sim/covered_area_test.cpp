@@ -8,7 +8,12 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <numbers>
 #include <numeric>
+#include <string>
+
+#include "base/raster_sampling.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -70,6 +75,17 @@ std::vector<Rectangle> rectangles() {
   return all;
 }
 
+// Of a release alone, or with a box.
+DrawnArea drawn_area(const config::Release& release, const MapGrid& grid, double taper = 0.0,
+                     const std::map<std::string, config::Body>& others = {}) {
+  config::Case parameters;
+  parameters.maps.arrival_thickness = least;
+  parameters.bodies = others;
+  parameters.bodies["slide"].shape = config::BodyShape::release;
+  parameters.bodies["slide"].taper = taper;
+  return {parameters, {{"slide", release}}, grid};
+}
+
 double mask_area(const CoveredCells& cells) {
   const Raster mask = cells.mask();
   return mask.cell_x * mask.cell_y * std::accumulate(mask.values.begin(), mask.values.end(), 0.0);
@@ -118,14 +134,14 @@ TEST(CoveredArea, OfAReleaseThatDoesNotMoveIsTheDrawnOne) {
     config::Release release;
     release.thickness = points;
     release.outlines = {drawn.outline()};
-    const CoveredCells covered = covered_cells(h, h, DrawnArea({{"slide", release}}, grid), 0, 0, least);
+    const CoveredCells covered = covered_cells(h, h, drawn_area(release, grid), 0, 0, least);
     EXPECT_NEAR(covered.area(), drawn.area(), 0.05 * drawn.area()) << drawn.degrees << " degrees, off " << drawn.x;
     EXPECT_NEAR(mask_area(covered), covered.area(), 1e-9 * drawn.area());
     EXPECT_GT(area_of_whole_cells(h), 1.3 * drawn.area()) << "cells that the ramp reaches";
     // It settles by less than a tenth.
     Raster settled = h;
     std::for_each(settled.values.begin(), settled.values.end(), [](double& value) { value *= 1.05; });
-    EXPECT_EQ(covered_cells(settled, h, DrawnArea({{"slide", release}}, grid), 0, 0, least).area(), covered.area());
+    EXPECT_EQ(covered_cells(settled, h, drawn_area(release, grid), 0, 0, least).area(), covered.area());
   }
 }
 
@@ -141,7 +157,7 @@ TEST(CoveredArea, OfARasterReleaseIsThatOfItsCells) {
                        static_cast<int>(280.0 / cell),
                        static_cast<int>(280.0 / cell),
                        ""};
-    const DrawnArea area({{"slide", release}}, grid);
+    const DrawnArea area = drawn_area(release, grid);
     double parts = 0.0;
     for (int row = 0; row < grid.rows; ++row) {
       for (int column = 0; column < grid.columns; ++column) {
@@ -150,6 +166,49 @@ TEST(CoveredArea, OfARasterReleaseIsThatOfItsCells) {
     }
     EXPECT_NEAR(parts / parts_of_cell * cell * cell, drawn.area(), 1e-9 * drawn.area()) << cell;
   }
+}
+
+// Next to the release, where the terrain model makes a ramp of its outline, and far from it.
+TEST(CoveredArea, OfABoxBesideAReleaseIsItsOwnToo) {
+  const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
+  const Rectangle drawn{80.0, 80.0, 0.0, -45.0, 5.0};
+  for (const double x : {35.0, 55.0}) {
+    const Rectangle box{80.0, 60.0, 0.0, x, 5.0};
+    const Raster h = cells_of(14, [&](double east, double north) {
+      return drawn.contains(east, north) || box.contains(east, north) ? 20.0 : 0.0;
+    });
+    config::Release release;
+    release.thickness =
+        cells_of(14, [&](double east, double north) { return drawn.contains(east, north) ? 20.0 : 0.0; });
+    release.outlines = {drawn.outline()};
+    config::Body body;
+    body.min = {x - 40.0, -25.0, 0.0};
+    body.max = {x + 40.0, 35.0, 20.0};
+    const DrawnArea area = drawn_area(release, grid, 0.0, {{"box", body}});
+    EXPECT_NEAR(covered_cells(h, h, area, 0, 0, least).area(), drawn.area() + box.area(), 1e-9) << x;
+    EXPECT_NEAR(covered_cells(h, h, drawn_area(release, grid), 0, 0, least).area(), drawn.area(), 1e-9);
+  }
+}
+
+TEST(CoveredArea, OfATaperedReleaseReachesToWhereItIsThin) {
+  const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
+  const Rectangle drawn{80.0, 80.0, 0.0, 5.0, 5.0};
+  constexpr double taper = 40.0;  // m, half of it beyond the outline; the ramp is that of gis::tapered
+  const auto ramp = [](double from_middle) {
+    const double share = std::clamp(0.5 - (std::abs(from_middle) - 40.0) / taper, 0.0, 1.0),
+                 turn = 2.0 * std::numbers::pi;
+    return share - std::sin(turn * share) / turn;
+  };
+  config::Release release;
+  release.thickness = cells_of(14, [&](double x, double y) { return 20.0 * ramp(x - drawn.x) * ramp(y - drawn.y); });
+  release.outlines = {drawn.outline()};
+  const Raster h = cells_of(14, [&](double x, double y) { return bilinear(release.thickness, x, y, Missing::zero); });
+  // 20 m times the ramp is 0.1 m at 3.7 m from where the taper ends; points 10 m apart take it up to 5 m farther.
+  const double area = covered_cells(h, h, drawn_area(release, grid, taper), 0, 0, least).area();
+  EXPECT_GT(area, 0.97 * 112.6 * 112.6);
+  EXPECT_LT(area, 122.6 * 122.6);
+  // A taper that is no wider than two cells changes no point.
+  EXPECT_NEAR(covered_cells(h, h, drawn_area(release, grid, 20.0), 0, 0, least).area(), drawn.area(), 1e-9);
 }
 
 TEST(CoveredArea, GrowsByWhatTheSlideReaches) {
@@ -161,7 +220,7 @@ TEST(CoveredArea, GrowsByWhatTheSlideReaches) {
   config::Release release;
   release.thickness = slab(drawn);
   release.outlines = {drawn.outline()};
-  const DrawnArea area({{"slide", release}}, grid);
+  const DrawnArea area = drawn_area(release, grid);
   EXPECT_NEAR(covered_cells(slab(reached), slab(drawn), area, 0, 0, least).area(), reached.area(), 1e-9);
   EXPECT_EQ(covered_cells(slab(drawn).filled(0.0), slab(drawn), area, 0, 0, least).area(), 0.0) << "it has gone";
 }
