@@ -20,6 +20,7 @@ constexpr double least_share = 1e-6;  // of the largest momentum or force: less 
 class Departure {
  public:
   void add_momentum(double mass, double along, double speed) {
+    mass_ += mass;
     momentum_ += mass * along;
     most_momentum_ += mass * speed;
   }
@@ -28,21 +29,36 @@ class Departure {
     force_ += mass * (g_e - g_z * slope) / std::hypot(1.0, slope);
     most_force_ += mass * std::hypot(g_e, g_z);
   }
-  // 0: neither way.
-  [[nodiscard]] int direction() const {
-    const int moving = sign_of(momentum_, most_momentum_);
-    return moving != 0 ? moving : sign_of(force_, most_force_);
+  // 0: neither way. length: of the bodies together, along the direction [m].
+  [[nodiscard]] int direction(double length) const {
+    const int moving = sign_of(momentum_, most_momentum_), pulled = sign_of(force_, most_force_);
+    const bool turns_back = moving * pulled < 0 && momentum_ * momentum_ <= mass_ * std::abs(force_) * length;
+    return moving != 0 && !turns_back ? moving : pulled;
   }
 
  private:
   static int sign_of(double sum, double most) { return std::abs(sum) <= least_share * most ? 0 : sum > 0.0 ? 1 : -1; }
 
-  double momentum_ = 0.0, most_momentum_ = 0.0, force_ = 0.0, most_force_ = 0.0;
+  double mass_ = 0.0, momentum_ = 0.0, most_momentum_ = 0.0, force_ = 0.0, most_force_ = 0.0;
+};
+
+// From the least to the greatest place of bodies [m].
+class Extent {
+ public:
+  void add(double place, double half) {
+    least_ = std::min(least_, place - half);
+    greatest_ = std::max(greatest_, place + half);
+  }
+  [[nodiscard]] double length() const { return std::max(0.0, greatest_ - least_); }
+
+ private:
+  double least_ = HUGE_VAL, greatest_ = -HUGE_VAL;
 };
 
 // A part of a body at t = 0, over the horizontal plane [m].
 struct Part {
   Place2 place;
+  Place2 half;    // of its sides [m]
   double volume;  // [m3], or a share of it that is the same for all parts of a body
   const config::Body* body;
 };
@@ -56,7 +72,10 @@ std::vector<Part> parts_of_bodies(const config::Case& parameters, const config::
       for (std::size_t a = 0; a < 3; ++a) {
         volume *= body.max[a] - body.min[a];
       }
-      parts.push_back({{0.5 * (body.min[0] + body.max[0]), 0.5 * (body.min[1] + body.max[1])}, volume, &body});
+      parts.push_back({{0.5 * (body.min[0] + body.max[0]), 0.5 * (body.min[1] + body.max[1])},
+                       {0.5 * (body.max[0] - body.min[0]), 0.5 * (body.max[1] - body.min[1])},
+                       volume,
+                       &body});
       continue;
     }
     const Raster& thickness = found->second.thickness;
@@ -64,6 +83,7 @@ std::vector<Part> parts_of_bodies(const config::Case& parameters, const config::
       for (int column = 0; column < thickness.columns; ++column) {
         if (thickness.at(column, row) > 0.0) {
           parts.push_back({{thickness.x_of(column), thickness.y_of(row)},
+                           {0.5 * thickness.cell_x, 0.5 * thickness.cell_y},
                            thickness.at(column, row) * thickness.cell_x * thickness.cell_y,
                            &body});
         }
@@ -80,22 +100,36 @@ Place2 direction_at(const PathLine& line, double along, double length) {
   return distance > 0.0 ? Place2{x / distance, y / distance} : Place2{0.0, 0.0};  // a line that turns back there
 }
 
+// Of the bodies together, along a mean of directions.
+double length_along(const Place2& e, const std::vector<Part>& parts) {
+  const double norm = std::hypot(e[0], e[1]);
+  Extent extent;
+  for (const Part& part : parts) {
+    extent.add((part.place[0] * e[0] + part.place[1] * e[1]) / norm,
+               (part.half[0] * std::abs(e[0]) + part.half[1] * std::abs(e[1])) / norm);
+  }
+  return norm > 0.0 ? extent.length() : 0.0;
+}
+
 bool bodies_leave_against(const PathLine& line, const std::vector<Part>& parts, const config::Case& parameters,
                           const terrain::HeightField& ground, double width) {
-  const double tilt = parameters.general.gravity_tilt * std::numbers::pi / 180.0;
+  const double gravity = parameters.general.gravity, tilt = parameters.general.gravity_tilt * std::numbers::pi / 180.0;
   Departure departure;
   double middle = 0.0, volume = 0.0;
+  Place2 mean{0.0, 0.0};
   for (const Part& part : parts) {
     const double along = line.project(part.place).along;
     const Place2 e = direction_at(line, along, width);
     const auto& v = part.body->velocity;
     departure.add_momentum(part.volume, v[0] * e[0] + v[1] * e[1], std::hypot(v[0], v[1]));
     const auto gradient = ground.gradient(Vector<double, 2>(part.place[0], part.place[1]), width);
-    departure.add_force(part.volume, gradient[0] * e[0] + gradient[1] * e[1], std::sin(tilt) * e[0], std::cos(tilt));
+    departure.add_force(part.volume, gradient[0] * e[0] + gradient[1] * e[1], gravity * std::sin(tilt) * e[0],
+                        gravity * std::cos(tilt));
+    mean = {mean[0] + part.volume * e[0], mean[1] + part.volume * e[1]};
     middle += part.volume * along;
     volume += part.volume;
   }
-  const int direction = departure.direction();
+  const int direction = departure.direction(length_along(mean, parts));
   return direction < 0 || (direction == 0 && middle / volume > 0.5 * line.length());
 }
 
@@ -161,18 +195,20 @@ double direction_at_start(const Model<Dim, Real>& model, const mpm::Particles<Di
     return 1.0;
   }
   Departure departure;
+  Extent extent;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const auto mass = static_cast<double>(particles.mass(p)), speed = static_cast<double>(particles.velocity(p, 0));
     typename terrain::Surface<Dim>::Place place;
     for (int a = 0; a + 1 < Dim; ++a) {
       place[a] = static_cast<double>(particles.position(p, a));
     }
+    extent.add(static_cast<double>(particles.position(p, 0)), 0.0);
     departure.add_momentum(mass, speed, std::abs(speed));
     departure.add_force(mass, model.ground ? model.ground->gradient(place, cell)[0] : 0.0,
                         static_cast<double>(model.motion.gravity[0]),
                         -static_cast<double>(model.motion.gravity[Dim - 1]));
   }
-  return departure.direction() < 0 ? -1.0 : 1.0;
+  return departure.direction(extent.length()) < 0 ? -1.0 : 1.0;
 }
 
 template <int Dim, class Real>

@@ -2,7 +2,9 @@
 // are measured in it, so that no result depends on the end at which a profile, a path or a cross section was begun.
 //   M = sum m v.e                                                  momentum at t = 0 along a horizontal direction e
 //   F = sum m (g.e - |g_z| dz/de) / sqrt(1 + (dz/de)^2)            gravity along the ground below the bodies
-// It is the sign of M, or, where nothing moves along e, that of F.
+// It is the sign of M, or, where nothing moves along e, that of F. Where M is against F, bodies of the mass m and the
+// length L along e soon turn back, and it is that of F, unless they would come farther than L/2 without any friction:
+//   (M/m)^2/2 > |F|/m L/2
 #pragma once
 
 #include <string>
@@ -18,7 +20,8 @@ template <int Dim, class Real>
 [[nodiscard]] double direction_at_start(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
                                         double cell);
 
-// The same of a slide on its way: it lies ahead of the rear end that it left (Simulation::rear_at_start).
+// The same of a slide on its way: it lies ahead of the rear end that it left (Simulation::rear_at_start). One that was
+// thrown uphill and returned past that end changes direction there.
 template <int Dim, class Real>
 [[nodiscard]] double direction_along_x(const Simulation<Dim, Real>& simulation);
 

@@ -81,11 +81,18 @@ TEST(Direction, OfAPathThatRunsUpTheFarSlopeIsTheOneInWhichTheReleaseLeaves) {
   EXPECT_FALSE(keeps(slope_with(valley, {120.0, 0.0}), {{-180.0, 0.0}, {180.0, 0.0}}));
 }
 
-TEST(Direction, OfAMovingBodyIsThatOfItsVelocityAndOnLevelGroundTheEndNearbyComesFirst) {
+TEST(Direction, OfAFastBodyIsThatOfItsVelocityAndOnLevelGroundTheEndNearbyComesFirst) {
   Slope slope = slope_with([](double x, double) { return -0.5 * x; }, {-100.0, 0.0});
   const Polyline2 path{{-180.0, 0.0}, {180.0, 0.0}};
-  slope.parameters.bodies.at("slide").velocity = {-3.0, 0.0, 0.0};
-  EXPECT_FALSE(keeps(slope, path));
+  // The release is 45 m long, with the cells about its points: 0.5 g cos 45 m = 197 m2/s2.
+  for (const double velocity : {-3.0, -13.9}) {
+    slope.parameters.bodies.at("slide").velocity = {velocity, 0.0, 0.0};
+    EXPECT_TRUE(keeps(slope, path)) << "it comes back at once";
+  }
+  for (const double velocity : {-14.2, -40.0}) {
+    slope.parameters.bodies.at("slide").velocity = {velocity, 0.0, 0.0};
+    EXPECT_FALSE(keeps(slope, path));
+  }
   const Height level = [](double, double) { return 7.0; };
   EXPECT_TRUE(keeps(slope_with(level, {-100.0, 0.0}), path));
   EXPECT_FALSE(keeps(slope_with(level, {100.0, 0.0}), path));
@@ -219,6 +226,29 @@ TEST(Direction, MirroredBlockComesAsFar) {
       EXPECT_GT(value_of(right.back(), "displacement_m"), 4.0);
       expect_mirrored(right.front(), left.front());
       expect_mirrored(right.back(), left.back());
+    }
+  }
+}
+
+// Thrown uphill by 1 m/s it is back after 0.6 s; v^2 = 484 m2/s2 carries it on by more than half of its 40 m.
+TEST(Direction, StaysWhereASlideIsThrownGentlyUphill) {
+  for (const bool is_mirrored : {false, true}) {
+    for (const bool by_tilt : {false, true}) {
+      SCOPED_TRACE(fmt::format("mirrored {}, tilt {}", is_mirrored, by_tilt));
+      Simulation<2, double> simulation(paper_case(sliding(is_mirrored, by_tilt, -1.0)));
+      const double downhill = is_mirrored ? -1.0 : 1.0;
+      double runout = value_of(history_row(simulation), "runout_m");
+      EXPECT_GT(runout, 35.0);
+      for (int k = 0; k < 8; ++k) {
+        run_until(simulation, 0.25 * (k + 1));
+        EXPECT_EQ(direction_along_x(simulation), downhill);
+        const double now = value_of(history_row(simulation), "runout_m");
+        EXPECT_NEAR(now, runout, 3.0) << simulation.time();
+        runout = now;
+      }
+      EXPECT_GT(runout, 43.0);
+      const Simulation<2, double> fast(paper_case(sliding(is_mirrored, by_tilt, -22.0)));
+      EXPECT_EQ(direction_along_x(fast), -downhill);
     }
   }
 }
