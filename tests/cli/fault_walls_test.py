@@ -10,7 +10,7 @@ from conftest import ROOT, Program, sets
 
 WALLS = ROOT.parent / "shared" / "data" / "faults" / "p05-thin-wall"
 FRONT, SPEED = 50.0, 20.0  # m, m/s
-HALF_PARTICLE = 1.25  # m
+EARLY = 1.5  # m: 0.3 cells
 FOOT = {
     "thick57.5": 57.5,
     "thick59": 59.0,
@@ -26,7 +26,7 @@ def test_velocity_is_kept_until_the_block_arrives(thawslide: Program, tmp_path: 
     if not WALLS.is_dir():
         pytest.skip(f"there is no {WALLS}")
     run = tmp_path / "run"
-    arrival = (FOOT[name] - HALF_PARTICLE - FRONT) / SPEED
+    arrival = (FOOT[name] - EARLY - FRONT) / SPEED
     done = thawslide(
         "run", WALLS / f"alone-{name}.toml", "--output", run, *sets(time__end=arrival, terrain__extend="true")
     )
