@@ -71,9 +71,8 @@ config::Site smoothed_site(config::Case trial, double cell) {
 
 std::string words_of_filter(const SectionOptions& options, const config::Roughness& ground) {
   return fmt::format(
-      "{} was smoothed with a standard deviation of {:g} m, as a run in space on {:g} m cells would do: the whole of "
-      "it "
-      "has noise of {:.2g} m rms",
+      "{} was smoothed with a standard deviation of {:g} m, as for a 3D run on {:g} m cells; "
+      "the noise of the whole DEM is {:.2g} m rms",
       name_of(options.maps.dem), ground.width, ground.cell, ground.noise);
 }
 

@@ -160,7 +160,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
     dem.before_smoothing = std::move(dem.raster);
     of_reading.clear();
     dem.raster = smoothed(read_and_resample(parameters, file, layout, area.widened(reach, reach), of_reading), width);
-    dem.raster = part_of(dem.raster, points_in(dem.raster, area));
+    dem.raster = part_of(dem.raster, points_of(dem.before_smoothing, dem.raster));
     THAWSLIDE_ASSERT(dem.raster.values.size() == dem.before_smoothing.values.size(), "{} smoothed points of {}",
                      dem.raster.values.size(), dem.before_smoothing.values.size());
   }
@@ -177,7 +177,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
             ? fmt::format(", as it has noise of {:.2g} m rms (terrain.smooth = \"auto\")", dem.roughness.noise)
             : ""));
   }
-  dem.raster.crs = system;
+  dem.raster.crs = dem.before_smoothing.crs = system;
   return dem;
 }
 

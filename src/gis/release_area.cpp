@@ -137,6 +137,33 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
   return extent;
 }
 
+// Means of what a finer surface has above the ground, over the share of each cell that the surface is known in.
+Raster finer_above(const Raster& surface, const Raster& ground, double tolerance) {
+  Raster above = averaged(above_ground(surface, ground), ground, Missing::nothing);
+  Raster known = surface;
+  for (double& value : known.values) {
+    value = std::isnan(value) ? 0.0 : 1.0;
+  }
+  const Raster share = averaged(known, ground, Missing::zero);
+  for (std::size_t k = 0; k < above.values.size(); ++k) {
+    above.values[k] = above.values[k] > tolerance ? above.values[k] * share.values[k] : 0.0;
+  }
+  return above;
+}
+
+// What another surface has above the ground's points. Those at its rim take their shares of the heights above ground at
+// its own points: its elevations there are those of other places.
+Raster coarser_above(const Raster& surface, const Raster& ground, double tolerance) {
+  Raster above = above_ground(sampled(surface, ground, Missing::unknown), ground);
+  const Raster shares = sampled(above_ground(surface, ground), ground, Missing::zero);
+  for (std::size_t k = 0; k < above.values.size(); ++k) {
+    const bool at_rim = std::isnan(above.values[k]) && !std::isnan(ground.values[k]);
+    const double height = at_rim ? shares.values[k] : above.values[k];
+    above.values[k] = height > tolerance ? height : 0.0;
+  }
+  return above;
+}
+
 // The thickness that a raster tells, or what a surface has above the ground at the ground's points.
 Raster thickness_without_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
                                   std::vector<std::string>& notes) {
@@ -147,14 +174,10 @@ Raster thickness_without_polygons(const config::Case& parameters, const std::str
   if (thickness.from == config::MapValue::From::raster) {
     return map;
   }
-  Raster above = is_finer(map, ground.raster)
-                     ? averaged(above_ground(map, ground.raster), ground.raster, Missing::nothing)
-                     : above_ground(sampled(map, ground.raster, Missing::nothing), ground.raster);
-  for (std::size_t k = 0; k < above.values.size(); ++k) {
-    const double difference = above.values[k];
-    above.values[k] = difference > parameters.bodies.at(name).surface_tolerance ? difference : 0.0;
-  }
-  return above;
+  // Not smoothed, as a surface before the slide is not either.
+  const Raster& measured = ground.as_measured();
+  const double tolerance = parameters.bodies.at(name).surface_tolerance;
+  return is_finer(map, measured) ? finer_above(map, measured, tolerance) : coarser_above(map, measured, tolerance);
 }
 
 ReleaseArea area_of_raster(const config::Case& parameters, const std::string& name, const Dem& ground,

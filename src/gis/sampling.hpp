@@ -15,7 +15,7 @@ struct Gradient {
 // about a point if its own points are nearer to one another (averaging.hpp).
 [[nodiscard]] Raster sampled(const Raster& raster, const Raster& layout, Missing missing);
 
-// Heights of a surface above the ground at its own points, which are finer than the ground's; NaN without a ground.
+// Heights of a surface above the ground at its own points; NaN without a ground.
 [[nodiscard]] Raster above_ground(const Raster& surface, const Raster& ground);
 
 }  // namespace thawslide::gis

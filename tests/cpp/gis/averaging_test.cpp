@@ -147,6 +147,39 @@ TEST(AveragingTest, SurfacesFinerThanTheGroundKeepTheVolumeAboveIt) {
               0.01 * volume_of_ribs);
 }
 
+// A surface that is known within the release alone, at points of any distance and place among the ground's. Between
+// points that are farther apart than these, interpolation keeps the volume nearly.
+TEST(AveragingTest, SurfacesWithoutDataAboutTheReleaseKeepItsVolume) {
+  for (const double cell : {0.5, 1.0, 2.0, 5.0, 9.0}) {
+    for (const double shift : {0.0, 0.3, 2.5, 4.0}) {
+      const auto inside = static_cast<int>(198.0 / cell);
+      for (const int margin : {0, 6}) {
+        const double first = 300.0 + shift - margin * cell;
+        Raster surface = raster_of([](double x, double y) { return plane(x, y) + 10.0; }, west + first, south + first,
+                                   cell, inside + 2 * margin, inside + 2 * margin, "EPSG:31287");
+        for (int row = 0; row < surface.rows; ++row) {
+          for (int column = 0; column < surface.columns; ++column) {
+            if (std::min(row, column) < margin || std::max(row, column) >= margin + inside) {
+              surface.values[surface.index(column, row)] = missing;
+            }
+          }
+        }
+        config::Case parameters = plain_case(ground());
+        parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
+        parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
+        const double volume = 10.0 * std::pow(inside * cell, 2);
+        // A tolerance, as of noise, takes nothing away where the surface is known in a part of a cell.
+        for (const double tolerance : {0.01, cell < 5.0 ? 4.0 : 0.01}) {
+          parameters.bodies["rock"].surface_tolerance = tolerance;
+          EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume,
+                      (cell <= 5.0 ? 1e-6 : 0.01) * volume)
+              << cell << ", " << shift << ", " << margin << ", " << tolerance;
+        }
+      }
+    }
+  }
+}
+
 // Two stripes a metre wide, of -4 and -8 C, are -6 C on average; a single value that none may have is refused.
 TEST(AveragingTest, TemperaturesAreMeansAndEachIsChecked) {
   config::Case parameters = case_with_release({{"", box_at(302, 302, 398, 398)}});

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "base/raster_sampling.hpp"
+#include "gis/dem.hpp"
 #include "gis/smoothing.hpp"
 #include "site_case.hpp"
 
@@ -236,6 +237,31 @@ TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
   EXPECT_EQ(load_site(parameters).site.roughness->noise, found.noise);
 }
 
+// Domains whose sides lie on points, at distances of points that are no binary fractions.
+TEST(RoughnessTest, PointsStayWhereTheDomainLiesOnThem) {
+  for (const double distance : {3.3, 2.2, 2.1, 1.1, 4.7, 0.7, 5.0}) {
+    for (const int first : {20, 21, 27}) {
+      Raster rough = raster_of(plane, west, south, distance, 101, 91, "EPSG:31287");
+      std::mt19937 random(3);
+      std::normal_distribution<double> normal(0.0, 0.3 * distance);
+      for (double& height : rough.values) {
+        height += normal(random);
+      }
+      config::Case parameters = plain_case(rough);
+      parameters.grid.cell = distance;
+      parameters.grid.min = {rough.x_of(first), rough.y_of(first), 1000.0};
+      parameters.grid.max = {rough.x_of(80), rough.y_of(70), 2500.0};
+      std::vector<std::string> notes;
+      const Dem dem = load_dem(parameters, notes);
+      ASSERT_GT(dem.roughness.width, 0.0) << distance;
+      ASSERT_EQ(dem.raster.columns, dem.before_smoothing.columns) << distance;
+      ASSERT_EQ(dem.raster.rows, dem.before_smoothing.rows) << distance;
+      EXPECT_NEAR(dem.raster.x, dem.before_smoothing.x, 1e-6 * distance);
+      EXPECT_NEAR(dem.raster.y, dem.before_smoothing.y, 1e-6 * distance);
+    }
+  }
+}
+
 // A surface before the slide is not smoothed, and neither is the ground that it is compared with.
 TEST(RoughnessTest, ThicknessBelowASurfaceIsThatOfTheFiles) {
   const Raster rough = ground_with_noise(1.0, 12);
@@ -243,13 +269,29 @@ TEST(RoughnessTest, ThicknessBelowASurfaceIsThatOfTheFiles) {
   for (double& height : before.values) {
     height += 8.0;
   }
-  config::Case parameters = plain_case(rough);
-  config::Body body = release_body(geojson("release.geojson", {{"", box_at(400.0, 300.0, 500.0, 400.0)}}), 0.0);
-  body.thickness = {config::MapValue::From::surface, 0.0, geotiff("before.tif", before)};
-  parameters.bodies["rock"] = body;
-  const config::Site site = load_site(parameters).site;
-  EXPECT_GT(site.roughness->width, 0.0);
-  EXPECT_NEAR(volume_of(site.releases.at("rock").thickness), 8.0 * 100.0 * 100.0, 1e-6);
+  // The same with a file of the terrain model that tells another system than the case.
+  Raster of_other_system = rough;
+  of_other_system.crs = ground("EPSG:32633").crs;
+  for (const Raster& dem : {rough, of_other_system}) {
+    config::Case parameters = plain_case(dem);
+    parameters.terrain.crs = "EPSG:31287";
+    config::Body body = release_body(geojson("release.geojson", {{"", box_at(400.0, 300.0, 500.0, 400.0)}}), 0.0);
+    body.thickness = {config::MapValue::From::surface, 0.0, geotiff("before.tif", before)};
+    parameters.bodies["rock"] = body;
+    const config::Site site = load_site(parameters).site;
+    EXPECT_GT(site.roughness->width, 0.0);
+    EXPECT_NEAR(volume_of(site.releases.at("rock").thickness), 8.0 * 100.0 * 100.0, 1e-6);
+    // Without polygons, where the surface lies 8 m above the ground at 20 x 20 points and on it elsewhere.
+    Raster partly = rough;
+    for (int row = 60; row < 80; ++row) {
+      for (int column = 80; column < 100; ++column) {
+        partly.values[partly.index(column, row)] += 8.0;
+      }
+    }
+    parameters.bodies["rock"].release.clear();
+    parameters.bodies["rock"].thickness.source = geotiff("partly.tif", partly);
+    EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), 8.0 * 100.0 * 100.0, 1e-6);
+  }
 }
 
 }  // namespace
