@@ -9,7 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-PROGRAM = Path(__file__).resolve().parents[2] / "build" / "release" / "thawslide"
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / os.environ.get("THAWSLIDE_BINARY", "build/release/thawslide")
 
 
 @dataclass(frozen=True)
