@@ -49,7 +49,7 @@ PLANE = Ground(
     "A slope of 30 degrees, rounded by a parabola over 300 m, then level ground; 200 m x 200 m of release on it.",
     20.0,
     is_straight=True,
-    avaframe=(INVISCID, NO_PRESSURE),
+    avaframe=(INVISCID,),
 )
 BOWL = Ground(
     "bowl",

@@ -61,12 +61,16 @@ def read_avaframe(folder: Path, terrain: Map, name: str = "avaframe", words: str
 
 
 def on_grid(field: Map, terrain: Map) -> Map:
-    """Return a map whose grid is a part of the terrain's over all of that; nothing where it has no cell."""
+    """Return a map, whose cells are whole blocks of the terrain's, over all of that; nothing where it has no cell."""
     grid = terrain.grid
-    column = round((field.grid.x0 - grid.x0) / grid.cell_x)
-    row = round((field.grid.y0 - grid.y0) / grid.cell_y)
+    times = round(field.grid.cell_x / grid.cell_x)
+    west, _, south, _ = field.grid.box
+    column = round((west - grid.box[0]) / grid.cell_x)
+    row = round((south - grid.box[2]) / grid.cell_y)
+    blocks = np.repeat(np.repeat(field.values, times, axis=0), times, axis=1)
     values = np.full(terrain.values.shape, np.nan)
-    values[row : row + field.grid.rows, column : column + field.grid.columns] = field.values
+    part = values[max(row, 0) : row + blocks.shape[0], max(column, 0) : column + blocks.shape[1]]
+    part[:] = blocks[max(-row, 0) :, max(-column, 0) :][: part.shape[0], : part.shape[1]]
     return Map(grid, values, field.unit)
 
 

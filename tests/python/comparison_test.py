@@ -111,3 +111,20 @@ def test_numbers_of_a_known_outcome() -> None:
     assert found.travel == pytest.approx(math.hypot(1_000.0 - 485.0, 110.0 - 85.0))
     assert found.reach_angle == pytest.approx(math.degrees(math.atan2(0.5 * (1_000.0 - 485.0), found.travel)))
     assert found.centre_way == pytest.approx(975.0 - 502.5, abs=1e-9)
+
+
+def test_coarser_map_covers_the_cells_of_the_terrain_in_blocks() -> None:
+    terrain = Map(Grid(2.5, 2.5, 5.0, 5.0, 7, 5), np.zeros((5, 7)))
+    coarse = Map(Grid(15.0, 5.0, 10.0, 10.0, 2, 3), np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]))
+    placed = results.on_grid(coarse, terrain).values
+    assert np.isnan(placed[:, :2]).all()
+    assert np.isnan(placed[:, 6]).all()
+    assert placed[:, 2:6].tolist() == [
+        [1.0, 1.0, 2.0, 2.0],
+        [1.0, 1.0, 2.0, 2.0],
+        [3.0, 3.0, 4.0, 4.0],
+        [3.0, 3.0, 4.0, 4.0],
+        [5.0, 5.0, 6.0, 6.0],
+    ]
+    same = Map(Grid(7.5, 2.5, 5.0, 5.0, 2, 2), np.array([[1.0, 2.0], [3.0, 4.0]]))
+    assert results.on_grid(same, terrain).values[:2, 1:3].tolist() == [[1.0, 2.0], [3.0, 4.0]]
