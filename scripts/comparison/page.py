@@ -18,8 +18,8 @@ FOLDER = Path(__file__).resolve().parent
 OPENING = f"""# Comparison with AvaFrame
 
 [AvaFrame](https://avaframe.org) is what practitioners run: its `com1DFA` is a depth-averaged model whose particles move
-in the surface and repel each other by an SPH gradient of their thickness. Thawslide resolves the thickness. Both get the
-same DEM, the same release and the same friction, plain Coulomb; there is no entrainment, heat, pore pressure or
+in the surface and repel each other by an SPH gradient of their thickness. Thawslide resolves the thickness. Both get
+the same DEM, the same release and the same friction, plain Coulomb; there is no entrainment, heat, pore pressure or
 cohesion. This page is written by `scripts/compare-avaframe`. Further comparisons: [the Frank slide with
 SHALTOP](frank.md), [the same slide on finer cells](refinement.md).
 
@@ -29,8 +29,8 @@ SHALTOP](frank.md), [the same slide on finer cells](refinement.md).
   default, which leaves the plane and the bowl as they are.
 - *Release.* 10 m along the normal for both, which is how AvaFrame takes a thickness. Its maps of thickness are made
   vertical here, by the slope of the DEM.
-- *Reached.* A place is reached if the largest thickness is at least {AFFECTED} m. The travel distance is horizontal, from
-  the top of the release to the farthest place reached; the reach angle is that of the straight line between them.
+- *Reached.* A place is reached if the largest thickness is at least {AFFECTED} m. The travel distance is horizontal,
+  from the top of the release to the farthest place reached; the reach angle is that of the straight line between them.
 - *Run times* are processor times of one thread on a machine with other work: good to a quarter.
 - *Point mass.* A point that slides from the middle of the release, with friction on its weight across the ground and on
   the centrifugal force, integrated along the DEM. On a straight path the centre of a slide should do about that.

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from grounds import ALR, PLANE, write_ground
+from grounds import ALR, PLANE, Variant, write_ground
 from jobs import Job, processor_time
 from thawslide.run import Run
 
@@ -14,6 +14,14 @@ HERE = Path(__file__).resolve().parent
 PLANE_CELLS = (20.0, 10.0, 5.0)  # m
 ALR_CELLS = (10.0, 6.6, 5.0, 3.3)  # m
 ROUGH_CELLS = (10.0, 6.6, 5.0)  # m, on the DEM as it is
+STUDIED = 6.6  # m: the cell of the runs that isolate causes
+FILTERED = Variant("alr", "default filter")
+ROUGH = Variant("alr-rough", "DEM as it is", ("terrain.smooth=0",))
+CAUSES = (
+    Variant("alr-width6.6", "filter of 6.6 m", ("terrain.smooth=6.6",)),
+    Variant("alr-width10", "filter of 10 m", ("terrain.smooth=10",)),
+    Variant("alr-weak", "default filter, internal friction 25 degrees", ("material.grains.friction_angle=25",)),
+)
 ALR_LOW, ALR_SIZE = (255215.0, 377350.0, 540.0), (2046.0, 4521.0, 2059.2)  # m, of the domain
 STEP_PER_CELL = 0.0045  # s/m: three quarters of what the elastic wave allows
 
@@ -51,19 +59,19 @@ def plane_job(cell: float, runs: Path, extra: tuple[str, ...] = ()) -> Job:
     return Job(runs / "plane" / "refined-plane.toml", (*cells_of(cell), *extra), runs / f"plane-{cell:g}")
 
 
-def alr_job(cell: float, runs: Path, is_rough: bool, extra: tuple[str, ...] = ()) -> Job:
-    """Return a run of AlR, with the default filter of the DEM or without."""
-    rough = ("terrain.smooth=0",) if is_rough else ()
-    changes = (*cells_of(cell), *alr_domain(cell), *rough, *extra)
-    return Job(runs / "alr" / "alr.toml", changes, runs / f"alr-{'rough-' if is_rough else ''}{cell:g}")
+def alr_job(cell: float, runs: Path, variant: Variant = FILTERED, extra: tuple[str, ...] = ()) -> Job:
+    """Return a run of AlR; by default with the default filter of the DEM."""
+    changes = (*cells_of(cell), *alr_domain(cell), *variant.changes, *extra)
+    return Job(runs / "alr" / "alr.toml", changes, runs / f"{variant.name}-{cell:g}")
 
 
 def jobs(runs: Path, extra: tuple[str, ...] = ()) -> list[Job]:
     """Return all runs, the cheap ones first."""
     result = [plane_job(cell, runs, extra) for cell in PLANE_CELLS]
-    result += [alr_job(cell, runs, False, extra) for cell in ALR_CELLS[:-1]]
-    result += [alr_job(cell, runs, True, extra) for cell in ROUGH_CELLS]
-    return [*result, alr_job(ALR_CELLS[-1], runs, False, extra)]
+    result += [alr_job(cell, runs, FILTERED, extra) for cell in ALR_CELLS[:-1]]
+    result += [alr_job(cell, runs, ROUGH, extra) for cell in ROUGH_CELLS]
+    result += [alr_job(STUDIED, runs, variant, extra) for variant in CAUSES]
+    return [*result, alr_job(ALR_CELLS[-1], runs, FILTERED, extra)]
 
 
 def write_inputs(runs: Path, alr: Path | None) -> None:

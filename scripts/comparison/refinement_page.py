@@ -7,7 +7,7 @@ import numpy as np
 from grounds import ALR
 from jobs import Job
 from matplotlib.figure import Figure
-from refinement import HERE, Found, limit, order, read_found, spread
+from refinement import CAUSES, FILTERED, HERE, ROUGH, STUDIED, Found, limit, order, read_found, spread
 from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, styled
 from thawslide.maps import Map, read_map
 from thawslide.run import Run
@@ -36,13 +36,18 @@ def markdown(lines: list[list[str]]) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in [head, ["---"] * len(head), *rest])
 
 
-def cells_table(found: list[Found], more: dict[str, list[str]] | None = None) -> str:
-    """Return the numbers of runs that differ by their cell; `more` has further columns by their header."""
+def table(heads: list[str], found: list[Found], more: dict[str, list[str]] | None = None) -> str:
+    """Return the numbers of runs, a column each; `more` has further columns by their header."""
     more = more or {}
-    lines = [["cell (m)", *(f"{each.cell:g}" for each in found), *more]]
+    lines = [[*heads, *more]]
     for place, (words, text) in enumerate(ROWS.items()):
         lines.append([words, *(text(each) for each in found), *(column[place] for column in more.values())])
     return markdown(lines)
+
+
+def cells_table(found: list[Found], more: dict[str, list[str]] | None = None) -> str:
+    """Return the numbers of runs that differ by their cell."""
+    return table(["cell (m)", *(f"{each.cell:g}" for each in found)], found, more)
 
 
 def convergence(found: list[Found]) -> dict[str, list[str]]:
@@ -82,23 +87,13 @@ def friction_rows(job: Job, terrain: Map) -> list[Interval]:
     ]
 
 
-def friction_table(rows: dict[str, list[Interval]]) -> str:
-    """Return apparent friction and wedge factor over time, a group of columns for each run."""
-    longest = max(rows.values(), key=len)
-    lines = [["time (s)"]]
-    for name in rows:
-        lines[0] += [f"{name}: wedge factor w", "ground", "ground and inside", "ground / w", "both / w"]
-    for place, interval in enumerate(longest):
-        line = [f"{interval.start:.0f} to {interval.end:.0f}"]
-        for each in rows.values():
-            if place < len(each):
-                found = each[place]
-                both = found.ground + found.inside
-                values = (found.wedge, found.ground, both, found.ground / found.wedge, both / found.wedge)
-                line += [f"{value:.3f}" for value in values]
-            else:
-                line += [""] * 5
-        lines.append(line)
+def friction_table(rows: list[Interval]) -> str:
+    """Return apparent friction over the coefficient, and the wedge factor, over time."""
+    lines = [["time (s)", "wedge factor w", "on the ground", "ground and inside", "ground over w", "both over w"]]
+    for each in rows:
+        both = each.ground + each.inside
+        values = (each.wedge, each.ground, both, each.ground / each.wedge, both / each.wedge)
+        lines.append([f"{each.start:.0f} to {each.end:.0f}", *(f"{value:.3f}" for value in values)])
     return markdown(lines)
 
 
@@ -132,27 +127,21 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
     done = {job.output.name: job for job in jobs if job.is_done}
 
     def found(start: str) -> list[Found]:
-        return [read_found(job) for name, job in done.items() if name.rpartition("-")[0] == start]
+        named = [read_found(job) for name, job in done.items() if name.rpartition("-")[0] == start]
+        return sorted(named, key=lambda one: -one.cell)
 
-    plane, alr, rough = (found(start) for start in ("plane", "alr", "alr-rough"))
-    alr, rough = (sorted(each, key=lambda one: -one.cell) for each in (alr, rough))
+    def friction(start: str) -> dict[float, list[Interval]]:
+        runs = {each.cell: done[f"{start}-{each.cell:g}"] for each in found(start)}
+        return {cell: friction_rows(job, read_map(job.output / "maps" / "terrain.tif")) for cell, job in runs.items()}
 
-    def friction(start: str, cells: list[Found]) -> dict[float, list[Interval]]:
-        return {
-            each.cell: friction_rows(
-                done[f"{start}-{each.cell:g}"], read_map(done[f"alr-{each.cell:g}"].output / "maps" / "terrain.tif")
-            )
-            for each in cells
-        }
-
-    filtered, unfiltered = friction("alr", alr), friction("alr-rough", rough)
+    plane, alr, rough = (found(start) for start in ("plane", FILTERED.name, ROUGH.name))
+    causes = {each: done.get(f"{each.name}-{STUDIED:g}") for each in (FILTERED, ROUGH, *CAUSES)}
+    causes = {each: job for each, job in causes.items() if job}
+    studied = {each.words: friction(each.name)[STUDIED] for each in causes}
     (folder / "comparison").mkdir(exist_ok=True)
-    friction_picture(filtered, unfiltered).savefig(folder / "comparison" / "alr-friction.png", dpi=110)
-    finest = min(filtered)
-    shared = {f"filtered, {finest:g} m": filtered[finest]}
-    if unfiltered:
-        finest_rough = min(unfiltered)
-        shared[f"as it is, {finest_rough:g} m"] = unfiltered[finest_rough]
+    friction_picture(friction(FILTERED.name), friction(ROUGH.name)).savefig(
+        folder / "comparison" / "alr-friction.png", dpi=110
+    )
     parts = [
         (HERE / "refinement.md").read_text().strip(),
         cells_table(plane, convergence(plane) if len(plane) == 3 else None),
@@ -163,9 +152,12 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
         (HERE / "refinement-alr.md").read_text().strip(),
         "The same on the DEM as it is (`terrain.smooth = 0`):",
         cells_table(rough),
+        f"Single causes, on cells of {STUDIED:g} m:",
+        table(["", *(each.words for each in causes)], [read_found(job) for job in causes.values()]),
+        (HERE / "refinement-causes.md").read_text().strip(),
         (HERE / "refinement-wedge.md").read_text().strip(),
         "![apparent friction and wedge factor over time](comparison/alr-friction.png)",
-        friction_table(shared),
+        *(f"On cells of {STUDIED:g} m, {words}:\n\n{friction_table(rows)}" for words, rows in studied.items()),
         (HERE / "refinement-friction.md").read_text().strip(),
     ]
     (folder / "refinement.md").write_text("\n\n".join(part for part in parts if part) + "\n")
