@@ -24,7 +24,7 @@ class Job:
     @property
     def log(self) -> Path:
         """The file of what the program printed."""
-        return self.output.with_suffix(".log")
+        return self.output.parent / f"{self.output.name}.log"
 
     @property
     def is_done(self) -> bool:

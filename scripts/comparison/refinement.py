@@ -13,13 +13,13 @@ from thawslide.run import Run
 HERE = Path(__file__).resolve().parent
 PLANE_CELLS = (20.0, 10.0, 5.0)  # m
 ALR_CELLS = (10.0, 6.6, 5.0, 3.3)  # m
-ROUGH_CELLS = (10.0, 6.6, 5.0)  # m, on the DEM as it is
 STUDIED = 6.6  # m: the cell of the runs that isolate causes
 FILTERED = Variant("alr", "default filter")
 ROUGH = Variant("alr-rough", "DEM as it is", ("terrain.smooth=0",))
+WIDE = Variant("alr-width10", "filter of 10 m", ("terrain.smooth=10",))
 CAUSES = (
     Variant("alr-width6.6", "filter of 6.6 m", ("terrain.smooth=6.6",)),
-    Variant("alr-width10", "filter of 10 m", ("terrain.smooth=10",)),
+    WIDE,
     Variant("alr-weak", "default filter, internal friction 25 degrees", ("material.grains.friction_angle=25",)),
 )
 ALR_LOW, ALR_SIZE = (255215.0, 377350.0, 540.0), (2046.0, 4521.0, 2059.2)  # m, of the domain
@@ -68,10 +68,10 @@ def alr_job(cell: float, runs: Path, variant: Variant = FILTERED, extra: tuple[s
 def jobs(runs: Path, extra: tuple[str, ...] = ()) -> list[Job]:
     """Return all runs, the cheap ones first."""
     result = [plane_job(cell, runs, extra) for cell in PLANE_CELLS]
-    result += [alr_job(cell, runs, FILTERED, extra) for cell in ALR_CELLS[:-1]]
-    result += [alr_job(cell, runs, ROUGH, extra) for cell in ROUGH_CELLS]
-    result += [alr_job(STUDIED, runs, variant, extra) for variant in CAUSES]
-    return [*result, alr_job(ALR_CELLS[-1], runs, FILTERED, extra)]
+    *coarse, finest = ALR_CELLS
+    result += [alr_job(cell, runs, variant, extra) for variant in (FILTERED, WIDE, ROUGH) for cell in coarse]
+    result += [alr_job(STUDIED, runs, variant, extra) for variant in CAUSES if variant is not WIDE]
+    return [*result, *(alr_job(finest, runs, variant, extra) for variant in (FILTERED, WIDE))]
 
 
 def write_inputs(runs: Path, alr: Path | None) -> None:

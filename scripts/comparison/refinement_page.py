@@ -4,10 +4,10 @@ import math
 from pathlib import Path
 
 import numpy as np
-from grounds import ALR
+from grounds import ALR, Variant
 from jobs import Job
 from matplotlib.figure import Figure
-from refinement import CAUSES, FILTERED, HERE, ROUGH, STUDIED, Found, limit, order, read_found, spread
+from refinement import CAUSES, FILTERED, HERE, ROUGH, STUDIED, WIDE, Found, limit, order, read_found, spread
 from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, styled
 from thawslide.maps import Map, read_map
 from thawslide.run import Run
@@ -98,22 +98,22 @@ def friction_table(rows: list[Interval]) -> str:
 
 
 @styled
-def friction_picture(filtered: dict[float, list[Interval]], rough: dict[float, list[Interval]]) -> Figure:
-    """Return apparent friction over time, with the DEM filtered and as it is."""
-    figure = Figure(figsize=(9.0, 4.2), layout="constrained")
-    panels = figure.subplots(1, 2, sharey=True)
-    for panel, runs, title in zip(panels, (filtered, rough), ("(a) DEM filtered", "(b) DEM as it is"), strict=True):
-        for colour, (cell, rows) in zip(COLOURS, runs.items(), strict=False):
+def friction_picture(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure:
+    """Return apparent friction over time, a panel for each way to filter the DEM."""
+    figure = Figure(figsize=(10.0, 4.4), layout="constrained")
+    panels = figure.subplots(1, len(runs), sharey=True, sharex=True)
+    for panel, (variant, cells), letter in zip(panels, runs.items(), "abc", strict=True):
+        for colour, (cell, rows) in zip(COLOURS, cells.items(), strict=False):
             middle = [0.5 * (each.start + each.end) for each in rows]
             both = [each.ground + each.inside for each in rows]
             panel.plot(middle, both, "o-", color=colour, ms=4, label=f"ground and inside, {cell:g} m")
             panel.plot(middle, [each.ground for each in rows], ":", color=colour, label=f"ground, {cell:g} m")
-        finest = runs[min(runs)]
+        finest = cells[min(cells)]
         middle = np.array([0.5 * (each.start + each.end) for each in finest])
         wedge = np.array([each.wedge for each in finest])
-        panel.plot(middle, wedge, color=BLACK, linestyle="dashed", label=f"wedge factor, {min(runs):g} m")
+        panel.plot(middle, wedge, color=BLACK, linestyle="dashed", label="wedge factor, finest cells")
         panel.fill_between(middle, 0.9 * wedge, 1.1 * wedge, color=BLACK, alpha=0.12, linewidth=0, label="within 10 %")
-        panel.set_title(title, loc="left")
+        panel.set_title(f"({letter}) {variant.words}", loc="left")
         panel.set_xlabel("time (s)")
         panel.grid(True)
     panels[0].set_ylabel("apparent friction / friction coefficient")
@@ -134,24 +134,28 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
         runs = {each.cell: done[f"{start}-{each.cell:g}"] for each in found(start)}
         return {cell: friction_rows(job, read_map(job.output / "maps" / "terrain.tif")) for cell, job in runs.items()}
 
-    plane, alr, rough = (found(start) for start in ("plane", FILTERED.name, ROUGH.name))
+    plane, alr, wide, rough = (found(start) for start in ("plane", FILTERED.name, WIDE.name, ROUGH.name))
     causes = {each: done.get(f"{each.name}-{STUDIED:g}") for each in (FILTERED, ROUGH, *CAUSES)}
     causes = {each: job for each, job in causes.items() if job}
     studied = {each.words: friction(each.name)[STUDIED] for each in causes}
     (folder / "comparison").mkdir(exist_ok=True)
-    friction_picture(friction(FILTERED.name), friction(ROUGH.name)).savefig(
+    friction_picture({each: friction(each.name) for each in (WIDE, FILTERED, ROUGH)}).savefig(
         folder / "comparison" / "alr-friction.png", dpi=110
     )
     parts = [
         (HERE / "refinement.md").read_text().strip(),
         cells_table(plane, convergence(plane) if len(plane) == 3 else None),
         (HERE / "refinement-plane.md").read_text().strip(),
-        "## A slope of the Alps",
+        (HERE / "refinement-slope.md").read_text().strip(),
+        "The DEM filtered by 10 m on every cell (`terrain.smooth = 10`):",
+        cells_table(wide),
+        spread_words(wide),
+        'The DEM filtered by default (`terrain.smooth = "auto"`), by a width that depends on the cell:',
         cells_table(alr),
         spread_words(alr),
-        (HERE / "refinement-alr.md").read_text().strip(),
-        "The same on the DEM as it is (`terrain.smooth = 0`):",
+        "The DEM as it is (`terrain.smooth = 0`):",
         cells_table(rough),
+        (HERE / "refinement-alr.md").read_text().strip(),
         f"Single causes, on cells of {STUDIED:g} m:",
         table(["", *(each.words for each in causes)], [read_found(job) for job in causes.values()]),
         (HERE / "refinement-causes.md").read_text().strip(),

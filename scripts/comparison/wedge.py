@@ -65,7 +65,7 @@ def rates(ground: Ground, points: Numbers, velocity: Numbers, mass: Numbers) -> 
     along = 1.0 + (slope_x * tx + slope_y * ty) ** 2
     curvature = (bend_xx * tx**2 + 2.0 * bend_xy * tx * ty + bend_yy * ty**2) / along**1.5
     speed = level * np.sqrt(along)
-    load = np.maximum(GRAVITY / np.sqrt(along) + curvature * speed**2, 0.0)
+    load = GRAVITY / np.sqrt(along) + curvature * speed**2  # bumps cancel out in the sum
     wedge = np.sqrt((1.0 + slope_x**2 + slope_y**2) / along)
     known = moving & np.isfinite(load) & np.isfinite(wedge)
     power = (mass * load * speed)[known]

@@ -126,13 +126,14 @@ def test_domain_of_each_cell_is_a_whole_number_of_cells(cell: float) -> None:
 
 
 def test_run_is_done_only_with_the_same_changes(tmp_path: Path) -> None:
-    job = jobs.Job(tmp_path / "case.toml", ("grid.cell=5",), tmp_path / "plane-5")
+    job = jobs.Job(tmp_path / "case.toml", ("grid.cell=5",), tmp_path / "plane-5.6")
     assert not job.is_done
     jobs.call([sys.executable, "-c", "print('moving')"], job.log, job.changes)
     assert job.is_done
     assert job.log.read_text() == "moving\n"
     assert 0.0 < jobs.processor_time(job.log.with_suffix(".json")) < 10.0
     assert not jobs.Job(job.case, ("grid.cell=10",), job.output).is_done
+    assert not jobs.Job(job.case, job.changes, tmp_path / "plane-5.5").is_done
 
 
 def test_command_that_fails_ends_the_program_with_the_place_of_its_output(tmp_path: Path) -> None:

@@ -71,8 +71,18 @@ def test_curved_ground_adds_the_centrifugal_force() -> None:
     load, wedged = wedge.rates(ground, *one_particle(x, 0.0, 0.0, speed * cosine))
     assert load == pytest.approx(7.0 * speed * (9.81 * cosine + speed**2 / radius), rel=1e-4)
     assert wedged == pytest.approx(load, rel=1e-12)
-    lifted = wedge.derivatives(Map(GRID, -height))
-    assert wedge.rates(lifted, *one_particle(x, 0.0, 0.0, 200.0))[0] == 0.0
+
+
+def test_bumps_of_the_ground_cancel_out_in_the_load() -> None:
+    # Bumps along the motion, a whole number of waves below particles that lie evenly.
+    length = 40.0
+    ground = wedge.derivatives(Map(GRID, 0.2 * np.sin(2.0 * math.pi * X / length)))
+    x = np.arange(-80.0, 80.0, 5.0)
+    points = np.column_stack([x, np.zeros_like(x), np.zeros_like(x)])
+    velocity = np.column_stack([np.full_like(x, 40.0), np.zeros_like(x), np.zeros_like(x)])
+    load, wedged = wedge.rates(ground, points, velocity, np.ones_like(x))
+    assert load == pytest.approx(len(x) * 9.81 * 40.0, rel=1e-3)
+    assert wedged == pytest.approx(load, rel=1e-12)
 
 
 class FakeSnapshot(dict[str, np.ndarray]):
