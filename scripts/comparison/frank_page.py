@@ -26,8 +26,10 @@ ROWS = {
     "travel distance (m)": lambda found: f"{found.travel:,.0f}",
     "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",
     "maximum speed (m/s)": lambda found: f"{found.speed:.0f}",
+    "maximum speed, 95 % of the area passed below it (m/s)": lambda found: f"{found.high_speed:.0f}",
     "maximum speed, median of the area passed (m/s)": lambda found: f"{found.usual_speed:.1f}",
     "maximum thickness of the deposit (m)": lambda found: f"{found.thickness:.0f}",
+    "volume at the end (million m3)": lambda found: f"{found.volume:.1f}",
 }
 
 
@@ -49,20 +51,22 @@ def main_table(found: dict[tuple[str, int], frank.Figures]) -> str:
     return markdown([head, *rows])
 
 
-def difference_table(differences: dict[str, frank.Difference], found: dict[str, frank.Figures]) -> str:
-    """Return how far single deposits are from SHALTOP's with the same friction."""
-    lines = [
-        ["", "centroid, x (m)", "area (km2)", "farthest x (m)", "maximum speed (m/s)", "overlap", "moved volume"],
-    ]
-    for name, figures in found.items():
-        apart = differences.get(name)
+def difference_table(
+    found: dict[tuple[int, str], frank.Figures], differences: dict[tuple[int, str], frank.Difference]
+) -> str:
+    """Return single runs by the angle along the ground, and how far their deposits are from SHALTOP's."""
+    head = ["angle (degrees)", "run", "centroid, x (m)", "area (km2)", "farthest x (m)", "median speed (m/s)"]
+    lines = [[*head, "overlap", "moved volume"]]
+    for (angle, name), figures in found.items():
+        apart = differences.get((angle, name))
         lines.append(
             [
+                str(angle),
                 name,
                 f"{figures.x:,.0f}",
                 f"{figures.area:.2f}",
                 f"{figures.farthest:,.0f}",
-                f"{figures.speed:.0f}",
+                f"{figures.usual_speed:.1f}",
                 f"{apart.overlap:.2f}" if apart else "",
                 f"{100.0 * apart.moved:.0f} %" if apart else "",
             ]
@@ -72,13 +76,24 @@ def difference_table(differences: dict[str, frank.Difference], found: dict[str, 
 
 def end_table(runs: dict[str, Run], processor: dict[str, float]) -> str:
     """Return how each run ended."""
-    lines = [["run", "simulated (s)", "mean velocity at the end (m/s)", "left the DEM", "particles", "processor (s)"]]
+    lines = [
+        [
+            "run",
+            "simulated (s)",
+            "at rest",
+            "mean velocity at the end (m/s)",
+            "left the DEM",
+            "particles",
+            "processor (s)",
+        ]
+    ]
     for name, run in runs.items():
         history = run.history
         lines.append(
             [
                 name,
                 f"{run.last_time:.0f}",
+                "yes" if run.facts["at_rest"] else "no",
                 f"{history['mean_velocity_m_s'][-1]:.2f}",
                 f"{100.0 * history['left_mass_kg'][-1] / history['mass_kg'][0]:.1f} %",
                 f"{run.facts['particles']:,}",
@@ -92,7 +107,7 @@ def end_table(runs: dict[str, Run], processor: dict[str, float]) -> str:
 def deposits(
     found: dict[tuple[str, int], frank.Deposit],
     numbers: dict[tuple[str, int], frank.Figures],
-    fluid: dict[int, frank.Deposit],
+    alike: dict[int, frank.Deposit],
     pile: Map,
 ) -> Figure:
     """Return the outlines of the deposits, one panel an angle."""
@@ -100,7 +115,7 @@ def deposits(
     panels = figure.subplots(2, 2, sharex=True, sharey=True).ravel()
     for panel, angle, letter in zip(panels, frank.ANGLES, "abcd", strict=True):
         outline(panel, pile, 0.5, colors=BLACK, linewidths=0.9, linestyles="dotted")
-        outline(panel, fluid[angle].final, frank.EDGE, colors=RED, linewidths=1.0, linestyles="dashed")
+        outline(panel, alike[angle].final, frank.EDGE, colors=RED, linewidths=1.0, linestyles="dashed")
         for code, colour in COLOURS.items():
             outline(panel, found[code, angle].final, frank.EDGE, colors=colour, linewidths=1.6)
             centre = numbers[code, angle]
@@ -123,7 +138,7 @@ def deposits(
         handles.append(
             Line2D([], [], color=colour, marker=MARKS[code], ls="", mec="white", ms=8, label=f"{code}, centroid")
         )
-    words = f"{OURS}, {frank.FLUID.words}, deposit"
+    words = f"{OURS}, {frank.ALIKE.words}, deposit"
     handles.append(Line2D([], [], color=RED, linestyle="dashed", linewidth=1.0, label=words))
     handles.append(Line2D([], [], color=BLACK, linestyle="dotted", linewidth=0.9, label="release"))
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
@@ -131,7 +146,7 @@ def deposits(
 
 
 @styled
-def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank.Deposit], pile: Map) -> Figure:
+def sections(found: dict[tuple[str, int], frank.Deposit], alike: dict[int, frank.Deposit], pile: Map) -> Figure:
     """Return the section area of the deposits along x, one panel an angle."""
     figure = Figure(figsize=(9.0, 6.2), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True).ravel()
@@ -141,8 +156,8 @@ def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank
         for code, colour in COLOURS.items():
             panel.plot(x, frank.volume_along(found[code, angle].final) / 1e3, color=colour, label=code)
         panel.plot(
-            x, frank.volume_along(fluid[angle].final) / 1e3, color=RED, linestyle="dashed", linewidth=1.1,
-            label=f"{OURS}, {frank.FLUID.words}",
+            x, frank.volume_along(alike[angle].final) / 1e3, color=RED, linestyle="dashed", linewidth=1.1,
+            label=f"{OURS}, {frank.ALIKE.words}",
         )  # fmt: skip
         panel.set_title(f"({letter}) friction angle {angle}°", loc="left")
         panel.set_xlim(0.2, 4.0)
@@ -160,14 +175,14 @@ def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank
 def draw(
     found: dict[tuple[str, int], frank.Deposit],
     numbers: dict[tuple[str, int], frank.Figures],
-    fluid: dict[int, frank.Deposit],
+    alike: dict[int, frank.Deposit],
     pile: Map,
     folder: Path,
 ) -> None:
     """Write both pictures."""
     folder.mkdir(exist_ok=True)
-    deposits(found, numbers, fluid, pile).savefig(folder / "frank-deposits.png", dpi=110)
-    sections(found, fluid, pile).savefig(folder / "frank-sections.png", dpi=110)
+    deposits(found, numbers, alike, pile).savefig(folder / "frank-deposits.png", dpi=110)
+    sections(found, alike, pile).savefig(folder / "frank-sections.png", dpi=110)
 
 
 def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
@@ -208,17 +223,16 @@ def write(data: Path, jobs: list[Job], folder: Path) -> None:
         for code in COLOURS
     }
     numbers = {key: frank.figures(deposit, terrain, pile) for key, deposit in deposits.items()}
-    fluid = {angle: ours[f"fluid-{angle}"] for angle in frank.ANGLES}
-    draw(deposits, numbers, fluid, pile, folder / "comparison")
-    rows = {f"{SHALTOP}, {angle}": numbers[SHALTOP, angle] for angle in frank.ANGLES}
-    apart = {}
-    for variant in (frank.BASE, frank.FLUID, *frank.CAUSES):
-        for angle in frank.ANGLES:
+    alike = {angle: ours[f"alike-{angle}"] for angle in frank.ANGLES}
+    draw(deposits, numbers, alike, pile, folder / "comparison")
+    rows, apart = {}, {}
+    for angle in frank.ANGLES:
+        rows[angle, SHALTOP] = numbers[SHALTOP, angle]
+        for variant in (frank.BASE, frank.ALIKE, *frank.CAUSES):
             deposit = ours.get(f"{variant.name}-{angle}")
             if deposit is not None:
-                name = f"{variant.words}, {angle}"
-                rows[name] = frank.figures(deposit, terrain, pile)
-                apart[name] = frank.difference(deposit, deposits[SHALTOP, angle])
+                rows[angle, f"{OURS}, {variant.words}"] = frank.figures(deposit, terrain, pile)
+                apart[angle, f"{OURS}, {variant.words}"] = frank.difference(deposit, deposits[SHALTOP, angle])
     done = {job.output.name: job for job in jobs if job.is_done}
     parts = [
         (HERE / "frank.md").read_text().strip(),
@@ -229,7 +243,7 @@ def write(data: Path, jobs: list[Job], folder: Path) -> None:
         published_table(numbers),
         (HERE / "frank-published.md").read_text().strip(),
         "## Causes of the differences",
-        difference_table(apart, rows),
+        difference_table(rows, apart),
         (HERE / "frank-causes.md").read_text().strip(),
         "## How the runs ended",
         end_table(

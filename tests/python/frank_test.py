@@ -42,7 +42,7 @@ def test_numbers_of_a_known_deposit() -> None:
     assert found.area == pytest.approx(100 * 400e-6)
     assert found.passed == pytest.approx(380 * 400e-6)
     assert found.farthest == 30.0 + 20.0 * 39
-    assert (found.speed, found.usual_speed, found.thickness) == (50.0, 12.0, 4.0)
+    assert (found.speed, found.high_speed, found.usual_speed, found.thickness) == (50.0, 12.0, 12.0, 4.0)
     assert found.volume == pytest.approx((100 * 4.0 + 100 * 0.9) * 400e-6)
     # From the top of the pile, its uppermost column, to the farthest corner.
     assert found.travel == pytest.approx(math.hypot(37 * 20.0, 9 * 20.0))
