@@ -23,16 +23,15 @@ class Variant:
 
     name: str
     words: str
-    changes: tuple[str, ...] = ()  # {angle} stands for the angle of friction along the ground
+    changes: tuple[str, ...] = ()
 
 
 BASE = Variant("base", "internal friction 35 degrees")
-ALIKE = Variant(
-    "alike", "internal friction as along the ground", ("material.grains.friction_angle={angle}", "time.step=0.05")
-)
+FLUID = Variant("fluid", "internal friction 5 degrees", ("material.grains.friction_angle=5",))
+STEEP = ("time.step=0.04",)  # of FLUID on more friction than STUDIED: the body is pressed together harder
 # Of the studied angle alone.
 CAUSES = (
-    Variant("fluid", "internal friction 5 degrees", ("material.grains.friction_angle=5",)),
+    Variant("alike", "internal friction 15 degrees", ("material.grains.friction_angle=15", "time.step=0.05")),
     Variant("stiff", "Young's modulus 400 MPa", ("material.grains.youngs_modulus=4e8", "time.step=0.036")),
     Variant("fine", "cells of 14 m", ("grid.cell=14", "grid.max=[4016.0, 4016.0, 2320.0]", "time.step=0.05")),
 )
@@ -72,7 +71,7 @@ class Figures:
 
 def jobs(data: Path, runs: Path, angles: tuple[int, ...] = ANGLES, extra: tuple[str, ...] = ()) -> list[Job]:
     """Return all runs, the cheap ones first; `extra` changes apply to each."""
-    pairs = [(BASE, angle) for angle in angles] + [(ALIKE, angle) for angle in angles]
+    pairs = [(BASE, angle) for angle in angles] + [(FLUID, angle) for angle in angles]
     pairs += [(variant, STUDIED) for variant in CAUSES]
     return [job(variant, angle, data, runs, extra) for variant, angle in pairs]
 
@@ -83,7 +82,8 @@ def job(variant: Variant, angle: int, data: Path, runs: Path, extra: tuple[str, 
         f"terrain.file={data / 'Frankslide_topography.asc'}",
         f'body.slide.thickness={{ raster = "{data / "Frankslide_pile.asc"}" }}',
         f"basal.friction_angle={angle}",
-        *(change.format(angle=angle) for change in variant.changes),
+        *variant.changes,
+        *(STEEP if variant is FLUID and angle > STUDIED else ()),
         *extra,
     )
     return Job(HERE / "frank.toml", changes, runs / f"{variant.name}-{angle}")

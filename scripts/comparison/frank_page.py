@@ -107,7 +107,7 @@ def end_table(runs: dict[str, Run], processor: dict[str, float]) -> str:
 def deposits(
     found: dict[tuple[str, int], frank.Deposit],
     numbers: dict[tuple[str, int], frank.Figures],
-    alike: dict[int, frank.Deposit],
+    fluid: dict[int, frank.Deposit],
     pile: Map,
 ) -> Figure:
     """Return the outlines of the deposits, one panel an angle."""
@@ -115,7 +115,7 @@ def deposits(
     panels = figure.subplots(2, 2, sharex=True, sharey=True).ravel()
     for panel, angle, letter in zip(panels, frank.ANGLES, "abcd", strict=True):
         outline(panel, pile, 0.5, colors=BLACK, linewidths=0.9, linestyles="dotted")
-        outline(panel, alike[angle].final, frank.EDGE, colors=RED, linewidths=1.0, linestyles="dashed")
+        outline(panel, fluid[angle].final, frank.EDGE, colors=RED, linewidths=1.0, linestyles="dashed")
         for code, colour in COLOURS.items():
             outline(panel, found[code, angle].final, frank.EDGE, colors=colour, linewidths=1.6)
             centre = numbers[code, angle]
@@ -138,7 +138,7 @@ def deposits(
         handles.append(
             Line2D([], [], color=colour, marker=MARKS[code], ls="", mec="white", ms=8, label=f"{code}, centroid")
         )
-    words = f"{OURS}, {frank.ALIKE.words}, deposit"
+    words = f"{OURS}, {frank.FLUID.words}, deposit"
     handles.append(Line2D([], [], color=RED, linestyle="dashed", linewidth=1.0, label=words))
     handles.append(Line2D([], [], color=BLACK, linestyle="dotted", linewidth=0.9, label="release"))
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
@@ -146,7 +146,7 @@ def deposits(
 
 
 @styled
-def sections(found: dict[tuple[str, int], frank.Deposit], alike: dict[int, frank.Deposit], pile: Map) -> Figure:
+def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank.Deposit], pile: Map) -> Figure:
     """Return the section area of the deposits along x, one panel an angle."""
     figure = Figure(figsize=(9.0, 6.2), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True).ravel()
@@ -156,8 +156,8 @@ def sections(found: dict[tuple[str, int], frank.Deposit], alike: dict[int, frank
         for code, colour in COLOURS.items():
             panel.plot(x, frank.volume_along(found[code, angle].final) / 1e3, color=colour, label=code)
         panel.plot(
-            x, frank.volume_along(alike[angle].final) / 1e3, color=RED, linestyle="dashed", linewidth=1.1,
-            label=f"{OURS}, {frank.ALIKE.words}",
+            x, frank.volume_along(fluid[angle].final) / 1e3, color=RED, linestyle="dashed", linewidth=1.1,
+            label=f"{OURS}, {frank.FLUID.words}",
         )  # fmt: skip
         panel.set_title(f"({letter}) friction angle {angle}°", loc="left")
         panel.set_xlim(0.2, 4.0)
@@ -175,14 +175,14 @@ def sections(found: dict[tuple[str, int], frank.Deposit], alike: dict[int, frank
 def draw(
     found: dict[tuple[str, int], frank.Deposit],
     numbers: dict[tuple[str, int], frank.Figures],
-    alike: dict[int, frank.Deposit],
+    fluid: dict[int, frank.Deposit],
     pile: Map,
     folder: Path,
 ) -> None:
     """Write both pictures."""
     folder.mkdir(exist_ok=True)
-    deposits(found, numbers, alike, pile).savefig(folder / "frank-deposits.png", dpi=110)
-    sections(found, alike, pile).savefig(folder / "frank-sections.png", dpi=110)
+    deposits(found, numbers, fluid, pile).savefig(folder / "frank-deposits.png", dpi=110)
+    sections(found, fluid, pile).savefig(folder / "frank-sections.png", dpi=110)
 
 
 def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
@@ -223,12 +223,12 @@ def write(data: Path, jobs: list[Job], folder: Path) -> None:
         for code in COLOURS
     }
     numbers = {key: frank.figures(deposit, terrain, pile) for key, deposit in deposits.items()}
-    alike = {angle: ours[f"alike-{angle}"] for angle in frank.ANGLES}
-    draw(deposits, numbers, alike, pile, folder / "comparison")
+    fluid = {angle: ours[f"fluid-{angle}"] for angle in frank.ANGLES}
+    draw(deposits, numbers, fluid, pile, folder / "comparison")
     rows, apart = {}, {}
     for angle in frank.ANGLES:
         rows[angle, SHALTOP] = numbers[SHALTOP, angle]
-        for variant in (frank.BASE, frank.ALIKE, *frank.CAUSES):
+        for variant in (frank.BASE, frank.FLUID, *frank.CAUSES):
             deposit = ours.get(f"{variant.name}-{angle}")
             if deposit is not None:
                 rows[angle, f"{OURS}, {variant.words}"] = frank.figures(deposit, terrain, pile)

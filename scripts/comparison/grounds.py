@@ -41,7 +41,8 @@ class Ground:
 
 INVISCID = Variant("avaframe-inviscid", "no artificial viscosity", ("viscOption=0",))
 NO_PRESSURE = Variant("avaframe-no-pressure", "no pressure gradient", ("sphOption=0",))
-FLUID = Variant("thawslide-fluid", "internal friction 5 degrees", ("material.grains.friction_angle=5",))
+WIDE = Variant("thawslide-wide", "DEM filtered by 10 m", ("terrain.smooth=10",))
+ROUGH = Variant("thawslide-rough", "DEM as it is", ("terrain.smooth=0",))
 
 PLANE = Ground(
     "plane",
@@ -58,7 +59,6 @@ BOWL = Ground(
     15.0,
     is_straight=True,
     avaframe=(INVISCID, NO_PRESSURE),
-    thawslide=(FLUID,),
 )
 ALR = Ground(
     "alr",
@@ -67,6 +67,7 @@ ALR = Ground(
     "data of AvaFrame); 10 m of rock and ice in place of the snow are our choice.",
     25.0,
     is_straight=False,
+    thawslide=(WIDE, ROUGH),
 )
 GROUNDS = {ground.name: ground for ground in (PLANE, BOWL, ALR)}
 

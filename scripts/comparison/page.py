@@ -25,8 +25,8 @@ SHALTOP](frank.md), [the same slide on finer cells](refinement.md).
 
 - *AvaFrame.* Friction model `Coulomb`, 2,063 kg/m3, all else by its defaults: cells and SPH kernels of 5 m, steps of
   0.1 s, artificial viscosity, curvature in the friction, the end where the kinetic energy is below 1 % of its largest.
-- *Thawslide.* Cells of 3.3 m, particles 1.65 m apart, internal friction 35 degrees, no tension; the DEM is filtered by
-  default, which leaves the plane and the bowl as they are.
+- *Thawslide.* Cells of 3.3 m, of 6.6 m on the slope of the Alps; particles half a cell apart, internal friction 35
+  degrees, no tension. The DEM is filtered by default, which leaves the plane and the bowl as they are.
 - *Release.* 10 m along the normal for both, which is how AvaFrame takes a thickness. Its maps of thickness are made
   vertical here, by the slope of the DEM.
 - *Reached.* A place is reached if the largest thickness is at least {AFFECTED} m. The travel distance is horizontal,
