@@ -91,7 +91,7 @@ def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: lis
             paint(axes, Map(terrain.grid, values), painter)
             outline(axes, outcome.thickness, AFFECTED, colors="#222222", linewidths=0.6)
             axes.plot(*zip(*corners, strict=True), color="#0072B2", linewidth=1.0, zorder=6)
-            panels.append((axes, outcome.program, ""))
+            panels.append((axes, outcome.program.split(", ")[-1], ""))
             page.figure.colorbar(painter, cax=page.panel_bar(axes), extend="max")
             scale_bar(axes, "lower left")
         page.name(panels)

@@ -26,7 +26,7 @@ ROWS = {
     "simulated (s)": lambda found: f"{found.simulated:.0f}",
     "mass that left the DEM": lambda found: f"{100.0 * found.left:.1f} %",
     "particles": lambda found: f"{found.particles:,}",
-    "processor time (s)": lambda found: f"{found.processor:,.0f}",
+    "processor time (s)": lambda found: "" if math.isnan(found.processor) else f"{found.processor:,.0f}",
 }
 
 
@@ -117,7 +117,7 @@ def friction_picture(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure
         panel.set_xlabel("time (s)")
         panel.grid(True)
     panels[0].set_ylabel("apparent friction / friction coefficient")
-    handles, labels = panels[0].get_legend_handles_labels()
+    handles, labels = max((panel.get_legend_handles_labels() for panel in panels), key=lambda each: len(each[0]))
     figure.legend(handles, labels, loc="outside lower center", ncols=4)
     return figure
 
