@@ -196,8 +196,8 @@ def _metres(value: float) -> str:
 def _front_numbers(run: Run) -> list[KeyNumber]:
     """Return runout and way of the front; without maps.path a 3D run knows neither before its slide has moved."""
     rows = []
-    runout = run.history.get("runout_m")
-    if runout is not None:
+    if "runout_m" in run.history:
+        runout = run.history["runout_m"]
         own = f", {_metres(runout[0])} of it before anything moves" if np.isfinite(runout[0]) else ""
         rows.append(_along_path("Runout", runout[-1], f"front at {run.last_state} less rear at the start{own}"))
         first = int(np.argmax(np.isfinite(runout)))  # 0 where none is

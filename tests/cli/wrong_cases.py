@@ -44,11 +44,21 @@ NEEDED: dict[str, dict[str, str]] = {
         "depth_per_slip": "0.1",
         "material": '"rock"',
     },
+    "contact_pair.touch": {"bodies": '["block", "other"]', "contact": '"frictional"', "friction_angle": "20.0"},
     "band": {"thickness": "0.2"},
     "probe.bridge": {"point": "[15.0, 4.0]"},
 }
 # The names that tables of the case have.
-NAMES = {"material": "rock", "body": "block", "frame": "lid", "substrate": "ice", "probe": "bridge"}
+NAMES = {
+    "material": "rock",
+    "body": "block",
+    "frame": "lid",
+    "substrate": "ice",
+    "probe": "bridge",
+    "contact_pair": "touch",
+}
+# The other body of the pair.
+OTHER_BODY = {"material": '"rock"', "min": "[16.0, 0.0]", "max": "[18.0, 3.0]", "porosity": "0.3"}
 
 WRONG_TYPE, OUT_OF_RANGE, UNKNOWN_WORD, MISSPELT = "wrong type", "out of range", "unknown word", "misspelt key"
 FAULTS = (WRONG_TYPE, OUT_OF_RANGE, UNKNOWN_WORD, MISSPELT)
@@ -156,6 +166,8 @@ def case_with(group: list[Fault], name: str) -> WrongCase:
     sound = SPACE if group[0].dimension == 3 else PLANE
     tables = {title: dict(keys) for title, keys in sound.items()}
     tables.setdefault(table, dict(NEEDED.get(table, {})))
+    if table == "contact_pair.touch":
+        tables["body.other"] = dict(OTHER_BODY)
     lines: list[str] = []
     said: dict[int, str] = {}
     replaced = {fault.key for fault in group}

@@ -39,6 +39,7 @@ REGISTERS_OF_PHYSICS = {
     "pore_water": 44,  # 38
     "water_balance": 50,  # 44
     "basal_contact": 30,  # 24
+    "body_contact": 40,  # 34
     "entrainment": 36,  # 30
     "band_column<PowerLawCurve<double>>": 130,  # 84; the cells' numbers lie in local memory
     "band_column<LinearCurve<double>>": 130,  # 130

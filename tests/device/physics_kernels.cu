@@ -6,6 +6,7 @@
 #include "physics/band_column_step.hpp"
 #include "physics/basal/laws.hpp"
 #include "physics/basal_friction.hpp"
+#include "physics/body_contact.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/contact.hpp"
 #include "physics/elasticity.hpp"
@@ -262,6 +263,14 @@ __global__ void basal_contact(FrictionClamp clamp, bool cap_pressure, Real dt, R
   result.put(impulse.normal);
   result.put(impulse.tangential);
   result.put(impulse.slides ? Real(1) : Real(0));
+}
+
+__global__ void body_contact(Real dt, Real* numbers, Real* results, std::size_t particles) {
+  Row row(numbers, particles), result(results, particles);
+  const BodyImpulse<Real> impulse =
+      body_impulse(row.take(), row.take(), row.take(), row.take(), row.take(), dt, row.take());
+  result.put(impulse.normal);
+  result.put(impulse.tangential);
 }
 
 __global__ void entrainment(Real* numbers, Real* results, std::size_t particles) {
