@@ -1,12 +1,30 @@
 // From the case to contact between bodies as the step has it.
 #pragma once
 
+#include <cmath>
+
+#include "base/portability.hpp"
+#include "config/body_layers.hpp"
 #include "config/case.hpp"
 #include "mpm/between_bodies.hpp"
 
 namespace thawslide::sim {
 
 template <class Real>
-[[nodiscard]] mpm::BetweenBodies<Real> between_bodies(const config::Case& parameters);
+[[nodiscard]] mpm::BetweenBodies<Real> between_bodies(const config::Case& parameters) {
+  mpm::BetweenBodies<Real> between;
+  const config::BodyLayers layers = config::body_layers(parameters);
+  if (layers.count == 1) {
+    return between;
+  }
+  between.layers = layers.count;
+  for (const std::size_t layer : layers.of_body) {
+    between.layer_of_body.push_back(static_cast<std::uint8_t>(layer));
+  }
+  for (const double angle : layers.friction_angle) {
+    between.friction.push_back(static_cast<Real>(std::tan(angle * pi<double> / 180.0)));
+  }
+  return between;
+}
 
 }  // namespace thawslide::sim

@@ -5,55 +5,14 @@
 #include <filesystem>
 #include <numbers>
 
-#include "base/instances.hpp"
 #include "config/input_limits.hpp"
+#include "sim/departure.hpp"
 #include "sim/path_line.hpp"
 #include "terrain/height_field.hpp"
 
 namespace thawslide::sim {
 
 namespace {
-
-constexpr double least_share = 1e-6;  // of the largest momentum or force: less is round-off
-
-// Momentum and force along a direction, and how large they would be if all of it were along it.
-class Departure {
- public:
-  void add_momentum(double mass, double along, double speed) {
-    mass_ += mass;
-    momentum_ += mass * along;
-    most_momentum_ += mass * speed;
-  }
-  // slope: dz/de; g_e and g_z: gravity along e and downwards.
-  void add_force(double mass, double slope, double g_e, double g_z) {
-    force_ += mass * (g_e - g_z * slope) / std::hypot(1.0, slope);
-    most_force_ += mass * std::hypot(g_e, g_z);
-  }
-  // 0: neither way. length: of the bodies together, along the direction [m].
-  [[nodiscard]] int direction(double length) const {
-    const int moving = sign_of(momentum_, most_momentum_), pulled = sign_of(force_, most_force_);
-    const bool turns_back = moving * pulled < 0 && momentum_ * momentum_ <= mass_ * std::abs(force_) * length;
-    return moving != 0 && !turns_back ? moving : pulled;
-  }
-
- private:
-  static int sign_of(double sum, double most) { return std::abs(sum) <= least_share * most ? 0 : sum > 0.0 ? 1 : -1; }
-
-  double mass_ = 0.0, momentum_ = 0.0, most_momentum_ = 0.0, force_ = 0.0, most_force_ = 0.0;
-};
-
-// From the least to the greatest place of bodies [m].
-class Extent {
- public:
-  void add(double place, double half) {
-    least_ = std::min(least_, place - half);
-    greatest_ = std::max(greatest_, place + half);
-  }
-  [[nodiscard]] double length() const { return std::max(0.0, greatest_ - least_); }
-
- private:
-  double least_ = HUGE_VAL, greatest_ = -HUGE_VAL;
-};
 
 // A part of a body at t = 0, over the horizontal plane [m].
 struct Part {
@@ -189,43 +148,6 @@ bool bodies_lie_to_the_right(const config::Polyline2& corners, const std::vector
 
 }  // namespace
 
-template <int Dim, class Real>
-double direction_at_start(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles, double cell) {
-  if (Dim == 3) {
-    return 1.0;
-  }
-  Departure departure;
-  Extent extent;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const auto mass = static_cast<double>(particles.mass(p)), speed = static_cast<double>(particles.velocity(p, 0));
-    typename terrain::Surface<Dim>::Place place;
-    for (int a = 0; a + 1 < Dim; ++a) {
-      place[a] = static_cast<double>(particles.position(p, a));
-    }
-    extent.add(static_cast<double>(particles.position(p, 0)), 0.0);
-    departure.add_momentum(mass, speed, std::abs(speed));
-    departure.add_force(mass, model.ground ? model.ground->gradient(place, cell)[0] : 0.0,
-                        static_cast<double>(model.motion.gravity[0]),
-                        -static_cast<double>(model.motion.gravity[Dim - 1]));
-  }
-  return departure.direction(extent.length()) < 0 ? -1.0 : 1.0;
-}
-
-template <int Dim, class Real>
-double front_along_x(const Simulation<Dim, Real>& simulation, double direction) {
-  const PathLine towards_lower_x(config::Polyline2{{0.0, 0.0}, {-1.0, 0.0}});
-  return simulation.front(direction < 0.0 ? towards_lower_x.view() : LineView{}).place[0];
-}
-
-template <int Dim, class Real>
-double direction_along_x(const Simulation<Dim, Real>& simulation) {
-  if (Dim == 3) {
-    return 1.0;
-  }
-  const double middle = 0.5 * (front_along_x(simulation, 1.0) + front_along_x(simulation, -1.0));
-  return middle < simulation.rear_at_start() ? -1.0 : 1.0;
-}
-
 std::string orient_lines(const config::Case& parameters, config::Site& site) {
   if (!site.ground) {
     return "";
@@ -247,12 +169,5 @@ std::string orient_lines(const config::Case& parameters, config::Site& site) {
                            config::shown(std::filesystem::path(parameters.maps.path).filename().string()))
                      : "";
 }
-
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                            \
-  template double direction_at_start<Dim, Real>(const Model<Dim, Real>&, const mpm::Particles<Dim, Real>&, double); \
-  template double direction_along_x<Dim, Real>(const Simulation<Dim, Real>&);                                       \
-  template double front_along_x<Dim, Real>(const Simulation<Dim, Real>&, double);
-THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
-#undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::sim

@@ -9,16 +9,6 @@
 
 namespace thawslide::sim {
 
-MassOnWay front_of(std::vector<MassOnWay>& masses, double mass) {
-  THAWSLIDE_ASSERT(!masses.empty(), "the front of {} particles", masses.size());
-  mpm::FrontSearch search(mass);
-  std::make_heap(masses.begin(), masses.end());
-  for (auto end = masses.end(); end - masses.begin() > 1 && !search.is_at(masses.front().mass); --end) {
-    std::pop_heap(masses.begin(), end);
-  }
-  return masses.front();
-}
-
 template <int Dim, class Real>
 mpm::OnWay Simulation<Dim, Real>::front(const LineView& line) const {
   THAWSLIDE_ASSERT(particle_count() > 0, "the front of {} particles", particle_count());

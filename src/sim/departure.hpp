@@ -1,0 +1,50 @@
+// Which way along a line bodies leave: by their momentum at the start, and by gravity along the ground below them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace thawslide::sim {
+
+inline constexpr double least_share = 1e-6;  // of the largest momentum or force: less is round-off
+
+// Momentum and force along a direction, and how large they would be if all of it were along it.
+class Departure {
+ public:
+  void add_momentum(double mass, double along, double speed) {
+    mass_ += mass;
+    momentum_ += mass * along;
+    most_momentum_ += mass * speed;
+  }
+  // slope: dz/de; g_e and g_z: gravity along e and downwards.
+  void add_force(double mass, double slope, double g_e, double g_z) {
+    force_ += mass * (g_e - g_z * slope) / std::hypot(1.0, slope);
+    most_force_ += mass * std::hypot(g_e, g_z);
+  }
+  // 0: neither way. length: of the bodies together, along the direction [m].
+  [[nodiscard]] int direction(double length) const {
+    const int moving = sign_of(momentum_, most_momentum_), pulled = sign_of(force_, most_force_);
+    const bool turns_back = moving * pulled < 0 && momentum_ * momentum_ <= mass_ * std::abs(force_) * length;
+    return moving != 0 && !turns_back ? moving : pulled;
+  }
+
+ private:
+  static int sign_of(double sum, double most) { return std::abs(sum) <= least_share * most ? 0 : sum > 0.0 ? 1 : -1; }
+
+  double mass_ = 0.0, momentum_ = 0.0, most_momentum_ = 0.0, force_ = 0.0, most_force_ = 0.0;
+};
+
+// From the least to the greatest place of bodies [m].
+class Extent {
+ public:
+  void add(double place, double half) {
+    least_ = std::min(least_, place - half);
+    greatest_ = std::max(greatest_, place + half);
+  }
+  [[nodiscard]] double length() const { return std::max(0.0, greatest_ - least_); }
+
+ private:
+  double least_ = HUGE_VAL, greatest_ = -HUGE_VAL;
+};
+
+}  // namespace thawslide::sim
