@@ -1,3 +1,5 @@
+// Which way a slide leaves, by its particles, and how far its front is along x: for each precision of the step.
+
 #include <cmath>
 
 #include "base/instances.hpp"
