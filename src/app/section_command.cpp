@@ -71,9 +71,10 @@ config::Site smoothed_site(config::Case trial, double cell) {
 
 std::string words_of_filter(const SectionOptions& options, const config::Roughness& ground) {
   return fmt::format(
-      "{} was smoothed with a standard deviation of {:g} m, as for a 3D run on {:g} m cells; "
-      "the noise of the whole DEM is {:.2g} m rms",
-      name_of(options.maps.dem), ground.width, ground.cell, ground.noise);
+      "{} was smoothed with a standard deviation of {:g} m, as for a 3D run on {:g} m cells whose domain is the whole "
+      "DEM; it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g}. Set terrain.smooth = {:g} in a 3D case "
+      "with a smaller domain to have the same terrain",
+      name_of(options.maps.dem), ground.width, ground.cell, ground.noise, ground.bump_slope, ground.width);
 }
 
 // `taper`: of the edges of what is cut out [m].

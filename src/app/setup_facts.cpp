@@ -52,9 +52,11 @@ std::string text_of(const config::Roughness& ground) {
                                ground.narrow_valley)
                          : "";
   return fmt::format(
-      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; {}; remaining friction by noise "
-      "about {:.2g} %\n{}",
-      ground.noise, ground.noise / ground.cell, ground.spacing, filter, 100.0 * ground.apparent_friction, valleys);
+      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {:.2g} m have an "
+      "rms "
+      "slope of {:.2g}\n              {}; remaining friction by noise and bumps about {:.2g} %\n{}",
+      ground.noise, ground.noise / ground.cell, ground.spacing, ground.bump_length, ground.bump_slope, filter,
+      100.0 * ground.apparent_friction, valleys);
 }
 
 // "3 checkpoints of 1.2 MB", and how they grow where they do.

@@ -147,7 +147,7 @@ std::vector<Parameter<Terrain>> dem_parameters() {
                                    .unit = "m",
                                    .range = at_least(0),
                                    .text = "standard deviation of a Gaussian filter over the DEM; 0: no filter; auto: "
-                                           "what the DEM's noise needs, none on clean ground"})
+                                           "what the DEM's noise and short bumps need, none on smooth ground"})
           .only_if(when_dem, "type", is_dem),
   };
 }

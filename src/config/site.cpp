@@ -10,6 +10,8 @@ NamedFigures named(const Roughness& ground) {
   return {{"noise_m", ground.noise},
           {"noise_cells", ground.noise / ground.cell},
           {"spacing_m", ground.spacing},
+          {"bump_length_m", ground.bump_length},
+          {"bump_slope", ground.bump_slope},
           {"filter_m", ground.width},
           {"slope_left", ground.slope_left},
           {"apparent_friction", ground.apparent_friction},

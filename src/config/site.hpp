@@ -43,13 +43,15 @@ struct SubstrateStretch {
   double from, to;
 };
 
-// Noise of a terrain model, and the filter against it.
+// Noise and short bumps of a terrain model, and the filter against them.
 struct Roughness {
   double noise = 0.0;              // rms of white noise on points `spacing` apart that is as rough [m]
   double spacing = 0.0;            // [m]
   double cell = 0.0;               // of the grid [m]
+  double bump_length = 0.0;        // that shorter bumps are counted up to [m]
+  double bump_slope = 0.0;         // rms slope of these bumps without a filter
   double width = 0.0;              // standard deviation of the filter [m]; 0: none
-  double slope_left = 0.0;         // rms slope of the noise at the scale of the cell, after the filter
+  double slope_left = 0.0;         // rms slope of noise or bumps at the scale of the cell, after the filter
   double apparent_friction = 0.0;  // that it adds, as a share of the friction
   double narrow_valley = 0.0;      // narrower ones lose a part of their wedge effect by the filter [m]
 };

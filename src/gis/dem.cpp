@@ -174,7 +174,9 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
     notes.push_back(fmt::format(
         "{} was smoothed with a standard deviation of {:g} m{}", name, width,
         terrain.smooth.is_auto
-            ? fmt::format(", as it has noise of {:.2g} m rms (terrain.smooth = \"auto\")", dem.roughness.noise)
+            ? fmt::format(", as it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g} (terrain.smooth = "
+                          "\"auto\")",
+                          dem.roughness.noise, dem.roughness.bump_slope)
             : ""));
   }
   dem.raster.crs = dem.before_smoothing.crs = system;

@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "gis/point_window.hpp"
+#include "gis/smoothing.hpp"
 
 namespace thawslide::gis {
 
@@ -19,7 +21,7 @@ namespace {
 
 constexpr int tile_size = 16;              // points along each axis
 constexpr double median_of_unit = 0.6745;  // of |x| for a normal distribution of variance 1
-constexpr std::size_t least_of_tile = 16;  // deviations
+constexpr std::size_t least_of_tile = 16;  // deviations or slopes
 
 // What the centre of nine points in a line has beyond their best parabola: weights of the centre and of the neighbours
 // 1 to 4 points away (Savitzky and Golay 1964: 59, 54, 39, 14, -21 over 231 make the parabola's value there).
@@ -29,6 +31,23 @@ constexpr std::array<double, 5> deviation_weights{172.0 / 231.0, -54.0 / 231.0, 
 // Of white noise with rms 1: the fit at the centre has the weight 59/231, and a least-squares fit leaves 1 less that of
 // the variance.
 const double rms_of_deviation = std::sqrt(deviation_weights[0]);
+
+// Of the Gaussian that parts short waves from long ones, over the distance that resolves them; how often it is taken
+// away: (1 - exp(-2 pi^2 s^2 / L^2))^3 of waves of length L are left.
+constexpr double width_of_short_waves = 2.2;
+constexpr int times_of_short_waves = 3;
+constexpr double length_of_half = 7.8;  // L over the same distance
+
+double resolving(double spacing, double cell) { return std::max(spacing, 0.5 * cell); }
+
+double spacing_of(const Raster& raster) { return std::sqrt(raster.cell_x * raster.cell_y); }
+
+// What a cell sees of bumps without a filter is as if there were one of this variance: 1/(4 sqrt(pi)) makes the slope
+// of the triangles between the points, 2 rms / spacing, that of noise; 0.0225 follows from the friction that was
+// measured with points half a cell apart.
+double variance_of_cell(double spacing, double cell) {
+  return spacing * spacing / (4.0 * std::sqrt(std::numbers::pi)) + 0.0225 * cell * cell;
+}
 
 double quantile(std::vector<double>& values, double share) {
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -56,6 +75,7 @@ Raster points_within(const Raster& raster, const Rectangle& rectangle) {
 struct Step {
   int column, row;
 };
+constexpr std::array<Step, 4> directions{Step{1, 0}, Step{0, 1}, Step{1, 1}, Step{1, -1}};
 
 // Where the line of points fits in and is known.
 void add_deviation(const Raster& raster, int column, int row, const Step& step, std::vector<double>& deviations) {
@@ -88,7 +108,7 @@ int edge(int points, int k, int parts) { return static_cast<int>(static_cast<std
 // NaN where the tile knows too little.
 double noise_of_tile(const Raster& raster, const Tile& part) {
   double least = std::numeric_limits<double>::quiet_NaN();
-  for (const Step step : {Step{1, 0}, Step{0, 1}, Step{1, 1}, Step{1, -1}}) {
+  for (const Step step : directions) {
     std::vector<double> deviations;
     for (int row = part.first_row; row < part.end_row; ++row) {
       for (int column = part.first_column; column < part.end_column; ++column) {
@@ -102,27 +122,96 @@ double noise_of_tile(const Raster& raster, const Tile& part) {
   return least;
 }
 
-}  // namespace
+// The same of slopes: their rms, from the medians in four directions. The mean of the least and the largest is their
+// geometric one: what has no slope along itself, such as a thalweg, a crest or a cliff, is no bump.
+double slope_of_tile(const Raster& raster, const Tile& part) {
+  double least = std::numeric_limits<double>::infinity(), largest = 0.0;
+  for (const Step step : directions) {
+    std::vector<double> slopes;
+    const double distance = std::hypot(step.column * raster.cell_x, step.row * raster.cell_y);
+    for (int row = std::max(part.first_row, -step.row); row < std::min(part.end_row, raster.rows - step.row); ++row) {
+      for (int column = part.first_column; column < std::min(part.end_column, raster.columns - step.column); ++column) {
+        const double slope = (raster.at(column + step.column, row + step.row) - raster.at(column, row)) / distance;
+        if (!std::isnan(slope)) {
+          slopes.push_back(std::abs(slope));
+        }
+      }
+    }
+    if (slopes.size() < least_of_tile) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    const double rms = quantile(slopes, 0.5) / median_of_unit;
+    least = std::min(least, rms);
+    largest = std::max(largest, rms);
+  }
+  return std::sqrt(2.0 * least * largest);  // of both components
+}
 
-double noise_rms(const Raster& raster, const Rectangle& rectangle) {
-  const Raster within = points_within(raster, rectangle);
-  const int across = std::max(1, within.columns / tile_size), along = std::max(1, within.rows / tile_size);
+// Upper quartile over the tiles of a raster; 0 where none knows enough.
+template <class OfTile>
+double upper_quartile(const Raster& raster, const OfTile& of_tile) {
+  const int across = std::max(1, raster.columns / tile_size), along = std::max(1, raster.rows / tile_size);
   std::vector<double> of_tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(along));
   parallel_for(of_tiles.size(), [&](std::size_t k) {
     const int i = static_cast<int>(k) % across, j = static_cast<int>(k) / across;
-    of_tiles[k] = noise_of_tile(within, {edge(within.columns, i, across), edge(within.columns, i + 1, across),
-                                         edge(within.rows, j, along), edge(within.rows, j + 1, along)});
+    of_tiles[k] = of_tile(raster, Tile{edge(raster.columns, i, across), edge(raster.columns, i + 1, across),
+                                       edge(raster.rows, j, along), edge(raster.rows, j + 1, along)});
   });
-  of_tiles.erase(std::remove_if(of_tiles.begin(), of_tiles.end(), [](double noise) { return std::isnan(noise); }),
+  of_tiles.erase(std::remove_if(of_tiles.begin(), of_tiles.end(), [](double value) { return std::isnan(value); }),
                  of_tiles.end());
   return of_tiles.empty() ? 0.0 : quantile(of_tiles, 0.75);
 }
 
+// The least width from `width` on that leaves little of the bumps, or the widest.
+double widened_for_bumps(const Raster& waves, const Rectangle& rectangle, double cell, double width) {
+  const double spacing = spacing_of(waves), step = 0.1 * spacing;
+  if (bump_slope(waves, rectangle, cell, width) <= largest_slope) {
+    return width;
+  }
+  const auto width_at = [&](int k) { return std::max(width, 0.5 * spacing + k * step); };
+  int low = 0, high = 15;
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (bump_slope(waves, rectangle, cell, width_at(middle)) <= largest_slope) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return width_at(low);
+}
+
+}  // namespace
+
+double noise_rms(const Raster& raster, const Rectangle& rectangle) {
+  return upper_quartile(points_within(raster, rectangle), noise_of_tile);
+}
+
+double bump_length(double spacing, double cell) { return length_of_half * resolving(spacing, cell); }
+
+Raster short_waves(const Raster& raster, const Rectangle& rectangle, double cell) {
+  const double width = width_of_short_waves * resolving(spacing_of(raster), cell);
+  const double reach = times_of_short_waves * smoothing_reach * width;
+  Raster waves = points_within(raster, rectangle.widened(reach, reach));
+  for (int k = 0; k < times_of_short_waves && !waves.values.empty(); ++k) {
+    const Raster smooth = smoothed(waves, width);
+    std::transform(waves.values.begin(), waves.values.end(), smooth.values.begin(), waves.values.begin(),
+                   std::minus<>());
+  }
+  return waves;
+}
+
+double bump_slope(const Raster& short_waves, const Rectangle& rectangle, double cell, double width) {
+  if (short_waves.values.empty()) {
+    return 0.0;
+  }
+  const double of_cell = std::sqrt(variance_of_cell(spacing_of(short_waves), cell));
+  return upper_quartile(points_within(smoothed(short_waves, std::max(width, of_cell)), rectangle), slope_of_tile);
+}
+
 double noise_slope(double rms, double spacing, double cell, double width) {
-  // The slope of triangles between the points is 2 rms / spacing; 0.0225 follows from the friction that was measured
-  // with points half a cell apart.
-  const double without_filter = spacing * spacing / (4.0 * std::sqrt(std::numbers::pi)) + 0.0225 * cell * cell;
-  return rms * spacing / (2.0 * std::sqrt(std::numbers::pi) * std::max(width * width, without_filter));
+  const double variance = std::max(width * width, variance_of_cell(spacing, cell));
+  return rms * spacing / (2.0 * std::sqrt(std::numbers::pi) * variance);
 }
 
 double apparent_friction(double slope) {
@@ -155,10 +244,16 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
                                const config::NumberOrAuto& smooth) {
   config::Roughness found;
   found.cell = cell;
-  found.spacing = std::sqrt(raster.cell_x * raster.cell_y);
+  found.spacing = spacing_of(raster);
   found.noise = noise_rms(raster, rectangle);
-  found.width = smooth.is_auto ? fitting_width(found.noise, found.spacing, cell) : smooth.number;
-  found.slope_left = noise_slope(found.noise, found.spacing, cell, found.width);
+  const Raster waves = short_waves(raster, rectangle, cell);
+  found.bump_length = bump_length(found.spacing, cell);
+  found.bump_slope = bump_slope(waves, rectangle, cell, 0.0);
+  found.width = smooth.is_auto
+                    ? widened_for_bumps(waves, rectangle, cell, fitting_width(found.noise, found.spacing, cell))
+                    : smooth.number;
+  found.slope_left = std::max(noise_slope(found.noise, found.spacing, cell, found.width),
+                              bump_slope(waves, rectangle, cell, found.width));
   found.apparent_friction = apparent_friction(found.slope_left);
   found.narrow_valley = narrow_valley(found.width);
   return found;
@@ -173,12 +268,12 @@ std::string roughness_note(const config::Case& parameters, const config::Site& s
   }
   const std::string remedy =
       is_auto ? "That is the widest filter. Use larger cells (grid.cell), or a terrain model with less noise."
-              : fmt::format("Set terrain.smooth = \"auto\", which is {:g} m here.",
-                            fitting_width(found.noise, found.spacing, parameters.grid.cell));
+              : "Set terrain.smooth = \"auto\".";
   return fmt::format(
-      "terrain.smooth: noise of {:.2g} m rms on the points of the terrain model adds about {:.2g} % to the friction, "
-      "with a filter of {:g} m (rms slope {:.2g}; at most {:g} is intended). {}",
-      found.noise, 100.0 * found.apparent_friction, found.width, found.slope_left, largest_slope, remedy);
+      "terrain.smooth: noise and bumps shorter than {:.2g} m add about {:.2g} % to the friction, with a filter of {:g} "
+      "m "
+      "(rms slope {:.2g}; at most {:g} is intended). {}",
+      found.bump_length, 100.0 * found.apparent_friction, found.width, found.slope_left, largest_slope, remedy);
 }
 
 }  // namespace thawslide::gis

@@ -1,4 +1,4 @@
-// Noise on the points of a terrain model, which acts on a slide as friction, and the width of a filter against it.
+// Noise and short bumps of a terrain model, which act on a slide as friction, and the width of a filter against them.
 //
 // The formulas and numbers of friction are measurements of Thawslide itself: blocks on planes and in V channels with
 // white noise on the points (docs/theory/contact.md, "Roughness").
@@ -33,11 +33,27 @@ inline constexpr int points_of_fit = 9;
 
 inline constexpr double largest_slope = 0.06;  // that the choice of a width leaves: 2.5 % of friction
 
+// Length of the waves of which short_waves keeps half.
+[[nodiscard]] double bump_length(double spacing, double cell);
+
+// What a terrain model has in and about a rectangle of waves shorter than bump_length [m]: half of those of this
+// length, 0.98 of those half as long, and 0.03 of those twice as long. Planes, and waves that many points resolve,
+// leave nothing.
+[[nodiscard]] Raster short_waves(const Raster& raster, const Rectangle& rectangle, double cell);
+
+// Rms slope of short waves within a rectangle at the scale of a cell, after a Gaussian filter; 0 where there are too
+// few points. That of a tile of 16 x 16 points follows from its medians in four directions, so that a thalweg, a crest
+// or a cliff, which have no slope along themselves, do not count. Of the tiles the upper quartile counts, as for
+// noise_rms.
+[[nodiscard]] double bump_slope(const Raster& short_waves, const Rectangle& rectangle, double cell, double width);
+
 // The least width that leaves `largest_slope`: 0, or from half a spacing on, where the law of noise_slope holds, in
 // steps of a tenth of the larger of cell and spacing up to twice that.
 [[nodiscard]] double fitting_width(double rms, double spacing, double cell);
 
-// The noise in a rectangle, and the filter against it.
+// The noise and bumps in a rectangle, and the filter against them: the wider of those that leave `largest_slope` of the
+// noise and of the bumps. The latter goes in steps of a tenth of the spacing, up to twice the spacing. It does not
+// depend on the cell where that is at most two spacings: slides on several cells then move on the same ground.
 [[nodiscard]] config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle, double cell,
                                              const config::NumberOrAuto& smooth);
 

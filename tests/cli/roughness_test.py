@@ -18,6 +18,8 @@ KEYS = [
     "noise_m",
     "noise_cells",
     "spacing_m",
+    "bump_length_m",
+    "bump_slope",
     "filter_m",
     "slope_left",
     "apparent_friction",
@@ -59,7 +61,7 @@ def test_new_keeps_the_terrain_model_as_it_is(thawslide: Program, rough_case: Pa
 def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_case: Path) -> None:
     checked = thawslide("check", rough_case)
     assert checked.returncode == 0, checked.stderr
-    assert f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise about " in checked.stdout
+    assert f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise and bumps about " in checked.stdout
     assert (
         f"V valleys of 90 degrees narrower than {40 * WIDTH:g} m lose more than 3 % of their wedge effect"
         in checked.stdout
@@ -84,7 +86,7 @@ def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_c
 def test_noise_that_the_user_leaves_is_warned_of(thawslide: Program, rough_case: Path) -> None:
     left = json.loads(thawslide("check", rough_case, "--json", *sets(terrain__smooth=0)).stdout)
     note = next(note for note in left["notes"] if note.startswith("terrain.smooth: "))
-    assert note.endswith(f'at most 0.06 is intended). Set terrain.smooth = "auto", which is {WIDTH:g} m here.')
+    assert note.endswith('at most 0.06 is intended). Set terrain.smooth = "auto".')
     assert 0.1 < left["roughness"]["apparent_friction"] < 0.25
     smooth = json.loads(thawslide("check", rough_case, "--json", *sets(terrain__smooth=20)).stdout)
     assert not [note for note in smooth["notes"] if note.startswith("terrain.smooth: ")]
@@ -126,8 +128,8 @@ def test_section_is_cut_out_of_the_ground_that_a_run_in_space_has(
     made = thawslide("section", folder, "--dem", rough_case.parent / "dem.tif", "--line", line)
     assert made.returncode == 0, made.stderr
     said = (
-        f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as for a 3D run on 10 m cells; "
-        "the noise of the whole DEM is 1 m rms"
+        f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as for a 3D run on 10 m cells "
+        "whose domain is the whole DEM; it has noise of 1 m rms and bumps with an rms slope of "
     )
     assert f"note: {said}" in made.stdout
     text = (folder / "profile.csv").read_text()

@@ -125,6 +125,52 @@ TEST(RoughnessTest, WidthIsTheLeastThatLeavesLittleFriction) {
   }
 }
 
+// Waves in all directions, of one wavelength [points] and an rms slope.
+Shape waves(double length, double slope) {
+  return [=](double x, double y) {
+    constexpr int count = 24;
+    double height = 0.0;
+    for (int k = 0; k < count; ++k) {
+      const double angle = M_PI * k / count, phase = 2.4 * k * k;
+      height += std::sin(2.0 * M_PI / length * (x * std::cos(angle) + y * std::sin(angle)) + phase);
+    }
+    return height * slope * length / (2.0 * M_PI) * std::sqrt(2.0 / count);
+  };
+}
+
+// (1 - exp(-2 pi^2 2.2^2 / L^2))^3 of the slope, less what the filter takes.
+TEST(RoughnessTest, BumpsShorterThanEightPointsCount) {
+  for (const double length : {5.0, 6.5, 7.8, 10.0, 16.0, 30.0}) {
+    const Raster raster = ground_of(waves(length, 0.2), 0.0, 0, 241, 241);
+    const double part = std::pow(1.0 - std::exp(-2.0 * std::pow(M_PI * 2.2 / length, 2)), 3);
+    for (const double width : {1.0, 1.5}) {
+      const double kept = std::exp(-2.0 * std::pow(M_PI * width / length, 2));
+      const Raster found = short_waves(raster, span_of_points(raster), spacing);
+      EXPECT_NEAR(bump_slope(found, span_of_points(raster), spacing, width * spacing), 0.2 * part * kept,
+                  0.25 * 0.2 * part * kept + 0.001)
+          << length << ", " << width;
+    }
+  }
+  EXPECT_DOUBLE_EQ(bump_length(5.0, 5.0), 39.0);
+  EXPECT_DOUBLE_EQ(bump_length(5.0, 20.0), 78.0);
+}
+
+// Bumps several points long, which white noise does not stand for: the filter leaves little of them, and the same on
+// all cells that the points resolve.
+TEST(RoughnessTest, BumpsOfSeveralPointsAreFilteredAlikeOnAllCells) {
+  const Raster raster = ground_of(waves(7.0, 0.25), 0.0, 0, 241, 241);
+  const double width = roughness_of(raster, span_of_points(raster), spacing, {.is_auto = true}).width;
+  EXPECT_GT(width, spacing);
+  EXPECT_LT(width, 2.0 * spacing);
+  for (const double cell : {0.5 * spacing, 1.3 * spacing, 2.0 * spacing}) {
+    const config::Roughness found = roughness_of(raster, span_of_points(raster), cell, {.is_auto = true});
+    EXPECT_DOUBLE_EQ(found.width, width);
+    EXPECT_LE(found.slope_left, largest_slope);
+    EXPECT_GT(found.bump_slope, 0.1);
+  }
+  EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.number = 0.5 * spacing}).slope_left, 0.1);
+}
+
 // Friction found in runs without a filter, and with one: docs/theory/contact.md.
 TEST(RoughnessTest, ApparentFrictionIsThatOfTheRuns) {
   struct Row {
@@ -216,9 +262,9 @@ TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
   EXPECT_EQ(found.narrow_valley, 40.0 * found.width);
   ASSERT_EQ(loaded.notes.size(), 1U);
   EXPECT_EQ(loaded.notes.front(),
-            fmt::format("dem.tif was smoothed with a standard deviation of {:g} m, as it has noise of {:.2g} m rms "
-                        "(terrain.smooth = \"auto\")",
-                        found.width, found.noise));
+            fmt::format("dem.tif was smoothed with a standard deviation of {:g} m, as it has noise of {:.2g} m rms and "
+                        "bumps with an rms slope of {:.2g} (terrain.smooth = \"auto\")",
+                        found.width, found.noise, found.bump_slope));
   EXPECT_EQ(roughness_note(parameters, loaded.site), "");
   const Raster &ground = *loaded.site.ground, whole = smoothed(rough, found.width);
   const auto column = static_cast<int>(std::lround((ground.x - west) / 5.0));
