@@ -132,6 +132,17 @@ void check_ice_content(const Case& checked, const Body& body, const std::string&
   }
 }
 
+// A file of a line is placed by the DEM's coordinate system.
+void check_line(const Case& checked, const std::string& key, const std::string& file, Reading& reading) {
+  if (checked.general.dimension == 3 && !file.empty() && checked.terrain.kind != TerrainKind::dem &&
+      reading.sound({"terrain.type", key})) {
+    reading.report_misfit({key, "terrain.type"},
+                          fmt::format("{} is given, and terrain.type is not \"dem\"; a file of a line needs the "
+                                      "coordinate system of a DEM. Remove {}, or set terrain.type = \"dem\".",
+                                      key, key));
+  }
+}
+
 void check_probe(const Case& checked, const Probe& probe, const std::string& table, Reading& reading) {
   if (checked.general.dimension != 3) {
     reading.report_misfit(
@@ -162,8 +173,10 @@ void check_maps(const Case& checked, Reading& reading) {
     check_saturation(checked, body, table, reading);
     check_ice_content(checked, body, table, reading);
   }
+  check_line(checked, "maps.path", checked.maps.path, reading);
   for (const auto& [name, probe] : checked.probes) {
     check_probe(checked, probe, "probe." + name, reading);
+    check_line(checked, "probe." + name + ".line", probe.line, reading);
   }
 }
 

@@ -220,7 +220,7 @@ law = "elastic"
 youngs_modulus = 400000000.0
 poisson_ratio = 0.25
 [probe.gauge]
-line = "inputs/section.geojson"
+point = [12.5, -3.0]
 [body.block]
 material = "rock"
 min = [0.0, 0.0, 1.0]
@@ -270,7 +270,7 @@ cell = 20.0
 arrival_thickness = 0.5
 path = "inputs/path.geojson"
 [probe.gauge]
-point = [12.5, -3.0]
+line = "inputs/section.geojson"
 [material.rock]
 law = "elastic"
 youngs_modulus = 400000000.0

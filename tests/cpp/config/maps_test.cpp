@@ -257,7 +257,8 @@ TEST_F(Maps, AreSmoothedByANumberOrAsTheirNoiseNeeds) {
             "remove the quotes. Correct it, or leave it out for the default \"auto\".");
   EXPECT_EQ(error_on_dem({{"[terrain]", "[terrain]\nsmooth = -1.0"}}),
             "FOLDER/case.toml:11:10: terrain.smooth is -1; allowed: >= 0 m (standard deviation of a Gaussian filter "
-            "over the DEM; 0: no filter; auto: what the DEM's noise needs, none on clean ground). Correct it, or leave "
+            "over the DEM; 0: no filter; auto: what the DEM's noise and short bumps need, none on smooth ground). "
+            "Correct it, or leave "
             "it out for the default \"auto\".");
 }
 
@@ -326,6 +327,23 @@ TEST_F(Maps, ProbesAreAPlaceOrASection) {
       with_probe("point = [1.0, 2.0]\nline = \"line.geojson\"\n"),
       "FOLDER/case.toml:26:8: probe.gauge.point and probe.gauge.line are both given; allowed: one of them, since a "
       "probe is a place or a cross section. Remove one, or write two probes.");
+}
+
+TEST_F(Maps, FilesOfLinesNeedADem) {
+  for (const std::string lines : {"[maps]\npath = \"line.geojson\"\n", "[probe.gauge]\nline = \"line.geojson\"\n"}) {
+    std::string text = sound_on_dem + lines;
+    const auto from = text.find("shape = \"release\""), to = text.find("\n[", from);
+    text.replace(from, to - from, "shape = \"box\"\nmin = [0.0, 0.0, 5.0]\nmax = [10.0, 10.0, 20.0]");
+    EXPECT_EQ(error_of_text(text), "no error");
+    text.replace(text.find("\"dem\"\nfile = \"dem.tif\""), 22, "\"flat\"\nelevation = 0.0");
+    const std::string key = lines.find("maps") == 1 ? "maps.path" : "probe.gauge.line";
+    EXPECT_NE(error_of_text(text).find(": " + key +
+                                       " is given, and terrain.type is not \"dem\"; a file of a line needs the "
+                                       "coordinate system of a DEM. Remove " +
+                                       key + ", or set terrain.type = \"dem\"."),
+              std::string::npos)
+        << error_of_text(text);
+  }
 }
 
 // A run copies what input_files names, and its case.toml names the copies.
