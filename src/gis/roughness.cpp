@@ -123,7 +123,8 @@ double noise_of_tile(const Raster& raster, const Tile& part) {
 }
 
 // The same of slopes: their rms, from the medians in four directions. The mean of the least and the largest is their
-// geometric one: what has no slope along itself, such as a thalweg, a crest or a cliff, is no bump.
+// geometric one, and the largest counts as twice the least at most: what has little slope along itself, such as a
+// thalweg, a crest or a cliff, is no bump.
 double slope_of_tile(const Raster& raster, const Tile& part) {
   double least = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (const Step step : directions) {
@@ -144,7 +145,8 @@ double slope_of_tile(const Raster& raster, const Tile& part) {
     least = std::min(least, rms);
     largest = std::max(largest, rms);
   }
-  return std::sqrt(2.0 * least * largest);  // of both components
+  constexpr double most_of_least = 2.0;
+  return std::sqrt(2.0 * least * std::min(largest, most_of_least * least));  // of both components
 }
 
 // Upper quartile over the tiles of a raster; 0 where none knows enough.
@@ -162,24 +164,42 @@ double upper_quartile(const Raster& raster, const OfTile& of_tile) {
   return of_tiles.empty() ? 0.0 : quantile(of_tiles, 0.75);
 }
 
-// The least width from `width` on that leaves little of the bumps, or the widest.
-double widened_for_bumps(const Raster& waves, const Rectangle& rectangle, double cell, double width) {
-  const double spacing = spacing_of(waves), step = 0.1 * spacing;
-  if (bump_slope(waves, rectangle, cell, width) <= largest_slope) {
-    return width;
-  }
-  const auto width_at = [&](int k) { return std::max(width, 0.5 * spacing + k * step); };
-  int low = 0, high = 15;
-  while (low < high) {
-    const int middle = (low + high) / 2;
-    if (bump_slope(waves, rectangle, cell, width_at(middle)) <= largest_slope) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
-  }
-  return width_at(low);
+// Of noise and bumps, each with its slope. Bumps that noise explains count as noise: the two are measured in different
+// ways, and a thalweg raises the second one a little.
+double slope_of(double noise, double bumps) {
+  constexpr double explained = 1.25;
+  return bumps <= explained * noise ? noise : bumps;
 }
+
+// Noise and bumps of a rectangle, filtered.
+struct Filtered {
+  const Raster& waves;
+  const Rectangle& rectangle;
+  double noise, spacing, cell;
+
+  [[nodiscard]] double slope(double width) const {
+    return slope_of(noise_slope(noise, spacing, cell, width), bump_slope(waves, rectangle, cell, width));
+  }
+  // The least width from that against the noise on that leaves little of the bumps, or the widest.
+  [[nodiscard]] double fitting_width() const {
+    const double width = gis::fitting_width(noise, spacing, cell);
+    if (slope(width) <= largest_slope) {
+      return width;
+    }
+    constexpr int steps = 15;
+    const auto width_at = [&](int k) { return std::max(width, (0.5 + 0.1 * k) * spacing); };
+    int low = 0, high = steps;
+    while (low < high) {
+      const int middle = (low + high) / 2;
+      if (slope(width_at(middle)) <= largest_slope) {
+        high = middle;
+      } else {
+        low = middle + 1;
+      }
+    }
+    return width_at(low);
+  }
+};
 
 }  // namespace
 
@@ -249,11 +269,9 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
   const Raster waves = short_waves(raster, rectangle, cell);
   found.bump_length = bump_length(found.spacing, cell);
   found.bump_slope = bump_slope(waves, rectangle, cell, 0.0);
-  found.width = smooth.is_auto
-                    ? widened_for_bumps(waves, rectangle, cell, fitting_width(found.noise, found.spacing, cell))
-                    : smooth.number;
-  found.slope_left = std::max(noise_slope(found.noise, found.spacing, cell, found.width),
-                              bump_slope(waves, rectangle, cell, found.width));
+  const Filtered filtered{waves, rectangle, found.noise, found.spacing, cell};
+  found.width = smooth.is_auto ? filtered.fitting_width() : smooth.number;
+  found.slope_left = filtered.slope(found.width);
   found.apparent_friction = apparent_friction(found.slope_left);
   found.narrow_valley = narrow_valley(found.width);
   return found;

@@ -297,11 +297,102 @@ def test_fault_of_paths_uphill(thawslide: Program, tmp_path: Path) -> None:
         ends[line] = {name: history(run)[name][-1] for name in ("front_position_m", "runout_m")}
     assert ends["up"] == pytest.approx(ends["down"], abs=1e-6)
     assert ends["late"]["runout_m"] == pytest.approx(ends["down"]["runout_m"], abs=1e-6)
+
+
+def test_fault_of_path_starts_slides_alike(thawslide: Program, tmp_path: Path) -> None:
+    """Along the whole way, as on the path that starts in the middle of the release."""
+    folder = fault("g19-path-start")
+    slides = {}
+    for line in ("s150", "s105", "s305", "s333.3", "s360", "s420"):
+        file = tmp_path / f"{line}.csv"
+        words = sets(maps__path=folder / f"line-{line}.gpkg")
+        slid = thawslide("block", folder / "case.toml", *words, "--output", file)
+        assert slid.returncode == 0, slid.stderr
+        assert f"{line}.gpkg was drawn against" not in slid.stdout
+        slides[line] = rows_of(file)
+    expected = slides["s150"]
+    strength, traction = (expected[name][0] for name in ("sliding_strength_Pa", "driving_traction_Pa"))
+    assert strength / traction == pytest.approx(0.464, abs=0.0005)
+    assert expected["displacement_m"][-1] > 700.0
+    for slide in slides.values():
+        assert slide["displacement_m"] == pytest.approx(expected["displacement_m"], rel=0.01, abs=0.5)
+        assert slide["velocity_m_s"].max() == pytest.approx(expected["velocity_m_s"].max(), rel=0.01)
+
+
+def test_fault_of_a_path_beside_the_release(thawslide: Program, tmp_path: Path) -> None:
+    """A line parallel to the slide measures its front; a block and a section along it are refused."""
+    folder = fault("g03-path-uphill")
+    side, ends = folder / "line-side.gpkg", {}
+    for line in ("down", "side"):
+        words = sets(maps__path=folder / f"line-{line}.gpkg", time__end=2)
+        done = thawslide("run", folder / "case-3d.toml", *words, "--output", tmp_path / line, "--threads", 1)
+        assert done.returncode == 0, done.stderr
+        ends[line] = {name: history(tmp_path / line)[name] for name in ("front_position_m", "runout_m")}
+    for name, values in ends["down"].items():
+        assert ends["side"][name] == pytest.approx(values, abs=1e-6)
+        assert values[-1] > values[0] + 4.0
+    refused = thawslide("block", folder / "case-3d.toml", *sets(maps__path=side))
+    assert refused.returncode == 2
+    assert "the path passes the release of body 'slide' by, 155 m away. Draw it through the release." in refused.stderr
+    ground = ["--dem", folder / "dem.tif", "--release", folder / "release.gpkg", "--thickness", 10]
+    for line in ("side", "late"):
+        refused = thawslide("section", tmp_path / "section", *ground, "--line", folder / f"line-{line}.gpkg")
+        assert refused.returncode == 2 and not (tmp_path / "section").exists()
+        assert f"line-{line}.gpkg: the line does not cross the release" in refused.stderr
+
+
+def test_fault_of_a_path_that_starts_late(thawslide: Program, tmp_path: Path) -> None:
+    """It starts 390 m further on than the other, and distances along it are shorter by as much."""
+    folder, fronts = fault("g03-path-uphill"), {}
+    for line in ("down", "late"):
+        file = tmp_path / f"{line}.csv"
+        words = sets(maps__path=folder / f"line-{line}.gpkg")
+        slid = thawslide("block", folder / "case-3d.toml", *words, "--output", file)
+        assert slid.returncode == 0, slid.stderr
+        fronts[line] = rows_of(file)["front_position_m"]
+    assert fronts["down"][0] == pytest.approx(270.0, abs=1e-6), "the release ends at x = 500300, the path starts at 30"
+    assert fronts["late"] == pytest.approx(fronts["down"] - 390.0, abs=1e-3)
+
+
+def test_fault_of_paths_that_go_on_up_the_far_slope(thawslide: Program, tmp_path: Path) -> None:
+    """Drawn either way: the slide crosses the valley and goes up beyond it."""
+    folder, slides = fault("g03-path-uphill"), {}
     for line in ("runup", "runup_reversed"):
-        words = ["--dem", folder / "valley.tif", "--release", folder / "release.gpkg", "--thickness", 10]
-        made = thawslide("section", tmp_path / f"section-{line}", *words, "--line", folder / f"line-{line}.gpkg")
+        words = sets(terrain__file=folder / "valley.tif", maps__path=folder / f"line-{line}.gpkg", time__end=25)
+        run, file = tmp_path / line, tmp_path / f"{line}.csv"
+        note = f"maps.path: line-{line}.gpkg was drawn against the direction of the slide"
+        for command in (["run", folder / "case-3d.toml", "--threads", 1], ["block", folder / "case-3d.toml"]):
+            output = run if command[0] == "run" else file
+            done = thawslide(*command, *words, "--output", output)
+            assert done.returncode == 0, done.stderr
+            assert (note in done.stdout) == (line == "runup_reversed")
+        slides[line] = {"run": history(run), "block": rows_of(file)}
+    for plain, turned in zip(slides["runup"].values(), slides["runup_reversed"].values(), strict=True):
+        assert_alike(plain, turned)
+    front, block_front = (slides["runup"][name]["front_position_m"] for name in ("run", "block"))
+    assert block_front[0] == pytest.approx(270.0, abs=1e-6)
+    assert front[0] == pytest.approx(270.0, abs=5.0), "within the size of a particle"
+    assert front[-1] > 800.0 and slides["runup"]["run"]["runout_m"][-1] > 740.0
+
+
+@pytest.mark.parametrize(
+    ("dem", "lines", "end"),
+    [("dem", ("down", "up"), 501250), ("valley", ("runup", "runup_reversed"), 501480)],
+)
+def test_fault_of_sections_uphill(
+    thawslide: Program, tmp_path: Path, dem: str, lines: tuple[str, str], end: int
+) -> None:
+    """The release lies at the first end of the section, even if the far slope rises to above it."""
+    folder = fault("g03-path-uphill")
+    words = ["--dem", folder / f"{dem}.tif", "--release", folder / "release.gpkg", "--thickness", 10]
+    for line in lines:
+        made = thawslide("section", tmp_path / line, *words, "--line", folder / f"line-{line}.gpkg")
         assert made.returncode == 0, made.stderr
-    comments = [
-        (tmp_path / f"section-{line}" / "profile.csv").read_text().splitlines() for line in ("runup", "runup_reversed")
-    ]
-    assert comments[0][1:] == comments[1][1:], "the same section, from x = 500030 on"
+        note = f"note: --line: line-{line}.gpkg was drawn against the direction of the slide"
+        assert (note in made.stdout) == (line == lines[1])
+        text = (tmp_path / line / "profile.csv").read_text().splitlines()
+        assert text[1] == f"# From x = 500030, y = 5200300 to x = {end}, y = 5200300 in EPSG:32633."
+        rows = np.array([each.split(",") for each in text if each[0].isdigit()], dtype=float)
+        above = rows[rows[:, 2] > rows[:, 1] + 1.0, 0]
+        assert above.min() == pytest.approx(70.0, abs=10.0) and above.max() == pytest.approx(270.0, abs=10.0)
+        assert (rows[-1, 1] > rows[0, 1]) == (dem == "valley")

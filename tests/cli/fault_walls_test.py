@@ -1,37 +1,101 @@
-"""A block that slides without friction into walls keeps its velocity until it arrives (issue data p05)."""
+"""A block that slides into walls keeps its velocity until it arrives, and one behind a dyke rests (issue data p05)."""
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 
+import numpy as np
 import pytest
-from conftest import ROOT, Program, sets
+from conftest import ROOT, Program, datasets, history, sets, snapshot_files
 
 WALLS = ROOT.parent / "shared" / "data" / "faults" / "p05-thin-wall"
 FRONT, SPEED = 50.0, 20.0  # m, m/s
-EARLY = 1.5  # m: 0.3 cells
+CELL = 5.0  # m
+EARLY = 0.3 * CELL  # m
+HALF_PARTICLE = CELL / 4.0  # m
 FOOT = {
     "thick57.5": 57.5,
     "thick59": 59.0,
     "thick61": 61.0,
     "thin59": 59.0,
     "thin61": 61.0,
-    "ramp80": 59.0,
 }  # m
+RAMPS = {"ramp20": 20.0, "ramp30": 30.0, "ramp45": 45.0, "ramp60": 60.0, "ramp80": 80.0, "ramp89.99": 89.99}  # degrees
+RAMP_FOOT = DYKE_FOOT = 59.0  # m
+FRICTIONAL = {"contact__between_bodies": "frictional", "contact__friction_angle": 0.0}
+
+pytestmark = pytest.mark.skipif(not WALLS.is_dir(), reason=f"there is no {WALLS}")
+
+
+def distance_at_loss(thawslide: Program, case: Path, run: Path, foot: float, **words: object) -> float:
+    """Return how far [m] ahead of the foot of a wall the block has lost 1 % of its velocity; negative: beyond it."""
+    end = (foot + CELL - FRONT) / SPEED
+    done = thawslide("run", case, "--output", run, *sets(time__end=end, terrain__extend="true", **words))
+    assert done.returncode == 0, done.stderr
+    rows = history(run)
+    has_changed = np.abs(rows["mean_velocity_m_s"] / SPEED - 1.0) > 0.01
+    assert has_changed.any(), "the wall does not act"
+    return float(foot - FRONT - SPEED * rows["time_s"][has_changed.argmax()])
 
 
 @pytest.mark.parametrize("name", FOOT)
-def test_velocity_is_kept_until_the_block_arrives(thawslide: Program, tmp_path: Path, name: str) -> None:
-    if not WALLS.is_dir():
-        pytest.skip(f"there is no {WALLS}")
-    run = tmp_path / "run"
-    arrival = (FOOT[name] - EARLY - FRONT) / SPEED
-    done = thawslide(
-        "run", WALLS / f"alone-{name}.toml", "--output", run, *sets(time__end=arrival, terrain__extend="true")
-    )
+def test_velocity_is_kept_until_the_block_arrives_at_a_wall(thawslide: Program, tmp_path: Path, name: str) -> None:
+    ahead = distance_at_loss(thawslide, WALLS / f"alone-{name}.toml", tmp_path / "run", FOOT[name])
+    assert -HALF_PARTICLE <= ahead <= EARLY
+
+
+@pytest.mark.parametrize("name", RAMPS)
+def test_velocity_is_kept_until_the_block_arrives_at_a_ramp(thawslide: Program, tmp_path: Path, name: str) -> None:
+    """A gentle ramp takes 1 % of the velocity only when the block is some way up it."""
+    case, ramp = WALLS / "alone-ramp80.toml", WALLS / f"{name}.csv"
+    ahead = distance_at_loss(thawslide, case, tmp_path / "run", RAMP_FOOT, terrain__file=ramp)
+    assert ahead <= HALF_PARTICLE
+    assert ahead >= (-HALF_PARTICLE if RAMPS[name] >= 45.0 else -CELL)
+
+
+def places_and_speeds(thawslide: Program, case: Path, run: Path, **words: object) -> list[tuple[np.ndarray, ...]]:
+    """Run a case and return x and the velocity along x of the particles of each body, of each snapshot."""
+    done = thawslide("run", case, "--output", run, *sets(time__output_interval=0.1, **words))
     assert done.returncode == 0, done.stderr
-    with (run / "history.csv").open() as file:
-        last = list(csv.DictReader(file))[-1]
-    assert float(last["time_s"]) == pytest.approx(arrival, abs=0.004)
-    assert float(last["mean_velocity_m_s"]) == pytest.approx(SPEED, rel=0.01)
+    found: list[tuple[np.ndarray, ...]] = []
+    for file in snapshot_files(run):
+        data = datasets(file)
+        x, speed = data["VTKHDF/Points"][:, 0], data["VTKHDF/PointData/velocity"][:, 0]
+        # The bodies stay on their sides of the dyke.
+        is_left = x < 0.5 * (DYKE_FOOT + 61.0)
+        found.append((x[is_left], speed[is_left], x[~is_left], speed[~is_left]))
+    assert len(found) > 40
+    return found
+
+
+def assert_right_body_rests(states: list[tuple[np.ndarray, ...]]) -> None:
+    """Fail if the block behind the dyke does more than settle under its weight."""
+    start = states[0][2]
+    assert len(start) > 100
+    for _, _, x, speed in states:
+        assert x.size == start.size
+        assert abs(x.mean() - start.mean()) < 0.005
+        assert abs(speed.mean()) < 0.01
+
+
+def test_block_behind_the_dyke_rests_alone(thawslide: Program, tmp_path: Path) -> None:
+    assert_right_body_rests(places_and_speeds(thawslide, WALLS / "right-alone.toml", tmp_path / "run"))
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        pytest.param(FRICTIONAL, id="bodies in contact, cells of 5 m"),
+        pytest.param({"grid__cell": 2.0, "time__step": 0.002}, id="bonded bodies, cells as wide as the dyke"),
+    ],
+)
+def test_block_behind_the_dyke_does_not_move_when_another_hits_it(
+    thawslide: Program, tmp_path: Path, words: dict[str, object]
+) -> None:
+    """On cells of 5 m, bonded bodies act on one another through this dyke of 2 m: docs/theory/contact.md, Bends."""
+    states = places_and_speeds(thawslide, WALLS / "case.toml", tmp_path / "run", **words)
+    assert_right_body_rests(states)
+    reached = max(x.max() for x, _, _, _ in states)
+    assert DYKE_FOOT - HALF_PARTICLE < reached < DYKE_FOOT, "the dyke stops the block that hits it"
+    assert states[0][1].mean() == pytest.approx(SPEED)
+    assert min(speed.mean() for _, speed, _, _ in states) < 0.0, "it rebounds"
