@@ -8,6 +8,7 @@
 #include "sim/bodies_apart.hpp"
 #include "sim/doubts_of_bodies.hpp"
 #include "sim/map_grid.hpp"
+#include "sim/thin_walls.hpp"
 
 namespace thawslide::app {
 
@@ -20,6 +21,7 @@ void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const st
   notes.add(config::note_on_late_values(parameters));
   notes.add(sim::doubts_of_bodies(parameters, bodies));
   notes.add(sim::doubt_of_bodies_apart(simulation));
+  notes.add(sim::doubt_of_thin_walls(parameters, simulation.site()));
   notes.add(doubt_of_disk(parameters, disk, free_on_disk(folder), folder));
 }
 
