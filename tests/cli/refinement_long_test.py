@@ -1,0 +1,59 @@
+"""Travel distance and friction of slides that differ by their cell: a plane that runs out, and a slope of the Alps.
+
+With the jobs of scripts/refinement, whose page has finer cells and the causes of what is found.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import ROOT
+
+sys.path.append(str(ROOT / "scripts" / "comparison"))
+
+import jobs
+import refinement
+from refinement_page import friction_rows
+from thawslide.maps import read_map
+
+ALR = ROOT.parent / "shared" / "data" / "alr"
+pytestmark = pytest.mark.long
+
+
+def run(job: jobs.Job) -> refinement.Found:
+    jobs.run_job(job)
+    return refinement.read_found(job)
+
+
+def test_a_plane_that_runs_out(tmp_path: Path) -> None:
+    """The centre of mass and the velocity converge (orders 0.7 and 0.9 on 20, 10 and 5 m); the thin front goes on."""
+    refinement.write_ground(refinement.PLANE, tmp_path / "plane", None)
+    for name in ("common.toml", "refined-plane.toml"):
+        (tmp_path / "plane" / name).write_text((refinement.HERE / name).read_text())
+    found = [run(refinement.plane_job(cell, tmp_path)) for cell in (20.0, 10.0)]
+    assert refinement.spread([each.centre for each in found]) < 0.01
+    assert refinement.spread([each.travel for each in found]) < 0.02
+    assert refinement.spread([each.reach_angle for each in found]) < 0.015
+    # A point mass on this ground goes 1,007 m (docs/comparison.md).
+    assert found[-1].centre == pytest.approx(1007.0, rel=0.01)
+
+
+@pytest.mark.skipif(not ALR.is_dir(), reason=f"there is no {ALR}")
+def test_a_slope_of_the_alps_with_the_default_filter(tmp_path: Path) -> None:
+    """The travel distance does not depend on the cell, and friction on the ground is the wedge's within 10 %."""
+    refinement.write_inputs(tmp_path, ALR)
+    found = []
+    for cell in (10.0, 6.6):
+        job = refinement.alr_job(cell, tmp_path)
+        found.append(run(job))
+        rows = friction_rows(job, read_map(job.output / "maps" / "terrain.tif"))
+        assert len(rows) >= 8
+        for each in rows:
+            assert each.ground / each.wedge == pytest.approx(1.0, abs=0.1), (cell, each)
+            assert math.isfinite(each.inside)
+    assert refinement.spread([each.travel for each in found]) < 0.05
+    assert refinement.spread([each.centre for each in found]) < 0.05
+    assert found[-1].travel > 2200.0  # the DEM as it is: 1,650 m
