@@ -58,6 +58,45 @@ std::vector<PieceBelow> pieces_below(const Simulation<3, double>& simulation) {
   return pieces;
 }
 
+// Corners of the cell about a point of a raster.
+void add_cell(const Raster& raster, int column, int row, config::Polyline2& corners) {
+  for (const double i : {-0.5, 0.5}) {
+    for (const double j : {-0.5, 0.5}) {
+      corners.push_back({raster.x + (column + i) * raster.cell_x, raster.y + (row + j) * raster.cell_y});
+    }
+  }
+}
+
+// Between which all bodies lie at the start: those of the outlines of releases, of the cells of their rasters, of
+// boxes.
+config::Polyline2 corners_at_start(const config::Case& parameters,
+                                   const std::map<std::string, config::Release>& releases) {
+  config::Polyline2 corners;
+  for (const auto& [name, body] : parameters.bodies) {
+    const auto release = releases.find(name);
+    if (release == releases.end()) {
+      for (const double x : {body.min[0], body.max[0]}) {
+        for (const double y : {body.min[1], body.max[1]}) {
+          corners.push_back({x, y});
+        }
+      }
+      continue;
+    }
+    for (const config::Polyline2& ring : release->second.outlines) {
+      corners.insert(corners.end(), ring.begin(), ring.end());
+    }
+    const Raster& thickness = release->second.thickness;
+    for (int row = 0; release->second.outlines.empty() && row < thickness.rows; ++row) {
+      for (int column = 0; column < thickness.columns; ++column) {
+        if (thickness.at(column, row) > 0.0) {
+          add_cell(thickness, column, row, corners);
+        }
+      }
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -72,6 +111,7 @@ RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& si
     maps_.emplace(map_grid, std::array<double, 2>{origin[0], origin[1]}, half_sizes(simulation),
                   parameters.maps.arrival_thickness, DrawnArea(parameters, site.releases, map_grid));
     probes_ = Probes(parameters, site.probes, map_grid);
+    corners_at_start_ = corners_at_start(parameters, site.releases);
     if (path_given_ && given_.empty()) {
       throw UserError(fmt::format("{}: the path has no length; allowed: a line of at least two different points.",
                                   config::place_of(parameters, "maps.path")));
@@ -154,12 +194,9 @@ std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const 
 template <int Dim>
 double RunRecords<Dim>::rear_of_release() const {
   double rear = HUGE_VAL;
-  const MapGrid& grid = maps_->map_grid();
-  maps_->for_cells([&](int column, int row, const MapCell& cell) {
-    if (cell.thickness_at_start > 0.0) {
-      rear = std::min(rear, path().project({grid.x + column * grid.cell_x, grid.y + row * grid.cell_y}).along);
-    }
-  });
+  for (const Place2& corner : corners_at_start_) {
+    rear = std::min(rear, path().project(corner).along);
+  }
   return rear;
 }
 

@@ -62,7 +62,7 @@ class RunRecords {
 
  private:
   void note_way(const Simulation& simulation, const mpm::MassMoments& sums);
-  // Arc length of the path at which the release began: the smallest of the middles of the map cells that it lay in [m].
+  // Arc length of the path at which the release begins: the least of the corners between which it lies [m].
   [[nodiscard]] double rear_of_release() const;
 
   std::optional<FlowMaps> maps_;
@@ -70,7 +70,8 @@ class RunRecords {
   bool path_given_ = false;
   CentreWay way_;
   Probes probes_;
-  double release_top_ = 0.0;  // elevation of the highest point of the slide at t = 0 [m]
+  config::Polyline2 corners_at_start_;  // of bodies
+  double release_top_ = 0.0;            // elevation of the highest point of the slide at t = 0 [m]
 };
 
 }  // namespace thawslide::sim

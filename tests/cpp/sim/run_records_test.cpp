@@ -137,7 +137,7 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
     if (row[k].first == "front_position_m") {
       EXPECT_EQ(row[k].second, front->along);
     } else if (row[k].first == "runout_m") {
-      EXPECT_NEAR(row[k].second, along_x[k].second - 0.5, 1e-12);  // from the middle of the first cell of 1 m
+      EXPECT_NEAR(row[k].second, along_x[k].second, 1e-12);  // from the edge of the body
     } else {
       EXPECT_EQ(std::memcmp(&row[k].second, &along_x[k].second, sizeof(double)), 0) << row[k].first;
     }
@@ -145,7 +145,7 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
   const auto figures = records.figures(simulation, level_ground);
   ASSERT_TRUE(figures.has_value());
   EXPECT_EQ(figures->front_distance, front->along);
-  EXPECT_NEAR(figures->travel_distance, front->place[0] - 0.5, 1e-12);
+  EXPECT_NEAR(figures->travel_distance, front->place[0], 1e-12);
   EXPECT_NEAR(figures->drop_height, 3.0, 1e-12);
   EXPECT_EQ(figures->reach_angle, angle_of_reach(figures->drop_height, figures->travel_distance));
   EXPECT_NEAR(figures->covered_volume, 72.0, 0.5);
@@ -181,8 +181,7 @@ TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
   const auto front = records.front(simulation);
   ASSERT_TRUE(front.has_value());
   EXPECT_NEAR(front->along, 5.0 - front->place[1], 0.05);
-  // From the middle of the row of cells at 6.5 m.
-  EXPECT_NEAR(records.figures(simulation, level_ground)->travel_distance, 6.5 - front->place[1], 0.05);
+  EXPECT_NEAR(records.figures(simulation, level_ground)->travel_distance, 7.0 - front->place[1], 0.05);
 }
 
 TEST(RunRecords, KeepWhatWasLargestWhenTheSlideHasLeft) {
