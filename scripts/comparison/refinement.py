@@ -18,8 +18,8 @@ FILTERED = Variant("alr", "default filter")
 ROUGH = Variant("alr-rough", "DEM as it is", ("terrain.smooth=0",))
 WIDE = Variant("alr-width10", "filter of 10 m", ("terrain.smooth=10",))
 CAUSES = (
-    Variant("alr-width6.6", "filter of 6.6 m", ("terrain.smooth=6.6",)),
     WIDE,
+    Variant("alr-width13", "filter of 13 m", ("terrain.smooth=13",)),
     Variant("alr-weak", "default filter, internal friction 25 degrees", ("material.grains.friction_angle=25",)),
 )
 ALR_LOW, ALR_SIZE = (255215.0, 377350.0, 540.0), (2046.0, 4521.0, 2059.2)  # m, of the domain

@@ -150,7 +150,7 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
         "The DEM filtered by 10 m on every cell (`terrain.smooth = 10`):",
         cells_table(wide),
         spread_words(wide),
-        'The DEM filtered by default (`terrain.smooth = "auto"`), by a width that depends on the cell:',
+        'The DEM filtered by default (`terrain.smooth = "auto"`), which is 5.5 m on all of these cells:',
         cells_table(alr),
         spread_words(alr),
         "The DEM as it is (`terrain.smooth = 0`):",
