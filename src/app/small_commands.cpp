@@ -74,6 +74,14 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, No
   fmt::print("a section along {}, with the release's mean thickness across the path; fronts are distances along it\n",
              section.path_given ? "maps.path"
                                 : "the way of steepest descent from the release's centre, as maps.path is not given");
+  constexpr double most_off = 45.0;
+  if (section.off_steepest > most_off) {
+    fmt::print(
+        "warning: maps.path is at {:.0f} degrees to the steepest descent at the middle of the release. The block "
+        "slides "
+        "along it all the same, and pulls only with the slope along the path\n",
+        section.off_steepest);
+  }
   const auto first_beyond = [&](double end) {
     return std::find_if(rows.begin(), rows.end(),
                         [&](const sim::HistoryRow& row) { return value_of(row, "front_position_m") > end; });

@@ -8,12 +8,14 @@
 
 #include "config/input_limits.hpp"
 #include "gis/pits.hpp"
+#include "gis/polygons.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/resampling.hpp"
 #include "gis/roughness.hpp"
 #include "gis/smoothing.hpp"
 #include "gis/told_at.hpp"
+#include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
 
@@ -120,12 +122,32 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
   return resampled(raster, target);
 }
 
+// About the polygons of releases and about boxes. Files that cannot be read are told of where the release is.
+std::vector<Rectangle> places_of_bodies(const config::Case& parameters, const std::string& crs) {
+  std::vector<Rectangle> places;
+  for (const auto& [name, body] : parameters.bodies) {
+    if (body.shape == config::BodyShape::box) {
+      places.push_back({body.min[0], body.min[1], body.max[0], body.max[1]});
+    } else if (!body.release.empty()) {
+      try {
+        for (const Feature& feature :
+             features_named(read_polygons(body.release, crs), body.polygons, body.name_attribute)) {
+          places.push_back(extent_of(feature.polygons));
+        }
+      } catch (const UserError&) {
+        return {};
+      }
+    }
+  }
+  return places;
+}
+
 // Points that were interpolated between those of the file have no noise of their own.
-config::Roughness roughness_of_file(const config::Case& parameters, const RasterFile& file, const Raster& raster) {
-  const Rectangle domain = domain_of(parameters);
+config::Roughness roughness_of_file(const config::Case& parameters, const RasterFile& file, const Raster& raster,
+                                    const std::string& crs) {
   const bool interpolated = raster.cell_x * raster.cell_y < file.layout().cell_x * file.layout().cell_y;
-  return roughness_of(interpolated ? file.read(area_to_read(parameters, file.layout())) : raster, domain,
-                      parameters.grid.cell, parameters.terrain.smooth);
+  return roughness_of(interpolated ? file.read(area_to_read(parameters, file.layout())) : raster, domain_of(parameters),
+                      parameters.grid.cell, parameters.terrain.smooth, places_of_bodies(parameters, crs));
 }
 
 }  // namespace
@@ -152,7 +174,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   const Rectangle area = area_to_read(parameters, layout);
   std::vector<std::string> of_reading;
   dem.raster = read_and_resample(parameters, file, layout, area, of_reading);
-  dem.roughness = roughness_of_file(parameters, file, dem.raster);
+  dem.roughness = roughness_of_file(parameters, file, dem.raster, system);
   const double width = dem.roughness.width;
   if (width > 0.0) {
     // The filter's reach, and the points that a window holds beyond its sides.

@@ -21,6 +21,8 @@ namespace {
 
 constexpr int tile_size = 16;              // points along each axis
 constexpr double median_of_unit = 0.6745;  // of |x| for a normal distribution of variance 1
+constexpr double rough_share = 0.86;       // of the tiles that are less rough: noise in a seventh of them counts
+constexpr double striped_share = 0.25;     // the same of noise of whole rows or columns, which is that of the survey
 constexpr std::size_t least_of_tile = 16;  // deviations or slopes
 
 // What the centre of nine points in a line has beyond their best parabola: weights of the centre and of the neighbours
@@ -105,9 +107,10 @@ struct Tile {
 // Where the k-th of `parts` equal parts of so many points begins.
 int edge(int points, int k, int parts) { return static_cast<int>(static_cast<std::int64_t>(points) * k / parts); }
 
-// NaN where the tile knows too little.
-double noise_of_tile(const Raster& raster, const Tile& part) {
-  double least = std::numeric_limits<double>::quiet_NaN();
+// In the directions in which it is least and second least; NaN where the tile knows too little.
+std::array<double, 2> noise_of_tile(const Raster& raster, const Tile& part) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> found;
   for (const Step step : directions) {
     std::vector<double> deviations;
     for (int row = part.first_row; row < part.end_row; ++row) {
@@ -116,10 +119,14 @@ double noise_of_tile(const Raster& raster, const Tile& part) {
       }
     }
     if (deviations.size() >= least_of_tile) {
-      least = std::fmin(least, quantile(deviations, 0.5) / (median_of_unit * rms_of_deviation));
+      found.push_back(quantile(deviations, 0.5) / (median_of_unit * rms_of_deviation));
     }
   }
-  return least;
+  if (found.size() < 2) {
+    return {unknown, unknown};
+  }
+  std::partial_sort(found.begin(), found.begin() + 2, found.end());
+  return {found[0], found[1]};
 }
 
 // The same of slopes: their rms, from the medians in four directions. The mean of the least and the largest is their
@@ -149,9 +156,9 @@ double slope_of_tile(const Raster& raster, const Tile& part) {
   return std::sqrt(2.0 * least * std::min(largest, most_of_least * least));  // of both components
 }
 
-// Upper quartile over the tiles of a raster; 0 where none knows enough.
+// A quantile over the tiles of a raster; 0 where none knows enough.
 template <class OfTile>
-double upper_quartile(const Raster& raster, const OfTile& of_tile) {
+double over_tiles(const Raster& raster, double share, const OfTile& of_tile) {
   const int across = std::max(1, raster.columns / tile_size), along = std::max(1, raster.rows / tile_size);
   std::vector<double> of_tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(along));
   parallel_for(of_tiles.size(), [&](std::size_t k) {
@@ -161,7 +168,7 @@ double upper_quartile(const Raster& raster, const OfTile& of_tile) {
   });
   of_tiles.erase(std::remove_if(of_tiles.begin(), of_tiles.end(), [](double value) { return std::isnan(value); }),
                  of_tiles.end());
-  return of_tiles.empty() ? 0.0 : quantile(of_tiles, 0.75);
+  return of_tiles.empty() ? 0.0 : quantile(of_tiles, share);
 }
 
 // Of noise and bumps, each with its slope. Bumps that noise explains count as noise: the two are measured in different
@@ -204,7 +211,20 @@ struct Filtered {
 }  // namespace
 
 double noise_rms(const Raster& raster, const Rectangle& rectangle) {
-  return upper_quartile(points_within(raster, rectangle), noise_of_tile);
+  const Raster within = points_within(raster, rectangle);
+  const double of_points = over_tiles(
+      within, rough_share, [](const Raster& part, const Tile& tile) { return noise_of_tile(part, tile)[0]; });
+  const double of_stripes = over_tiles(
+      within, striped_share, [](const Raster& part, const Tile& tile) { return noise_of_tile(part, tile)[1]; });
+  return std::max(of_points, of_stripes);
+}
+
+double noise_below_body(const Raster& raster, const Rectangle& rectangle) {
+  const auto missing = [](double length, double cell) { return std::max(0.0, 0.5 * (tile_size * cell - length)); };
+  const Rectangle wide = rectangle.widened(missing(rectangle.max_x - rectangle.min_x, raster.cell_x),
+                                           missing(rectangle.max_y - rectangle.min_y, raster.cell_y));
+  return over_tiles(points_within(raster, wide), 0.5,
+                    [](const Raster& part, const Tile& tile) { return noise_of_tile(part, tile)[0]; });
 }
 
 double bump_length(double spacing, double cell) { return length_of_half * resolving(spacing, cell); }
@@ -226,7 +246,7 @@ double bump_slope(const Raster& short_waves, const Rectangle& rectangle, double 
     return 0.0;
   }
   const double of_cell = std::sqrt(variance_of_cell(spacing_of(short_waves), cell));
-  return upper_quartile(points_within(smoothed(short_waves, std::max(width, of_cell)), rectangle), slope_of_tile);
+  return over_tiles(points_within(smoothed(short_waves, std::max(width, of_cell)), rectangle), 0.75, slope_of_tile);
 }
 
 double noise_slope(double rms, double spacing, double cell, double width) {
@@ -261,11 +281,14 @@ double fitting_width(double rms, double spacing, double cell) {
 double narrow_valley(double width) { return 40.0 * width; }
 
 config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle, double cell,
-                               const config::NumberOrAuto& smooth) {
+                               const config::NumberOrAuto& smooth, const std::vector<Rectangle>& bodies) {
   config::Roughness found;
   found.cell = cell;
   found.spacing = spacing_of(raster);
   found.noise = noise_rms(raster, rectangle);
+  for (const Rectangle& body : bodies) {
+    found.noise = std::max(found.noise, noise_below_body(raster, body));
+  }
   const Raster waves = short_waves(raster, rectangle, cell);
   found.bump_length = bump_length(found.spacing, cell);
   found.bump_slope = bump_slope(waves, rectangle, cell, 0.0);

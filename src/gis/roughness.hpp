@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/raster.hpp"
 #include "config/case.hpp"
@@ -21,8 +22,10 @@ inline constexpr int points_of_fit = 9;
 // In each of four directions (along the axes and the diagonals) the deviation of a point from the parabola that fits
 // it and four neighbours on each side best (Savitzky and Golay 1964). Its median over a tile of 16 x 16 points, over
 // 0.6745 and the share of white noise that is left of it, estimates the rms there; the least of the four directions
-// counts, so that an edge, a thalweg or a step is not noise. Of the tiles the upper quartile counts: a slide runs where
-// it is rough too. Curvature that the points resolve deviates in the fourth order of their distance only.
+// counts, so that an edge, a thalweg or a step is not noise. Of the tiles the noise that a seventh exceeds counts: a
+// slide runs where it is rough too. Noise of whole rows or columns, as surveys leave it, is none along these: where
+// three quarters of the tiles have it in the other directions, the second least counts. Curvature that the points
+// resolve deviates in the fourth order of their distance only.
 [[nodiscard]] double noise_rms(const Raster& raster, const Rectangle& rectangle);
 
 // Rms slope of white noise of `rms` on points `spacing` apart, at the scale of a cell, after a Gaussian filter.
@@ -43,19 +46,23 @@ inline constexpr double largest_slope = 0.06;  // that the choice of a width lea
 
 // Rms slope of short waves within a rectangle at the scale of a cell, after a Gaussian filter; 0 where there are too
 // few points. That of a tile of 16 x 16 points follows from its medians in four directions, so that a thalweg, a crest
-// or a cliff, which have no slope along themselves, do not count. Of the tiles the upper quartile counts, as for
-// noise_rms.
+// or a cliff, which have no slope along themselves, do not count. Of the tiles the upper quartile counts.
 [[nodiscard]] double bump_slope(const Raster& short_waves, const Rectangle& rectangle, double cell, double width);
 
 // The least width that leaves `largest_slope`: 0, or from half a spacing on, where the law of noise_slope holds, in
 // steps of a tenth of the larger of cell and spacing up to twice that.
 [[nodiscard]] double fitting_width(double rms, double spacing, double cell);
 
-// The noise and bumps in a rectangle, and the filter against them: the wider of those that leave `largest_slope` of the
-// noise and of the bumps. The latter goes in steps of a tenth of the spacing, up to twice the spacing. It does not
-// depend on the cell where that is at most two spacings: slides on several cells then move on the same ground.
+// The same about a body: the median of the tiles in a rectangle, widened to at least one tile.
+[[nodiscard]] double noise_below_body(const Raster& raster, const Rectangle& rectangle);
+
+// The noise and bumps in a rectangle, and about bodies if that is more noise, and the filter against them: the wider of
+// those that leave `largest_slope` of the noise and of the bumps. The latter goes in steps of a tenth of the spacing,
+// up to twice the spacing. It does not depend on the cell where that is at most two spacings: slides on several cells
+// then move on the same ground.
 [[nodiscard]] config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle, double cell,
-                                             const config::NumberOrAuto& smooth);
+                                             const config::NumberOrAuto& smooth,
+                                             const std::vector<Rectangle>& bodies = {});
 
 // What the user should know of noise that stays; empty where it adds little to the friction.
 [[nodiscard]] std::string roughness_note(const config::Case& parameters, const config::Site& site);

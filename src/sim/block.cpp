@@ -13,6 +13,7 @@
 #include "sim/block_band_column.hpp"
 #include "sim/block_column.hpp"
 #include "sim/bodies.hpp"
+#include "sim/direction.hpp"
 #include "sim/initial_state.hpp"
 #include "sim/time_step.hpp"
 
@@ -127,9 +128,7 @@ class Block {
     const auto& start = parameters.bodies.begin()->second.velocity;
     const Vector<double, 2> into = normal_below(model, slices_.middle_x - model.origin[0]);
     velocity_ = -start[0] * into[1] + start[1] * into[0];  // along the ground
-    const double pull = evaluate_base().along;
-    const double round_off = 1e-9 * slices_.mass * model_.motion.gravity.norm();
-    direction_ = velocity_ < 0.0 || (velocity_ == 0.0 && pull < -round_off) ? -1.0 : 1.0;
+    direction_ = direction_at_start(model, particles, parameters.grid.cell);
   }
 
   void step(double dt) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.hpp"
 #include "base/table.hpp"
@@ -12,6 +13,7 @@
 #include "sim/steepest_descent.hpp"
 #include "sim/substrates.hpp"
 #include "sim/valley_factor.hpp"
+#include "terrain/height_field.hpp"
 
 namespace thawslide::sim {
 
@@ -198,6 +200,20 @@ void set_domain(config::Grid& grid, const config::ProfileTable& profile) {
   grid.boundary = {};
 }
 
+// Between a path and the steepest descent at a place along it [degrees]; 0 on level ground and where it is not known.
+double off_steepest(const PathLine& line, double along, const Raster& ground, double width) {
+  const Place2 place = line.point_at(along), before = line.point_at(along - 0.5 * width),
+               after = line.point_at(along + 0.5 * width);
+  const Vector<double, 2> middle(place[0], place[1]), half = Vector<double, 2>::Constant(0.5 * width),
+                                                      way(after[0] - before[0], after[1] - before[1]);
+  const terrain::HeightField field(ground);
+  if (!field.is_known(middle - half, middle + half)) {
+    return 0.0;
+  }
+  const Vector<double, 2> descent = -field.gradient(middle, width);
+  return std::abs(std::atan2(way[0] * descent[1] - way[1] * descent[0], way.dot(descent))) * (180.0 / std::numbers::pi);
+}
+
 }  // namespace
 
 PathSection section_along_path(const config::Case& parameters, const config::Site& site) {
@@ -209,6 +225,10 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
   section.path_given = !site.path.empty();
   const Descent way = section.path_given ? Descent{PathLine(site.path), {}} : descent_from(parameters, release, ground);
   const PathLine& line = way.line;
+  if (line.empty()) {
+    throw UserError(fmt::format("{}: the path has no length; allowed: a line of at least two different points.",
+                                config::place_of(parameters, "maps.path")));
+  }
   const std::string source = section.path_given
                                  ? config::place_of(parameters, "maps.path")
                                  : fmt::format("{}: the way straight down", config::place_of(parameters, "maps"));
@@ -229,6 +249,8 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
   if (way.pit) {
     section.pit = PathSection::Pit{line.length(), *way.pit};
   }
+
+  section.off_steepest = off_steepest(line, on_path.middle, ground, std::max(cell, 2.0 * points_apart));
 
   config::ProfileTable& profile = section.site.profile;
   profile.distance = stations_about(line, on_path, cell, 0.5 * points_apart);

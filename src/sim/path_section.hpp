@@ -24,6 +24,7 @@ struct PathSection {
   config::Site site;        // its profile
   Table valley_factor;      // over the distance (valley_factor.hpp)
   bool path_given = true;   // or found by steepest descent
+  double off_steepest = 0;  // angle between the path and the steepest descent at the release's middle [degrees]
 
   // That the way of steepest descent ends in: where, along it [m] and in space. What lies beyond is no way down.
   struct Pit {
@@ -33,7 +34,7 @@ struct PathSection {
   std::optional<Pit> pit;
 };
 
-// Of a case with one body. Throws UserError for a path that passes the release by or has no ground there, for a release
+// Of a case with one body. Throws UserError for a path without a length, that passes the release by or has no ground there, for a release
 // from which no way leads down, for a body that is no release, and for tilted gravity.
 [[nodiscard]] PathSection section_along_path(const config::Case& parameters, const config::Site& site);
 

@@ -67,7 +67,7 @@ def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_c
         in checked.stdout
     )
     assert (
-        f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as it has noise of 0.98 m rms"
+        f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as it has noise of 0.99 m rms"
         in checked.stdout
     )
     facts = json.loads(thawslide("check", rough_case, "--json").stdout)["roughness"]

@@ -1,6 +1,7 @@
 // Noise of terrain models: found on ground of any shape, none on clean ground; the filter that follows from it.
 #include "gis/roughness.hpp"
 
+#include <algorithm>
 #include <random>
 
 #include "base/raster_sampling.hpp"
@@ -58,6 +59,15 @@ Raster ground_of(const Shape& shape, double rms, unsigned seed, int columns = 12
       0.0, 0.0, spacing, columns, rows);
 }
 
+TEST(RoughnessTest, NoiseIsFoundWithoutBias) {
+  double sum = 0.0;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const Raster raster = ground_of([](double, double) { return 0.0; }, 0.2, seed, 241, 241);
+    sum += noise_rms(raster, span_of_points(raster)) / spacing / 0.2;
+  }
+  EXPECT_NEAR(sum / 10.0, 1.0, 0.03);
+}
+
 TEST(RoughnessTest, NoiseIsFoundOnGroundOfAnyShape) {
   for (const auto& [name, shape] : shapes()) {
     for (const double rms : {0.05, 0.1, 0.2, 0.5}) {
@@ -88,6 +98,56 @@ TEST(RoughnessTest, CleanGroundOfAnyShapeIsNotFiltered) {
       EXPECT_EQ(found.width, 0.0) << name << ", cell " << cell;
       EXPECT_LT(found.apparent_friction, 0.02) << name << ", cell " << cell;
     }
+  }
+}
+
+// A rough face above a smooth valley: two bands of noise, along and across.
+TEST(RoughnessTest, NoiseOfAPartOfTheDomainCounts) {
+  for (const bool is_along : {true, false}) {
+    Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.2, 7, 321, 321);
+    for (int row = 0; row < raster.rows; ++row) {
+      for (int column = 0; column < raster.columns; ++column) {
+        if ((is_along ? row : column) > 60) {
+          raster.values[raster.index(column, row)] = 1500.0 + spacing * (0.5 * column - 0.1 * row);
+        }
+      }
+    }
+    EXPECT_NEAR(noise_rms(raster, span_of_points(raster)) / spacing, 0.2, 0.04) << is_along;
+  }
+}
+
+// A band of noise narrower than a tile is none in the domain; a release on it tells of it.
+TEST(RoughnessTest, NoiseBelowABodyCounts) {
+  Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.2, 7, 321, 161);
+  for (int row = 0; row < raster.rows; ++row) {
+    for (int column = 0; column < raster.columns; ++column) {
+      if (row < 70 || row > 81) {
+        raster.values[raster.index(column, row)] = 1500.0 + spacing * (0.5 * column - 0.1 * row);
+      }
+    }
+  }
+  const Rectangle body{50.0 * spacing, 71.0 * spacing, 60.0 * spacing, 80.0 * spacing};
+  EXPECT_EQ(noise_rms(raster, span_of_points(raster)), 0.0);
+  EXPECT_GT(noise_below_body(raster, body) / spacing, 0.1);
+  EXPECT_LT(noise_below_body(raster, body) / spacing, 0.24);
+  EXPECT_EQ(roughness_of(raster, span_of_points(raster), spacing, {.is_auto = true}).width, 0.0);
+  EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.is_auto = true}, {body}).width, 0.7 * spacing);
+}
+
+// Offsets of whole rows or columns, as surveys leave them.
+TEST(RoughnessTest, StripesAreNoise) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal(0.0, 0.2 * spacing);
+  std::vector<double> offset(121);
+  std::generate(offset.begin(), offset.end(), [&] { return normal(random); });
+  for (const bool is_along : {true, false}) {
+    Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.0, 0);
+    for (int row = 0; row < raster.rows; ++row) {
+      for (int column = 0; column < raster.columns; ++column) {
+        raster.values[raster.index(column, row)] += offset[static_cast<std::size_t>(is_along ? row : column)];
+      }
+    }
+    EXPECT_NEAR(noise_rms(raster, span_of_points(raster)) / spacing, 0.2, 0.07) << is_along;
   }
 }
 
@@ -190,44 +250,6 @@ TEST(RoughnessTest, ApparentFrictionIsThatOfTheRuns) {
   EXPECT_GT(apparent_friction(0.7), 0.76);
 }
 
-// Mean of the load over the width of a fill with a level surface, whose walls bear p = rho g times its depth: the
-// friction of a channel is mu times this factor.
-double wedge_factor(const std::function<double(int)>& height, double step, double level) {
-  double area = 0.0, width = 0.0;
-  for (int k = -4000; k < 4000; ++k) {
-    const double depth = std::max(0.0, level - 0.5 * (height(k) + height(k + 1)));
-    area += depth * std::hypot(step, height(k + 1) - height(k));
-    width += depth * step;
-  }
-  return area / width;
-}
-
-// What the filter takes of the wedge effect of V valleys, filled to a width (in standard deviations).
-double wedge_lost(double opening, double width) {
-  const double wall = 1.0 / std::tan(0.5 * opening * M_PI / 180.0), step = width / 6000.0;
-  const auto smooth = [&](int k) {
-    const double x = k * step;
-    return wall * (x * std::erf(x / std::sqrt(2.0)) + std::sqrt(2.0 / M_PI) * std::exp(-0.5 * x * x));
-  };
-  return 1.0 - wedge_factor(smooth, step, 0.5 * width * wall) * std::sin(0.5 * opening * M_PI / 180.0);
-}
-
-TEST(RoughnessTest, NarrowValleysLoseThreePercentOfTheirWedge) {
-  // As computed and found in runs with one cell as the standard deviation: docs/theory/contact.md.
-  EXPECT_NEAR(wedge_lost(120.0, 8.0), 0.058, 0.001);
-  EXPECT_NEAR(wedge_lost(90.0, 8.0), 0.123, 0.001);
-  EXPECT_NEAR(wedge_lost(60.0, 8.0), 0.201, 0.001);
-  EXPECT_NEAR(wedge_lost(120.0, 4.0), 0.09, 0.005);
-  EXPECT_NEAR(wedge_lost(90.0, 4.0), 0.20, 0.005);
-  EXPECT_NEAR(wedge_lost(60.0, 4.0), 0.32, 0.005);
-  EXPECT_NEAR(wedge_lost(90.0, narrow_valley(1.0)), 0.03, 0.0005);
-  // Entries of the table there with widths over standard deviations of their own.
-  EXPECT_NEAR(wedge_lost(90.0, 16.0), 0.069, 0.001);
-  EXPECT_NEAR(wedge_lost(90.0, 32.0), 0.037, 0.001);
-  EXPECT_NEAR(wedge_lost(60.0, 2.0), 0.457, 0.001);
-  EXPECT_NEAR(wedge_lost(120.0, 16.0 / 1.5), 0.046, 0.001);
-}
-
 // The plane of plain_case.
 Raster ground_with_noise(double rms, unsigned seed) {
   Raster rough = ground();
@@ -237,17 +259,6 @@ Raster ground_with_noise(double rms, unsigned seed) {
     height += normal(random);
   }
   return rough;
-}
-
-TEST(RoughnessTest, FilteredValleysHaveTheWedgeOfTheTable) {
-  // Four points in a standard deviation.
-  const Raster valley = raster_of([](double x, double) { return std::abs(x); }, -25.0, 0.0, 0.25, 201, 41);
-  const Raster smooth = smoothed(valley, 1.0);
-  const auto height = [&](int k) { return std::abs(k) > 100 ? 25.0 : smooth.at(k + 100, 20); };
-  for (const double width : {4.0, 8.0, 16.0}) {
-    const double lost = 1.0 - wedge_factor(height, 0.25, 0.5 * width) / std::sqrt(2.0);
-    EXPECT_NEAR(lost, wedge_lost(90.0, width), 0.003) << width;
-  }
 }
 
 TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
