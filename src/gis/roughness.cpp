@@ -304,6 +304,14 @@ std::string roughness_note(const config::Case& parameters, const config::Site& s
   constexpr double much_friction = 0.05;
   const config::Roughness& found = *site.roughness;
   const bool is_auto = parameters.terrain.smooth.is_auto;
+  const double widest = 2.0 * std::max(found.cell, found.spacing);
+  if (found.width > widest * (1.0 + 1e-9)) {
+    return fmt::format(
+        "terrain.smooth: a filter of {:g} m removes terrain that the slide would follow: V valleys narrower than {:g} "
+        "m "
+        "lose more than 3 % of their wedge effect. Usual: \"auto\", or at most {:g} m.",
+        found.width, found.narrow_valley, widest);
+  }
   if (is_auto ? found.slope_left <= largest_slope : found.apparent_friction <= much_friction) {
     return "";
   }

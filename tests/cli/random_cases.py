@@ -140,7 +140,16 @@ def _line(random: Generator, size: tuple[float, float], centre: tuple[float, flo
         last = list(first)
         last[axis] = step * random.integers(1, int(size[axis] / step))
         corners = [(first[0], first[1]), (last[0], last[1])]
-    return corners if len(corners) > 1 else [*corners, _place_near(random, size, 0.2)]
+    corners = corners if len(corners) > 1 else [*corners, _place_near(random, size, 0.2)]
+    return _degenerate(random, corners) if _chance(random, 0.15) else corners
+
+
+def _degenerate(random: Generator, corners: Corners) -> Corners:
+    """Return a line of no length, one with a corner twice, or one that goes back the way it came."""
+    kind, at = int(random.integers(0, 3)), int(random.integers(0, len(corners)))
+    if kind == 0:
+        return [corners[0]] * 2
+    return [*corners[:at], corners[at], *corners[at:]] if kind == 1 else [*corners, *corners[-2::-1]]
 
 
 def _write_line(file: Path, corners: Corners) -> None:
@@ -205,7 +214,8 @@ temperature = -1.0
     for number in range(random.integers(0, 3)):
         corner = place(*_place_near(random, size, 0.1))
         name = f"across{number}.geojson"
-        _write_line(drawn.folder / name, [_place_near(random, size, 0.1) for _ in range(random.integers(2, 4))])
+        section = [_place_near(random, size, 0.1) for _ in range(random.integers(2, 4))]
+        _write_line(drawn.folder / name, _degenerate(random, section) if _chance(random, 0.15) else section)
         value = f'line = "{name}"' if _chance(random, 0.6) else f"point = [{corner[0]:.17g}, {corner[1]:.17g}]"
         text += f"[probe.p{number}]\n{value}\n"
     folder = drawn.folder

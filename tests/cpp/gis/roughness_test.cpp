@@ -283,6 +283,9 @@ TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
   for (int k = 0; k < ground.rows; ++k) {
     ASSERT_NEAR(ground.at(k, k), whole.at(column + k, row + k), 1e-9);
   }
+  parameters.terrain.smooth = {.number = 1000.0};
+  EXPECT_NE(roughness_note(parameters, load_site(parameters).site).find("a filter of 1000 m removes terrain"),
+            std::string::npos);
   parameters.terrain.smooth = {};
   const SiteAndNotes raw = load_site(parameters);
   EXPECT_EQ(raw.site.roughness->noise, found.noise);
