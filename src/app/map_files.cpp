@@ -21,7 +21,9 @@ config::Site read_map_files(const config::Case& parameters, [[maybe_unused]] Not
   gis::SiteAndNotes read = gis::load_site(parameters);
   notes.add(read.notes);
   notes.add(gis::holes_note(parameters, read.site));
+  notes.add(gis::probes_in_holes(read.site));
   notes.add(sim::orient_lines(parameters, read.site));
+  notes.add(sim::doubt_of_path(parameters, read.site));
   notes.add(gis::roughness_note(parameters, read.site));
   return std::move(read.site);
 #else

@@ -46,11 +46,12 @@ std::string text_of(const config::Roughness& ground) {
                                  ? fmt::format("smoothed with a standard deviation of {:g} m", ground.width)
                                  : std::string("not smoothed");
   const std::string valleys =
-      ground.width > 0.0 ? fmt::format(
-                               "              V valleys of 90 degrees narrower than {:g} m lose more than 3 % of "
-                               "their wedge effect by the filter\n",
-                               ground.narrow_valley)
-                         : "";
+      ground.width > 0.0
+          ? fmt::format(
+                "              In V valleys of 90 degrees filled less than {:g} m wide the filter takes more "
+                "than 3 % of the friction of their sides\n",
+                ground.narrow_valley)
+          : "";
   return fmt::format(
       "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {:.2g} m have an "
       "rms "

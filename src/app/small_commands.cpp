@@ -112,6 +112,28 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, No
   return rows;
 }
 
+// A profile that does not go on ends where its rows do.
+std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters) {
+  std::vector<sim::HistoryRow> rows = sim::run_block(parameters);
+  if (parameters.terrain.kind != config::TerrainKind::profile || parameters.terrain.extend) {
+    return rows;
+  }
+  const config::ProfileTable profile = config::read_profile(parameters.terrain.file);
+  const double first = profile.distance.front(), last = profile.distance.back();
+  const auto beyond = std::find_if(rows.begin(), rows.end(), [&](const sim::HistoryRow& row) {
+    const double front = value_of(row, "front_position_m");
+    return front < first || front > last;
+  });
+  if (beyond != rows.end()) {
+    fmt::print(
+        "note: the profile is known from {:.6g} to {:.6g} m; the front leaves it at {:.4g} s, and the rows end before. "
+        "Give a longer profile, or set terrain.extend = true, to follow it further\n",
+        first, last, value_of(*beyond, "time_s"));
+    rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
+  }
+  return rows;
+}
+
 }  // namespace
 
 int run_block_model(const BlockOptions& options) {
@@ -124,7 +146,7 @@ int run_block_model(const BlockOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<sim::HistoryRow> rows = parameters.terrain.kind == config::TerrainKind::dem
                                                 ? block_along_path(parameters, notes)
-                                                : sim::run_block(parameters);
+                                                : block_on_profile(parameters);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.output.empty()) {
     print_table(rows);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/raster_sampling.hpp"
 #include "gis/told_at.hpp"
 
 namespace thawslide::gis {
@@ -24,6 +25,23 @@ double distance_to_releases(const config::Site& site, double x, double y) {
 }
 
 }  // namespace
+
+std::vector<std::string> probes_in_holes(const config::Site& site) {
+  const Raster& ground = *site.ground;
+  std::vector<std::string> notes;
+  for (const auto& [name, corners] : site.probes) {
+    const bool is_known = std::any_of(corners.begin(), corners.end(), [&](const auto& corner) {
+      return !std::isnan(bilinear(ground, corner[0], corner[1], Missing::unknown));
+    });
+    if (!is_known) {
+      notes.push_back(fmt::format(
+          "probe.{}: the terrain model has no data there, and the probe reports zeros. Move it to where the terrain is "
+          "known.",
+          name));
+    }
+  }
+  return notes;
+}
 
 std::string holes_note(const config::Case& parameters, const config::Site& site) {
   const Raster& ground = *site.ground;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "config/case.hpp"
 #include "config/site.hpp"
@@ -11,5 +12,8 @@ namespace thawslide::gis {
 // What the user should know of points without data within the domain: how many, the one nearest to a release, and what
 // becomes of a slide that gets there; empty if there are none.
 [[nodiscard]] std::string holes_note(const config::Case& parameters, const config::Site& site);
+
+// Of each probe at or along which no terrain is known.
+[[nodiscard]] std::vector<std::string> probes_in_holes(const config::Site& site);
 
 }  // namespace thawslide::gis

@@ -272,7 +272,7 @@ double fitting_width(double rms, double spacing, double cell) {
   if (noise_slope(rms, spacing, cell, 0.0) <= largest_slope) {
     return 0.0;
   }
-  const double step = 0.1 * std::max(cell, spacing), widest = 20.0 * step;
+  const double step = 0.1 * resolving(spacing, cell), widest = 2.0 * std::max(cell, spacing);
   const double fitting = std::sqrt(rms * spacing / (2.0 * std::sqrt(std::numbers::pi) * largest_slope));
   const double steps = std::ceil(std::max(0.0, fitting - 0.5 * spacing) / step - 1e-9);
   return std::min(widest, 0.5 * spacing + steps * step);
@@ -307,9 +307,8 @@ std::string roughness_note(const config::Case& parameters, const config::Site& s
   const double widest = 2.0 * std::max(found.cell, found.spacing);
   if (found.width > widest * (1.0 + 1e-9)) {
     return fmt::format(
-        "terrain.smooth: a filter of {:g} m removes terrain that the slide would follow: V valleys narrower than {:g} "
-        "m "
-        "lose more than 3 % of their wedge effect. Usual: \"auto\", or at most {:g} m.",
+        "terrain.smooth: a filter of {:g} m removes terrain that the slide would follow: in V valleys filled less than "
+        "{:g} m wide it takes more than 3 % of the friction of the sides. Usual: \"auto\", or at most {:g} m.",
         found.width, found.narrow_valley, widest);
   }
   if (is_auto ? found.slope_left <= largest_slope : found.apparent_friction <= much_friction) {

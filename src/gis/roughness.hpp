@@ -50,7 +50,7 @@ inline constexpr double largest_slope = 0.06;  // that the choice of a width lea
 [[nodiscard]] double bump_slope(const Raster& short_waves, const Rectangle& rectangle, double cell, double width);
 
 // The least width that leaves `largest_slope`: 0, or from half a spacing on, where the law of noise_slope holds, in
-// steps of a tenth of the larger of cell and spacing up to twice that.
+// steps of a tenth of the larger of spacing and half a cell, up to twice the larger of spacing and cell.
 [[nodiscard]] double fitting_width(double rms, double spacing, double cell);
 
 // The same about a body: the median of the tiles in a rectangle, widened to at least one tile.

@@ -170,4 +170,25 @@ std::string orient_lines(const config::Case& parameters, config::Site& site) {
                      : "";
 }
 
+std::string doubt_of_path(const config::Case& parameters, const config::Site& site) {
+  const PathLine line(site.path);
+  if (line.empty() || !site.ground) {
+    return "";
+  }
+  double least = HUGE_VAL;  // from the path to a part of a body, less half of its side
+  for (const Part& part : parts_of_bodies(parameters, site)) {
+    const Place2 nearest = line.point_at(line.project(part.place).along);
+    least = std::min(least, std::hypot(part.place[0] - nearest[0], part.place[1] - nearest[1]) -
+                                std::max(part.half[0], part.half[1]));
+  }
+  if (std::isinf(least) || least <= std::max(site.ground->cell_x, site.ground->cell_y)) {
+    return "";
+  }
+  return fmt::format(
+      "maps.path: {} passes the release by, {:.3g} m away. Front, travel distance and reach angle are measured along "
+      "it "
+      "all the same. Draw it through the release.",
+      config::shown(std::filesystem::path(parameters.maps.path).filename().string()), least);
+}
+
 }  // namespace thawslide::sim

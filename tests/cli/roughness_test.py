@@ -64,8 +64,8 @@ def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_c
     told = f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise and bumps about "
     assert told in checked.stdout
     assert (
-        f"V valleys of 90 degrees narrower than {40 * WIDTH:g} m lose more than 3 % of their wedge effect"
-        in checked.stdout
+        f"In V valleys of 90 degrees filled less than {40 * WIDTH:g} m wide the filter takes more than 3 % of the "
+        "friction of their sides" in checked.stdout
     )
     assert (
         f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as it has noise of 0.99 m rms"

@@ -176,8 +176,8 @@ TEST(RoughnessTest, WidthIsTheLeastThatLeavesLittleFriction) {
     double rms, spacing, width;
   };
   for (const Row& row : {Row{0.0, 1.0, 0.0}, Row{0.03, 1.0, 0.0}, Row{0.05, 1.0, 0.5}, Row{0.05, 0.5, 0.35},
-                         Row{0.1, 1.0, 0.7}, Row{0.1, 0.5, 0.55}, Row{0.2, 1.0, 1.0}, Row{0.2, 0.5, 0.75},
-                         Row{0.5, 1.0, 1.6}, Row{0.5, 0.5, 1.15}, Row{0.2, 2.0, 1.4}, Row{9.0, 1.0, 2.0}}) {
+                         Row{0.1, 1.0, 0.7}, Row{0.1, 0.5, 0.5}, Row{0.2, 1.0, 1.0}, Row{0.2, 0.5, 0.7},
+                         Row{0.5, 1.0, 1.6}, Row{0.5, 0.5, 1.1}, Row{0.2, 2.0, 1.4}, Row{9.0, 1.0, 2.0}}) {
     const double width = fitting_width(row.rms * 4.0, row.spacing * 4.0, 4.0);
     EXPECT_NEAR(width, row.width * 4.0, 1e-12) << row.rms << ", " << row.spacing;
     const bool is_widest = row.rms > 1.0;
