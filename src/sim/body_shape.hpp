@@ -125,14 +125,11 @@ class BodyShape {
     upper_[Dim - 1] = -lower_[Dim - 1];
     for (std::size_t k = 0; k < profile_.distance.size(); ++k) {
       if (profile_.surface[k] > profile_.terrain[k]) {
-        // The body thins out towards the rows beside.
-        const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, profile_.distance.size() - 1);
-        lower_[0] = std::min(lower_[0], profile_.distance[before]);
-        upper_[0] = std::max(upper_[0], profile_.distance[after]);
-        for (const std::size_t row : {before, k, after}) {
-          lower_[Dim - 1] = std::min(lower_[Dim - 1], profile_.terrain[row]);
-          upper_[Dim - 1] = std::max(upper_[Dim - 1], profile_.surface[row]);
-        }
+        lower_[0] = std::min(lower_[0], profile_.distance[k == 0 ? 0 : k - 1]);
+        upper_[0] = std::max(upper_[0], profile_.distance[std::min(k + 1, profile_.distance.size() - 1)]);
+        lower_[Dim - 1] = std::min(lower_[Dim - 1], profile_.terrain[std::min(k + 1, profile_.distance.size() - 1)]);
+        lower_[Dim - 1] = std::min(lower_[Dim - 1], profile_.terrain[k == 0 ? 0 : k - 1]);
+        upper_[Dim - 1] = std::max(upper_[Dim - 1], profile_.surface[k]);
       }
     }
   }

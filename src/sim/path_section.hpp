@@ -34,8 +34,8 @@ struct PathSection {
   std::optional<Pit> pit;
 };
 
-// Of a case with one body. Throws UserError for a path without a length, that passes the release by or has no ground there, for a release
-// from which no way leads down, for a body that is no release, and for tilted gravity.
+// Of a case with one body. Throws UserError for a path without a length, that passes the release by or has no ground
+// there, for a release from which no way leads down, for a body that is no release, and for tilted gravity.
 [[nodiscard]] PathSection section_along_path(const config::Case& parameters, const config::Site& site);
 
 }  // namespace thawslide::sim

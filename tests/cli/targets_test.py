@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Program, sets
+
 from thawslide import ReportError
 from thawslide.targets import QUANTITIES, read_targets
 
