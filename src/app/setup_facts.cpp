@@ -54,8 +54,7 @@ std::string text_of(const config::Roughness& ground) {
           : "";
   return fmt::format(
       "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {:.2g} m have an "
-      "rms "
-      "slope of {:.2g}\n              {}; remaining friction by noise and bumps about {:.2g} %\n{}",
+      "rms slope of {:.2g}\n              {}; remaining friction by noise and bumps about {:.2g} %\n{}",
       ground.noise, ground.noise / ground.cell, ground.spacing, ground.bump_length, ground.bump_slope, filter,
       100.0 * ground.apparent_friction, valleys);
 }

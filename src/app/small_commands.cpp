@@ -78,8 +78,7 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, No
   if (section.off_steepest > most_off) {
     fmt::print(
         "warning: maps.path is at {:.0f} degrees to the steepest descent at the middle of the release. The block "
-        "slides "
-        "along it all the same, and pulls only with the slope along the path\n",
+        "slides along it all the same, driven only by the slope along the path\n",
         section.off_steepest);
   }
   const auto first_beyond = [&](double end) {

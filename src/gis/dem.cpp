@@ -122,7 +122,7 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
   return resampled(raster, target);
 }
 
-// About the polygons of releases and about boxes. Files that cannot be read are told of where the release is.
+// Around the polygons of releases and around boxes. Files that cannot be read are reported when the release is loaded.
 std::vector<Rectangle> places_of_bodies(const config::Case& parameters, const std::string& crs) {
   std::vector<Rectangle> places;
   for (const auto& [name, body] : parameters.bodies) {

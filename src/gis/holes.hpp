@@ -13,7 +13,7 @@ namespace thawslide::gis {
 // becomes of a slide that gets there; empty if there are none.
 [[nodiscard]] std::string holes_note(const config::Case& parameters, const config::Site& site);
 
-// Of each probe at or along which no terrain is known.
+// A note for each probe whose point, or all of whose corners, have no terrain data.
 [[nodiscard]] std::vector<std::string> probes_in_holes(const config::Site& site);
 
 }  // namespace thawslide::gis

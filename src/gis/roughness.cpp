@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -156,19 +157,33 @@ double slope_of_tile(const Raster& raster, const Tile& part) {
   return std::sqrt(2.0 * least * std::min(largest, most_of_least * least));  // of both components
 }
 
-// A quantile over the tiles of a raster; 0 where none knows enough.
+// Values of the tiles of a raster.
 template <class OfTile>
-double over_tiles(const Raster& raster, double share, const OfTile& of_tile) {
+auto of_tiles(const Raster& raster, const OfTile& of_tile) {
   const int across = std::max(1, raster.columns / tile_size), along = std::max(1, raster.rows / tile_size);
-  std::vector<double> of_tiles(static_cast<std::size_t>(across) * static_cast<std::size_t>(along));
-  parallel_for(of_tiles.size(), [&](std::size_t k) {
+  using Value = decltype(of_tile(raster, Tile{}));
+  std::vector<Value> values(static_cast<std::size_t>(across) * static_cast<std::size_t>(along));
+  parallel_for(values.size(), [&](std::size_t k) {
     const int i = static_cast<int>(k) % across, j = static_cast<int>(k) / across;
-    of_tiles[k] = of_tile(raster, Tile{edge(raster.columns, i, across), edge(raster.columns, i + 1, across),
-                                       edge(raster.rows, j, along), edge(raster.rows, j + 1, along)});
+    values[k] = of_tile(raster, Tile{edge(raster.columns, i, across), edge(raster.columns, i + 1, across),
+                                     edge(raster.rows, j, along), edge(raster.rows, j + 1, along)});
   });
-  of_tiles.erase(std::remove_if(of_tiles.begin(), of_tiles.end(), [](double value) { return std::isnan(value); }),
-                 of_tiles.end());
-  return of_tiles.empty() ? 0.0 : quantile(of_tiles, share);
+  return values;
+}
+
+// Of the values that are numbers; 0 where none is.
+double quantile_of_known(std::vector<double> values, double share) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
+               values.end());
+  return values.empty() ? 0.0 : quantile(values, share);
+}
+
+// Noise of the tiles in the direction in which it is least (0) or second least (1).
+double noise_of_tiles(const std::vector<std::array<double, 2>>& tiles, std::size_t direction, double share) {
+  std::vector<double> values;
+  std::transform(tiles.begin(), tiles.end(), std::back_inserter(values),
+                 [&](const std::array<double, 2>& tile) { return tile[direction]; });
+  return quantile_of_known(std::move(values), share);
 }
 
 // Of noise and bumps, each with its slope. Bumps that noise explains count as noise: the two are measured in different
@@ -212,19 +227,15 @@ struct Filtered {
 
 double noise_rms(const Raster& raster, const Rectangle& rectangle) {
   const Raster within = points_within(raster, rectangle);
-  const double of_points = over_tiles(
-      within, rough_share, [](const Raster& part, const Tile& tile) { return noise_of_tile(part, tile)[0]; });
-  const double of_stripes = over_tiles(
-      within, striped_share, [](const Raster& part, const Tile& tile) { return noise_of_tile(part, tile)[1]; });
-  return std::max(of_points, of_stripes);
+  const auto tiles = of_tiles(within, noise_of_tile);
+  return std::max(noise_of_tiles(tiles, 0, rough_share), noise_of_tiles(tiles, 1, striped_share));
 }
 
 double noise_below_body(const Raster& raster, const Rectangle& rectangle) {
   const auto missing = [](double length, double cell) { return std::max(0.0, 0.5 * (tile_size * cell - length)); };
   const Rectangle wide = rectangle.widened(missing(rectangle.max_x - rectangle.min_x, raster.cell_x),
                                            missing(rectangle.max_y - rectangle.min_y, raster.cell_y));
-  return over_tiles(points_within(raster, wide), 0.5,
-                    [](const Raster& part, const Tile& tile) { return noise_of_tile(part, tile)[0]; });
+  return noise_of_tiles(of_tiles(points_within(raster, wide), noise_of_tile), 0, 0.5);
 }
 
 double bump_length(double spacing, double cell) { return length_of_half * resolving(spacing, cell); }
@@ -246,7 +257,8 @@ double bump_slope(const Raster& short_waves, const Rectangle& rectangle, double 
     return 0.0;
   }
   const double of_cell = std::sqrt(variance_of_cell(spacing_of(short_waves), cell));
-  return over_tiles(points_within(smoothed(short_waves, std::max(width, of_cell)), rectangle), 0.75, slope_of_tile);
+  const Raster filtered = points_within(smoothed(short_waves, std::max(width, of_cell)), rectangle);
+  return quantile_of_known(of_tiles(filtered, slope_of_tile), 0.75);
 }
 
 double noise_slope(double rms, double spacing, double cell, double width) {
@@ -318,9 +330,8 @@ std::string roughness_note(const config::Case& parameters, const config::Site& s
       is_auto ? "That is the widest filter. Use larger cells (grid.cell), or a terrain model with less noise."
               : "Set terrain.smooth = \"auto\".";
   return fmt::format(
-      "terrain.smooth: noise and bumps shorter than {:.2g} m add about {:.2g} % to the friction, with a filter of {:g} "
-      "m "
-      "(rms slope {:.2g}; at most {:g} is intended). {}",
+      "terrain.smooth: noise and bumps shorter than {:.2g} m add about {:.2g} % to the friction, with a filter of "
+      "{:g} m (rms slope {:.2g}; at most {:g} is intended). {}",
       found.bump_length, 100.0 * found.apparent_friction, found.width, found.slope_left, largest_slope, remedy);
 }
 

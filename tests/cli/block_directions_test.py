@@ -87,9 +87,9 @@ def slope(tmp_path: Path) -> Path:
 def test_a_path_along_the_contour_is_warned_of(thawslide: Program, slope: Path) -> None:
     assert "steepest descent" not in thawslide("block", slope).stdout
     write_line(slope / "path.geojson", [(150.0, 10.0), (150.0, 195.0)])
-    told = thawslide("block", slope)
-    assert told.returncode == 0, told.stderr
-    assert "warning: maps.path is at 90 degrees to the steepest descent at the middle of the release" in told.stdout
+    done = thawslide("block", slope)
+    assert done.returncode == 0, done.stderr
+    assert "warning: maps.path is at 90 degrees to the steepest descent at the middle of the release" in done.stdout
 
 
 def test_a_path_of_no_length_is_refused(thawslide: Program, slope: Path) -> None:
@@ -100,21 +100,21 @@ def test_a_path_of_no_length_is_refused(thawslide: Program, slope: Path) -> None
         assert "the path has no length; allowed: a line of at least two different points" in refused.stderr
 
 
-def test_a_path_beside_the_release_is_told_of(thawslide: Program, slope: Path) -> None:
+def test_a_path_beside_the_release_is_reported(thawslide: Program, slope: Path) -> None:
     assert "passes the release by" not in thawslide("check", slope).stdout
     write_line(slope / "path.geojson", [(50.0, 190.0), (790.0, 190.0)])
-    told = thawslide("check", slope)
-    assert told.returncode == 0, told.stderr
+    done = thawslide("check", slope)
+    assert done.returncode == 0, done.stderr
     # From the release's edge at y = 122.5 m, whose points reach half a cell further.
-    assert "note: maps.path: path.geojson passes the release by, 6" in told.stdout
+    assert "note: maps.path: path.geojson passes the release by, 6" in done.stdout
 
 
-def test_a_probe_without_terrain_is_told_of(thawslide: Program, slope: Path) -> None:
+def test_a_probe_without_terrain_is_reported(thawslide: Program, slope: Path) -> None:
     case = (slope / "case.toml").read_text()
     x, y = place(500.0, 100.0)
     (slope / "case.toml").write_text(f"{case}[probe.gate]\npoint = [{x}, {y}]\n")
-    told = "probe.gate: the terrain model has no data there, and the probe reports zeros"
-    assert told not in thawslide("check", slope).stdout
+    note = "probe.gate: the terrain model has no data there, and the probe reports zeros"
+    assert note not in thawslide("check", slope).stdout
     hole = np.array([500.0, 100.0])
     write_dem(
         slope / "dem.tif",
@@ -123,7 +123,7 @@ def test_a_probe_without_terrain_is_told_of(thawslide: Program, slope: Path) -> 
         rows=41,
         cell=CELL,
     )
-    assert told in thawslide("check", slope).stdout
+    assert note in thawslide("check", slope).stdout
 
 
 def test_a_block_ends_with_its_profile(thawslide: Program, tmp_path: Path) -> None:
@@ -132,9 +132,9 @@ def test_a_block_ends_with_its_profile(thawslide: Program, tmp_path: Path) -> No
     assert plane in PLANE_2D
     text = PLANE_2D.replace(plane, 'type = "profile"\nfile = "profile.csv"').replace("[900.0, 200.0]", "[400.0, 200.0]")
     (tmp_path / "case.toml").write_text(text)
-    told = thawslide("block", tmp_path / "case.toml", "--output", tmp_path / "a.csv", *sets(time__end=20.0))
-    assert told.returncode == 0, told.stderr
-    assert "note: the profile is known from -100 to 400 m; the front leaves it at" in told.stdout
+    done = thawslide("block", tmp_path / "case.toml", "--output", tmp_path / "a.csv", *sets(time__end=20.0))
+    assert done.returncode == 0, done.stderr
+    assert "note: the profile is known from -100 to 400 m; the front leaves it at" in done.stdout
     rows = list(csv.DictReader((tmp_path / "a.csv").open()))
     assert max(float(row["front_position_m"]) for row in rows) <= 400.0
     assert float(rows[-1]["time_s"]) < 20.0

@@ -103,6 +103,6 @@ def test_block_behind_the_dyke_does_not_move_when_another_hits_it(
 
 def test_a_wall_thinner_than_a_cell_is_warned_of(thawslide: Program) -> None:
     """Bonded bodies push each other through a dyke of 2 m on cells of 5 m, and not on cells of 2 m."""
-    told = "the terrain has a wall thinner than a cell (5 m), 40 m high"
-    assert told in thawslide("check", WALLS / "case.toml").stdout
+    warning = "the terrain has a wall thinner than a cell (5 m), 40 m high"
+    assert warning in thawslide("check", WALLS / "case.toml").stdout
     assert "a wall thinner" not in thawslide("check", WALLS / "case.toml", *sets(grid__cell=2, time__step=0.002)).stdout

@@ -5,7 +5,6 @@ With the jobs of scripts/refinement, whose page has finer cells and the causes o
 
 from __future__ import annotations
 
-import math
 import sys
 from pathlib import Path
 
@@ -54,7 +53,8 @@ def test_a_slope_of_the_alps_with_the_default_filter(tmp_path: Path) -> None:
         assert len(rows) >= 8
         for each in rows:
             assert each.ground / each.wedge == pytest.approx(1.0, abs=0.1), (cell, each)
-            assert math.isfinite(each.inside)
+            # Yielding in the gully: 1.37 on cells of 6.6 m (docs/refinement.md).
+            assert (each.ground + each.inside) / each.wedge < 1.45, (cell, each)
     assert refinement.spread([each.travel for each in found]) < 0.05
     assert refinement.spread([each.centre for each in found]) < 0.05
     assert found[-1].travel > 2200.0  # the DEM as it is: 1,650 m
