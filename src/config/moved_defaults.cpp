@@ -8,13 +8,10 @@ namespace thawslide::config {
 
 namespace {
 
-bool softens(const Case& parameters) {
-  return parameters.mechanics.enabled &&
-         std::any_of(parameters.materials.begin(), parameters.materials.end(), [](const auto& each) {
-           const Material& material = each.second;
-           return material.law == LawKind::mohr_coulomb && (material.residual_cohesion < material.cohesion ||
-                                                            material.residual_friction_angle < material.friction_angle);
-         });
+bool yields(const Case& parameters) {
+  return parameters.mechanics.enabled && parameters.mechanisms.deformation &&
+         std::any_of(parameters.materials.begin(), parameters.materials.end(),
+                     [](const auto& each) { return each.second.law == LawKind::mohr_coulomb; });
 }
 
 bool has_bends(const Case& parameters) {
@@ -42,7 +39,7 @@ const std::vector<MovedDefault>& moved_defaults() {
       {"pressure", "melt_contraction", "false", "true", has_pore_water},
       {"pressure", "skeleton_compressibility", "0.0", "2e-09", has_pore_water},
       {"phases", "water_expansion_law", "\"constant\"", "\"by_temperature\"", has_pore_water},
-      {"material.NAME", "softening_strain", "1.0", "0.05", softens},
+      {"material.NAME", "gaps_close_first", "false", "true", yields},
       {"block", "bends", "false", "true", has_bends},
   };
   return all;

@@ -76,13 +76,17 @@ bool is_plastic(const Case& whole, const Material& material) {
   return whole.mechanics.enabled && material.law == LawKind::mohr_coulomb && whole.mechanisms.deformation;
 }
 
+bool loses_friction(const Material& material) { return material.residual_friction_angle < material.friction_angle; }
+
+bool softens(const Material& material) {
+  return material.law == LawKind::mohr_coulomb &&
+         (loses_friction(material) || material.residual_cohesion < material.cohesion);
+}
+
 // The paper's softening, of cohesion alone over a plastic strain of 1, is left as it is.
 bool breaks(const Case&, const Material& material) {
   constexpr double strain_of_the_paper = 1.0;
-  const bool falls = material.residual_cohesion < material.cohesion;
-  const bool loses_friction = material.residual_friction_angle < material.friction_angle;
-  return material.law == LawKind::mohr_coulomb &&
-         (loses_friction || (falls && material.softening_strain != strain_of_the_paper));
+  return softens(material) && (loses_friction(material) || material.softening_strain != strain_of_the_paper);
 }
 
 bool seeps_at_base(const Case& whole, const Material& material) {
@@ -140,22 +144,41 @@ std::vector<Parameter<Material>> material_parameters() {
               "friction_angle, that is no softening of friction",
               [](const Case&, Material& material) { material.residual_friction_angle = material.friction_angle; })
           .usually({20, 35, when_broken}, breaks),
-      parameter(&Material::softening_strain,
-                {.key = "softening_strain",
-                 .range = above(0),
-                 .text = "plastic strain eps_c over which what softens of cohesion and friction falls to 1/e; the "
-                         "paper's is 1",
-                 .source = "Sec. 4"})
-          .usually({0.005, 0.05, when_broken}, breaks),
+      parameter(
+          &Material::softening_strain,
+          {.key = "softening_strain",
+           .range = above(0),
+           .text = "plastic strain eps_c over which what softens of cohesion and friction falls to 1/e. The paper's "
+                   "form, with 1: finer cells then break sooner",
+           .source = "Sec. 4"})
+          .otherwise("softening_slip/(sqrt(3) grid.cell)")
+          .only_if("when softening_slip is not given", "softening_slip",
+                   [](const Case&, const Material& material) { return !(material.softening_slip > 0.0); })
+          .usually({0.005, 0.05, when_broken},
+                   [](const Case& whole, const Material& material) {
+                     return breaks(whole, material) && material.softening_strain > 0.0;
+                   }),
+      parameter(
+          &Material::softening_slip,
+          {.key = "softening_slip",
+           .unit = "m",
+           .range = above(0),
+           .text = "slip s_c across a surface of rupture over which what softens of cohesion and friction falls to "
+                   "1/e, the same on every cell: eps_c = s_c/(sqrt(3) grid.cell)"})
+          .required_if("when cohesion or friction softens and softening_strain is not given",
+                       [](const Case&, const Material& material) {
+                         return softens(material) && !(material.softening_strain > 0.0);
+                       }),
       parameter(&Material::tension_cutoff,
                 {.key = "tension_cutoff",
                  .unit = "Pa",
                  .range = {.low = 0, .infinity_allowed = true},
                  .text = "largest tension in any direction; inf: limited by cohesion and friction angle alone"}),
-      parameter(&Material::gaps_close_first,
-                {.key = "gaps_close_first",
-                 .text = "true: what tension has torn apart bears no compression until its gap is closed (advised "
-                         "where cohesion is small); false: it bears at once, as classical plasticity has it"}),
+      parameter(
+          &Material::gaps_close_first,
+          {.key = "gaps_close_first",
+           .text = "true: what tension has torn apart bears no compression until its gap is closed; false: it bears "
+                   "at once, as classical plasticity has it, and a loose slide swells"}),
       parameter(&Material::viscosity_time,
                 {.key = "viscosity_time",
                  .unit = "s",

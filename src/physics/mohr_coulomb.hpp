@@ -5,6 +5,7 @@
 //   softening, with w = exp(-eps/eps_c), eps the sum of sqrt(2/3 de_p:de_p); c and phi are held within a step
 //     c = c_f + (c_0 - c_f) w              (the paper's, whose eps_c is 1)
 //     sin phi = sin phi_f + (sin phi_0 - sin phi_f) w              (not in the paper)
+//     eps_c of a slip: physics/softening.hpp
 // Return to faces, edges and apex in principal space: among the sets of at most three active planes, the one whose
 // multipliers are not negative and whose stress is admissible (Koiter's flow rule; Clausen, Damkilde and Andersen 2006
 // and de Souza Neto, Peric and Owen 2008, ch. 8, name the same regions). Where no set answers, the apex does: without

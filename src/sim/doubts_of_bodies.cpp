@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/linear.hpp"
 #include "base/rounding.hpp"
+#include "config/basal_laws.hpp"
 #include "config/case_proposal.hpp"
 #include "config/fitting_cell.hpp"
 #include "config/plausibility.hpp"
+#include "physics/softening.hpp"
 
 namespace thawslide::sim {
 
@@ -19,6 +22,7 @@ constexpr double most_volume_off = 0.02;  // share that particles may have more 
 constexpr double least_standing = 0.5;    // share of a body's area
 constexpr double touching = 0.5;          // spacings: particles stand on a lattice, and the ground need not
 constexpr int digits_of_places = 6;
+constexpr double most_of_base = 1.15;  // friction of the base over what broken material above it bears
 
 // Particles stand on a lattice, which the shape need not.
 std::string doubt_of_volume(const config::Case& parameters, const BodyFigures& body) {
@@ -94,6 +98,73 @@ std::string doubt_of_band(const config::Case& parameters, const BodyFigures& bod
       config::place_of(parameters, "band.thickness"), thickest, body.name, body.median_thickness);
 }
 
+bool is_plastic(const config::Case& parameters, const config::Material& material) {
+  return parameters.mechanics.enabled && parameters.mechanisms.deformation &&
+         material.law == config::LawKind::mohr_coulomb;
+}
+
+double sine_of(double degrees) { return std::sin(degrees * pi<double> / 180.0); }
+double cosine_of(double degrees) { return std::cos(degrees * pi<double> / 180.0); }
+
+// The weight of a body over its median thickness, as a pressure [Pa].
+double usual_load(const config::Case& parameters, const BodyFigures& body) {
+  return body.mass / body.volume * parameters.general.gravity * body.median_thickness;
+}
+
+// A base that bears more than the broken body above it: the slide then shears in the cells above its base, which
+// stays frozen, and how much depends on the cell. Soil mechanics knows the same bound of an interface, whose friction
+// angle is at most that of the soil. In simple shear without dilation the body bears N sin(phi) + c cos(phi) (Davis
+// 1968).
+std::string doubt_of_strength(const config::Case& parameters, const BodyFigures& body) {
+  const std::string& name = parameters.bodies.at(body.name).material;
+  const config::Material& material = parameters.materials.at(name);
+  const double load = usual_load(parameters, body);
+  if (!is_plastic(parameters, material) || parameters.terrain.kind == config::TerrainKind::none || !(load > 0.0)) {
+    return "";
+  }
+  const physics::basal::ContactNode<double> frozen{.normal_pressure = load, .solid_fraction = 1.0};
+  const double base = std::visit([&](const auto& law) { return law.coefficient(frozen); },
+                                 config::friction_of<double>(parameters.basal));
+  const double cohesive = material.residual_cohesion * cosine_of(material.residual_friction_angle) / load;
+  const double borne = sine_of(material.residual_friction_angle) + cohesive;
+  if (base <= most_of_base * borne) {
+    return "";
+  }
+  const bool softens = material.residual_friction_angle < material.friction_angle;
+  const std::string key = "material." + name + (softens ? ".residual_friction_angle" : ".friction_angle");
+  return fmt::format(
+      "{}: broken material of body {} bears {:.2f} of its load in shear, and friction of the base is {:.2f} of it: the "
+      "slide shears above its base, which then does not warm, and the results depend on grid.cell. Give {} a larger "
+      "angle, or [basal] a friction of at most {:.2f} (an angle of {:.0f} degrees).",
+      config::place_of(parameters, key), body.name, borne, base, key, most_of_base * borne,
+      std::floor(std::atan(most_of_base * borne) * 180.0 / pi<double>));
+}
+
+// Material that softens over a slip lets go of more elastic energy in a cell than its rupture takes.
+std::string doubt_of_softening(const config::Case& parameters, const BodyFigures& body) {
+  const std::string& name = parameters.bodies.at(body.name).material;
+  const config::Material& material = parameters.materials.at(name);
+  if (!is_plastic(parameters, material) || !(material.softening_slip > 0.0)) {
+    return "";
+  }
+  const auto radius = [&](double cohesion, double angle) {
+    return cohesion * cosine_of(angle) + usual_load(parameters, body) * sine_of(angle);
+  };
+  const double loss = radius(material.cohesion, material.friction_angle) -
+                      radius(material.residual_cohesion, material.residual_friction_angle);
+  const double shear_modulus = material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
+  const double widest = physics::widest_softening_cell(material.softening_slip, shear_modulus, loss);
+  if (parameters.grid.cell <= widest) {
+    return "";
+  }
+  const std::string key = "material." + name + ".softening_slip";
+  return fmt::format(
+      "{}: {} is {} m: in a cell of {:g} m the strength falls faster than the elastic strain can follow, and breaking "
+      "depends on grid.cell. Allowed with it are cells of at most {:.2g} m; with this cell, {} of at least {:.2g} m.",
+      config::place_of(parameters, key), key, material.softening_slip, parameters.grid.cell, widest, key,
+      material.softening_slip * parameters.grid.cell / widest);
+}
+
 // The temperatures that the case gives as numbers are looked at when it is read.
 std::string doubt_of_warmth(const config::Case& parameters, const BodyFigures& body) {
   const InitialField& temperature = parameters.bodies.at(body.name).temperature;
@@ -122,6 +193,8 @@ std::vector<std::string> doubts_of_bodies(const config::Case& parameters, const 
     add(doubt_of_standing(parameters, body));
     add(doubt_of_stiffness(parameters, body));
     add(doubt_of_band(parameters, body));
+    add(doubt_of_strength(parameters, body));
+    add(doubt_of_softening(parameters, body));
     add(doubt_of_warmth(parameters, body));
     if (parameters.mechanics.enabled) {
       const std::string note = config::resolution_note(body.name, body.median_thickness, parameters.grid.cell,

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/basal_laws.hpp"
+#include "physics/softening.hpp"
 #include "sim/between_bodies.hpp"
 #include "sim/substrates.hpp"
 #include "terrain/height_field.hpp"
@@ -40,7 +41,7 @@ physics::Phases<Real> make_phases(const config::Phases& p) {
 }
 
 template <class Real>
-mpm::MaterialModel<Real> make_material(const config::Material& material, bool deformation) {
+mpm::MaterialModel<Real> make_material(const config::Material& material, double cell, bool deformation) {
   mpm::MaterialModel<Real> model;
   model.elastic = physics::Elastic<Real>::from_young_poisson(static_cast<Real>(material.youngs_modulus),
                                                              static_cast<Real>(material.poisson_ratio));
@@ -48,14 +49,17 @@ mpm::MaterialModel<Real> make_material(const config::Material& material, bool de
   model.viscosity_time = static_cast<Real>(material.viscosity_time);
   model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
   if (material.law == config::LawKind::mohr_coulomb && deformation) {
-    const physics::Strength<Real> strength{
-        .friction_angle = static_cast<Real>(material.friction_angle),
-        .dilation_angle = static_cast<Real>(material.dilation_angle),
-        .cohesion = static_cast<Real>(material.cohesion),
-        .residual_cohesion = static_cast<Real>(material.residual_cohesion),
-        .tension_cutoff = static_cast<Real>(material.tension_cutoff),
-        .softening_strain = static_cast<Real>(material.softening_strain),
-        .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
+    const double of_slip = physics::softening_strain_of_slip(material.softening_slip, cell);
+    const double softening_strain = material.softening_slip > 0.0 ? of_slip : material.softening_strain;
+    physics::Strength<Real> strength{.friction_angle = static_cast<Real>(material.friction_angle),
+                                     .dilation_angle = static_cast<Real>(material.dilation_angle),
+                                     .cohesion = static_cast<Real>(material.cohesion),
+                                     .residual_cohesion = static_cast<Real>(material.residual_cohesion),
+                                     .tension_cutoff = static_cast<Real>(material.tension_cutoff),
+                                     .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
+    if (softening_strain > 0.0) {  // else nothing softens
+      strength.softening_strain = static_cast<Real>(softening_strain);
+    }
     if (strength.residual_friction_angle < strength.friction_angle) {
       model.law = physics::MohrCoulomb<Real, true>::make(model.elastic, strength);
     } else {
@@ -323,7 +327,8 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
   model.motion.lubrication = parameters.mechanisms.lubrication;
   for (const auto& [name, material] : parameters.materials) {
     model.material_names.push_back(name);
-    model.motion.materials.push_back(make_material<Real>(material, parameters.mechanisms.deformation));
+    model.motion.materials.push_back(
+        make_material<Real>(material, parameters.grid.cell, parameters.mechanisms.deformation));
   }
   for (const auto& [name, body] : parameters.bodies) {
     model.body_names.push_back(name);

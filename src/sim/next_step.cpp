@@ -14,8 +14,8 @@ namespace {
 std::string advice_on(LimitKind kind) {
   switch (kind) {
     case LimitKind::wave:
-      return "A wave runs the faster the lighter the matter: the particle is torn apart. Try gaps_close_first in its "
-             "material, or take such particles out with guards.volume = \"remove\" and a guards.largest_volume.";
+      return "A wave runs the faster the lighter the matter: the particle is torn apart. Take such particles out "
+             "with guards.volume = \"remove\" and a guards.largest_volume.";
     case LimitKind::viscosity:
       return "Try a smaller viscosity_time in the material: its limit falls with the square of the wave speed, which "
              "grows as matter is torn apart; or take such particles out with guards.volume = \"remove\" and a "

@@ -39,7 +39,7 @@ COMMON_MISTAKES = [
             "{case}/case.toml:21:1: key 'material.rock.young_modulus' is not known in [material.rock]; did "
             "you mean 'youngs_modulus'? Allowed here: law, youngs_modulus, poisson_ratio, friction_angle, "
             "dilation_angle, cohesion, residual_cohesion, residual_friction_angle, softening_strain, "
-            "tension_cutoff, gaps_close_first, viscosity_time, hydraulic_conductivity.\n"
+            "softening_slip, tension_cutoff, gaps_close_first, viscosity_time, hydraulic_conductivity.\n"
         ),
     ),
     CommonMistake(

@@ -86,7 +86,7 @@ TEST(CaseFile, DefaultsOfTheBaseMakeNothingFromNothing) {
   EXPECT_EQ(found.pressure.frozen_rows, FrozenRows::sealed);
   EXPECT_EQ(found.band.thickness_change, ThicknessChange::conserving);
   EXPECT_EQ(found.heat.advection_form, AdvectionForm::conservative);
-  EXPECT_EQ(found.materials.at("rock").softening_strain, 0.05);
+  EXPECT_TRUE(found.materials.at("rock").gaps_close_first);
   EXPECT_TRUE(found.block.bends);
 }
 

@@ -244,12 +244,30 @@ TEST(Values, FitOneAnother) {
             "FOLDER/case.toml:15:27: material.rock.residual_friction_angle is 10 degrees, above "
             "material.rock.friction_angle, "
             "which is 5 degrees; softening takes friction away. Give a residual at most the friction angle.");
-  EXPECT_EQ(error_of_changed({{"[body.block]",
-                               "residual_friction_angle = 10.0\nfriction_angle = 30.0\ndilation_angle = "
-                               "12.0\n[body.block]"}}),
+  EXPECT_EQ(error_of_changed(
+                {{"[body.block]",
+                  "residual_friction_angle = 10.0\nsoftening_slip = 1.0\nfriction_angle = 30.0\ndilation_angle = "
+                  "12.0\n[body.block]"}}),
             "FOLDER/case.toml:15:27: material.rock.residual_friction_angle is 10 degrees, below "
             "material.rock.dilation_angle, which is 12 degrees; allowed: at least the dilation angle, which does not "
             "soften, else plastic flow makes energy.");
+}
+
+TEST(Values, OfSofteningAreOneOfTwo) {
+  const std::string softens = "friction_angle = 30.0\nresidual_friction_angle = 20.0\ncohesion = 5.0\n";
+  EXPECT_EQ(error_of_changed({{"law = \"elastic\"", softens + "softening_slip = 0.5"}}), "no error");
+  EXPECT_EQ(error_of_changed({{"law = \"elastic\"", softens + "softening_strain = 0.5"}}), "no error");
+  EXPECT_EQ(error_of_changed({{"law = \"elastic\"", "friction_angle = 30.0\ncohesion = 5.0"}}), "no error");
+  EXPECT_EQ(
+      error_of_changed({{"law = \"elastic\"", softens}}),
+      "FOLDER/case.toml:11:1: key 'material.rock.softening_slip' is missing: it is needed when cohesion or friction "
+      "softens and softening_strain is not given. Add 'softening_slip = ...' to [material.rock]: slip s_c across a "
+      "surface of rupture over which what softens of cohesion and friction falls to 1/e, the same on every cell: "
+      "eps_c = s_c/(sqrt(3) grid.cell), a number, > 0 [m].");
+  EXPECT_EQ(
+      error_of_changed({{"law = \"elastic\"", softens + "softening_slip = 0.5\nsoftening_strain = 0.5"}}),
+      "FOLDER/case.toml:16:20: material.rock.softening_strain has a meaning only when softening_slip is not given. "
+      "Remove it, or change material.rock.softening_slip.");
 }
 
 TEST(Values, OfTheFilterBelongToItsTransfer) {

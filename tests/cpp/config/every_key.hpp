@@ -89,7 +89,7 @@ residual_cohesion = 100000.0
 residual_friction_angle = 22.0
 softening_strain = 0.02
 tension_cutoff = 10000.0
-gaps_close_first = true
+gaps_close_first = false
 viscosity_time = 0.03
 hydraulic_conductivity = 0.0001
 [body.block]
@@ -219,6 +219,7 @@ slope = 5.0
 law = "elastic"
 youngs_modulus = 400000000.0
 poisson_ratio = 0.25
+softening_slip = 0.75
 [probe.gauge]
 point = [12.5, -3.0]
 [body.block]

@@ -25,9 +25,9 @@ std::vector<std::string> without_folder(std::vector<std::string> notices) {
 }
 
 std::vector<std::string> notices_of(const std::string& of_material) {
-  const Case found = testing_support::case_from_text(
-      changed({{"law = \"elastic\"", "friction_angle = 40.0\ncohesion = 1e6\n" + of_material},
-               {"[basal]", "[block]\nbends = true\n[heat]\nenabled = false\n[basal]"}}));
+  const Case found = testing_support::case_from_text(changed(
+      {{"law = \"elastic\"", "friction_angle = 40.0\ncohesion = 1e6\n" + of_material + "\ngaps_close_first = true"},
+       {"[basal]", "[block]\nbends = true\n[heat]\nenabled = false\n[basal]"}}));
   return without_folder(notices(found));
 }
 
@@ -46,6 +46,7 @@ TEST(Notices, TellOfBrokenMatterThatIsUnusual) {
 TEST(Notices, HaveNothingAgainstUsualBrokenMatterNorThePaper) {
   const std::vector<std::string> none;
   EXPECT_EQ(notices_of("residual_cohesion = 1e4\nresidual_friction_angle = 25.0\nsoftening_strain = 0.02"), none);
+  EXPECT_EQ(notices_of("residual_cohesion = 1e4\nresidual_friction_angle = 25.0\nsoftening_slip = 3.0"), none);
   EXPECT_EQ(notices_of("residual_cohesion = 1e5\nsoftening_strain = 1.0"), none) << "the paper's";
   EXPECT_EQ(notices_of("softening_strain = 0.5"), none) << "nothing softens";
 }
@@ -273,10 +274,10 @@ TEST(Notices, TellOfGapsBetweenSubstrates) {
   EXPECT_EQ(notices(found).size(), 1U);
 }
 
-const std::vector<Change> with_band{
-    {"[basal]", "[band]\nthickness = 0.1\n[basal]"},
-    {"law = \"elastic\"",
-     "friction_angle = 35.0\ncohesion = 1e6\nresidual_cohesion = 1e4\nhydraulic_conductivity = 1e-7"}};
+const std::vector<Change> with_band{{"[basal]", "[band]\nthickness = 0.1\n[basal]"},
+                                    {"law = \"elastic\"",
+                                     "friction_angle = 35.0\ncohesion = 1e6\nresidual_cohesion = 1e4\nsoftening_strain "
+                                     "= 0.05\nhydraulic_conductivity = 1e-7"}};
 
 TEST(Notices, OneTellsAFileOfEarlierVersionsWhatChanged) {
   const Case found = testing_support::case_from_text(changed(with_band));
@@ -291,7 +292,7 @@ TEST(Notices, OneTellsAFileOfEarlierVersionsWhatChanged) {
                 "  pressure.melt_contraction = true  # was false\n"
                 "  pressure.skeleton_compressibility = 2e-09  # was 0.0\n"
                 "  phases.water_expansion_law = \"by_temperature\"  # was \"constant\"\n"
-                "  material.NAME.softening_strain = 0.05  # was 1.0\n"
+                "  material.NAME.gaps_close_first = true  # was false\n"
                 "  With the values of before it gives what it gave. Give one of them, and this note goes; "
                 "docs/choosing-the-base.md says why."}));
 }

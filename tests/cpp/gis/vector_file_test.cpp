@@ -149,7 +149,7 @@ TEST(VectorFileTest, TruthValuesDatesAndTextsAreNoNumbers) {
   EXPECT_EQ(feature.texts.at("is_thin"), "false");
   for (const auto& [name, value] :
        {std::pair("is_thick", "true"), {"is_thin", "false"}, {"text", "10"}, {"day", "2016/06/28"}}) {
-    EXPECT_EQ(error_of([&] { static_cast<void>(areas_by_value(layer, name, "body.rock.thickness")); }),
+    EXPECT_EQ(error_of([&, asked = name] { static_cast<void>(areas_by_value(layer, asked, "body.rock.thickness")); }),
               fmt::format("FOLDER/r.geojson: the attribute '{}' of polygon 1 is '{}'; needed: a number. Fill it in.",
                           name, value));
   }

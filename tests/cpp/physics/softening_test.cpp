@@ -1,4 +1,6 @@
 // Strength that falls with plastic strain: its closed forms, and the energy that it takes to break matter.
+#include "physics/softening.hpp"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -121,6 +123,49 @@ TEST(Softening, TheEnergyItTakesIsThatOfTheLostStrength) {
   record.expect_order("strain a step", {1.0, 0.5, 0.25}, "relative error, of cohesion", of_cohesion, 1.0, 0.1);
   record.expect_order("strain a step", {1.0, 0.5, 0.25}, "relative error, of friction", of_friction, 1.0, 0.1);
   record.explain("Strength is held within a step, so that the work is of first order in the step.");
+}
+
+// A layer under shear, of which one cell softens and the rest stays elastic: at a traction tau its top has moved by
+// tau H/G + sqrt(3) h eps, and beyond the peak eps = eps_c ln((R_0 - R_f)/(tau - R_f)). With eps_c of a slip the cell
+// cancels.
+TEST(Softening, OverASlipIsTheSameOnEveryCell) {
+  verification::Record record("Shear layer that softens over a slip",
+                              "A layer of height H under even pressure p is sheared. One cell of height h yields, the "
+                              "rest is elastic. The displacement of its top after the peak, and the energy taken per "
+                              "area, for h = H/2, H/4 and H/8.",
+                              "u = tau H/G + s_c ln((R_0 - R_f)/(tau - R_f)), W = R_f s + (R_0 - R_f) s_c (1 - "
+                              "exp(-s/s_c))",
+                              "the softening law with eps_c = s_c/(sqrt(3) h); crack band, Bazant and Oh (1983)");
+  constexpr double height = 40.0, slip = 0.5, step = 2e-5, cohesion = 1e6, residual = 2e4;
+  const double cosine = std::sqrt(1.0 - sine_of(35) * sine_of(35));
+  const double first = cohesion * cosine + pressure * sine_of(35), last = residual * cosine + pressure * sine_of(35);
+  for (const double cell : {20.0, 10.0, 5.0}) {
+    const double strain = softening_strain_of_slip(slip, cell);
+    const int count = static_cast<int>(std::lround(3.0 * slip / (2.0 * step * cell)));  // a slip of about 3 s_c
+    const Sheared sheared = shear<MohrCoulomb<double>>({35, 0, cohesion, residual, infinity, strain}, step, count);
+    const double slipped = std::sqrt(3.0) * cell * sheared.plastic_strain;
+    const double displacement = sheared.last_radius * height / elastic.shear_modulus + slipped;
+    const double exact = sheared.last_radius * height / elastic.shear_modulus +
+                         slip * std::log((first - last) / (sheared.last_radius - last));
+    const double energy = last * slipped + (first - last) * slip * (1.0 - std::exp(-slipped / slip));
+    EXPECT_GT(slipped, 2.5 * slip);
+    record.expect_near(fmt::format("displacement over the exact, h {} m", cell), displacement / exact, 1.0, 0.005);
+    record.expect_near(fmt::format("energy over the exact, h {} m", cell), cell * sheared.work / energy, 1.0, 0.005);
+  }
+}
+
+// Within a cell as wide as the limit the displacement still grows as the traction falls; in a wider one it would not.
+TEST(Softening, TheWidestCellIsWhereTheDisplacementTurnsBack) {
+  constexpr double slip = 0.02;
+  const double loss = (1e6 - 2e4) * std::sqrt(1.0 - sine_of(35) * sine_of(35));
+  const double widest = widest_softening_cell(slip, elastic.shear_modulus, loss);
+  const auto grows = [&](double cell) {
+    const double strain = softening_strain_of_slip(slip, cell), few = 1e-4 * strain;
+    const double fall = loss * (1.0 - std::exp(-few / strain));
+    return std::sqrt(3.0) * cell * few - fall * cell / elastic.shear_modulus > 0.0;
+  };
+  EXPECT_TRUE(grows(0.999 * widest));
+  EXPECT_FALSE(grows(1.001 * widest));
 }
 
 // Where friction falls, the return is that of matter which has the remaining angle and cohesion from the start.

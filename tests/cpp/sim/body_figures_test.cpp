@@ -88,6 +88,52 @@ TEST(BodyFigures, TheMedianIsByAreaAndANoteLooksAtIt) {
       << doubts[1];
 }
 
+// Material of this strength on a base of 30 degrees, whose friction is 0.577 of the load.
+std::vector<std::string> with_strength(const std::vector<std::string>& others) {
+  std::vector<std::string> sets{"material.rock.law=mohr_coulomb", "material.rock.cohesion=1e5",
+                                "material.rock.residual_cohesion=0.0"};
+  sets.insert(sets.end(), others.begin(), others.end());
+  return sets;
+}
+
+TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseIsTold) {
+  const auto doubts_with = [](const std::vector<std::string>& others) {
+    const std::vector<std::string> sets = with_strength(others);
+    return doubts_of_bodies(case_from_text(step, sets), figures_of(step, sets));
+  };
+  const std::string slip = "material.rock.softening_slip=1.0", angle = "material.rock.friction_angle=35.0";
+  const std::string residual = "material.rock.residual_friction_angle=";
+  const auto doubts = doubts_with({slip, angle, residual + "25.0"});
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_NE(doubts.front().find(
+                "broken material of body step bears 0.42 of its load in shear, and friction of the base is 0.58 of it: "
+                "the slide shears above its base, which then does not warm, and the results depend on grid.cell. Give "
+                "material.rock.residual_friction_angle a larger angle, or [basal] a friction of at most 0.49 (an angle "
+                "of 25 degrees)."),
+            std::string::npos)
+      << doubts.front();
+  EXPECT_TRUE(doubts_with({slip, angle, residual + "30.2"}).empty()) << "tan 30 over sin 30.2 is just below 1.15";
+  EXPECT_TRUE(doubts_with({slip, angle, residual + "25.0", "basal.friction_angle=25.0"}).empty());
+  EXPECT_TRUE(doubts_with({slip, angle, residual + "25.0", "material.rock.residual_cohesion=2e4"}).empty());
+  EXPECT_EQ(doubts_with({slip, "material.rock.friction_angle=20.0"}).size(), 1U) << "nor what does not soften";
+  EXPECT_TRUE(doubts_with({slip, angle, residual + "25.0", "mechanisms.deformation=false"}).empty());
+}
+
+// R_0 - R_f is 1e5 cos 35 + p (sin 35 - sin 30), p the weight of 4 m.
+TEST(BodyFigures, ACellTooWideForSofteningIsTold) {
+  const std::vector<std::string> sets =
+      with_strength({"material.rock.friction_angle=35.0", "material.rock.residual_friction_angle=30.2",
+                     "material.rock.softening_slip=0.001"});
+  const auto doubts = doubts_of_bodies(case_from_text(step, sets), figures_of(step, sets));
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_NE(
+      doubts.front().find("material.rock.softening_slip is 0.001 m: in a cell of 1 m the strength falls faster "
+                          "than the elastic strain can follow, and breaking depends on grid.cell. Allowed with it "
+                          "are cells of at most "),
+      std::string::npos)
+      << doubts.front();
+}
+
 TEST(BodyFigures, TellHowFarABodyIsAboveTheGround) {
   const std::vector<BodyFigures> bodies = figures_of(step, {"terrain.elevation=-0.75"});
   EXPECT_NEAR(bodies.front().clearance, 1.75, 1e-12);

@@ -89,8 +89,8 @@ TEST(EnergyGuard, AStepThatIsTooLongIsToldSoWhileAllIsFinite) {
                "without a cause, [0-9.e+]+ % of all so far, where guards.energy_growth allows 25 %\\. The fastest "
                "particle, [0-9]+ of body 'block' at \\([0-9.]+, -?[0-9.]+\\) m, moves at [0-9.e+]+ m/s, the slide at "
                "[0-9.e+]+ m/s in the mean\\. Likely cause: the step is too long for what the material does, or the "
-               "material is softer than its load, or it is torn apart; try half of time.step, or viscosity_time or "
-               "gaps_close_first in the material\\.");
+               "material is softer than its load, or it is torn apart; try half of time.step, or a viscosity_time "
+               "in the material\\.");
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     ASSERT_TRUE(std::isfinite(simulation.particles().velocity(p, 0) + simulation.particles().stress(p, 0)));
   }
@@ -183,7 +183,7 @@ TEST(StepGuard, NamesTheLimitAndTheParticle) {
       "one, 0\\.01 s, where guards.smallest_step allows 0\\.001\\. It is set by the elastic wave of material "
       "'rock' \\([0-9.e+]+ m/s\\) on cells of 10 m, of particle 17 of body 'block' at \\(.*\\) m, whose "
       "volume is 1e\\+07 of that at t = 0\\. A wave runs the faster the lighter the matter: the particle is "
-      "torn apart\\. Try gaps_close_first in its material, or take such particles out with guards.volume = "
+      "torn apart\\. Take such particles out with guards.volume = "
       "\"remove\" and a guards.largest_volume\\.");
 }
 

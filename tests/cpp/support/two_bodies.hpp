@@ -49,6 +49,7 @@ poisson_ratio = 0.2
 friction_angle = 30.0
 cohesion = {}
 residual_cohesion = {}
+softening_strain = 1.0
 tension_cutoff = 1e5
 hydraulic_conductivity = 1e-10
 [body.left]
