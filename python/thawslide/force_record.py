@@ -63,10 +63,8 @@ def read_force_record(path: Path, band: Band, source: str) -> ForceRecord:
         )
     if len(table.rows) < 2:
         raise ReportError(f"{path}: too few rows (found {len(table.rows)}; allowed: 2 or more). Add the history.")
-    found = {
-        name: np.array([finite_number(row[name], f"{path}:{line}") for line, row in table.rows])
-        for name in table.columns
-    }
+    rows = [[finite_number(row[name], f"{path}:{line}") for name in table.columns] for line, row in table.rows]
+    found = dict(zip(table.columns, np.array(rows).T, strict=True))
     back = np.flatnonzero(np.diff(found["time_s"]) <= 0.0)
     if back.size:
         line, row = table.rows[int(back[0]) + 1]
@@ -98,9 +96,7 @@ def projected(north: Numbers, east: Numbers, azimuth: float) -> Numbers:
     return np.asarray(north * np.cos(angle) + east * np.sin(angle))
 
 
-def projected_ends(
-    low: dict[str, Numbers], high: dict[str, Numbers], azimuth: float
-) -> tuple[Numbers, Numbers]:
+def projected_ends(low: dict[str, Numbers], high: dict[str, Numbers], azimuth: float) -> tuple[Numbers, Numbers]:
     """Return the least and the largest that `projected` gives of any two components within their ranges."""
     corners = [projected(north["north"], east["east"], azimuth) for north in (low, high) for east in (low, high)]
     return np.min(corners, axis=0), np.max(corners, axis=0)

@@ -335,8 +335,9 @@ struct Probe {
 };
 
 struct Report {
-  std::vector<double> times;  // s, of the snapshot figures; empty: six even times
-  std::string targets;        // CSV: quantity,time_s,value,unit,source
+  std::vector<double> times;                        // s, of the snapshot figures; empty: six even times
+  std::string targets, force_record, force_source;  // two CSV files, empty: none; who inverted the record
+  std::vector<double> force_periods;                // s, the shortest and the longest of the record's waves
 };
 
 struct Case {

@@ -87,17 +87,20 @@ def test_a_row_is_met_by_the_median_but_pressure_by_every_member() -> None:
     assert not is_met([changed(failure="bad"), GOOD], WANTED["ratio"])
     assert "- largest P over averaged N: not every member came to its end" in verdict([changed(failure="bad"), GOOD])
     table = members_table(found).splitlines()
-    peak = "| peak of the mean velocity [m/s] | 80 | 72 to 88 | 80.0 | 60.0 to 120.0 | 3 of 5 | yes |"
+    peak = "| model | peak of the mean velocity [m/s] | 80 | 72 to 88 | 80.0 | 60.0 to 120.0 | 3 of 5 | yes |"
     assert peak in table
-    assert "| largest P over averaged N |  | at most 1 | 1.000 | 1.000 | 5 of 5 | yes |" in table
-    assert table[0].count("|") == table[2].count("|") == 8
+    assert "| bound | largest P over averaged N |  | at most 1 | 1.000 | 1.000 | 5 of 5 | yes |" in table
+    assert table[0].count("|") == table[2].count("|") == 9
 
 
 def test_the_verdict_is_plain() -> None:
     assert verdict([GOOD, GOOD]).endswith("Not met: none.")
-    assert verdict([GOOD, GOOD]).startswith("Met, 8 of 8 rows: peak of the mean velocity; ")
+    assert verdict([GOOD, GOOD]).startswith(
+        "Met: 2 of 2 observations (runout; force, band-passed 35 to 150 s), 4 of 4 results of other models (peak "
+    )
     words = verdict([changed(peak=60.0, ratio=1.2), GOOD, changed(peak=70.0, failure="it\nleft")])
-    assert "Met, 6 of 8 rows" in words
+    assert "3 of 4 results of other models (from 8 m/s to the peak; " in words
+    assert "1 of 2 physical bounds (hottest of any column)." in words
     assert "- peak of the mean velocity: the median is 70.0 m/s; 72 to 88 is wanted" in words
     assert "- largest P over averaged N: the most is 1.200; at most 1 is wanted" in words
     assert words.endswith("Left out of median and range, as they did not come to their end: seed 3 (it left).")
@@ -136,8 +139,11 @@ def test_variants_outside_the_intervals_are_bold() -> None:
     rows = [Row("a", "the case"), Row("b", "hot", ("x=1",)), Row("c", "gone", ("y=2",))]
     found = {"a": GOOD, "b": changed(hottest=300.0, failure="it left", stop=float("inf")), "c": Observed("not run")}
     head, _, case, hot, gone, _, broken = variants_table(rows, found).splitlines()
-    assert case == "| the case | 80.0 | 35.0 | 5.70 | 10.0 | 180 | 0.28 | 190 | 1.000 | 20.0 |  |"
-    assert "| **not by 220** | 0.28 | **300** | 1.000 | 20.0 | `x=1` |" in hot
+    assert case == "| the case | 10.0 | 0.28 | 80.0 | 35.0 | 5.70 | 180 | 190 | 1.000 | 20.0 |  |"
+    assert head.startswith(
+        "| run | observation: runout [km] | observation: force 35 to 150 s [TN] | model: peak [m/s] |"
+    )
+    assert "| **not by 220** | **300** | 1.000 | 20.0 | `x=1` |" in hot
     assert "| gone | not run |" in gone
     assert {line.count("|") for line in (head, case, hot, gone)} == {12}
     assert broken == "- hot broke off: it left"

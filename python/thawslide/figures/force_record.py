@@ -49,16 +49,8 @@ class Comparison:
 
 
 def filtered(time: Numbers, values: Numbers, at: Numbers, band: Band) -> Numbers:
-    """Return a history within a band at other times [s], which may begin before it or end after it.
-
-    There it keeps its first and its last value; a row without a number counts as 0.
-    """
-    step = band.shortest / SAMPLES
-    before = np.arange(at[0], time[0] - 0.5 * step, step)
-    after = np.arange(at[-1], time[-1] + 0.5 * step, -step)[::-1]
-    whole = np.concatenate((before, time, after))
-    passed = band_passed(whole, np.interp(whole, time, np.nan_to_num(values)), band.shortest, band.longest)
-    return np.interp(at, whole, passed)
+    """Return a history within a band at other times [s], which may begin before it or end after it."""
+    return band_passed(time, values, band.shortest, band.longest, at)
 
 
 def compared(run: Run) -> Comparison:
@@ -168,9 +160,9 @@ def caption(run: Run) -> str:
     assert record is not None
     fixed = (
         f"Force on the ground less the static weight: run, and inversion of seismic waves ({record.source}). Both are "
-        f"filtered to periods of {record.band.words} by the same filter. It shifts no phase, as timing is compared, and "
-        "so spreads by up to half a period before an onset; the run counts as at rest before its start, and keeps its "
-        "last value after its end. What is drawn before the start of the run is this spreading alone."
+        f"filtered to periods of {record.band.words} by the same filter. Since timing is compared, it shifts no phase, "
+        "and so spreads by up to half a period before an onset: what is drawn before the start of the run is that "
+        "alone. The run is taken to be at rest before its start and to keep its last force after its end."
     )
     if run.per_metre:
         return fixed

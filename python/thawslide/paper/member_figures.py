@@ -63,10 +63,14 @@ def members_over_time(runs: Sequence[Run], starts: Sequence[float]) -> Figure:
 
 
 def _draw_wanted(axes: Axes) -> None:
-    """Shade where the peak is wanted, and mark by when the slide is reported to stand."""
+    """Shade where the peak is wanted, and mark the end of the run of the other model, by when the slide stands."""
     wanted = {each.name: each for each in QUANTITIES}
     peak, rise, stop = wanted["peak"], wanted["rise"], wanted["stop"]
     axes.set_ylim(top=max(axes.get_ylim()[1], 1.1 * peak.most))
     box = (SET_TIME + rise.least, peak.least), rise.most - rise.least, peak.most - peak.least
-    axes.add_patch(Rectangle(*box, facecolor=NOTE, alpha=0.15, linewidth=0, label="where the peak is wanted"))
-    axes.axvline(stop.most, color=NOTE, linewidth=0.9, linestyle=":", label="at rest before")
+    axes.add_patch(
+        Rectangle(*box, facecolor=NOTE, alpha=0.15, linewidth=0, label="where the peak of the other model is wanted")
+    )
+    axes.axvline(
+        stop.most, color=NOTE, linewidth=0.9, linestyle=":", label="end of the other model's run: at rest before"
+    )
