@@ -23,6 +23,17 @@ def response(frequency: Numbers, shortest: float, longest: float) -> Numbers:
     return np.asarray(high * slow / (1.0 + slow))
 
 
+def even_times(start: float, end: float, step: float, shortest: float, longest: float) -> Numbers:
+    """Return times a step [s] apart, on which a history is filtered; ReportError where these are too many."""
+    samples = (end - start + 4.0 * longest) / step
+    if not samples <= MOST_SAMPLES:
+        raise ReportError(
+            f"a force between periods of {shortest:g} and {longest:g} s over {end - start:g} s takes "
+            f"{samples:.3g} samples, above {MOST_SAMPLES:g}; ask for longer periods"
+        )
+    return np.arange(start, end + 0.5 * step, step)
+
+
 def band_passed(time: Numbers, values: Numbers, shortest: float, longest: float, at: Numbers | None = None) -> Numbers:
     """Return what is left of a history between two periods [s], at its own times [s], ascending, or at others.
 
@@ -38,13 +49,7 @@ def band_passed(time: Numbers, values: Numbers, shortest: float, longest: float,
         return np.zeros_like(wanted)
     start, end = min(float(time[0]), float(wanted[0])), max(float(time[-1]), float(wanted[-1]))
     step = min(float(np.median(np.diff(time))), shortest / SAMPLES)
-    samples = (end - start + 4.0 * longest) / step
-    if not samples <= MOST_SAMPLES:
-        raise ReportError(
-            f"a force between periods of {shortest:g} and {longest:g} s over {end - start:g} s takes "
-            f"{samples:.3g} samples, above {MOST_SAMPLES:g}; ask for longer periods"
-        )
-    even = np.arange(start, end + 0.5 * step, step)
+    even = even_times(start, end, step, shortest, longest)
     record = np.interp(even, time, np.nan_to_num(values))
     held = int(np.ceil(longest / step))
     turn = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, 2 * held) / (2 * held))

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.arrays import Numbers
-from thawslide.band_pass import SAMPLES, band_passed
+from thawslide.band_pass import SAMPLES, band_passed, even_times
 from thawslide.errors import NotInRunError
 from thawslide.figures.force import force_in_band, reported_forces, seismic_force
 from thawslide.figures.style import BLACK, BLUE, NOTE, letters, prefixed, styled, time_axis
@@ -53,6 +53,10 @@ def filtered(time: Numbers, values: Numbers, at: Numbers, band: Band) -> Numbers
     return band_passed(time, values, band.shortest, band.longest, at)
 
 
+def _times(start: float, end: float, band: Band) -> Numbers:
+    return even_times(start, end, band.shortest / SAMPLES, band.shortest, band.longest)
+
+
 def compared(run: Run) -> Comparison:
     """Return what the figure draws; NotInRunError where there is nothing to compare."""
     record = run.force_record
@@ -61,8 +65,7 @@ def compared(run: Run) -> Comparison:
     if run.per_metre:
         raise NotInRunError("the force record is not drawn: the case states no width (case.width)")
     azimuth = travel_azimuth(record)
-    step = record.band.shortest / SAMPLES
-    of_record = np.arange(record.time[0], record.time[-1] + 0.5 * step, step)
+    of_record = _times(float(record.time[0]), float(record.time[-1]), record.band)
     up, north, east = (filtered(record.time, record.best[part], of_record, record.band) for part in PARTS)
     theirs = Curves(of_record, up, projected(north, east, azimuth), reversal(of_record, up))
 
@@ -84,10 +87,14 @@ def compared(run: Run) -> Comparison:
 
 def _curves(run: Run, record: ForceRecord, azimuth: float, start: float) -> Curves:
     """Return the run's force within the band from a time [s], before its own start too, to the end of the run."""
+    axes = "xyz"[: run.dimension]
+    needed = [*(f"seismic_force_{axis}_N" for axis in axes), "front_position_m"]
+    absent = [name for name in needed if name not in run.history]
+    if absent:
+        raise NotInRunError(f"history.csv has no column {absent[0]}")
     parts, _ = seismic_force(run)
     time = run.history["time_s"]
-    step = record.band.shortest / SAMPLES
-    at = np.arange(start, time[-1] + 0.5 * step, step)
+    at = _times(start, float(time[-1]), record.band)
     passed = {axis: filtered(time, values, at, record.band) for axis, values in parts.items()}
     up = passed["xyz"[run.vertical]]
     along = projected(passed["y"], passed["x"], azimuth) if run.dimension == 3 else _towards(run) * passed["x"]
@@ -200,7 +207,7 @@ def force_record(run: Run) -> Figure:
         axes.axvline(start, color=BLUE, linewidth=0.8, linestyle=":")
         time_axis(axes, found.record.time, label=False)
         axes.set_ylabel(f"force ({unit})")
-    panels[-1].set_xlabel("time of the run (s)")
+    panels[-1].set_xlabel("time (s)")
     _mark_reversals(panels[0], found, divisor)
     panels[0].legend(loc="upper right")
     letters(
