@@ -161,6 +161,10 @@ def test_members_are_drawn_on_one_clock(make_run: MakeRun) -> None:
     for folder, late in zip(folders, (0.0, 1.0), strict=True):
         moved = np.interp(columns["time_s"] - late, columns["time_s"], columns["mean_velocity_m_s"])
         write_history(folder / "history.csv", columns | {"mean_velocity_m_s": moved})
+        (folder / "inputs" / "targets.csv").write_text(
+            "quantity,time_s,value,unit,source\nstart_velocity,40,8,m/s,x\nmean_velocity,40,8,m/s,x\n"
+            "mean_velocity,42,11,m/s,x\n"
+        )
     runs = [Run(folder) for folder in folders]
     time, values = on_one_clock(runs, [START, START + 1.0], "mean_velocity_m_s")
     assert (time[0], time[-1]) == (pytest.approx(40.0 - START), pytest.approx(49.0 - START, abs=0.1))
@@ -172,6 +176,8 @@ def test_members_are_drawn_on_one_clock(make_run: MakeRun) -> None:
     np.testing.assert_allclose(thin, values)
     np.testing.assert_allclose(middle.get_ydata(), np.median(values, axis=0))
     assert way.get_ylabel() == "mean displacement (km)"
+    (marks,) = [line for line in speed.lines if line.get_label() == "reported: x"]
+    np.testing.assert_allclose(marks.get_data(), [[40.0, 42.0], [8.0, 11.0]], atol=2e-3)
     moved = on_clock_set(runs[1], START + 1.0)
     assert np.interp(40.0, moved.history["time_s"], moved.history["mean_velocity_m_s"]) == pytest.approx(8.0, abs=0.05)
     assert runs[1].history["time_s"][0] == 0.0
