@@ -253,7 +253,7 @@ std::vector<Parameter<Report>> report_parameters() {
                                    .is_path = true}),
       parameter(&Report::force_record,
                 {.key = "force_record",
-                 .text = "CSV file of a force inverted from seismic waves, of the slide on the Earth, to draw beside "
+                 .text = "CSV file of a force inverted from seismic waves, of the slide on the Earth, to draw next to "
                          "that of the run, columns time_s,up_N,north_N,east_N; \"\": none",
                  .is_path = true}),
       parameter(&Report::force_periods, {.key = "force_periods",
