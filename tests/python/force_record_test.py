@@ -242,7 +242,13 @@ def test_without_a_reversal_the_clocks_are_not_aligned(folder: Path) -> None:
     assert "The clocks are not aligned, as one of the vertical forces does not reverse: t = 0 of both is the same." in (
         FIGURES["force_record"].caption_of(run)
     )
-    assert line(FIGURES["force_record"].draw(run), 0, "A survey, clock moved by +0.0 s")[0][0] == -20.0
+    assert line(FIGURES["force_record"].draw(run), 0, "A survey, clocks not aligned")[0][0] == -20.0
+
+
+def test_a_run_that_ends_before_the_record_begins_still_draws(folder: Path) -> None:
+    columns = {name: values[:3] for name, values in history_columns(2001, 2).items()}
+    write_history(folder / "history.csv", columns | {"time_s": np.array([-90.0, -80.0, -70.0])})
+    assert not line(FIGURES["force_record"].draw(Run(folder)), 0, "filter before the run").size
 
 
 def test_the_caption_says_where_two_inversions_differ(folder: Path) -> None:

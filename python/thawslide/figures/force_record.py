@@ -70,10 +70,11 @@ def compared(run: Run) -> Comparison:
     theirs = Curves(of_record, up, projected(north, east, azimuth), reversal(of_record, up))
 
     # A first filter from the start to the end of the run, to find the clock; then over the record's time.
-    clock = _curves(run, record, azimuth, float(run.history["time_s"][0]))
+    start = float(run.history["time_s"][0])
+    clock = _curves(run, record, azimuth, start)
     aligned = clock.reversal is not None and theirs.reversal is not None
     shift = clock.reversal.zero - theirs.reversal.zero if clock.reversal and theirs.reversal else 0.0
-    ours = _curves(run, record, azimuth, float(of_record[0]) + shift)
+    ours = _curves(run, record, azimuth, min(start, float(of_record[0]) + shift))
     moved = theirs.reversal.moved(shift) if theirs.reversal else None
     return Comparison(
         run=ours,
@@ -88,7 +89,7 @@ def compared(run: Run) -> Comparison:
 def _curves(run: Run, record: ForceRecord, azimuth: float, start: float) -> Curves:
     """Return the run's force within the band from a time [s], before its own start too, to the end of the run."""
     axes = "xyz"[: run.dimension]
-    needed = [*(f"seismic_force_{axis}_N" for axis in axes), "front_position_m"]
+    needed = [f"seismic_force_{axis}_N" for axis in axes] + (["front_position_m"] if run.dimension == 2 else [])
     absent = [name for name in needed if name not in run.history]
     if absent:
         raise NotInRunError(f"history.csv has no column {absent[0]}")
@@ -191,6 +192,7 @@ def force_record(run: Run) -> Figure:
     start = float(run.history["time_s"][0])
     both = [found.run.up, found.run.along, found.record.up, found.record.along]
     divisor, unit = prefixed(np.concatenate(both), "N")
+    clock = f"clock moved by {_signed(found.shift)} s" if found.aligned else "clocks not aligned"
     figure = Figure(figsize=(10.0, 6.4), layout="constrained")
     figure.suptitle(run.titled("force and its seismic inversion"), x=0.01, ha="left", size=12)  # fmt: skip
     panels = list(figure.subplots(2, 1, sharex=True))
@@ -200,7 +202,7 @@ def force_record(run: Run) -> Figure:
             axes.fill_between(found.record.time, end[0] / divisor, end[1] / divisor, color=BLACK, alpha=0.18,
                               linewidth=0, label="range of the inversion")  # fmt: skip
         axes.plot(found.record.time, getattr(found.record, name) / divisor, color=BLACK,
-                  label=f"{record.source or 'inversion'}, clock moved by {_signed(found.shift)} s")  # fmt: skip
+                  label=f"{record.source or 'inversion'}, {clock}")  # fmt: skip
         ours, moves = getattr(found.run, name) / divisor, found.run.time >= start
         axes.plot(found.run.time[moves], ours[moves], color=BLUE, label="run")
         axes.plot(found.run.time[~moves], ours[~moves], color=BLUE, alpha=0.35, label="filter before the run")
