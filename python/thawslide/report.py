@@ -19,6 +19,7 @@ from thawslide.key_numbers import boiling_note, found_for, key_numbers, shown
 from thawslide.maps import Maps, on_map
 from thawslide.run import Run
 from thawslide.run_facts import Ending, last_write_age
+from thawslide.targets import KINDS
 from thawslide.whole_file import written_whole
 
 
@@ -113,20 +114,9 @@ def _page(run: Run, report: Report) -> str:
         _table(((row.words, row.value, row.remark) for row in key_numbers(run)), "numbers"),
     ]
     if run.targets:
-        rows = (
-            (
-                t.quantity.replace("_", " "),
-                f"{t.time:g} s",
-                f"{t.in_its_unit(t.value):g} {t.unit_words}",
-                found_for(run, t),
-                t.source,
-            )
-            for t in run.targets
-        )
-        head = ("quantity", "time", "reported", "this run", "source of the report")
-        table = _table(rows, "facts", head)
+        tables = "\n".join(_target_tables(run))
         note = f'<p class="clock">{html.escape(clock_note(run))}</p>'
-        parts.append(_details("Reported values to compare with", f"{table}\n{note}"))
+        parts.append(_details("Reported values to compare with", f"{tables}\n{note}"))
     for name, path in report.figures.items():
         kind = FIGURES[name]
         heading, link = html.escape(kind.heading), f"figures/{path.name}"
@@ -145,6 +135,27 @@ def _page(run: Run, report: Report) -> str:
     links = " · ".join(f'<a href="#{name}">{html.escape(FIGURES[name].heading)}</a>' for name in report.figures)
     parts.insert(2, f"<nav>{links}</nav>")
     return page_frame(title, "\n".join(parts))
+
+
+def _target_tables(run: Run) -> list[str]:
+    """Return a table of reported values for each kind of them that there is, with what the run has in their place."""
+    tables = []
+    for kind, (_, heading) in KINDS.items():
+        rows = [
+            (
+                t.quantity.replace("_", " "),
+                f"{t.time:g} s",
+                f"{t.in_its_unit(t.value):g} {t.unit_words}",
+                found_for(run, t),
+                t.source,
+            )
+            for t in run.targets
+            if t.kind == kind
+        ]
+        if rows:
+            head = ("quantity", "time", "reported", "this run", "source of the report")
+            tables.append((f"<h3>{heading}</h3>\n" if kind else "") + _table(rows, "facts", head))
+    return tables
 
 
 def _map_files(run: Run, page_folder: Path) -> str:

@@ -23,6 +23,10 @@ def _is_corner(value: object) -> bool:
     return isinstance(value, list) and _is_numbers(value) and len(value) in (2, 3)
 
 
+def _is_periods(value: object) -> bool:
+    return isinstance(value, list) and _is_numbers(value) and len(value) == 2 and 0 < value[0] < value[1]
+
+
 def _is_text(value: object) -> bool:
     return isinstance(value, str)
 
@@ -48,7 +52,13 @@ _KINDS: dict[str, dict[str, Kind]] = {
     "heat": {"enabled": _FLAG, "latent": _FLAG, "steam": _FLAG},
     "maps": {"arrival_thickness": _NUMBER, "path": _TEXT},
     "terrain": {"type": _TEXT},
-    "report": {"times": (_is_numbers, "a list of finite numbers"), "targets": _TEXT},
+    "report": {
+        "times": (_is_numbers, "a list of finite numbers"),
+        "targets": _TEXT,
+        "force_record": _TEXT,
+        "force_periods": (_is_periods, "two numbers above 0, the smaller one first"),
+        "force_source": _TEXT,
+    },
 }
 _PROBE: dict[str, Kind] = {"point": (lambda value: value == [] or _is_corner(value), _CORNER[1])}
 

@@ -11,11 +11,12 @@ import numpy as np
 
 from thawslide.arrays import Numbers
 from thawslide.errors import NotInRunError, ReportError, printable, quoted
+from thawslide.force_record import ForceRecord, read_force_record
 from thawslide.history import History, read_history
 from thawslide.resolved_case import Case, read_case
 from thawslide.run_facts import Ending, ending_of, read_facts
 from thawslide.snapshot import Snapshot, snapshot_time
-from thawslide.targets import Target, read_targets
+from thawslide.targets import Band, Target, read_targets
 from thawslide.text_files import finite_number, is_file, read_table
 
 __all__ = ["History", "Numbers", "Run", "Snapshot", "Target"]
@@ -119,19 +120,35 @@ class Run:
     @cached_property
     def targets(self) -> list[Target]:
         """The reported values to compare with; empty when the case names none."""
-        name = str(self.section("report").get("targets", ""))
+        path = self._report_file("targets")
+        return read_targets(path) if path else []
+
+    @cached_property
+    def force_record(self) -> ForceRecord | None:
+        """The force inverted from seismic waves to compare with, None when the case names none."""
+        path, report = self._report_file("force_record"), self.section("report")
+        if path is None:
+            return None
+        if "force_periods" not in report:
+            case = self.folder / "case.toml"
+            raise ReportError(f"{case}: [report] force_record needs force_periods. Add the periods of its waves [s].")
+        return read_force_record(path, Band(*map(float, report["force_periods"])), str(report.get("force_source", "")))
+
+    def _report_file(self, key: str) -> Path | None:
+        """Return the file in the run folder that a key of [report] names, None for no file."""
+        name = str(self.section("report").get(key, ""))
         if not name:
-            return []
+            return None
         path, case = self.folder / name, self.folder / "case.toml"
         try:
             within, there = path.resolve().is_relative_to(self.folder.resolve()), path.is_file()
         except (OSError, RuntimeError, ValueError) as error:  # too long; links that lead round in a circle; a zero byte
-            raise ReportError(f"{case}: [report] targets {quoted(name)} cannot be read") from error
+            raise ReportError(f"{case}: [report] {key} {quoted(name)} cannot be read") from error
         if not within:
-            raise ReportError(f"{case}: [report] targets names {path}, outside the run folder")
+            raise ReportError(f"{case}: [report] {key} names {path}, outside the run folder")
         if not there:
-            raise ReportError(f"{path}: no such file; [report] targets in {case} names it")
-        return read_targets(path)
+            raise ReportError(f"{path}: no such file; [report] {key} in {case} names it")
+        return path
 
     @cached_property
     def facts(self) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """Reported values to compare a run with: the quantities there are, their units, and the CSV file that holds them.
 
-Columns: quantity, time_s (or time_min, time_h), value, unit, and source, which may be left out.
+Columns: quantity, time_s (or time_min, time_h), value, unit, and source and kind, which may be left out.
 """
 
 from __future__ import annotations
@@ -34,6 +34,13 @@ _ANGLE: Units = {"degrees": (1.0, 0.0), "deg": (1.0, 0.0), "°": (1.0, 0.0), "ra
 _SHARE: Units = {"-": (1.0, 0.0), "1": (1.0, 0.0), "": (1.0, 0.0), "%": (1e-2, 0.0)}
 _TIMES = {"time_s": 1.0, "time_min": 60.0, "time_h": 3600.0}  # the column's name: seconds
 
+# What a value may be, the adjective for it in figures, and what such values are called. Without a column it is "".
+KINDS: Mapping[str, tuple[str, str]] = {
+    "observation": ("observed", "Observations"),
+    "model": ("modelled", "Results of other models"),
+    "assumption": ("assumed", "Assumptions"),
+    "": ("reported", "Reported values"),
+}
 ABSOLUTE_ZERO = -273.15  # C
 FORCE = "max_seismic_force"
 SETS_CLOCK = "start_velocity"  # the quantity whose time and value [m/s] set the clock of the others
@@ -101,6 +108,12 @@ class Target:
     value: float  # in the first unit of its quantity: m, m/s, C, N, Pa, m2, m3, degrees, 1
     unit: str  # as the file has it
     source: str
+    kind: str = ""  # of KINDS
+
+    @property
+    def adjective(self) -> str:
+        """What kind of value it is, as figures have it."""
+        return KINDS[self.kind][0]
 
     @property
     def unit_words(self) -> str:
@@ -121,7 +134,7 @@ def band_of(target: Target) -> Band | None:
 
 def read_targets(path: Path) -> list[Target]:
     """Read the file; ReportError names the line, what was found there and what is allowed."""
-    table = read_table(path, ("quantity", "value", "unit"), (*_TIMES, "source"), MEGABYTE)
+    table = read_table(path, ("quantity", "value", "unit"), (*_TIMES, "source", "kind"), MEGABYTE)
     times = [name for name in _TIMES if name in table.columns]
     if len(times) != 1:
         found = " and ".join(times) or "none"
@@ -164,10 +177,14 @@ def _target(row: dict[str, str], time_column: str, where: str) -> Target:
     if unit not in quantity.units:
         found = f"the unit {quoted(unit)}" if unit else "no unit"
         raise ReportError(f"{where}: {found} for {name}; allowed: {', '.join(filter(None, quantity.units))}")
+    kind = row.get("kind", "")
+    if "kind" in row and kind not in tuple(filter(None, KINDS)):
+        found = f"the kind {quoted(kind)}" if kind else "no kind"
+        raise ReportError(f"{where}: {found} for {name}; allowed: {', '.join(filter(None, KINDS))}")
     given = finite_number(row["value"], where)
     factor, offset = quantity.units[unit]
-    target = Target(name, _TIMES[time_column] * finite_number(row[time_column], where), factor * given + offset, unit,
-                    source)  # fmt: skip
+    time = _TIMES[time_column] * finite_number(row[time_column], where)
+    target = Target(name, time, factor * given + offset, unit, source, kind)
     if not (math.isfinite(target.value) and math.isfinite(target.time)):
         raise ReportError(f"{where}: {name}: a number that large cannot be converted")
     if not quantity.low <= target.value <= quantity.high:

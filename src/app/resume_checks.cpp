@@ -91,7 +91,7 @@ std::string advice_on(const fs::path& folder, const io::Provenance& facts, const
 }
 
 void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile>& inputs,
-                         const fs::path& reported_values) {
+                         const config::Report& compared) {
   std::vector<std::string> changed;
   for (const io::InputFile& input : inputs) {
     const fs::path copy = folder / input.copy;
@@ -99,7 +99,8 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
       throw UserError(fmt::format("{}: damaged: it names {} as the copy of an input; those lie in inputs/.",
                                   (folder / "run.json").string(), input.copy));
     }
-    if (copy.filename() == reported_values.filename()) {
+    const auto is_copy_of = [&copy](const fs::path& file) { return copy.filename() == file.filename(); };
+    if (is_copy_of(compared.targets) || is_copy_of(compared.force_record)) {
       continue;
     }
     if (!fs::exists(copy)) {

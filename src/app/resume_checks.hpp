@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "config/case.hpp"
 #include "io/provenance.hpp"
 
 namespace thawslide::app {
@@ -15,10 +16,10 @@ namespace thawslide::app {
 [[nodiscard]] std::string advice_on(const std::filesystem::path& folder, const io::Provenance& facts,
                                     const std::vector<std::string>& changes, const std::string& otherwise);
 
-// The copies that the run reads must be those it began with. Reported values, with which only figures compare, may
-// change.
+// The copies that the run reads must be those it began with. Those of [report], with which only figures compare,
+// may change.
 void require_same_inputs(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
-                         const std::filesystem::path& reported_values);
+                         const config::Report& compared);
 
 // Of the files that the user gave, those that have changed, as notes: a run goes on with its copies, whatever has
 // become of them.

@@ -292,7 +292,7 @@ int resume_run(const ResumeOptions& options) {
   if (next.parameters.general.dimension == 3) {
     io::require_own_folders(folder, {"maps"});
   }
-  require_same_inputs(folder, facts.inputs, next.parameters.report.targets);
+  require_same_inputs(folder, facts.inputs, next.parameters.report);
   next.earlier.parts.back().notes = changed_originals(facts.inputs);
   return with_dimension(next.parameters.general.dimension,
                         [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {

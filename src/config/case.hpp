@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/table.hpp"
+#include "config/case_output.hpp"
 #include "physics/basal/parameter.hpp"
 
 namespace thawslide::config {
@@ -318,25 +319,9 @@ struct Block {
   bool bends = true;  // their pressure counts
 };
 
-struct Checkpoint {
-  double interval = 0;         // s of simulated time; 0: at the end
-  double wall_interval = 600;  // s of wall time; 0: none
-};
-
-struct Maps {
-  double cell = 0.0;               // m; 0: chosen by the DEM and grid.cell
-  double arrival_thickness = 0.1;  // m, from which on the slide has arrived
-  std::string path;                // line along which the front is measured; absolute once read; empty: none
-};
-
 struct Probe {
   Point point{};     // x, y
   std::string line;  // file of a cross section; absolute once read; empty: a point
-};
-
-struct Report {
-  std::vector<double> times;  // s, of the snapshot figures; empty: six even times
-  std::string targets;        // CSV: quantity,time_s,value,unit,source
 };
 
 struct Case {

@@ -1,8 +1,10 @@
-// Checks of the files that a case names beside its maps: names that a run can keep side by side, reported values.
+// Checks of the files that a case names beside its maps: names that a run can keep side by side, reported values, a
+// force record.
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "config/checks.hpp"
+#include "config/force_record.hpp"
 #include "config/input_files.hpp"
 #include "config/reported_values.hpp"
 
@@ -39,11 +41,31 @@ void check_targets(const Case& checked, Reading& reading) {
   }
 }
 
+void check_force_record(const Case& checked, Reading& reading) {
+  const Report& report = checked.report;
+  if (report.force_record.empty()) {
+    return;
+  }
+  if (reading.sound({"report.force_record"})) {
+    if (const std::string mistake = mistake_in_force_record(report.force_record); !mistake.empty()) {
+      reading.report("report.force_record", "report.force_record: " + mistake);
+    }
+  }
+  if (reading.sound({"report.force_periods"}) && report.force_periods.size() != 2) {
+    reading.report(
+        "report.force_periods",
+        fmt::format("report.force_periods is an array of {} numbers; allowed: 2 numbers, the shortest and the "
+                    "longest period of the waves.",
+                    report.force_periods.size()));
+  }
+}
+
 }  // namespace
 
 void check_files(const Case& checked, Reading& reading) {
   check_names(checked, reading);
   check_targets(checked, reading);
+  check_force_record(checked, reading);
 }
 
 }  // namespace thawslide::config

@@ -79,6 +79,7 @@ std::vector<InputFile> input_files_by_key(const Case& parameters) {
   }
   add("terrain.file", parameters.terrain.file);
   add("report.targets", parameters.report.targets);
+  add("report.force_record", parameters.report.force_record);
   for (const InputFile& map : map_files(parameters)) {
     add(map.key, map.file);
     if (!map.file.empty()) {

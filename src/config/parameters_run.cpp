@@ -240,14 +240,31 @@ std::vector<Parameter<Probe>> probe_parameters() {
 }
 
 std::vector<Parameter<Report>> report_parameters() {
+  const std::string when_record = "when force_record is given";
+  const auto has_record = [](const Case&, const Report& report) { return !report.force_record.empty(); };
   return {
       parameter(&Report::times, {.key = "times",
                                  .unit = "s",
                                  .range = at_least(0),
                                  .text = "times of the snapshot figures; []: six even times"}),
       parameter(&Report::targets, {.key = "targets",
-                                   .text = "CSV file of observed values, columns quantity,time_s,value,unit,source",
+                                   .text = "CSV file of reported values, columns "
+                                           "quantity,time_s,value,unit,source,kind",
                                    .is_path = true}),
+      parameter(&Report::force_record,
+                {.key = "force_record",
+                 .text = "CSV file of a force inverted from seismic waves, of the slide on the Earth, to draw next to "
+                         "that of the run, columns time_s,up_N,north_N,east_N; \"\": none",
+                 .is_path = true}),
+      parameter(&Report::force_periods, {.key = "force_periods",
+                                         .unit = "s",
+                                         .range = above(0),
+                                         .text = "shortest and longest period of the waves of force_record, to which "
+                                                 "both forces are filtered"})
+          .required_if(when_record, has_record)
+          .only_if(when_record, "force_record", has_record),
+      parameter(&Report::force_source, {.key = "force_source", .text = "who inverted force_record, for the legend"})
+          .only_if(when_record, "force_record", has_record),
   };
 }
 

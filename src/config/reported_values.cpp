@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <tuple>
@@ -22,7 +20,8 @@ namespace {
 
 const std::vector<std::string> needed{"quantity", "value", "unit"};
 const std::map<std::string, double> seconds_of{{"time_s", 1.0}, {"time_min", 60.0}, {"time_h", 3600.0}};
-const std::vector<std::string> allowed{"quantity", "value", "unit", "time_s", "time_min", "time_h", "source"};
+const std::vector<std::string> allowed{"quantity", "value", "unit", "time_s", "time_min", "time_h", "source", "kind"};
+const std::vector<std::string> kinds{"observation", "model", "assumption"};
 
 std::string quoted(const std::string& text) { return "'" + shown(text) + "'"; }
 
@@ -136,9 +135,16 @@ class TargetsReader {
       return fmt::format("{} for {}; allowed: {}", unit_name.empty() ? "no unit" : "the unit " + quoted(unit_name),
                          name, list_words(known));
     }
+    if (const auto column = column_.find("kind"); column != column_.end()) {
+      const std::string& kind = row.cells[column->second];
+      if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+        return fmt::format("{} for {}; allowed: {}", kind.empty() ? "no kind" : "the kind " + quoted(kind), name,
+                           list_words(kinds));
+      }
+    }
     double given = 0.0;
     for (const auto& [column, number] : {std::pair(std::string("value"), &given), std::pair(time_, &time)}) {
-      if (const std::string mistake = finite_number(row.cells[column_.at(column)], *number); !mistake.empty()) {
+      if (const std::string mistake = read_finite_number(row.cells[column_.at(column)], *number); !mistake.empty()) {
         return mistake;
       }
     }
@@ -163,22 +169,6 @@ class TargetsReader {
       ends.push_back(fmt::format("at most {:g}{}", quantity.high, unit));
     }
     return list_words(ends);
-  }
-
-  // Returns what is wrong with it.
-  static std::string finite_number(const std::string& cell, double& value) {
-    const char* begin = cell.data() + (!cell.empty() && cell.front() == '+' ? 1 : 0);
-    const char* end = cell.data() + cell.size();
-    const auto result = std::from_chars(begin, end, value);
-    if (result.ptr != end || result.ec == std::errc::invalid_argument) {
-      const bool has_decimal_comma = std::count(cell.begin(), cell.end(), ',') == 1;
-      return fmt::format("expected a number, found {}{}", quoted(cell),
-                         has_decimal_comma ? "; write the decimals behind a point" : "");
-    }
-    if (result.ec == std::errc::result_out_of_range) {
-      value = std::strtod(begin, nullptr);  // infinite, or all but 0
-    }
-    return std::isfinite(value) ? "" : fmt::format("expected a finite number, found {}", quoted(cell));
   }
 
   // On a clock of their own only the run can tell when they are.

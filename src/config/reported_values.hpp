@@ -24,7 +24,8 @@ struct ReportedValues {
   std::vector<std::string> mistakes;  // each with file and line
 };
 
-// Reads all rows that can be understood.
+// Reads all rows that can be understood. A column kind says of each value whether it is an observation, the result of
+// another model or an assumption, by which reports show them apart.
 ReportedValues read_reported_values(const std::filesystem::path& file);
 
 // What the user should know of values that are later than the run; empty where none is.

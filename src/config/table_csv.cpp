@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "base/error.hpp"
@@ -172,6 +175,21 @@ TableCsv read_table_csv(const fs::path& file, const std::vector<std::string>& ne
     throw UserError(fmt::format("{}: empty; expected the columns {}", name, fmt::join(needed, ", ")));
   }
   return table;
+}
+
+std::string read_finite_number(const std::string& cell, double& value) {
+  const char* begin = cell.data() + (!cell.empty() && cell.front() == '+' ? 1 : 0);
+  const char* end = cell.data() + cell.size();
+  const auto result = std::from_chars(begin, end, value);
+  if (result.ptr != end || result.ec == std::errc::invalid_argument) {
+    const bool has_decimal_comma = std::count(cell.begin(), cell.end(), ',') == 1;
+    return fmt::format("expected a number, found {}{}", quoted(cell),
+                       has_decimal_comma ? "; write the decimals behind a point" : "");
+  }
+  if (result.ec == std::errc::result_out_of_range) {
+    value = std::strtod(begin, nullptr);  // infinite, or all but 0
+  }
+  return std::isfinite(value) ? "" : fmt::format("expected a finite number, found {}", quoted(cell));
 }
 
 }  // namespace thawslide::config

@@ -21,4 +21,7 @@ struct TableCsv {
 // UTF-8, lacks a column that is `needed`, or has one twice. Rows may have more or fewer cells than there are columns.
 TableCsv read_table_csv(const std::filesystem::path& file, const std::vector<std::string>& needed, double most_bytes);
 
+// Reads the finite number of a cell; returns what is wrong with it, "" for nothing.
+std::string read_finite_number(const std::string& cell, double& value);
+
 }  // namespace thawslide::config

@@ -134,7 +134,7 @@ def test_run_json_tells_inputs_with_their_hashes_and_speed(lamplugh: Path) -> No
     assert facts["particle_steps_per_second"] == pytest.approx(rate)
     assert 0.0 < sum(facts["seconds_per_stage"].values()) <= facts["wall_s"]
     copies = {Path(each["copy"]).name: each for each in facts["inputs"]}
-    assert sorted(copies) == ["case.toml", "lamplugh_profile.csv", "lamplugh_targets.csv"]
+    assert sorted(copies) == ["case.toml", "lamplugh_force.csv", "lamplugh_profile.csv", "lamplugh_targets.csv"]
     for name, each in copies.items():
         content = (lamplugh / each["copy"]).read_bytes()
         assert content == (LAMPLUGH / name).read_bytes()

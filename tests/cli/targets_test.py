@@ -96,6 +96,9 @@ def test_both_convert_and_bound_alike(thawslide: Program, case: Path) -> None:
         HEADER + "mean_velocity,4,8,m/s,x\nmean_velocity,4,9,m/s,x\n",
         HEADER + "start_velocity,4,8,m/s,x\nstart_velocity,5,8,m/s,y\n",
         HEADER + "mean_velocity,4,8\n",
+        HEADER.rstrip() + ",kind\nmean_velocity,4,8,m/s,x,guess\n",
+        HEADER.rstrip() + ",kind\nmean_velocity,4,8,m/s,x,\n",
+        HEADER.rstrip() + ",kind\nmean_velocity,4,8,knots,x,guess\n",
     ],
 )
 def test_both_say_the_same(thawslide: Program, case: Path, text: str) -> None:

@@ -23,6 +23,7 @@ inline void write_what_cases_name() {
         write(place + name, "");
       }
       write(place + "targets.csv", "quantity,time_s,value,unit,source\n");
+      write(place + "force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
       write(place + "profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,-1\n");
     }
     write("base.toml", "[time]\nend = 2.0\n[grid]\ncell = 5.0\n");

@@ -87,17 +87,20 @@ def test_a_row_is_met_by_the_median_but_pressure_by_every_member() -> None:
     assert not is_met([changed(failure="bad"), GOOD], WANTED["ratio"])
     assert "- largest P over averaged N: not every member came to its end" in verdict([changed(failure="bad"), GOOD])
     table = members_table(found).splitlines()
-    peak = "| peak of the mean velocity [m/s] | 80 | 72 to 88 | 80.0 | 60.0 to 120.0 | 3 of 5 | yes |"
+    peak = "| model | peak of the mean velocity [m/s] | 80 | 72 to 88 | 80.0 | 60.0 to 120.0 | 3 of 5 | yes |"
     assert peak in table
-    assert "| largest P over averaged N |  | at most 1 | 1.000 | 1.000 | 5 of 5 | yes |" in table
-    assert table[0].count("|") == table[2].count("|") == 8
+    assert "| bound | largest P over averaged N |  | at most 1 | 1.000 | 1.000 | 5 of 5 | yes |" in table
+    assert table[0].count("|") == table[2].count("|") == 9
 
 
 def test_the_verdict_is_plain() -> None:
     assert verdict([GOOD, GOOD]).endswith("Not met: none.")
-    assert verdict([GOOD, GOOD]).startswith("Met, 8 of 8 rows: peak of the mean velocity; ")
+    assert verdict([GOOD, GOOD]).startswith(
+        "Met: 2 of 2 observations (runout; force, band-passed 35 to 150 s), 4 of 4 results of other models (peak "
+    )
     words = verdict([changed(peak=60.0, ratio=1.2), GOOD, changed(peak=70.0, failure="it\nleft")])
-    assert "Met, 6 of 8 rows" in words
+    assert "3 of 4 results of other models (from 8 m/s to the peak; " in words
+    assert "1 of 2 physical bounds (hottest of any column)." in words
     assert "- peak of the mean velocity: the median is 70.0 m/s; 72 to 88 is wanted" in words
     assert "- largest P over averaged N: the most is 1.200; at most 1 is wanted" in words
     assert words.endswith("Left out of median and range, as they did not come to their end: seed 3 (it left).")
@@ -136,8 +139,11 @@ def test_variants_outside_the_intervals_are_bold() -> None:
     rows = [Row("a", "the case"), Row("b", "hot", ("x=1",)), Row("c", "gone", ("y=2",))]
     found = {"a": GOOD, "b": changed(hottest=300.0, failure="it left", stop=float("inf")), "c": Observed("not run")}
     head, _, case, hot, gone, _, broken = variants_table(rows, found).splitlines()
-    assert case == "| the case | 80.0 | 35.0 | 5.70 | 10.0 | 180 | 0.28 | 190 | 1.000 | 20.0 |  |"
-    assert "| **not by 220** | 0.28 | **300** | 1.000 | 20.0 | `x=1` |" in hot
+    assert case == "| the case | 10.0 | 0.28 | 80.0 | 35.0 | 5.70 | 180 | 190 | 1.000 | 20.0 |  |"
+    assert head.startswith(
+        "| run | observation: runout [km] | observation: force 35 to 150 s [TN] | model: peak [m/s] |"
+    )
+    assert "| **not by 220** | **300** | 1.000 | 20.0 | `x=1` |" in hot
     assert "| gone | not run |" in gone
     assert {line.count("|") for line in (head, case, hot, gone)} == {12}
     assert broken == "- hot broke off: it left"
@@ -155,6 +161,10 @@ def test_members_are_drawn_on_one_clock(make_run: MakeRun) -> None:
     for folder, late in zip(folders, (0.0, 1.0), strict=True):
         moved = np.interp(columns["time_s"] - late, columns["time_s"], columns["mean_velocity_m_s"])
         write_history(folder / "history.csv", columns | {"mean_velocity_m_s": moved})
+        (folder / "inputs" / "targets.csv").write_text(
+            "quantity,time_s,value,unit,source\nstart_velocity,40,8,m/s,x\nmean_velocity,40,8,m/s,x\n"
+            "mean_velocity,42,11,m/s,x\n"
+        )
     runs = [Run(folder) for folder in folders]
     time, values = on_one_clock(runs, [START, START + 1.0], "mean_velocity_m_s")
     assert (time[0], time[-1]) == (pytest.approx(40.0 - START), pytest.approx(49.0 - START, abs=0.1))
@@ -166,6 +176,8 @@ def test_members_are_drawn_on_one_clock(make_run: MakeRun) -> None:
     np.testing.assert_allclose(thin, values)
     np.testing.assert_allclose(middle.get_ydata(), np.median(values, axis=0))
     assert way.get_ylabel() == "mean displacement (km)"
+    (marks,) = [line for line in speed.lines if line.get_label() == "reported: x"]
+    np.testing.assert_allclose(marks.get_data(), [[40.0, 42.0], [8.0, 11.0]], atol=2e-3)
     moved = on_clock_set(runs[1], START + 1.0)
     assert np.interp(40.0, moved.history["time_s"], moved.history["mean_velocity_m_s"]) == pytest.approx(8.0, abs=0.05)
     assert runs[1].history["time_s"][0] == 0.0

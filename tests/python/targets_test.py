@@ -126,6 +126,14 @@ def test_line_ends_marks_and_spaces_do_not_matter(tmp_path: Path, text: bytes) -
             HEADER + "start_velocity,4,8,m/s,x\nstart_velocity,5,8,m/s,y\n",
             "targets.csv:3: start_velocity is in line 2 already; one row sets the clock",
         ),
+        (
+            "quantity,time_s,value,unit,kind\nmean_velocity,4,8,m/s,guess\n",
+            "targets.csv:2: the kind 'guess' for mean_velocity; allowed: observation, model, assumption",
+        ),
+        (
+            "quantity,time_s,value,unit,kind\nmean_velocity,4,8,m/s,\n",
+            "targets.csv:2: no kind for mean_velocity; allowed: observation, model, assumption",
+        ),
         (HEADER + "mean_velocity,4,8\n", "targets.csv:2: 3 values for 5 columns"),
         (HEADER + 'mean_velocity,4,8,m/s,"x\n', "targets.csv:2: not a row of comma-separated cells: "),
         (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", "targets.csv:2: byte 0xfc is not UTF-8"),
@@ -157,6 +165,46 @@ def test_the_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
     marks = {str(line.get_label()): line.get_ydata() for axes in (speed, distance) for line in axes.lines}
     assert list(marks["reported: seismic"]) == [10.0]
     assert list(marks["reported mean: model"]) == [60.0]
+
+
+def test_observations_are_shown_apart_from_results_of_other_models(make_run: MakeRun) -> None:
+    folder = make_run()
+    rows = (
+        "mean_velocity,4,9,m/s,radar,observation\nmean_velocity,6,11,m/s,blocks,model\n"
+        "mean_displacement,5,60,m,blocks,model\nmean_displacement,6,70,m,survey,observation\n"
+        "front_distance,10,150,m,guess,assumption\n"
+    )
+    (folder / "inputs" / "targets.csv").write_text(HEADER.rstrip() + ",kind\n" + rows)
+    run = Run(folder)
+    assert [target.kind for target in run.targets] == ["observation", "model", "model", "observation", "assumption"]
+    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    kinds = re.findall(r"<h3>(.*?)</h3>\n(.*?)</table>", page, re.DOTALL)
+    assert [kind for kind, _ in kinds] == ["Observations", "Results of other models", "Assumptions"]
+    assert [re.findall(r"<td>(radar|survey|blocks|guess)</td>", table) for _, table in kinds] == [
+        ["radar", "survey"],
+        ["blocks", "blocks"],
+        ["guess"],
+    ]
+    speed, distance = FIGURES["motion"].draw(run).axes
+    marks = {str(line.get_label()): line for axes in (speed, distance) for line in axes.lines}
+    assert list(marks["observed: radar"].get_ydata()) == [9.0]
+    assert list(marks["modelled: blocks"].get_ydata()) == [11.0]
+    assert list(marks["observed mean: survey"].get_ydata()) == [70.0]
+    assert list(marks["assumed runout: guess"].get_ydata()) == [150.0]
+    filled = {label: line.get_markerfacecolor() != "white" for label, line in marks.items() if ": " in label}
+    assert [label for label, is_filled in filled.items() if is_filled] == ["observed: radar", "observed mean: survey"]
+
+
+def test_values_of_the_cases_have_kinds() -> None:
+    root = Path(__file__).resolve().parents[2]
+    for name in ("lamplugh", "lamplugh-columns"):
+        found = read_targets(root / "cases" / name / "lamplugh_targets.csv")
+        observed = {target.quantity for target in found if target.kind == "observation"}
+        assert observed == {
+            "front_distance", "max_seismic_force", "max_seismic_force_35_150_s", "source_volume",
+            "source_mean_thickness",
+        }  # fmt: skip
+        assert {target.kind for target in found} == {"observation", "model"}
 
 
 def test_numbers_of_the_end_are_compared(make_run: MakeRun) -> None:

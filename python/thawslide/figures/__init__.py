@@ -14,6 +14,8 @@ from thawslide.figures.cross_sections import cross_sections
 from thawslide.figures.energy import energy
 from thawslide.figures.entrainment import entrainment
 from thawslide.figures.force import force
+from thawslide.figures.force_record import caption as force_record_caption
+from thawslide.figures.force_record import force_record
 from thawslide.figures.largest import extent_maps, impact_maps
 from thawslide.figures.motion import motion
 from thawslide.figures.probes import probes
@@ -29,14 +31,16 @@ class FigureKind:
     """One figure: its heading and caption on the page, the function that draws it, and which runs it is for."""
 
     heading: str
-    caption: str
+    caption: str | Callable[[Run], str]
     draw: Callable[[Run], Figure | Film]
     suits: Callable[[Run], bool] = lambda run: True
     of_columns: str = ""  # the caption where the band is of columns, if it is another
 
     def caption_of(self, run: Run) -> str:
         """Return the caption for a run."""
-        return self.of_columns if self.of_columns and run.has_band_columns else self.caption
+        if self.of_columns and run.has_band_columns:
+            return self.of_columns
+        return self.caption if isinstance(self.caption, str) else self.caption(run)
 
 
 _PANELS = (
@@ -130,6 +134,12 @@ FIGURES: dict[str, FigureKind] = {
         "Seismic force and plastic strain",
         "The force of the slide on the ground less its static weight, which is what seismic waves are inverted for.",
         force,
+    ),
+    "force_record": FigureKind(
+        "Force against its inversion from seismic waves",
+        force_record_caption,
+        force_record,
+        lambda run: bool(run.section("report").get("force_record")),
     ),
     "band": FigureKind(
         "The shear band",

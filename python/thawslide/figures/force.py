@@ -84,7 +84,7 @@ def force(run: Run) -> Figure:
         time_line(size, time, force_in_band(run, band) / divisor, color=colour, linewidth=1.3, label=words)
     for target in comparable:
         of_band = f" ({found.words})" if (found := band_of(target)) else ""
-        label = f"reported maximum {target.value / divisor:g} {unit}{of_band}: {target.source}"
+        label = f"{target.adjective} maximum {target.value / divisor:g} {unit}{of_band}: {target.source}"
         size.axhline(target.value / divisor, color=RED, linestyle="--", linewidth=1.2, label=label)
     if reported and run.per_metre:
         note = "reported force not drawn: the case states no width"

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from thawslide.clock import own_time
 from thawslide.figures.style import BLUE, GREEN, NOTE, RED, letters, prefixed, styled, time_axis, time_line
 from thawslide.run import Run
+from thawslide.targets import KINDS
 
 _MARKERS = "osD^vP*X"
 
@@ -16,7 +17,7 @@ _MARKERS = "osD^vP*X"
 def draw_targets(
     axes: Axes, run: Run, quantities: tuple[str, ...], divisor: float, colour: str, words: str = ""
 ) -> int:
-    """Mark the reported values within the run's time, one marker a source; return how many there were.
+    """Mark the reported values within the run's time, one marker a source, filled if observed; return their number.
 
     A note says how many lie outside of it.
     """
@@ -31,19 +32,19 @@ def draw_targets(
         counts = {"before the start": early, "after the end": len(asked) - len(found) - early}
         note = ", ".join(f"{count} reported{words} {when} of the run" for when, count in counts.items() if count)
         axes.text(0.98, height, note, transform=axes.transAxes, ha="right", size=7.5, color=NOTE)
-    sources = list(dict.fromkeys(target.source for target in found))
-    for number, source in enumerate(sources):
-        of_source = [target for target in found if target.source == source]
+    groups = list(dict.fromkeys((target.adjective, target.source) for target in found))
+    for number, (adjective, source) in enumerate(groups):
+        of_source = [target for target in found if (target.adjective, target.source) == (adjective, source)]
         axes.plot(
             [times[target] for target in of_source],
             [target.value / divisor for target in of_source],
             marker=_MARKERS[number % len(_MARKERS)],
-            markerfacecolor="white",
+            markerfacecolor=colour if adjective == KINDS["observation"][0] else "white",
             markeredgecolor=colour,
             markeredgewidth=1.4,
             markersize=6.5,
             linestyle="",
-            label=f"reported{words}: {source or 'no source given'}",
+            label=f"{adjective}{words}: {source or 'no source given'}",
             clip_on=False,
             zorder=5,
         )

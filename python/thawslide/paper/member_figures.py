@@ -48,7 +48,7 @@ def members_over_time(runs: Sequence[Run], starts: Sequence[float]) -> Figure:
         axes.plot(time, middle, color=colour, linewidth=6.0, alpha=0.45, label=f"median of {len(runs)} members")
         thin = axes.plot(time, values.T / divisor, color=BLACK, linewidth=0.4)
         thin[0].set_label("each member")
-        draw_targets(axes, runs[0], reported, divisor, NOTE)
+        draw_targets(axes, on_clock_set(runs[0], starts[0]), reported, divisor, NOTE)
         axes.set_xlim(min(0.0, float(time[0])), max(205.0, float(time[-1])))
         axes.set_xlabel("time (s), 8 m/s at 40 s")
         axes.set_ylim(bottom=0.0)
@@ -63,10 +63,10 @@ def members_over_time(runs: Sequence[Run], starts: Sequence[float]) -> Figure:
 
 
 def _draw_wanted(axes: Axes) -> None:
-    """Shade where the peak is wanted, and mark by when the slide is reported to stand."""
+    """Shade where the peak is wanted, and mark the end of the run of the other model, by when the slide stands."""
     wanted = {each.name: each for each in QUANTITIES}
     peak, rise, stop = wanted["peak"], wanted["rise"], wanted["stop"]
-    axes.set_ylim(top=max(axes.get_ylim()[1], 1.1 * peak.most))
+    axes.set_ylim(top=max(axes.get_ylim()[1], 1.5 * peak.most))
     box = (SET_TIME + rise.least, peak.least), rise.most - rise.least, peak.most - peak.least
-    axes.add_patch(Rectangle(*box, facecolor=NOTE, alpha=0.15, linewidth=0, label="where the peak is wanted"))
-    axes.axvline(stop.most, color=NOTE, linewidth=0.9, linestyle=":", label="at rest before")
+    axes.add_patch(Rectangle(*box, facecolor=NOTE, alpha=0.15, linewidth=0, label="peak wanted, that of another model"))
+    axes.axvline(stop.most, color=NOTE, linewidth=0.9, linestyle=":", label="at rest before, end of that model's run")

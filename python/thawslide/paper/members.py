@@ -43,9 +43,10 @@ class Observed:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A row of the table: its name in Observed, words, unit, what is reported, and the interval wanted."""
+    """A row of the table: its name in Observed, kind, words, unit, what is reported, and the interval wanted."""
 
     name: str
+    kind: str  # of KINDS
     words: str
     head: str  # of a column
     unit: str
@@ -73,18 +74,21 @@ class Quantity:
 
 
 NONE = float("-inf")
+# Of rows, with the word for several: a bound is physics, which no one observed.
+KINDS = {"observation": "observations", "model": "results of other models", "bound": "physical bounds"}
 QUANTITIES = (
-    Quantity("peak", "peak of the mean velocity", "peak", "m/s", "80", "72 to 88", 72.0, 88.0, ".1f"),
-    Quantity("rise", "from 8 m/s to the peak", "to the peak", "s", "35", "28 to 42", 28.0, 42.0, ".1f"),
-    Quantity("displacement", "mean displacement", "mean displacement", "km", "5.6 to 5.9", "5.3 to 6.2", 5.3, 6.2,
-             ".2f"),
-    Quantity("runout", "runout: front at the end less rear at the start", "runout", "km", "10.5", "9 to 11.5", 9.0,
-             11.5, ".1f"),
-    Quantity("stop", "stop: mean velocity below 0.1 m/s", "stop", "s", "before 200", "before 200", NONE, 200.0, ".0f"),
-    Quantity("force", f"force, band-passed {INVERSION.words}", f"force {INVERSION.words}", "TN", "0.28",
+    Quantity("runout", "observation", "runout: front at the end less rear at the start", "runout", "km", "10.5",
+             "9 to 11.5", 9.0, 11.5, ".1f"),
+    Quantity("force", "observation", f"force, band-passed {INVERSION.words}", f"force {INVERSION.words}", "TN", "0.28",
              "0.22 to 0.34", 0.22, 0.34, ".2f"),
-    Quantity("hottest", "hottest of any column", "hottest column", "°C", "", "below 210", NONE, 210.0, ".0f"),
-    Quantity("ratio", "largest P over averaged N", "P over N", "", "", "at most 1", NONE, 1.0, ".3f", True),
+    Quantity("peak", "model", "peak of the mean velocity", "peak", "m/s", "80", "72 to 88", 72.0, 88.0, ".1f"),
+    Quantity("rise", "model", "from 8 m/s to the peak", "to the peak", "s", "35", "28 to 42", 28.0, 42.0, ".1f"),
+    Quantity("displacement", "model", "mean displacement", "mean displacement", "km", "5.6 to 5.9", "5.3 to 6.2", 5.3,
+             6.2, ".2f"),
+    Quantity("stop", "model", "stop: mean velocity below 0.1 m/s", "stop", "s", "before 200", "before 200", NONE, 200.0,
+             ".0f"),
+    Quantity("hottest", "bound", "hottest of any column", "hottest column", "°C", "", "below 210", NONE, 210.0, ".0f"),
+    Quantity("ratio", "bound", "largest P over averaged N", "P over N", "", "", "at most 1", NONE, 1.0, ".3f", True),
 )  # fmt: skip
 
 
@@ -197,11 +201,11 @@ def is_met(found: Sequence[Observed], quantity: Quantity) -> bool:
 
 
 def members_table(found: Sequence[Observed]) -> str:
-    """Return the table of members: reported, wanted, median, range, and whether a row is met."""
+    """Return the table of members, observations first: reported, wanted, median, range, and whether a row is met."""
     end = min((each.end for each in found if not each.failure), default=float("nan"))
     lines = [
-        "| quantity | reported | wanted | median | least to most | members inside | met |",
-        "|---|---|---|---|---|---|---|",
+        "| kind | quantity | reported | wanted | median | least to most | members inside | met |",
+        "|---|---|---|---|---|---|---|---|",
     ]
     for each in QUANTITIES:
         values = _values(found, each)
@@ -212,15 +216,19 @@ def members_table(found: Sequence[Observed]) -> str:
             spread = "none"
         inside = f"{sum(each.inside(value) for value in values)} of {len(found)}"
         words = f"{each.words} [{each.unit}]" if each.unit else each.words
-        cells = (words, each.reported, each.wanted, each.text(median(found, each), end), spread, inside)
+        cells = (each.kind, words, each.reported, each.wanted, each.text(median(found, each), end), spread, inside)
         lines.append(f"| {' | '.join(cells)} | {'yes' if is_met(found, each) else '**no**'} |")
     return "\n".join(lines)
 
 
 def verdict(found: Sequence[Observed]) -> str:
     """Say plainly which rows are met and which are not, and which members broke off."""
-    met = [each.name_in_text for each in QUANTITIES if is_met(found, each)]
-    parts = [f"Met, {len(met)} of {len(QUANTITIES)} rows: {'; '.join(met) or 'none'}."]
+    counts = []
+    for kind, words in KINDS.items():
+        asked = [each for each in QUANTITIES if each.kind == kind]
+        met = [each.name_in_text for each in asked if is_met(found, each)]
+        counts.append(f"{len(met)} of {len(asked)} {words} ({'; '.join(met) or 'none'})")
+    parts = [f"Met: {', '.join(counts)}."]
     missed = [f"- {_miss(found, each)}" for each in QUANTITIES if not is_met(found, each)]
     parts.append("Not met:\n\n" + "\n".join(missed) if missed else "Not met: none.")
     broken = [f"seed {seed} ({' '.join(each.failure.split())})" for seed, each in enumerate(found, 1) if each.failure]
@@ -258,7 +266,7 @@ def middle_member(found: Sequence[Observed]) -> int:
 
 def variants_table(rows: Sequence[Row], found: Mapping[str, Observed]) -> str:
     """Return one line a run; bold is what lies outside the interval wanted."""
-    heads = [f"{each.head} [{each.unit}]" if each.unit else each.head for each in QUANTITIES]
+    heads = [f"{each.kind}: {each.head}" + (f" [{each.unit}]" if each.unit else "") for each in QUANTITIES]
     lines = [f"| run | {' | '.join(heads)} | 8 m/s at [s] | set |", "|---" * (len(heads) + 3) + "|"]
     broken = []
     for row in rows:

@@ -80,6 +80,19 @@ TEST(ReportedValues, AreReadWithTheCaseAndEachMistakeIsTold) {
                 "start_velocity that sets their clock");
 }
 
+TEST(ReportedValues, AreOfOneOfThreeKinds) {
+  write_beside_the_case("targets.csv",
+                        "quantity,time_s,value,unit,kind\nmean_velocity,1,8,m/s,observation\n"
+                        "mean_velocity,2,8,m/s,model\nmean_velocity,3,8,m/s,assumption\n");
+  EXPECT_EQ(error_of_changed({targets}), "no error");
+  write_beside_the_case("targets.csv",
+                        "quantity,time_s,value,unit,kind\nmean_velocity,1,8,m/s,guess\nmean_velocity,2,8,m/s,\n");
+  const std::string place = "FOLDER/case.toml:21:11: report.targets: FOLDER/targets.csv:";
+  EXPECT_EQ(error_of_changed({targets}),
+            place + "2: the kind 'guess' for mean_velocity; allowed: observation, model, assumption\n" +  //
+                place + "3: no kind for mean_velocity; allowed: observation, model, assumption");
+}
+
 TEST(ReportedValues, OnAClockOfTheirOwnMayBeEarlier) {
   write_beside_the_case("targets.csv", columns + "start_velocity,-50,8,m/s,x\nmean_velocity,-40,8,m/s,x\n");
   EXPECT_EQ(error_of_changed({targets}), "no error");
@@ -124,9 +137,33 @@ TEST(ReportedValues, AreTextInUtf8) {
             "targets.csv:1: give one column of times, time_s, time_min, time_h; found none");
   EXPECT_EQ(error_of_file("quantity,time_s,value,unit,sorce\n"),
             "targets.csv:1: no column is called 'sorce'; did you mean source? allowed are quantity, value, unit, "
-            "time_s, time_min, time_h, source");
+            "time_s, time_min, time_h, source, kind");
   EXPECT_EQ(error_of_file(std::string(1100000, '#')),
             "targets.csv: the file has 1.1 MB; allowed: 1 MB. Is it the right file?");
+}
+
+// What its rows must hold is tested with the reader of the report (tests/cli/force_record_test.py).
+TEST(ForceRecord, NeedsTwoPeriodsAndAFileThatIsUnderstood) {
+  const auto error_of_report = [](const std::string& keys) {
+    return error_of_changed({{"[basal]", "[report]\nforce_record = \"force.csv\"\n" + keys + "[basal]"}});
+  };
+  write_beside_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
+  EXPECT_EQ(error_of_report("force_periods = [10.0, 200.0]\n"), "no error");
+  EXPECT_EQ(
+      error_of_report("force_periods = [10.0]\n"),
+      "FOLDER/case.toml:22:17: report.force_periods is an array of 1 numbers; allowed: 2 numbers, the shortest and "
+      "the longest period of the waves.");
+  EXPECT_EQ(error_of_report("force_periods = [200.0, 10.0]\n")
+                .find("FOLDER/case.toml:22:25: report.force_periods holds "
+                      "10 after 200; allowed: ascending numbers"),
+            0U);
+  EXPECT_NE(error_of_report("").find("report.force_periods"), std::string::npos);
+  EXPECT_NE(error_of_changed({{"[basal]", "[report]\nforce_periods = [10.0, 200.0]\n[basal]"}}).find("force_periods"),
+            std::string::npos);
+  write_beside_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n0,0,0,0\n");
+  EXPECT_EQ(error_of_report("force_periods = [10.0, 200.0]\n"),
+            "FOLDER/case.toml:21:16: report.force_record: FOLDER/force.csv:3: time_s does not rise (found 0 after 0; "
+            "allowed: more than that). Sort the rows by time.");
 }
 
 }  // namespace

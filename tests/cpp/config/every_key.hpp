@@ -55,6 +55,9 @@ interval = 3.0
 [report]
 times = [1.0, 2.5]
 targets = "inputs/targets.csv"
+force_record = "inputs/force.csv"
+force_periods = [10.0, 200.0]
+force_source = "a survey"
 [phases]
 rock_density = 2700.5
 ice_density = 900.5

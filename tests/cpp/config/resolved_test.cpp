@@ -33,6 +33,7 @@ Lines lines_of(const std::string& text) {
 Case read_with_inputs(const std::string& text) {
   write_beside_the_case("inputs/profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,-1\n");
   write_beside_the_case("inputs/targets.csv", "quantity,time_s,value,unit,source\n");
+  write_beside_the_case("inputs/force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
   for (const std::string name : {"dem.tif", "path.geojson", "section.geojson", "release.shp", "thickness.tif",
                                  "saturation.tif", "before.tif", "codes.tif"}) {
     write_beside_the_case("inputs/" + name, "");
@@ -90,7 +91,7 @@ TEST(Resolved, LamplughReadsBackToItself) {
   const Case lamplugh = read_case(fs::path(THAWSLIDE_SOURCE_DIR) / "cases" / "lamplugh");
   const std::string resolved = resolved_toml(lamplugh, "inputs");
   fs::create_directories(folder_of_this_test() / "inputs");
-  for (const std::string& file : {lamplugh.terrain.file, lamplugh.report.targets}) {
+  for (const std::string& file : {lamplugh.terrain.file, lamplugh.report.targets, lamplugh.report.force_record}) {
     fs::copy_file(file, folder_of_this_test() / "inputs" / fs::path(file).filename(),
                   fs::copy_options::overwrite_existing);
   }

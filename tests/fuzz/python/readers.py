@@ -14,6 +14,7 @@ from pathlib import Path
 import built_snapshot
 
 from thawslide.errors import ReportError
+from thawslide.figures.force_record import caption, compared
 from thawslide.geopackage import geometry_parts, read_layer
 from thawslide.key_numbers import boiling_note, found_for, key_numbers
 from thawslide.maps import read_map
@@ -36,12 +37,14 @@ max = [200.0, 150.0]
 [report]
 times = [0.0, 1.0]
 targets = "inputs/targets.csv"
+force_record = "inputs/force.csv"
+force_periods = [0.5, 4.0]
 """
-_HISTORY = """time_s,mean_velocity_m_s,mean_displacement_m,runout_m,band_saturation,seismic_force_x_N
-0,0,0,40,nan,nan
-1,2,1,41,0.1,1e9
-2,0,2,42,0.2,-1e9
-"""
+_HISTORY = (
+    "time_s,mean_velocity_m_s,mean_displacement_m,runout_m,band_saturation,seismic_force_x_N,seismic_force_y_N,"
+    "front_position_m\n0,0,0,40,nan,nan,nan,40\n1,2,1,41,0.1,1e9,1e9,41\n2,0,2,42,0.2,-1e9,-1e9,42\n"
+)
+_FORCE = "time_s,up_N,north_N,east_N\n0,1e9,-1e9,0\n1,2e9,-1e9,0\n2,-1e9,2e9,0\n"
 _TARGETS = "quantity,time_s,value,unit,source\nmean_displacement,1,0.6,km,x\nmax_seismic_force_2_8_s,1,1,GN,x\n"
 
 
@@ -64,6 +67,12 @@ def _facts(folder: Path) -> None:
 def _case(folder: Path) -> None:
     run = Run(folder)
     _ = run.title, run.dimension, run.per_metre, run.report_times, run.targets, run.end_note
+
+
+def _force_record(folder: Path) -> None:
+    run = Run(folder)
+    compared(run)
+    caption(run)
 
 
 def _snapshot(folder: Path) -> None:
@@ -90,6 +99,7 @@ class Reader:
 READERS = {
     "case": Reader("case.toml", _case),
     "facts": Reader("run.json", _facts),
+    "force_record": Reader("inputs/force.csv", _force_record),
     "geometry": Reader("geometry", _geometry),
     "history": Reader("history.csv", _history),
     "layer": Reader("results.gpkg", lambda folder: read_layer(folder / "results.gpkg", "path")),
@@ -109,6 +119,7 @@ def write_run(folder: Path) -> None:
     (folder / "case.toml").write_text(_CASE)
     (folder / "history.csv").write_text(_HISTORY)
     (folder / "inputs" / "targets.csv").write_text(_TARGETS)
+    (folder / "inputs" / "force.csv").write_text(_FORCE)
     (folder / "run.json").write_text(json.dumps({"status": "done", "simulated_time_s": 2.0}))
 
 
