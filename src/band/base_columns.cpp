@@ -13,7 +13,7 @@ using mpm::Contact;
 namespace {
 
 constexpr double longest = 1.5;         // side of a piece along some axis, in cells
-constexpr double largest_joined = 1.0;  // area of two that join, in those of a cell's face
+constexpr double largest_joined = 1.0;  // area of two that join, in those of a cell's face, as wide as the section
 constexpr double joining_reach = 0.5;   // distance of two that join along each axis, in sizes of a lattice part
 
 }  // namespace
@@ -181,7 +181,7 @@ void BaseColumns<Dim, Real>::stretch_with(const Nearby& slide, const Ground& gro
   piece.velocity = slide.velocity;
   piece.sides += dt * slide.gradient * piece.sides;
   place_on(ground, piece);
-  piece.area = area_of<Dim, Real>(piece.sides);
+  piece.area = ground.area_of(piece.position, piece.sides);
 }
 
 // A piece with a side that reaches further than `most` along some axis parts in two along this side.
@@ -232,7 +232,8 @@ void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>&
       }
       return furthest < Real(joining_reach) * grid.cell();
     };
-    if (!is_first && small.area + pieces_[p].area <= largest && is_near(small.position)) {
+    const Real width = ground.width(small.position.template head<Dim - 1>());
+    if (!is_first && small.area + pieces_[p].area <= width * largest && is_near(small.position)) {
       join(pieces_[p], ground, small);
       continue;
     }
@@ -252,7 +253,8 @@ void BaseColumns<Dim, Real>::join(const Piece& other, const Ground& ground, Piec
   piece.position = middle;
   place_on(ground, piece);
   piece.sides = sides_on<Dim, Real>(piece.normal, Vector<Real, Dim - 1>::Ones());
-  piece.sides *= std::pow(piece.area / area_of<Dim, Real>(piece.sides), Real(1) / static_cast<Real>(Dim - 1));
+  piece.sides *=
+      std::pow(piece.area / ground.area_of(piece.position, piece.sides), Real(1) / static_cast<Real>(Dim - 1));
 }
 
 template <int Dim, class Real>

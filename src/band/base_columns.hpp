@@ -50,6 +50,13 @@ class BaseColumns {
   struct Ground {
     std::function<Real(const Vector<Real, Dim - 1>&)> height;
     std::function<Vector<Real, Dim>(const Vector<Real, Dim - 1>&)> normal;  // into the ground
+    std::function<Real(const Vector<Real, Dim - 1>&)> width;                // of a 2D section, relative; 1 in space
+
+    // Of the ground below edges about a place [m2].
+    [[nodiscard]] Real area_of(const Vector<Real, Dim>& place,
+                               const typename BasePiece<Dim, Real>::Sides& sides) const {
+      return width(place.template head<Dim - 1>()) * band::area_of<Dim, Real>(sides);
+    }
   };
   // Of a node: its unit normal into the ground and its distance above it [m]; null where the ground is not near.
   struct NodeGround {
@@ -108,8 +115,8 @@ class BaseColumns {
   [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place,
                                      const Lattice& cell, const Lattice& parts) const;
   [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const;
-  [[nodiscard]] BareCells feet_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
-                                          const mpm::Nodes<Dim, Real>& nodes) const;
+  [[nodiscard]] BareCells feet_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                          const NodeGroundOf& node_ground, const mpm::Nodes<Dim, Real>& nodes) const;
   void leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid, BareCells& cells) const;
   [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
                                        const mpm::Nodes<Dim, Real>& nodes) const;
@@ -120,8 +127,8 @@ class BaseColumns {
   struct InContact {
     Real area = 0, normal_force = 0;  // [m2], [N]
   };
-  void begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const InContact& contact, Real thickness,
-                   mpm::Nodes<Dim, Real>& nodes, Piece& piece);
+  void begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const InContact& contact,
+                   Real thickness, mpm::Nodes<Dim, Real>& nodes, Piece& piece);
   [[nodiscard]] InContact in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
                                      const Piece& piece) const;
   [[nodiscard]] Piece new_piece(const Vector<Real, Dim - 1>& middle, const Vector<Real, Dim - 1>& size,
