@@ -157,11 +157,19 @@ void BaseColumns<Dim, Real>::take_from_nodes(const mpm::SparseGrid<Dim, Real>& g
     }
   }
   if (piece.touched || area > Real(0)) {
-    follow_load(model_, area > Real(0) ? force / area : Real(0), dt, piece);
+    take_load(area > Real(0) ? force / area : Real(0), dt, piece);
   }
   piece.speed = area > Real(0) ? slip / area : Real(0);
   piece.slip += dt * piece.speed;
   piece.heat += dt * heat * piece.area;
+}
+
+// The depth of the slide is what a normal pressure weighs; ground that gravity does not press on shows none.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::take_load(Real normal_pressure, Real dt, Piece& piece) const {
+  const Real weight = model_.density * gravity_.dot(piece.normal);  // [N/m3]
+  follow_load(model_, normal_pressure, weight > Real(0) ? normal_pressure / weight : model_.largest_thickness, dt,
+              piece);
 }
 
 template <int Dim, class Real>
@@ -245,10 +253,10 @@ void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>&
 }
 
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::join(const Piece& other, const Ground& ground, Piece& piece) const {
+void BaseColumns<Dim, Real>::join(const Piece& other, const Ground& ground, Piece& piece) {
   const Real share = piece.area / (piece.area + other.area);
   const Vector<Real, Dim> middle = share * piece.position + (Real(1) - share) * other.position;
-  take_over(model_, other, piece);
+  add_to_ledger(take_over(model_, other, piece));
   piece.position = middle;
   place_on(ground, piece);
   piece.sides = sides_on<Dim, Real>(piece.normal, Vector<Real, Dim - 1>::Ones());
@@ -268,15 +276,20 @@ void BaseColumns<Dim, Real>::step(Real thickness, Real duration) {
   parallel_for(pieces_.size(),
                [&](std::size_t p) { accounts[p] = step_piece(model_, thickness, duration, pieces_[p]); });
   for (const auto& account : accounts) {
-    ledger_.friction_heat += account.friction_heat;
-    ledger_.body_heat += account.body_heat;
-    ledger_.ground_heat += account.ground_heat;
-    ledger_.vented_heat += account.vented_heat;
-    ledger_.steam_heat += account.steam_heat;
-    ledger_.body_water += account.body_water;
-    ledger_.vented_water += account.vented_water;
-    ledger_.steam += account.steam;
+    add_to_ledger(account);
   }
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::add_to_ledger(const physics::ColumnAccount<Real>& account) {
+  ledger_.friction_heat += account.friction_heat;
+  ledger_.body_heat += account.body_heat;
+  ledger_.ground_heat += account.ground_heat;
+  ledger_.vented_heat += account.vented_heat;
+  ledger_.steam_heat += account.steam_heat;
+  ledger_.body_water += account.body_water;
+  ledger_.vented_water += account.vented_water;
+  ledger_.steam += account.steam;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real) template class BaseColumns<Dim, Real>;
