@@ -145,31 +145,33 @@ template <int Dim, class Real>
 void BaseColumns<Dim, Real>::take_from_nodes(const mpm::SparseGrid<Dim, Real>& grid, Real dt,
                                              const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const {
   const Stencil stencil(grid, piece.position);
-  Real force = 0, area = 0, heat = 0, slip = 0;
+  Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: of the normal force, per area of the piece [Pa]
   for (std::size_t k = 0; k < stencil.count; ++k) {
     const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
     if (contact[Contact::touching] > Real(0)) {
       force += stencil.weight[k] * contact[Contact::normal_force];
       area += stencil.weight[k] * contact[Contact::area];
       slip += stencil.weight[k] * contact[Contact::area] * contact[Contact::slip_speed];
-      heat += stencil.weight[k] * contact[Contact::friction_heat] /
-              nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
+      const Real seen = nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
+      heat += stencil.weight[k] * contact[Contact::friction_heat] / seen;
+      borne += stencil.weight[k] * contact[Contact::normal_force] / seen;
     }
   }
   if (piece.touched || area > Real(0)) {
-    take_load(area > Real(0) ? force / area : Real(0), dt, piece);
+    take_load(area > Real(0) ? force / area : Real(0), borne, dt, piece);
   }
   piece.speed = area > Real(0) ? slip / area : Real(0);
   piece.slip += dt * piece.speed;
   piece.heat += dt * heat * piece.area;
 }
 
-// The depth of the slide is what a normal pressure weighs; ground that gravity does not press on shows none.
+// The depth of the slide is what the piece bears [Pa]: its share of the normal force of nodes, all of which falls to
+// pieces. N is that where there is contact, and more than it bears where the slide has holes. Ground on which gravity
+// does not press shows no depth.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::take_load(Real normal_pressure, Real dt, Piece& piece) const {
+void BaseColumns<Dim, Real>::take_load(Real normal_pressure, Real borne, Real dt, Piece& piece) const {
   const Real weight = model_.density * gravity_.dot(piece.normal);  // [N/m3]
-  follow_load(model_, normal_pressure, weight > Real(0) ? normal_pressure / weight : model_.largest_thickness, dt,
-              piece);
+  follow_load(model_, normal_pressure, weight > Real(0) ? borne / weight : model_.largest_thickness, dt, piece);
 }
 
 template <int Dim, class Real>

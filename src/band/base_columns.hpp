@@ -145,7 +145,7 @@ class BaseColumns {
   void add_to_ledger(const physics::ColumnAccount<Real>& account);
   void take_up(const Piece& piece);
   void place_on(const Ground& ground, Piece& piece) const;
-  void take_load(Real normal_pressure, Real dt, Piece& piece) const;
+  void take_load(Real normal_pressure, Real borne, Real dt, Piece& piece) const;
 
   ColumnsModel<Real> model_;
   Vector<Real, Dim> gravity_;

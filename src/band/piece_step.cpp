@@ -78,6 +78,7 @@ void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real dep
 template <int Dim, class Real>
 physics::ColumnAccount<Real> step_piece(const ColumnsModel<Real>& model, Real thickness, Real duration,
                                         BasePiece<Dim, Real>& piece) {
+  piece.depth *= piece.area_of_column / piece.area;  // the slide thins as it stretches; the mean would follow late
   return std::visit(
       [&](const auto& column) {
         const Real next = next_thickness(model, thickness, piece);

@@ -96,9 +96,9 @@ THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Real, Curve>& model, Rea
 
 // The ratio r with which the column's top is at the depth of the slide above its base [m]:
 //   e + (e/8) sum of r^j, j = 1 to 12 = depth,   within 1 <= r <= full.
-// A slide as deep as the column of ratio `full`, or deeper, leaves that. One of less than 2.5 e is not as deep as its
-// column, whose cells above the band are then as high as those in it. The sum is convex in r: Newton's iteration comes
-// down from `full` to the root and never passes it.
+// Below a slide as deep as the column of ratio `full`, or deeper, r is exactly that. Below one of less than 2.5 e it is
+// 1: all cells are of one height, and the column is taller than the slide. The sum is convex in r: Newton's iteration
+// comes down from `full` to the root and does not pass it.
 template <class Real>
 THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full) {
   constexpr int most_iterations = 50;

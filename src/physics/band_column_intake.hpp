@@ -1,4 +1,5 @@
-// What a column (band_column.hpp) takes in and gives back as the faces of its cells move (docs/theory, chapter 16).
+// Intake of a column (band_column.hpp): matter that changes cells, or comes from the body and goes back to it, as the
+// faces of cells move (docs/theory, chapter 16).
 #pragma once
 
 #include <cmath>
