@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "../physics/band_column_model.hpp"
 #include "../support/case_from_text.hpp"
@@ -130,8 +132,10 @@ TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
 // One that comes together: pieces crowd, and small ones join, so that there are about as many as cells of the base;
 // what leaves at the top and what stays is all that there was.
 TEST(BandColumns, PiecesOfAShorteningSlideJoin) {
-  for (const int dimension : {2, 3}) {
-    SCOPED_TRACE(fmt::format("{}D", dimension));
+  using Which =
+      std::pair<int, std::string>;  // thick bands: columns as tall as the slide, each of its own ratio of cells
+  for (const auto& [dimension, thickness] : {Which{2, "0.1"}, Which{3, "0.1"}, Which{2, "3.0"}}) {
+    SCOPED_TRACE(fmt::format("{}D, {} m", dimension, thickness));
     const auto come_together = [](auto& simulation) {
       auto& particles = simulation.particles();
       for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -150,8 +154,9 @@ TEST(BandColumns, PiecesOfAShorteningSlideJoin) {
     };
     const config::Case parameters = case_from_text(
         column_slab(dimension),
-        {"time.end=4.0", "guards.smallest_volume=0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
-         "body.slab.velocity=[0" + std::string(dimension == 3 ? ",0,0]" : ",0]"), "material.rock.youngs_modulus=1e6"});
+        {"time.end=4.0", "band.thickness=" + thickness, "guards.smallest_volume=0", "basal.friction_angle=1.0",
+         "case.gravity_tilt=0.0", "body.slab.velocity=[0" + std::string(dimension == 3 ? ",0,0]" : ",0]"),
+         "material.rock.youngs_modulus=1e6"});
     if (dimension == 2) {
       Simulation<2, double> simulation(parameters);
       come_together(simulation);
