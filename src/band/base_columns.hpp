@@ -65,7 +65,9 @@ class BaseColumns {
   };
   using NodeGroundOf = std::function<NodeGround(std::size_t block, std::size_t node)>;
 
-  explicit BaseColumns(ColumnsModel<Real> model) : model_(std::move(model)) {}
+  // gravity [m/s2].
+  BaseColumns(ColumnsModel<Real> model, const Vector<Real, Dim>& gravity)
+      : model_(std::move(model)), gravity_(gravity) {}
 
   // Fills nodes.base_state of the blocks that hold contact.
   void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
@@ -146,11 +148,14 @@ class BaseColumns {
   void stretch_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const;
   void part_long_pieces(Real most, const Ground& ground);
   void join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground);
-  void join(const Piece& other, const Ground& ground, Piece& piece) const;
+  void join(const Piece& other, const Ground& ground, Piece& piece);
+  void add_to_ledger(const physics::ColumnAccount<Real>& account);
   void take_up(const Piece& piece);
   void place_on(const Ground& ground, Piece& piece) const;
+  void take_load(Real normal_pressure, Real borne, Real dt, Piece& piece) const;
 
   ColumnsModel<Real> model_;
+  Vector<Real, Dim> gravity_;
   std::vector<Piece> pieces_;
   ColumnLedger<Real> ledger_;
   std::int64_t next_id_ = 0;

@@ -161,7 +161,8 @@ void BaseColumns<Dim, Real>::begin_piece(const mpm::SparseGrid<Dim, Real>& grid,
   add_area(grid, piece, nodes, share - Real(1));
   piece.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
   piece.area = piece.area_of_column = ground.area_of(piece.position, piece.sides);
-  follow_load(model_, contact.area > Real(0) ? contact.normal_force / contact.area : Real(0), Real(0), piece);
+  take_load(contact.area > Real(0) ? contact.normal_force / contact.area : Real(0), contact.normal_force / piece.area,
+            Real(0), piece);
   start_column_of(model_, thickness, piece);
   ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
   ledger_.laid_water += piece.area * physics::water_of(piece.column);

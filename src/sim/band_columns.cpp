@@ -77,7 +77,7 @@ void Simulation<Dim, Real>::start_band_columns() {
         "{}: the band is up to {} m thick, and the slide above it {:.4g} m in the mean. Use a thinner band.",
         config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
   }
-  band_columns_.emplace(make_columns_model(parameters_, model_, matter));
+  band_columns_.emplace(make_columns_model(parameters_, model_, matter), model_.motion.gravity);
   column_time_ = 0.0;
 }
 
