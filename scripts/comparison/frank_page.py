@@ -181,8 +181,8 @@ def draw(
 ) -> None:
     """Write both pictures."""
     folder.mkdir(exist_ok=True)
-    deposits(found, numbers, fluid, pile).savefig(folder / "frank-deposits.png", dpi=110)
-    sections(found, fluid, pile).savefig(folder / "frank-sections.png", dpi=110)
+    deposits(found, numbers, fluid, pile).savefig(folder / "frank-deposits.png", dpi=150)
+    sections(found, fluid, pile).savefig(folder / "frank-sections.png", dpi=150)
 
 
 def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:

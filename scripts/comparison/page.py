@@ -95,7 +95,7 @@ def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: lis
             page.figure.colorbar(painter, cax=page.panel_bar(axes), extend="max")
             scale_bar(axes, "lower left")
         page.name(panels)
-        page.figure.savefig(folder / f"{ground.name}-{field}.png", dpi=100)
+        page.figure.savefig(folder / f"{ground.name}-{field}.png", dpi=150)
 
 
 def section(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome]) -> str:

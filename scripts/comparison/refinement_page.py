@@ -114,7 +114,7 @@ def friction_picture(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure
         panel.plot(middle, wedge, color=BLACK, linestyle="dashed", label="wedge factor, finest cells")
         panel.fill_between(middle, 0.9 * wedge, 1.1 * wedge, color=BLACK, alpha=0.12, linewidth=0, label="within 10 %")
         panel.set_title(f"({letter}) {variant.words}", loc="left")
-        panel.set_xlabel("time (s)")
+        panel.set_xlabel("time (s), 0 at the start of the run")
         panel.grid(True)
     panels[0].set_ylabel("apparent friction / friction coefficient")
     handles, labels = max((panel.get_legend_handles_labels() for panel in panels), key=lambda each: len(each[0]))
@@ -140,7 +140,7 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
     studied = {each.words: friction(each.name)[STUDIED] for each in causes}
     (folder / "comparison").mkdir(exist_ok=True)
     friction_picture({each: friction(each.name) for each in (WIDE, FILTERED, ROUGH)}).savefig(
-        folder / "comparison" / "alr-friction.png", dpi=110
+        folder / "comparison" / "alr-friction.png", dpi=150
     )
     parts = [
         (HERE / "refinement.md").read_text().strip(),

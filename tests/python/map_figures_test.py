@@ -71,7 +71,7 @@ def test_extent_maps(map_run: Path) -> None:
     assert [(axes.get_title(loc="left"), axes.get_title(loc="right")) for axes in panels] == [
         ("(a) largest thickness", "max 6 m"),
         ("(b) largest speed", "max 20 m/s"),
-        ("(c) arrival time", "max 9.8 s"),
+        ("(c) arrival time", "0 to 9.8 s"),
         ("(d) thickness at 10 s", "max 6 m"),
     ]
     assert {"m", "m/s", "s"} <= labels(figure)

@@ -103,7 +103,9 @@ class _Picture:
         self.site = site
         # The thickness is shown as well where that leaves the map of speeds no smaller.
         self.paintings = (SPEED, THICKNESS) if site.scene.aspect < _SLIM else (SPEED,)
-        note = f"{run.end_note}Dashed: release. Brown: passed by the slide. {site.scene.note()}"
+        note = (
+            f"{run.end_note}Dashed: release. Brown: passed by the slide. Time: {run.clock.words}. {site.scene.note()}"
+        )
         title = f"{run.title}: {' and '.join(painting.words.split(',')[0] for painting in self.paintings)}"
         count = len(self.paintings)
         self.page = page = MapPage(title, site.scene, count, note=note, foot=_FOOT, bar=0.72, narrowest=WIDTH)
@@ -113,8 +115,8 @@ class _Picture:
         self.traces = [trace for trace, _ in panels]
         self.clock = page.figure.axes[0].set_title("", loc="left", size=12)
         course = page.place(page.left, page.below + 0.1, page.width - page.left - 0.25, 0.68)
-        time_line(course, run.history["time_s"], run.history["mean_velocity_m_s"], color=BLUE)
-        time_axis(course, run.history["time_s"])
+        time_line(course, run.shown_time, run.history["mean_velocity_m_s"], color=BLUE)
+        time_axis(course, run.shown_time, run.clock.label)
         course.set_ylim(bottom=0.0)
         course.set_ylabel("mean\nspeed (m/s)")
         self.hand = course.axvline(0.0, color=RED, linewidth=1.2)
@@ -161,8 +163,9 @@ class _Picture:
             trace.set_data(np.ma.masked_invalid(np.where(self.passed, 1.0, np.nan)))
             field = columns.speed if painting is SPEED else columns.thickness
             slide.set_data(np.ma.masked_invalid(where_thick(field, columns, self.site.threshold).values))
-        self.clock.set_text(f"t = {columns.time:.1f} s")
-        self.hand.set_xdata([columns.time, columns.time])
+        time = columns.time + self.site.run.clock.shift
+        self.clock.set_text(f"t = {time:.1f} s")
+        self.hand.set_xdata([time, time])
         self.canvas.restore_region(self.still)
         for artist in self.changing:
             self.page.figure.draw_artist(artist)

@@ -45,13 +45,13 @@ def band(run: Run) -> Figure:
 
 
 def _of_particles(run: Run) -> Figure:
-    time = run.history["time_s"]
+    time = run.shown_time
     figure = Figure(figsize=(10.0, 6.4), layout="constrained")
     figure.suptitle(run.titled("the shear band"), x=0.01, ha="left", size=12)
     panels: list[Axes] = list(figure.subplots(2, 2, sharex=True).flat)
     for axes, (column, words, unit, colour, quantities) in zip(panels, _PANELS, strict=True):
         axes.set_ylabel(words)
-        time_axis(axes, time, label=axes in panels[2:])
+        time_axis(axes, time, run.clock.label if axes in panels[2:] else "")
         if column not in run.history:
             say(axes, f"history.csv has no column {column}")
             continue
@@ -85,7 +85,7 @@ def _of_columns(run: Run) -> Figure:
     for axes in (thickness, ratio, friction):
         axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
     for axes in panels:
-        time_axis(axes, run.history["time_s"], label=axes in panels[4:])
+        time_axis(axes, run.shown_time, run.clock.label if axes in panels[4:] else "")
     letters(
         panels,
         (
@@ -107,7 +107,7 @@ def _draw_mean(axes: Axes, run: Run, column: str, words: str, colour: str, quant
     if not np.isfinite(values).any():
         say(axes, "never in contact")
         return
-    time_line(axes, run.history["time_s"], values, color=colour, label="run")
+    time_line(axes, run.shown_time, values, color=colour, label="run")
     if draw_targets(axes, run, quantities, 1.0, colour):
         axes.legend(loc="best")
 
@@ -124,7 +124,7 @@ def _draw_stresses(axes: Axes, run: Run) -> None:
     divisor, unit = prefixed(np.concatenate([values for values, *_ in lines]), "Pa")
     axes.set_ylabel(f"stress ({unit})")
     for values, words, colour in lines:
-        time_line(axes, run.history["time_s"], values / divisor, color=colour, label=words)
+        time_line(axes, run.shown_time, values / divisor, color=colour, label=words)
     draw_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
     legend = axes.legend(loc="upper center", ncols=2, columnspacing=1.0, handlelength=1.5)
     rows = (len(legend.get_texts()) + 1) // 2
@@ -133,7 +133,7 @@ def _draw_stresses(axes: Axes, run: Run) -> None:
 
 
 def _draw_temperatures(axes: Axes, run: Run) -> None:
-    time = run.history["time_s"]
+    time = run.shown_time
     boiling = boiling_temperature(run.history["band_normal_pressure_Pa"])
     axes.set_ylabel("temperature (°C)")
     time_line(axes, time, run.history["band_hottest_C"], color=ORANGE, label="hottest of any column")

@@ -11,7 +11,7 @@ from thawslide.boiling import boiling_temperature
 from thawslide.errors import NotInRunError
 from thawslide.figures.colours import TEMPERATURE, Painting
 from thawslide.figures.slide_on_map import cell_of, draw_on_map
-from thawslide.figures.snapshots import chosen_snapshots
+from thawslide.figures.snapshots import LETTERS, chosen_snapshots, time_text
 from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, RED, SKY, prefixed, styled
 from thawslide.run import Run, Snapshot
 
@@ -32,11 +32,11 @@ def base_along(run: Run) -> Figure:
     loads = [shot.base["normal_pressure_Pa"] for shot in shots]
     divisor, unit = prefixed(np.concatenate(loads), "Pa")
     figure = Figure(figsize=(10.0, 0.9 + _ROW * len(shots)), layout="constrained")
-    figure.suptitle(run.titled("along the base"), x=0.01, ha="left", size=12)
+    figure.suptitle(run.titled(f"along the base. Time: {run.clock.words}"), x=0.01, ha="left", size=12)
     rows = figure.subplots(len(shots), 2, squeeze=False)
     for number, (row, shot) in enumerate(zip(rows, shots, strict=True)):
         _draw_row(row[0], row[1], shot, divisor)
-        row[0].set_title(f"t = {shot.time:g} s", loc="left")
+        row[0].set_title(f"({LETTERS[number]}) {time_text(run, shot)}", loc="left")
         row[0].set_ylabel(f"stress ({unit})")
         row[1].set_ylabel("temp. (°C)")
         if number == 0:

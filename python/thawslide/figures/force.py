@@ -67,7 +67,7 @@ def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
 @styled
 def force(run: Run) -> Figure:
     """Draw the force on the ground less the static weight, (a) its size, (b) its components; (c) plastic strain."""
-    time = run.history["time_s"]
+    time = run.shown_time
     parts, magnitude = seismic_force(run)
     reported = reported_forces(run)
     comparable = [] if run.per_metre else reported
@@ -104,7 +104,7 @@ def force(run: Run) -> Figure:
     strain.set_ylabel("mean plastic strain")
     strain.set_ylim(bottom=0.0)
     for axes in panels:
-        time_axis(axes, time, label=axes is strain)
+        time_axis(axes, time, run.clock.label if axes is strain else "")
     letters(
         panels,
         (

@@ -40,7 +40,7 @@ class MapKind:
 _EXTENT = (
     MapKind("max_thickness", "largest thickness", "m", "YlOrRd"),
     MapKind("max_speed", "largest speed", "m/s", "viridis"),
-    MapKind("arrival_time", "arrival time", "s", "cividis"),
+    MapKind("arrival_time", "arrival time", "s", "cividis", from_zero=False),
     MapKind("final_thickness", "thickness", "m", "YlOrRd", of_last_state=True),
 )
 _IMPACT = (
@@ -72,7 +72,8 @@ def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
     fields = [(kind, field) for kind, field in fields if np.isfinite(field.values).any()]
     if not fields:
         raise NotInRunError(f"{site.maps.folder}: none of the maps {', '.join(kind.name for kind in kinds)} has values")
-    note = f"{run.end_note}Thin line: affected area, thicker than {site.threshold:g} m. {site.scene.note()}"
+    lines = f"Thin line: affected area, thicker than {site.threshold:g} m."
+    note = f"{run.end_note}{lines} Time: {run.clock.words}. {site.scene.note()}"
     page = MapPage(run.titled(words), site.scene, len(fields), note=note, foot=_FOOT, bar=0.72)
     corner = quiet_corner(site.reached, site.scene.box)
     panels = []
@@ -99,9 +100,11 @@ def _touched(site: Site, kind: MapKind) -> Map:
     values = field.values
     if kind.name in ("max_thickness", "final_thickness"):
         values = np.where(values > site.threshold, values, np.nan)
+    elif kind.name == "arrival_time":
+        values = values + site.run.clock.shift
     elif kind.name == "elevation_change":
         values = np.where(np.abs(values) > 0.0, values, np.nan)
-    elif kind.from_zero and kind.name != "arrival_time":
+    elif kind.from_zero:
         values = np.where(values > 0.0, values, np.nan)
     return replace(field, values=values)
 
@@ -132,7 +135,7 @@ def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:
 def _isochrones(axes: Axes, field: Map) -> None:
     """Draw lines of equal arrival time with their seconds."""
     levels = contour_levels(field.values, 7)
-    levels = levels[levels > 0.0]
+    levels = levels[levels > np.nanmin(field.values)]
     if len(levels) < 2:
         return
     grid = field.grid

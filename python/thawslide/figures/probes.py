@@ -39,7 +39,7 @@ def probes(run: Run) -> Figure:
     columns = run.probes
     if columns is None:
         raise NotInRunError(f"{run.folder / 'probes.csv'}: no such file; the case has no [probe.NAME]")
-    time = columns["time_s"]
+    time = columns["time_s"] + run.clock.shift
     found = {
         quantity: {
             name.removesuffix(quantity.ending): values
@@ -73,7 +73,7 @@ def probes(run: Run) -> Figure:
         axes.set_ylim(None if low < 0.0 else 0.0, None if high > 0.0 else 1.0 if low == 0.0 else 0.0)
         axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
         axes.legend(loc="best")
-        time_axis(axes, time)
+        time_axis(axes, time, run.clock.label)
     for axes in panels[len(found) :]:
         axes.remove()
     letters(panels[: len(found)], [quantity.words for quantity in found])

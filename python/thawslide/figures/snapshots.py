@@ -41,7 +41,7 @@ class Stretch:
 _WIDTH, _LEFT, _RIGHT, _GAP = 10.0, 0.75, 0.2, 0.75
 _PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.9, 0.8, 0.8, 0.15
 _OVERVIEW_MARGINS = (1.0, 1.15)
-_LETTERS = "abcdefghijklmnopqrstuvwxyz"
+LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
 def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Snapshot]:
@@ -54,7 +54,12 @@ def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Sn
     wanted = run.report_times or list(np.linspace(run.times[0], run.times[-1], 6))
     found = {int(np.argmin(np.abs(run.times - time))) for time in wanted}
     indices = sorted(found if run.ended else found | {len(run.times) - 1})
-    return [run.snapshot(index, fields=fields) for index in indices[: len(_LETTERS)]]
+    return [run.snapshot(index, fields=fields) for index in indices[: len(LETTERS)]]
+
+
+def time_text(run: Run, shot: Snapshot) -> str:
+    """Write the time of a snapshot on the clock of all figures."""
+    return f"t = {shot.time + run.clock.shift:.4g} s".replace("-", "−")
 
 
 @styled
@@ -104,7 +109,7 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
     for number, (shot, value, window) in enumerate(zip(shots, values, windows, strict=True)):
         panel, strip = page.panel(number)
         _draw_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
-        panel.set_title(f"({_LETTERS[number]}) t = {shot.time:g} s, {window.note()}", loc="left")
+        panel.set_title(f"({LETTERS[number]}) {time_text(run, shot)}, {window.note()}", loc="left")
         _draw_stretches(panel, stretches)
         largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
         panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
@@ -286,8 +291,12 @@ def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Win
     window.apply(axes)
     axes.set_xlabel("")
     axes.tick_params(labelbottom=False)
-    states = f"grey: t = {shots[0].time:g} s, red: t = {shots[-1].time:g} s" if len(shots) > 1 else ""
-    axes.set_title("; ".join(filter(None, (f"whole profile, {window.note()}", states))), loc="left", color=NOTE)
+    states = f"grey: {time_text(run, shots[0])}, red: {time_text(run, shots[-1])}" if len(shots) > 1 else ""
+    axes.set_title(
+        "; ".join(filter(None, (f"whole profile, {window.note()}", states, f"time: {run.clock.words}"))),
+        loc="left",
+        color=NOTE,
+    )
 
     for number, (shot, view) in enumerate(zip(shots, views, strict=True)):
         slide = extent(shot.points[:, 0])
@@ -295,7 +304,7 @@ def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Win
         bars.plot(slide, [number, number], color=GROUND_LINE, linewidth=4, solid_capstyle="butt")
     window.apply(bars)
     bars.set_ylim(len(shots) - 0.4, -0.6)
-    bars.set_yticks(range(len(shots)), [f"({_LETTERS[number]})" for number in range(len(shots))], size=6.5)
+    bars.set_yticks(range(len(shots)), [f"({LETTERS[number]})" for number in range(len(shots))], size=6.5)
     bars.tick_params(axis="y", length=0)
     bars.set_ylabel("")
     bars.xaxis.label.set_text(f"{bars.get_xlabel()}; bars: what each panel shows (light), where the slide is (dark)")

@@ -119,13 +119,13 @@ def time_line(axes: Axes, time: Numbers, values: ArrayLike, **style: Any) -> Non
     )
 
 
-def time_axis(axes: Axes, time: Numbers, label: bool = True) -> None:
-    """Set the time axis to the run's span and, where `label`, name it."""
+def time_axis(axes: Axes, time: Numbers, label: str = "") -> None:
+    """Set the time axis to the run's span and label it."""
     start, end = float(time[0]), float(time[-1])
     axes.set_xlim(start, end if end > start else start + 1.0)
     axes.grid(True)
     if label:
-        axes.set_xlabel("time (s)")
+        axes.set_xlabel(label)
 
 
 def say(axes: Axes, text: str) -> None:

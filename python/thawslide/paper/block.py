@@ -200,9 +200,9 @@ def _draw(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
             axes.set_ylabel(words)
             axes.grid(True)
             axes.set_xlim(0.0, min(end, max(runs[f"block-{name}"].history["time_s"][-1] for name, *_ in drawn)))
-        panels[2][side].set_xlabel("time (s)")
+        panels[2][side].set_xlabel(runs[f"block-{drawn[0][0]}"].clock.label)
         panels[1][side].set_ylim(-0.02, 1.02)
-        mark(panels[1][side], EARLY, 1.0, "the paper: melted", drawn[0][2])  # of e = 0.05 m
+        mark(panels[1][side], EARLY, 1.0, "Lei et al.: melted", drawn[0][2])  # of e = 0.05 m
         panels[0][side].plot([], [], color=BLACK, linewidth=0.9, linestyle=(0, (4, 2)), label="the same as ODEs")
     panels[0][0].legend(loc="best")
     titles = [f"{words}, {heat}" for words in ("temperature", "saturation", "pore pressure")

@@ -227,7 +227,7 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
     assert run.terrain is not None
     ground_x, ground_z = run.terrain
     section.fill_between(ground_x / 1e3, ground_z, ground_z.min() - 50.0, color="#E4E0DA")
-    for index, colour, words in ((0, NOTE, "start"), (-1, RED, f"t = {run.times[-1]:g} s")):
+    for index, colour, words in ((0, NOTE, "start"), (-1, RED, f"end, t = {run.times[-1] + run.clock.shift:.4g} s")):
         points = run.snapshot(index).points
         section.plot(points[:, 0] / 1e3, points[:, 1], ".", color=colour, markersize=1.5, label=words)
     section.set_ylim(0.8 * float(run.snapshot(-1).points[:, 1].min()), None)
@@ -244,8 +244,8 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
         thick.annotate(f"{zone.letter}\n{words}", (middle, 0.97), xycoords=("data", "axes fraction"), ha="center",
                        va="top", size=7, color=NOTE)  # fmt: skip
     thick.axvline(FRONT / 1e3, color=RED, linewidth=1.0, linestyle="--")
-    thick.annotate("reported front", (FRONT / 1e3, 0.6), xycoords=("data", "axes fraction"), xytext=(4, 0),
-                   textcoords="offset points", va="top", size=8, color=RED)  # fmt: skip
+    thick.annotate("front, Bessette-\nKirton et al.\n(2018)", (FRONT / 1e3, 0.6), xytext=(4, 0),
+                   xycoords=("data", "axes fraction"), textcoords="offset points", va="top", size=8, color=RED)  # fmt: skip
     thick.set_ylim(0.0, 1.35 * float(thickness.max()))
     for axes in (section, thick):
         axes.grid(True)
@@ -253,7 +253,7 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
         axes.set_xlim(ground_x[0] / 1e3, max(FRONT + 1500.0, float(x.max()) + BIN) / 1e3)
     letters(
         [section, thick],
-        ("profile", "thickness of the deposit, means over 100 m; zones with the words of the text, at places of ours"),
+        ("profile", "thickness of the deposit, means over 100 m; zones and words of Lei et al., places from this run"),
     )
     return figure
 
@@ -277,7 +277,7 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     speed.set_ylabel("mean velocity (m/s)")
     way.set_ylabel("mean displacement (km)")
     for axes in (speed, way):
-        time_axis(axes, time)
+        time_axis(axes, time, run.clock.label)
         axes.set_ylim(bottom=0.0)
         axes.legend(loc="best")
     letters((speed, way), ("velocity", "displacement"))
