@@ -20,7 +20,8 @@ from thawslide.figures import FIGURES
 from thawslide.figures.bars import bars
 from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, normalisation
 from thawslide.figures.energy import relative_residual
-from thawslide.figures.snapshots import Stretch, chosen_snapshots, velocity
+from thawslide.figures.moments import chosen_snapshots
+from thawslide.figures.snapshots import Stretch, velocity
 from thawslide.figures.style import prefixed
 from thawslide.figures.window import fit
 
@@ -55,7 +56,7 @@ def particles(axes: Axes) -> PolyCollection:
 @pytest.mark.parametrize(
     ("name", "label", "low", "high"),
     [
-        ("velocity", "velocity (m/s)", 0.0, 35.0),
+        ("velocity", "velocity (m/s), mean over 2 s about each time", 0.0, 6.0 * np.sqrt(5.0)),
         ("plastic_strain", "equivalent plastic strain", 0.0, 0.7 * np.exp(-0.5)),
         ("temperature", "temperature (°C)", -10.0, -10.0 + 14.0 * np.exp(-0.5)),
         ("pore_pressure", "pore pressure (kPa)", 0.0, 1400.0 * np.exp(-0.5)),
@@ -137,7 +138,7 @@ def test_three_dimensions_are_seen_from_the_side(make_run: MakeRun) -> None:
     np.testing.assert_allclose([(b.y0 + b.y1) / 2 for b in boxes], run.snapshot(4).points[order, 2])
 
 
-def test_six_even_times_where_the_case_names_none(make_run: MakeRun) -> None:
+def test_six_moments_where_the_case_names_no_times(make_run: MakeRun) -> None:
     shots = chosen_snapshots(Run(make_run(times="[]")))
     assert [shot.time for shot in shots] == [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]
 
@@ -284,7 +285,7 @@ def test_band_follows_history_with_gaps(make_run: MakeRun) -> None:
         np.testing.assert_allclose(line(axes, "run")[1] * divisor, run.history[column])
         assert axes.get_ylabel() == label
     np.testing.assert_array_equal(line(titled(figure, "(c)"), "reported: model"), [[4.0], [0.3]])
-    assert texts(titled(figure, "(a)")) == ["ice melts", "boiling is not modelled"]
+    assert texts(titled(figure, "(a)"))[:2] == ["ice melts", "boiling is not modelled"]
 
 
 def test_band_says_why_a_panel_is_empty(make_run: MakeRun) -> None:

@@ -41,7 +41,7 @@ ON_MAP = [
 @pytest.mark.parametrize(
     ("name", "label", "value"),
     [
-        ("slide_speed", "speed, mean over the thickness (m/s)", SPEED),
+        ("slide_speed", "speed, mean over the thickness (m/s), mean over 4 s about each time", SPEED),
         ("slide_thickness", "thickness (m)", THICKNESS),
         ("slide_temperature", "temperature next to the ground (°C)", 10.0),
     ],

@@ -26,8 +26,10 @@ from thawslide.figures.style import (
     styled,
     time_axis,
     time_line,
+    warn,
 )
 from thawslide.run import Run
+from thawslide.unphysical import too_hot, too_much_pressure
 
 # Column, words, unit, colour, names of the reported quantity.
 _PANELS = (
@@ -65,6 +67,8 @@ def _of_particles(run: Run) -> Figure:
         if draw_targets(axes, run, quantities, divisor, colour):
             axes.legend(loc="best")
         _finish(axes, column, values / divisor)
+        if column == "band_temperature_C" and "band_pore_pressure_Pa" in run.history:
+            warn(axes, too_hot(run, values, run.history["band_pore_pressure_Pa"]))
     letters(panels, [words for _, words, *_ in _PANELS])
     return figure
 
@@ -81,6 +85,7 @@ def _of_columns(run: Run) -> Figure:
     _draw_mean(thickness, run, "band_thickness_m", "thickness (m)", ORANGE)
     _draw_mean(ratio, run, "band_largest_pressure_ratio", "largest P over N", BLUE)
     ratio.axhline(1.0, color=NOTE, linewidth=0.8, linestyle=":")
+    warn(ratio, too_much_pressure(run.history["band_largest_pressure_ratio"], "N"))
     _draw_mean(friction, run, "band_friction_coefficient", "friction coefficient", PURPLE)
     for axes in (thickness, ratio, friction):
         axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
@@ -141,6 +146,7 @@ def _draw_temperatures(axes: Axes, run: Run) -> None:
     time_line(axes, time, boiling, color=SKY, linestyle="--", label="water boils at the mean N")
     axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
     draw_targets(axes, run, ("band_temperature",), 1.0, RED)
+    warn(axes, too_hot(run, run.history["band_hottest_C"], run.history["band_pore_pressure_Pa"]))
     axes.legend(loc="best")
 
 

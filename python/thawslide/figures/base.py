@@ -10,10 +10,12 @@ from thawslide.binning import gather_base
 from thawslide.boiling import boiling_temperature
 from thawslide.errors import NotInRunError
 from thawslide.figures.colours import TEMPERATURE, Painting
+from thawslide.figures.moments import LETTERS, chosen_snapshots
 from thawslide.figures.slide_on_map import cell_of, draw_on_map
-from thawslide.figures.snapshots import LETTERS, chosen_snapshots, time_text
-from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, RED, SKY, prefixed, styled
+from thawslide.figures.snapshots import time_text
+from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, RED, SKY, prefixed, styled, warn
 from thawslide.run import Run, Snapshot
+from thawslide.unphysical import too_hot, too_much_pressure
 
 _RATIO = Painting("pore_pressure", "pore pressure over normal pressure", "1", "viridis")
 _HEAT = Painting("temperature", "temperature of the band", TEMPERATURE.unit, TEMPERATURE.colours)
@@ -36,6 +38,9 @@ def base_along(run: Run) -> Figure:
     rows = figure.subplots(len(shots), 2, squeeze=False)
     for number, (row, shot) in enumerate(zip(rows, shots, strict=True)):
         _draw_row(row[0], row[1], shot, divisor)
+        load, pressure = shot.base["normal_pressure_Pa"], shot.base["pore_pressure_Pa"]
+        warn(row[0], too_much_pressure(pressure / np.maximum(load, 1.0), "N"))
+        warn(row[1], too_hot(run, shot.base["hottest_C"], pressure))
         row[0].set_title(f"({LETTERS[number]}) {time_text(run, shot)}", loc="left")
         row[0].set_ylabel(f"stress ({unit})")
         row[1].set_ylabel("temp. (°C)")

@@ -14,8 +14,9 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.colours import TEMPERATURE, THICKNESS, VELOCITY, Painting, label_bar, normalisation, number_text
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
+from thawslide.figures.moments import chosen_snapshots, window_words
 from thawslide.figures.site import Site, make_site
-from thawslide.figures.snapshots import chosen_snapshots, time_text
+from thawslide.figures.snapshots import time_text
 from thawslide.figures.style import styled
 from thawslide.maps import Grid, Map
 from thawslide.run import Run, Snapshot
@@ -97,5 +98,6 @@ def draw_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
     page.name(panels)
     bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    bar.set_label(painting.words + (f" ({painting.unit})" if painting.unit != "1" else ""), labelpad=1)
+    over = f", {window_words(run)}" if painting is SPEED and window_words(run) else ""
+    bar.set_label(painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + over, labelpad=1)
     return page.figure

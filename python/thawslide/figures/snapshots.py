@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,6 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from thawslide.errors import NotInRunError
 from thawslide.figures.colours import (
     PLASTIC_STRAIN,
     PORE_PRESSURE,
@@ -23,9 +22,11 @@ from thawslide.figures.colours import (
     number_text,
     painted_values,
 )
-from thawslide.figures.style import GROUND_LINE, NOTE, prefixed, styled
+from thawslide.figures.moments import LETTERS, chosen_snapshots, window_words
+from thawslide.figures.style import GROUND_LINE, NOTE, prefixed, styled, warn
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
 from thawslide.run import Numbers, Run, Snapshot
+from thawslide.unphysical import too_hot, too_much_pressure
 
 
 @dataclass(frozen=True)
@@ -37,24 +38,12 @@ class Stretch:
     end: float
 
 
+_OF_WARNINGS = {"temperature": ("liquid_saturation", "pore_pressure"), "pore_pressure": ("mass",)}
+
 # The page, in inches.
 _WIDTH, _LEFT, _RIGHT, _GAP = 10.0, 0.75, 0.2, 0.75
 _PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.9, 0.8, 0.8, 0.15
 _OVERVIEW_MARGINS = (1.0, 1.15)
-LETTERS = "abcdefghijklmnopqrstuvwxyz"
-
-
-def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Snapshot]:
-    """Return the snapshots nearest to the report times of the case, or to six even times, each once.
-
-    The last state of a run that did not come to its end is one of them.
-    """
-    if not len(run.times):
-        raise NotInRunError(f"{run.folder}: no snapshots; set [time] output_interval and run again")
-    wanted = run.report_times or list(np.linspace(run.times[0], run.times[-1], 6))
-    found = {int(np.argmin(np.abs(run.times - time))) for time in wanted}
-    indices = sorted(found if run.ended else found | {len(run.times) - 1})
-    return [run.snapshot(index, fields=fields) for index in indices[: len(LETTERS)]]
 
 
 def time_text(run: Run, shot: Snapshot) -> str:
@@ -91,7 +80,7 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
 
     Stretches stand between grey dotted lines, with their names in the overview and in the panels that show them.
     """
-    shots = chosen_snapshots(run, ("volume", painting.field))
+    shots = chosen_snapshots(run, ("volume", *_OF_WARNINGS.get(painting.field, ()), painting.field))
     values = [painted_values(shot, painting.field) for shot in shots]
     divisor, unit = prefixed(np.concatenate(values), "Pa") if painting.unit == "Pa" else (1.0, painting.unit)
     values = [value / divisor for value in values]
@@ -111,6 +100,7 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
         _draw_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
         panel.set_title(f"({LETTERS[number]}) {time_text(run, shot)}, {window.note()}", loc="left")
         _draw_stretches(panel, stretches)
+        warn(panel, _warning(run, shot, painting))
         largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
         panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
         if strip is not None:
@@ -119,8 +109,34 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
             panel.tick_params(labelbottom=False)
     bar = figure.colorbar(painter, cax=page.colourbar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    bar.set_label(painting.words + (f" ({unit})" if unit else ""), labelpad=1)
+    over = f", {window_words(run)}" if painting is VELOCITY and window_words(run) else ""
+    bar.set_label(painting.words + (f" ({unit})" if unit else "") + over, labelpad=1)
     return figure
+
+
+def overburden(run: Run, shot: Snapshot) -> Numbers:
+    """Return the weight [Pa] of what lies above each particle of a 2D run, and of half of itself, over a grid cell."""
+    cell, gravity = float(run.section("grid")["cell"]), float(run.section("case").get("gravity", 9.81))
+    mass = np.asarray(shot["mass"], dtype=np.float64)
+    column = np.floor(shot.points[:, 0] / cell)
+    order = np.lexsort((-shot.points[:, 1], column))
+    above = np.cumsum(mass[order]) - 0.5 * mass[order]
+    first = np.flatnonzero(np.diff(column[order], prepend=-np.inf))
+    before = np.repeat((np.cumsum(mass[order]) - mass[order])[first], np.diff(first, append=len(order)))
+    weight = np.empty_like(mass)
+    weight[order] = gravity * (above - before) / cell
+    return weight
+
+
+def _warning(run: Run, shot: Snapshot, painting: Painting) -> str:
+    """Return what cannot be of the values of a panel, "" for nothing."""
+    if painting is TEMPERATURE:
+        wet = np.asarray(shot["liquid_saturation"]) > 0.0
+        return too_hot(run, np.asarray(shot["temperature"])[wet], np.asarray(shot["pore_pressure"])[wet])
+    if painting is PORE_PRESSURE and run.dimension == 2:
+        ratio = np.asarray(shot["pore_pressure"]) / np.maximum(overburden(run, shot), 1.0)
+        return too_much_pressure(ratio, "the weight above")
+    return ""
 
 
 class _Page:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable, Sequence
 from functools import wraps
 from typing import Any, ParamSpec, cast
@@ -131,6 +132,16 @@ def time_axis(axes: Axes, time: Numbers, label: str = "") -> None:
 def say(axes: Axes, text: str) -> None:
     """Write why a panel is empty in its middle."""
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=NOTE, wrap=True)
+
+
+def warn(axes: Axes, words: str) -> None:
+    """Write a warning across the top of a panel, inside it; nothing for no words."""
+    if words:
+        axes.text(
+            0.5, 0.97, textwrap.fill(f"⚠ {words}", 46), transform=axes.transAxes, ha="center", va="top", size=8,
+            color="#B00020", zorder=12, gid="warning",
+            bbox={"facecolor": "white", "edgecolor": "#B00020", "alpha": 0.92, "linewidth": 0.8, "pad": 2.5},
+        )  # fmt: skip
 
 
 def letters(axes: Sequence[Axes], titles: Sequence[str]) -> None:

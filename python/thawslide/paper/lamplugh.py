@@ -245,7 +245,8 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
                        va="top", size=7, color=NOTE)  # fmt: skip
     thick.axvline(FRONT / 1e3, color=RED, linewidth=1.0, linestyle="--")
     thick.annotate("front, Bessette-\nKirton et al.\n(2018)", (FRONT / 1e3, 0.6), xytext=(4, 0),
-                   xycoords=("data", "axes fraction"), textcoords="offset points", va="top", size=8, color=RED)  # fmt: skip
+                   xycoords=("data", "axes fraction"), textcoords="offset points", va="top", size=8,
+                   color=RED)  # fmt: skip
     thick.set_ylim(0.0, 1.35 * float(thickness.max()))
     for axes in (section, thick):
         axes.grid(True)

@@ -1,0 +1,103 @@
+"""Warnings inside figures: where they stand, and that their numbers are those of the run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from band_columns_test import column_history
+from conftest import MakeRun, history_columns, write_history
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from thawslide import Run
+from thawslide.boiling import boiling_temperature
+from thawslide.figures import FIGURES
+from thawslide.figures.snapshots import overburden
+
+
+def warnings(figure: Figure) -> dict[str, str]:
+    """Return the warnings of a figure, by the first letters of their panels' titles."""
+
+    def of(axes: Axes) -> str:
+        return " ".join(text.get_text().replace("\n", " ") for text in axes.texts if text.get_gid() == "warning")
+
+    return {axes.get_title(loc="left")[:3]: of(axes) for axes in figure.axes if of(axes)}
+
+
+def change_snapshot(folder: Path, number: int, **fields: float) -> None:
+    with h5py.File(folder / "snapshots" / f"{number:06d}.vtkhdf", "r+") as file:
+        for name, value in fields.items():
+            file[f"VTKHDF/PointData/{name}"][:3] = value
+
+
+def test_values_that_can_be_have_no_warning(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = history_columns(101, 2)
+    columns["band_temperature_C"] = np.minimum(columns["band_temperature_C"], 99.0)
+    write_history(folder / "history.csv", columns)
+    for name in ("band", "temperature"):
+        assert warnings(FIGURES[name].draw(Run(folder))) == {}
+
+
+def test_a_band_hotter_than_its_water_boils_has_one(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = history_columns(101, 2)
+    columns["band_temperature_C"][-1] = 1262.0
+    write_history(folder / "history.csv", columns)
+    words = "⚠ unphysical: up to 1,262 °C, where water boils at its pressure; the model has no boiling here"
+    assert warnings(FIGURES["band"].draw(Run(folder))) == {"(a)": words}
+    # Pressure that holds the water down takes the warning away.
+    hot = 1.002 * float(boiling_temperature(columns["band_pore_pressure_Pa"][50]))
+    for temperature, warned in ((hot, True), (0.999 * hot, False)):
+        columns["band_temperature_C"][:] = np.nan
+        columns["band_temperature_C"][50] = temperature
+        write_history(folder / "history.csv", columns)
+        assert bool(warnings(FIGURES["band"].draw(Run(folder)))) is warned
+
+
+def test_columns_that_boil_may_be_as_hot_as_rock_bears(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = column_history()
+    write_history(folder / "history.csv", columns)
+    assert warnings(FIGURES["band"].draw(Run(folder))) == {}
+    columns["band_hottest_C"][-1] = 1262.0
+    columns["band_largest_pressure_ratio"][-1] = 1.25
+    write_history(folder / "history.csv", columns)
+    assert warnings(FIGURES["band"].draw(Run(folder))) == {
+        "(b)": "⚠ unphysical: up to 1,262 °C, where rock melts (1,000 °C); the model has no melting of rock",
+        "(e)": "⚠ unphysical: P exceeds N, by up to a factor of 1.25",
+    }
+
+
+def test_a_panel_of_hot_particles_has_one(make_run: MakeRun) -> None:
+    folder = make_run()
+    change_snapshot(folder, 4, temperature=4321.0)
+    found = warnings(FIGURES["temperature"].draw(Run(folder)))
+    assert list(found) == ["(b)"]
+    assert "up to 4,321 °C" in found["(b)"]
+    change_snapshot(folder, 4, liquid_saturation=0.0)
+    assert warnings(FIGURES["temperature"].draw(Run(folder))) == {}, "dry"
+
+
+def test_pore_pressure_is_compared_with_the_weight_above(make_run: MakeRun) -> None:
+    folder = make_run()
+    run = Run(folder)
+    shot = run.snapshot(4)
+    # Columns of two particles of 2,000 kg/m over a cell of 2 m, in up to four rows of stairs on the slope.
+    weight = overburden(run, shot)
+    cell = np.floor(shot.points[:, 0] / 2.0)
+    for number in np.flatnonzero(cell == cell[25]):
+        higher = (cell == cell[number]) & (shot.points[:, 1] > shot.points[number, 1])
+        assert weight[number] == pytest.approx(9.81 / 2.0 * (shot["mass"][higher].sum() + 0.5 * 2000.0))
+    for path in run.snapshot_files:
+        change_snapshot(folder, int(path.stem), pore_pressure=0.0)
+        with h5py.File(path, "r+") as file:
+            file["VTKHDF/PointData/pore_pressure"][:] = 0.5 * weight
+    assert warnings(FIGURES["pore_pressure"].draw(Run(folder))) == {}
+    change_snapshot(folder, 7, pore_pressure=3.0 * weight[:3].max())
+    found = warnings(FIGURES["pore_pressure"].draw(Run(folder)))
+    assert list(found) == ["(c)"]
+    assert found["(c)"].startswith("⚠ unphysical: P exceeds the weight above, by up to a factor of 3")
