@@ -86,7 +86,8 @@ def test_snapshot_panels_show_particles_at_their_size_over_the_terrain(make_run:
     boxes = [path.get_extents() for path in particles(panel).get_paths()]
     np.testing.assert_allclose([(b.x0 + b.x1) / 2 for b in boxes], shot.points[:, 0])
     np.testing.assert_allclose([(b.y0 + b.y1) / 2 for b in boxes], shot.points[:, 1])
-    np.testing.assert_allclose([(b.width, b.height) for b in boxes], 1.0)
+    # Cubes of 1 m on cells of 2 m: nothing is drawn apart that the grid holds together.
+    np.testing.assert_allclose([(b.width, b.height) for b in boxes], [(2.0, 1.0)] * len(boxes))
     (ground_line,) = [found for found in panel.lines if len(found.get_xdata()) == 21]
     np.testing.assert_allclose(ground_line.get_ydata(), ground(np.asarray(ground_line.get_xdata(), dtype=float)))
     assert any(isinstance(c, FillBetweenPolyCollection) for c in panel.collections)

@@ -41,8 +41,11 @@ ON_MAP = [
 @pytest.mark.parametrize(
     ("name", "label", "value"),
     [
-        ("slide_speed", "speed, mean over the thickness (m/s), mean over 4 s about each time", SPEED),
-        ("slide_thickness", "thickness (m)", THICKNESS),
+        (
+            "slide_speed", "speed, mean over the thickness (m/s), mean over 4 s about each time",
+            SPEED * np.hypot(1.0, 0.4),
+        ),  # fmt: skip
+        ("slide_thickness", "thickness (m), square-root scale; blue: below 0.1 m", THICKNESS),
         ("slide_temperature", "temperature next to the ground (°C)", 10.0),
     ],
 )
@@ -74,7 +77,7 @@ def test_extent_maps(map_run: Path) -> None:
         ("(c) arrival time", "0 to 9.8 s"),
         ("(d) thickness at 10 s", "max 6 m"),
     ]
-    assert {"m", "m/s", "s"} <= labels(figure)
+    assert {"m, square-root scale\nblue: below 0.1 m", "m/s", "s"} <= labels(figure)
     final = field(panels[3]).get_array()
     assert final is not None
     assert np.ma.count(final) == 8 * 6

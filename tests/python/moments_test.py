@@ -8,11 +8,14 @@ import h5py
 import numpy as np
 import pytest
 from conftest import MakeRun, history_columns, write_history
+from matplotlib.colors import PowerNorm, to_rgba
 
 from thawslide import Run
 from thawslide.figures import FIGURES
-from thawslide.figures.colours import painted_values
+from thawslide.figures.colours import THIN, painted_values
+from thawslide.figures.largest import _EXTENT, _norm
 from thawslide.figures.moments import chosen_snapshots, moments, shown_snapshot
+from thawslide.maps import Maps
 
 
 def move(folder: Path, number: int, points: np.ndarray | None = None, **fields: np.ndarray | float) -> None:
@@ -81,3 +84,31 @@ def test_maps_have_the_same_velocities(map_run: Path) -> None:
     before, after = run.snapshot(2), run.snapshot(4)
     expected = np.linalg.norm(after.points - before.points, axis=1) / (after.time - before.time)
     np.testing.assert_allclose(painted_values(shot, "velocity"), expected)
+
+
+def test_a_strip_states_how_much_its_heights_are_stretched(make_run: MakeRun) -> None:
+    figure = FIGURES["velocity"].draw(Run(make_run()))
+    strips = [axes for axes in figure.axes if axes.get_ylabel() == "above\nground (m)"]
+    assert len(strips) == 3
+    for axes in strips:
+        width, height = figure.get_size_inches() * axes.get_position().size
+        (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+        times = (right - left) / width / ((high - low) / height)
+        assert [text.get_text() for text in axes.texts] == [f"heights ×{times:.2g}"]
+
+
+def test_thin_margins_have_a_colour_of_their_own(map_run: Path) -> None:
+    figure = FIGURES["slide_thickness"].draw(Run(map_run))
+    image = next(axes.images[-1] for axes in figure.axes if len(axes.images) > 1)
+    norm, colours = image.norm, image.get_cmap()
+    assert (norm.vmin, norm.vmax) == (0.1, pytest.approx(6.0))
+    np.testing.assert_array_equal(colours(norm(0.05)), to_rgba(THIN))
+    for thickness in (0.5, 1.5, 6.0):
+        assert norm(thickness) == pytest.approx(np.sqrt((thickness - 0.1) / 5.9)), "thin ones take a good part"
+    (bar,) = [axes for axes in figure.axes if axes.get_xlabel().startswith("thickness")]
+    assert [label.get_text() for label in bar.get_xticklabels()] == ["0.1", "0.2", "0.5", "1", "2", "5"]
+    for name in ("max_thickness", "final_thickness"):
+        values = Maps(Run(map_run))[name].values
+        shown = _norm(values[values > 0.1], next(kind for kind in _EXTENT if kind.name == name))[0]
+        assert shown.vmax == pytest.approx(values.max())
+        assert isinstance(shown, PowerNorm)

@@ -45,7 +45,8 @@ class FigureKind:
 
 _PANELS = (
     "Top: the whole profile and which stretch each panel shows. Under each panel: the slide peeled off the terrain, by "
-    "height above the ground right below. Particles are squares of their real size, or just large enough to be seen."
+    "height above the ground right below. Particles have their real height and at least the width of a grid cell, as "
+    "the model has no narrower gaps, or are just large enough to be seen."
 )
 
 _FROM_ABOVE = (

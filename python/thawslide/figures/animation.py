@@ -18,7 +18,7 @@ from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
 from thawslide.errors import NotInRunError, ReportError
-from thawslide.figures.colours import THICKNESS, Painting, colour_range
+from thawslide.figures.colours import THICKNESS, Painting, colour_range, label_bar, thickness_norm, thickness_words
 from thawslide.figures.map_page import WIDTH, MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
@@ -127,8 +127,12 @@ class _Picture:
         """Draw a map of the film; return what the slide has passed and the slide itself, both still empty."""
         site, page = self.site, self.page
         largest = site.part("max_speed").values if painting is SPEED else site.reached.values
-        _, high, extend = colour_range(largest[np.nan_to_num(largest) > 0.0], from_zero=True)
-        painter = ScalarMappable(Normalize(0.0, high), colour_map(painting.colours))
+        values = largest[np.nan_to_num(largest) > 0.0]
+        _, high, extend = colour_range(values, from_zero=True)
+        norm: Normalize = Normalize(0.0, high)
+        if painting is THICKNESS:
+            norm, extend = thickness_norm(values)
+        painter = ScalarMappable(norm, colour_map(painting.colours))
         axes = page.panel(number, labels=True)
         empty = Map(site.grid, np.full(self.passed.shape, np.nan))
         trace = paint(axes, empty, ScalarMappable(Normalize(0.0, 1.0), ListedColormap([_PASSED])))
@@ -138,7 +142,9 @@ class _Picture:
         if number == 0:
             scale_bar(axes, quiet_corner(site.reached, site.scene.box))
         bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
-        bar.set_label(f"{painting.words.split(',')[0]} ({painting.unit})", labelpad=2)
+        label_bar(bar, norm)
+        words = f"{painting.words.split(',')[0]} ({painting.unit})"
+        bar.set_label(thickness_words(norm).replace("; ", "\n") if painting is THICKNESS else words, labelpad=2)
         return trace, slide
 
     def _draw_what_stays(self) -> None:

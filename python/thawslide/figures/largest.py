@@ -12,7 +12,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
-from thawslide.figures.colours import colour_range, number_text
+from thawslide.figures.colours import colour_range, label_bar, number_text, thickness_norm, thickness_words
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import HALO, colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
@@ -35,6 +35,11 @@ class MapKind:
     colours: str
     from_zero: bool = True
     of_last_state: bool = False
+
+    @property
+    def is_thickness(self) -> bool:
+        """Whether it has the scale of thicknesses."""
+        return self.name.endswith("_thickness")
 
 
 _EXTENT = (
@@ -98,7 +103,7 @@ def _touched(site: Site, kind: MapKind) -> Map:
     """Return a map where the slide was; magnitudes of zero are left free as well."""
     field = site.part(kind.name)
     values = field.values
-    if kind.name in ("max_thickness", "final_thickness"):
+    if kind.is_thickness:
         values = np.where(values > site.threshold, values, np.nan)
     elif kind.name == "arrival_time":
         values = values + site.run.clock.shift
@@ -117,13 +122,20 @@ def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map) -> str:
     painter = ScalarMappable(norm, colour_map(kind.colours))
     paint(axes, field, painter)
     bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
-    bar.ax.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
-    bar.set_label(unit, labelpad=2)
+    if kind.is_thickness:
+        label_bar(bar, norm)
+        unit_words = thickness_words(norm).replace("thickness (m)", "m").replace("; ", "\n")
+    else:
+        bar.ax.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
+        unit_words = unit
+    bar.set_label(unit_words, labelpad=2)
     low, high = float(np.nanmin(field.values)), float(np.nanmax(field.values))
     return f"max {number_text(high)} {unit}" if kind.from_zero else f"{number_text(low)} to {number_text(high)} {unit}"
 
 
 def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:
+    if kind.is_thickness:
+        return thickness_norm(values)
     low, high, extend = colour_range(values[np.isfinite(values)], kind.from_zero)
     if kind.name == "elevation_change":
         # As deep a colour for a metre gained as for a metre lost.

@@ -11,7 +11,16 @@ from matplotlib.figure import Figure
 
 from thawslide.binning import FIELDS, Columns, gather
 from thawslide.errors import NotInRunError
-from thawslide.figures.colours import TEMPERATURE, THICKNESS, VELOCITY, Painting, label_bar, normalisation, number_text
+from thawslide.figures.colours import (
+    TEMPERATURE,
+    THICKNESS,
+    VELOCITY,
+    Painting,
+    label_bar,
+    normalisation,
+    number_text,
+    thickness_words,
+)
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.moments import chosen_snapshots, window_words
@@ -99,5 +108,6 @@ def draw_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
     bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
     over = f", {window_words(run)}" if painting is SPEED and window_words(run) else ""
-    bar.set_label(painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + over, labelpad=1)
+    words = painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + over
+    bar.set_label(thickness_words(norm) if painting is THICKNESS else words, labelpad=1)
     return page.figure

@@ -48,7 +48,7 @@ _OVERVIEW_MARGINS = (1.0, 1.15)
 
 def time_text(run: Run, shot: Snapshot) -> str:
     """Write the time of a snapshot on the clock of all figures."""
-    return f"t = {shot.time + run.clock.shift:.4g} s".replace("-", "−")
+    return f"t = {round(shot.time + run.clock.shift, 1):g} s".replace("-", "−")
 
 
 @styled
@@ -215,9 +215,11 @@ def _painted(
     painter: ScalarMappable,
     inches: tuple[float, float],
 ) -> PolyCollection:
+    # The material is one body across gaps narrower than a cell.
+    cell = float(run.section("grid").get("cell", 0.0))
     # In 3D the nearest particles (smallest y) are drawn last.
     order = np.argsort(-shot.points[:, 1], kind="stable") if run.dimension == 3 else np.arange(len(heights))
-    particles = squares(shot.points[order, 0], heights[order], particle_size(run, shot)[order], window, inches)
+    particles = squares(shot.points[order, 0], heights[order], particle_size(run, shot)[order], window, inches, cell)
     particles.set_array(values[order])
     particles.set_cmap(painter.get_cmap())
     particles.set_norm(painter.norm)
@@ -263,6 +265,8 @@ def _draw_strip(
     axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
     flat.apply(axes)
     axes.set_ylabel("above\nground (m)")
+    times = (flat.right - flat.left) / width / ((flat.top - flat.bottom) / _STRIP_HEIGHT)
+    axes.text(0.99, 0.95, f"heights ×{times:.2g}", transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE)
 
 
 def _draw_stretches(axes: Axes, stretches: Sequence[Stretch]) -> None:
