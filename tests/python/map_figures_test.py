@@ -44,7 +44,7 @@ ON_MAP = [
         (
             "slide_speed", "speed, mean over the thickness (m/s), mean over 4 s about each time",
             SPEED * np.hypot(1.0, 0.4),
-        ),  # fmt: skip
+        ),
         ("slide_thickness", "thickness (m), square-root scale; blue: below 0.1 m", THICKNESS),
         ("slide_temperature", "temperature next to the ground (°C)", 10.0),
     ],
