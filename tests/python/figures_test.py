@@ -257,6 +257,19 @@ def test_seismic_force_and_its_reported_maximum(make_run: MakeRun) -> None:
     np.testing.assert_array_equal(strain.get_ydata(), run.history["mean_plastic_strain"])
 
 
+def test_two_reported_forces_of_one_value_are_told_apart(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "inputs" / "targets.csv").write_text(
+        "quantity,time_s,value,unit,source\nmax_seismic_force,5,280,GN,One\nmax_seismic_force_2_8_s,5,280,GN,Two\n"
+    )
+    size = titled(FIGURES["force"].draw(Run(folder)), "(a)")
+    one, two = (found for found in size.lines if "maximum" in str(found.get_label()))
+    np.testing.assert_array_equal(one.get_ydata(), two.get_ydata())
+    (passed,) = (found for found in size.lines if "band-passed" in str(found.get_label()))
+    assert one.get_color() != two.get_color() == passed.get_color()
+    assert one._unscaled_dash_pattern == (0.0, (4.0, 4.0)) and two._unscaled_dash_pattern == (4.0, (4.0, 4.0))
+
+
 def test_reported_force_needs_a_width_and_a_target(make_run: MakeRun) -> None:
     bare = titled(FIGURES["force"].draw(Run(make_run(name="bare", targets=False))), "(a)")
     assert [found.get_label() for found in bare.lines] == ["run"]
@@ -281,10 +294,11 @@ def test_band_follows_history_with_gaps(make_run: MakeRun) -> None:
         "(c)": ("band_saturation", 1.0, "liquid saturation"),
         "(d)": ("band_friction_coefficient", 1.0, "friction coefficient"),
     }
-    for start, (column, divisor, label) in expected.items():
+    for start, (column, divisor, axis_label) in expected.items():
         axes = titled(figure, start)
-        np.testing.assert_allclose(line(axes, "run")[1] * divisor, run.history[column])
-        assert axes.get_ylabel() == label
+        label = "pore pressure P" if "pressure" in column else "run"
+        np.testing.assert_allclose(line(axes, label)[1] * divisor, run.history[column])
+        assert axes.get_ylabel() == axis_label
     np.testing.assert_array_equal(line(titled(figure, "(c)"), "reported: model"), [[4.0], [0.3]])
     assert texts(titled(figure, "(a)"))[:2] == ["ice melts", "boiling is not modelled"]
 

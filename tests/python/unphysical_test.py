@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from thawslide import Run
 from thawslide.boiling import boiling_temperature
 from thawslide.figures import FIGURES
-from thawslide.figures.snapshots import overburden
+from thawslide.figures.load import load_on_band, overburden
 
 
 def warnings(figure: Figure) -> dict[str, str]:
@@ -101,3 +101,21 @@ def test_pore_pressure_is_compared_with_the_weight_above(make_run: MakeRun) -> N
     found = warnings(FIGURES["pore_pressure"].draw(Run(folder)))
     assert list(found) == ["(c)"]
     assert found["(c)"].startswith("⚠ unphysical: P exceeds the weight above, by up to a factor of 3")
+
+
+def test_normal_pressure_stands_next_to_pore_pressure(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    pressure = next(axes for axes in FIGURES["band"].draw(run).axes if axes.get_title(loc="left").startswith("(b)"))
+    lines = {str(line.get_label()): line for line in pressure.lines}
+    assert pressure.get_ylabel() == "pore pressure (MPa)"
+    np.testing.assert_allclose(
+        1e6 * lines["pore pressure P"].get_ydata(), run.history["band_pore_pressure_Pa"], equal_nan=True
+    )
+    time, load = load_on_band(run)
+    np.testing.assert_array_equal(time, run.times)
+    np.testing.assert_allclose(1e6 * lines["normal pressure N, weight above"].get_ydata(), load)
+    for index in (0, 5, 10):
+        shot = run.snapshot(index)
+        expected = 0.8 * overburden(run, shot)[shot["in_band"] == 1].mean()  # cos2 of a slope of 1/2
+        assert load[index] == pytest.approx(expected)
+    assert not len(load_on_band(Run(make_run(name="space", dimension=3)))[0])

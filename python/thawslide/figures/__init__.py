@@ -145,7 +145,7 @@ FIGURES: dict[str, FigureKind] = {
     "band": FigureKind(
         "The shear band",
         "Means over the particles next to the ground; the friction coefficient is the mean over nodes in contact. "
-        "Gaps: no particle there at that time.",
+        "N is the weight above them on the slope, at rest. Gaps: no particle there at that time.",
         band,
         of_columns="Means over the base by area, as its columns have it. The shear traction is what the base resists "
         "with, cohesion and friction, over the area in contact: friction follows the effective normal stress N − P, "

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.boiling import boiling_temperature
+from thawslide.figures.load import load_on_band
 from thawslide.figures.motion import draw_targets
 from thawslide.figures.style import (
     BLACK,
@@ -61,10 +62,14 @@ def _of_particles(run: Run) -> Figure:
         if not np.isfinite(values).any():
             say(axes, "never in contact" if "friction" in column else "no particle was ever in the band")
             continue
-        divisor, shown = prefixed(values, unit) if unit == "Pa" else (1.0, unit)
+        is_pressure = unit == "Pa"
+        when, load = load_on_band(run) if is_pressure else (time[:0], time[:0])
+        divisor, shown = prefixed([*values, *load], unit) if is_pressure else (1.0, unit)
         axes.set_ylabel(words + (f" ({shown})" if shown else ""))
-        time_line(axes, time, values / divisor, color=colour, label="run")
-        if draw_targets(axes, run, quantities, divisor, colour):
+        time_line(axes, time, values / divisor, color=colour, label="pore pressure P" if is_pressure else "run")
+        if np.isfinite(load).any():
+            time_line(axes, when, load / divisor, color=BLACK, linestyle="--", label="normal pressure N, weight above")
+        if draw_targets(axes, run, quantities, divisor, colour) or is_pressure:
             axes.legend(loc="best")
         _finish(axes, column, values / divisor)
         if column == "band_temperature_C" and "band_pore_pressure_Pa" in run.history:

@@ -53,13 +53,13 @@ def force_in_band(run: Run, band: Band) -> Numbers:
 
 
 def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
-    """Name the force with which the stress of t = 0 adjusts, where it is of the size of the rest."""
+    """Name the force with which the initial stress adjusts, where it is of the size of the rest."""
     start = time <= time[0] + 0.01 * (time[-1] - time[0])
     if not np.isfinite(magnitude[start]).any() or np.nanmax(magnitude[start]) < 0.5 * np.nanmax(magnitude):
         return
     first = int(np.nanargmax(np.where(start, magnitude, -np.inf)))
     axes.annotate(
-        "the stress of t = 0 adjusts", (time[first], magnitude[first]), xytext=(12, 4), textcoords="offset points",
+        "the initial stress adjusts", (time[first], magnitude[first]), xytext=(12, 4), textcoords="offset points",
         size=8, color=NOTE, arrowprops={"arrowstyle": "-", "color": NOTE, "linewidth": 0.6},
     )  # fmt: skip
 
@@ -79,13 +79,17 @@ def force(run: Run) -> Figure:
     size, components, strain = panels = list(figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1.2, 1.0)))
     time_line(size, time, magnitude / divisor, color=BLACK, linewidth=1.1, label="run")
     bands = reported_bands(run)
-    for band, colour in zip(bands, (BLUE, GREEN, PURPLE, ORANGE), strict=False):
+    colours = dict(zip(bands, (BLUE, GREEN, PURPLE, ORANGE), strict=False))
+    for band, colour in colours.items():
         words = f"run, band-passed {band.words}"
         time_line(size, time, force_in_band(run, band) / divisor, color=colour, linewidth=1.3, label=words)
-    for target in comparable:
-        of_band = f" ({found.words})" if (found := band_of(target)) else ""
+    for number, target in enumerate(comparable):
+        found = band_of(target)
+        of_band = f" ({found.words})" if found else ""
+        # In the colour of what it is compared with; dashes of equal values fall between one another.
+        look = {"color": colours.get(found, RED) if found else RED, "linestyle": (4.0 * number, (4.0, 4.0))}
         label = f"{target.adjective} maximum {target.value / divisor:g} {unit}{of_band}: {target.source}"
-        size.axhline(target.value / divisor, color=RED, linestyle="--", linewidth=1.2, label=label)
+        size.axhline(target.value / divisor, linewidth=1.4, label=label, **look)
     if reported and run.per_metre:
         note = "reported force not drawn: the case states no width"
         size.text(0.01, 0.96, note, transform=size.transAxes, va="top", size=8, color=NOTE)

@@ -78,7 +78,7 @@ def motion(run: Run) -> Figure:
             history["runout_m"] / divisor,
             color=RED,
             linestyle="--",
-            label="runout (front − rear at t = 0)",
+            label="runout (front − rear at the start)",
         )
         if "front_position_m" in history:
             front = history["front_position_m"]

@@ -22,6 +22,7 @@ from thawslide.figures.colours import (
     number_text,
     painted_values,
 )
+from thawslide.figures.load import overburden
 from thawslide.figures.moments import LETTERS, chosen_snapshots, window_words
 from thawslide.figures.style import GROUND_LINE, NOTE, prefixed, styled, warn
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
@@ -112,20 +113,6 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
     over = f", {window_words(run)}" if painting is VELOCITY and window_words(run) else ""
     bar.set_label(painting.words + (f" ({unit})" if unit else "") + over, labelpad=1)
     return figure
-
-
-def overburden(run: Run, shot: Snapshot) -> Numbers:
-    """Return the weight [Pa] of what lies above each particle of a 2D run, and of half of itself, over a grid cell."""
-    cell, gravity = float(run.section("grid")["cell"]), float(run.section("case").get("gravity", 9.81))
-    mass = np.asarray(shot["mass"], dtype=np.float64)
-    column = np.floor(shot.points[:, 0] / cell)
-    order = np.lexsort((-shot.points[:, 1], column))
-    above = np.cumsum(mass[order]) - 0.5 * mass[order]
-    first = np.flatnonzero(np.diff(column[order], prepend=-np.inf))
-    before = np.repeat((np.cumsum(mass[order]) - mass[order])[first], np.diff(first, append=len(order)))
-    weight = np.empty_like(mass)
-    weight[order] = gravity * (above - before) / cell
-    return weight
 
 
 def _warning(run: Run, shot: Snapshot, painting: Painting) -> str:

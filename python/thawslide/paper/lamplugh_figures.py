@@ -83,7 +83,7 @@ def figure_17(runs: dict[str, Run]) -> Figure:
                   color=NOTE)  # fmt: skip
     _at_the_peak(axes, "Lei et al., MPM: reaches the glacier", 0.985, "top")
     first = int(np.nanargmax(np.where(time <= 0.01 * time[-1], force, -np.inf)))
-    axes.annotate("the stress of t = 0 adjusts", (time[first], force[first]), xytext=(8, 8), size=8, color=NOTE,
+    axes.annotate("the initial stress adjusts", (time[first], force[first]), xytext=(8, 8), size=8, color=NOTE,
                   textcoords="offset points")  # fmt: skip
     axes.set_ylim(0.0, 1.25 * max(float(np.nanmax(force)), INVERTED))
     other.set_ylim(0.0, 1.6 * max(float(np.nanmax(strain)), 1e-9))
