@@ -12,6 +12,8 @@ from thawslide.run import Numbers, Run
 
 ROCK_MELTS = 1000.0  # C: about where granite is molten throughout
 ROUND_OFF = 1e-3  # of N, and of temperatures
+MOST_OF_WEIGHT = 2.0  # of the static load, that bends and impact may add up to
+EDGES = 0.05  # of particles, that may be anything
 
 
 def boils(run: Run) -> bool:
@@ -40,7 +42,21 @@ def too_hot(run: Run, temperature: Numbers, pressure: Numbers) -> str:
     return f"unphysical: up to {highest}, where water boils at its pressure; the model has no boiling here"
 
 
-def too_much_pressure(ratio: Numbers, load: str) -> str:
-    """Return a warning for pore pressures over what loads them, "" where none is above 1."""
+def too_much_pressure(ratio: Numbers) -> str:
+    """Return a warning for pore pressures over the N that loads them, "" where none is above 1."""
     highest = float(np.max(ratio, initial=0.0, where=np.isfinite(ratio)))
-    return f"unphysical: P exceeds {load}, by up to a factor of {highest:.3g}" if highest > 1.0 + ROUND_OFF else ""
+    return f"unphysical: P exceeds N, by up to a factor of {highest:.3g}" if highest > 1.0 + ROUND_OFF else ""
+
+
+def too_much_for_weight(ratio: Numbers, left_out: float = 0.0) -> str:
+    """Return a warning for pore pressures over the weight above them, "" while that is less than twice the weight.
+
+    A static load leaves out bends and impact. `left_out` is the share of the highest values that do not count, as the
+    weight above a particle at an edge is next to nothing.
+    """
+    finite = ratio[np.isfinite(ratio)]
+    high = float(np.quantile(finite, 1.0 - left_out)) if finite.size else 0.0
+    if high <= MOST_OF_WEIGHT:
+        return ""
+    where = f"in {100 * left_out:.0f} % of particles P is at least" if left_out else "P is up to"
+    return f"unphysical: {where} {high:.3g} times the weight above"

@@ -30,7 +30,7 @@ from thawslide.figures.style import (
     warn,
 )
 from thawslide.run import Run
-from thawslide.unphysical import too_hot, too_much_pressure
+from thawslide.unphysical import too_hot, too_much_for_weight, too_much_pressure
 
 # Column, words, unit, colour, names of the reported quantity.
 _PANELS = (
@@ -69,6 +69,7 @@ def _of_particles(run: Run) -> Figure:
         time_line(axes, time, values / divisor, color=colour, label="pore pressure P" if is_pressure else "run")
         if np.isfinite(load).any():
             time_line(axes, when, load / divisor, color=BLACK, linestyle="--", label="normal pressure N, weight above")
+            warn(axes, too_much_for_weight(np.interp(when, time, values) / load))
         if draw_targets(axes, run, quantities, divisor, colour) or is_pressure:
             axes.legend(loc="best")
         _finish(axes, column, values / divisor)
@@ -90,10 +91,10 @@ def _of_columns(run: Run) -> Figure:
     _draw_mean(thickness, run, "band_thickness_m", "thickness (m)", ORANGE)
     _draw_mean(ratio, run, "band_largest_pressure_ratio", "largest P over N", BLUE)
     ratio.axhline(1.0, color=NOTE, linewidth=0.8, linestyle=":")
-    warn(ratio, too_much_pressure(run.history["band_largest_pressure_ratio"], "N"))
     _draw_mean(friction, run, "band_friction_coefficient", "friction coefficient", PURPLE)
     for axes in (thickness, ratio, friction):
         axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
+    warn(ratio, too_much_pressure(run.history["band_largest_pressure_ratio"]))
     for axes in panels:
         time_axis(axes, run.shown_time, run.clock.label if axes in panels[4:] else "")
     letters(

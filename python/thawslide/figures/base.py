@@ -39,7 +39,7 @@ def base_along(run: Run) -> Figure:
     for number, (row, shot) in enumerate(zip(rows, shots, strict=True)):
         _draw_row(row[0], row[1], shot, divisor)
         load, pressure = shot.base["normal_pressure_Pa"], shot.base["pore_pressure_Pa"]
-        warn(row[0], too_much_pressure(pressure / np.maximum(load, 1.0), "N"))
+        warn(row[0], too_much_pressure(pressure / np.maximum(load, 1.0)))
         warn(row[1], too_hot(run, shot.base["hottest_C"], pressure))
         row[0].set_title(f"({LETTERS[number]}) {time_text(run, shot)}", loc="left")
         row[0].set_ylabel(f"stress ({unit})")

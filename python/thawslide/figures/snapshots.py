@@ -27,7 +27,7 @@ from thawslide.figures.moments import LETTERS, chosen_snapshots, window_words
 from thawslide.figures.style import GROUND_LINE, NOTE, prefixed, styled, warn
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
 from thawslide.run import Numbers, Run, Snapshot
-from thawslide.unphysical import too_hot, too_much_pressure
+from thawslide.unphysical import EDGES, too_hot, too_much_for_weight
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
         _draw_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
         panel.set_title(f"({LETTERS[number]}) {time_text(run, shot)}, {window.note()}", loc="left")
         _draw_stretches(panel, stretches)
-        warn(panel, _warning(run, shot, painting))
+        warn(panel, _warning(run, shot, painting), high=False)
         largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
         panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
         if strip is not None:
@@ -122,7 +122,7 @@ def _warning(run: Run, shot: Snapshot, painting: Painting) -> str:
         return too_hot(run, np.asarray(shot["temperature"])[wet], np.asarray(shot["pore_pressure"])[wet])
     if painting is PORE_PRESSURE and run.dimension == 2:
         ratio = np.asarray(shot["pore_pressure"]) / np.maximum(overburden(run, shot), 1.0)
-        return too_much_pressure(ratio, "the weight above")
+        return too_much_for_weight(ratio, EDGES)
     return ""
 
 

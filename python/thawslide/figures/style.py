@@ -134,12 +134,20 @@ def say(axes: Axes, text: str) -> None:
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=NOTE, wrap=True)
 
 
-def warn(axes: Axes, words: str) -> None:
-    """Write a warning across the top of a panel, inside it; nothing for no words."""
+_WARNING = 0.3  # of the height of curves: room for a warning above them
+
+
+def warn(axes: Axes, words: str, high: bool = True) -> None:
+    """Write a warning across the top, or the bottom, of a panel, inside it; nothing for no words.
+
+    Above curves there is room made for it.
+    """
     if words:
+        low, top = axes.get_ylim()
+        axes.set_ylim(low, low + (1.0 + _WARNING * high) * (top - low))
         axes.text(
-            0.5, 0.97, textwrap.fill(f"⚠ {words}", 46), transform=axes.transAxes, ha="center", va="top", size=8,
-            color="#B00020", zorder=12, gid="warning",
+            0.5, 0.97 if high else 0.04, textwrap.fill(f"⚠ {words}", 46), transform=axes.transAxes, ha="center", size=8,
+            va="top" if high else "bottom", color="#B00020", zorder=12, gid="warning",
             bbox={"facecolor": "white", "edgecolor": "#B00020", "alpha": 0.92, "linewidth": 0.8, "pad": 2.5},
         )  # fmt: skip
 
