@@ -113,7 +113,7 @@ class _Picture:
         panels = [self._panel(number, painting) for number, painting in enumerate(self.paintings)]
         self.slides = [slide for _, slide in panels]
         self.traces = [trace for trace, _ in panels]
-        self.clock = page.figure.axes[0].set_title("", loc="left", size=12)
+        self.clock = page.figure.axes[0].set_title("", loc="left", size=10)
         course = page.place(page.left, page.below + 0.1, page.width - page.left - 0.25, 0.68)
         time_line(course, run.shown_time, run.history["mean_velocity_m_s"], color=BLUE)
         time_axis(course, run.shown_time, run.clock.label)

@@ -15,6 +15,7 @@ from thawslide.figures.motion import draw_targets
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     NOTE,
     ORANGE,
@@ -49,8 +50,8 @@ def band(run: Run) -> Figure:
 
 def _of_particles(run: Run) -> Figure:
     time = run.shown_time
-    figure = Figure(figsize=(10.0, 6.4), layout="constrained")
-    figure.suptitle(run.titled("the shear band"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 5.1), layout="constrained")
+    figure.suptitle(run.titled("the shear band"), x=0.01, ha="left", size=10)
     panels: list[Axes] = list(figure.subplots(2, 2, sharex=True).flat)
     for axes, (column, words, unit, colour, quantities) in zip(panels, _PANELS, strict=True):
         axes.set_ylabel(words)
@@ -80,8 +81,8 @@ def _of_particles(run: Run) -> Figure:
 
 
 def _of_columns(run: Run) -> Figure:
-    figure = Figure(figsize=(10.0, 8.6), layout="constrained")
-    figure.suptitle(run.titled("the band along the base"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 6.9), layout="constrained")
+    figure.suptitle(run.titled("the band along the base"), x=0.01, ha="left", size=10)
     panels: list[Axes] = list(figure.subplots(3, 2, sharex=True).flat)
     pressure, heat, saturation, thickness, ratio, friction = panels
     _draw_stresses(pressure, run)
@@ -104,7 +105,7 @@ def _of_columns(run: Run) -> Figure:
             "temperature",
             "liquid saturation",
             "thickness",
-            "largest pore pressure of any column, over its N",
+            "largest P of any column, over its N",
             "friction coefficient",
         ),
     )
@@ -137,7 +138,7 @@ def _draw_stresses(axes: Axes, run: Run) -> None:
     for values, words, colour in lines:
         time_line(axes, run.shown_time, values / divisor, color=colour, label=words)
     draw_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
-    legend = axes.legend(loc="upper center", ncols=2, columnspacing=1.0, handlelength=1.5)
+    legend = axes.legend(loc="upper center", ncols=2, columnspacing=0.7, handlelength=1.2, handletextpad=0.4)
     rows = (len(legend.get_texts()) + 1) // 2
     highest = axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1.0  # before any contact there is nothing
     axes.set_ylim(0.0, highest / (1.0 - 0.06 - 0.09 * rows))  # the lines end below the legend
@@ -152,8 +153,10 @@ def _draw_temperatures(axes: Axes, run: Run) -> None:
     time_line(axes, time, boiling, color=SKY, linestyle="--", label="water boils at the mean N")
     axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
     draw_targets(axes, run, ("band_temperature",), 1.0, RED)
-    warn(axes, too_hot(run, run.history["band_hottest_C"], run.history["band_pore_pressure_Pa"]))
-    axes.legend(loc="best")
+    low, top = axes.get_ylim()
+    axes.set_ylim(top=top + 0.4 * (top - low))  # room for the legend
+    warn(axes, too_hot(run, run.history["band_hottest_C"], run.history["band_pore_pressure_Pa"]), high=False)
+    axes.legend(loc="upper right")
 
 
 def _finish(axes: Axes, column: str, values: np.ndarray) -> None:

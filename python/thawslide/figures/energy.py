@@ -10,6 +10,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     NOTE,
     ORANGE,
@@ -82,8 +83,8 @@ def energy(run: Run) -> Figure:
     if not any(name in run.history for name in (*MECHANICAL, *THERMAL)):
         raise NotInRunError("history.csv has no columns of the energy ledger")
     time = run.shown_time
-    figure = Figure(figsize=(10.0, 9.0), layout="constrained")
-    figure.suptitle(run.titled("energy ledger"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
+    figure.suptitle(run.titled("energy ledger"), x=0.01, ha="left", size=10)
     mechanical, thermal, residual = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 0.8))
     _draw_accounts(mechanical, run, MECHANICAL)
     _draw_accounts(thermal, run, THERMAL | COLUMNS)

@@ -10,6 +10,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     ORANGE,
     RED,
@@ -48,8 +49,8 @@ def entrainment(run: Run) -> Figure:
     if "entrained_mass_kg" not in run.history:
         raise NotInRunError("the case has no bed: history.csv has no account of what was taken up")
     time = run.shown_time
-    figure = Figure(figsize=(10.0, 8.0), layout="constrained")
-    figure.suptitle(run.titled("bed taken up"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 6.4), layout="constrained")
+    figure.suptitle(run.titled("bed taken up"), x=0.01, ha="left", size=10)
     mass, work, depth = figure.subplots(3, 1)
     per = "/m of width" if run.per_metre else ""
     divisor, unit = scaled(float(np.nanmax(run.history["mass_kg"])), MASSES)

@@ -11,6 +11,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     NOTE,
     ORANGE,
@@ -74,8 +75,8 @@ def force(run: Run) -> Figure:
     divisor, unit = prefixed([np.nanmax(np.abs(magnitude)), *(t.value for t in comparable)], "N")
     unit += "/m of width" if run.per_metre else ""
 
-    figure = Figure(figsize=(10.0, 7.6), layout="constrained")
-    figure.suptitle(run.titled("seismic force and internal deformation"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 6.1), layout="constrained")
+    figure.suptitle(run.titled("seismic force and internal deformation"), x=0.01, ha="left", size=10)
     size, components, strain = panels = list(figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1.2, 1.0)))
     time_line(size, time, magnitude / divisor, color=BLACK, linewidth=1.1, label="run")
     bands = reported_bands(run)

@@ -11,11 +11,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.figures.map_panel import HALO, Scene, draw_scene
-from thawslide.figures.style import NOTE
+from thawslide.figures.style import COLUMN_WIDTH, NOTE
 
 # Inches.
-WIDTH, HIGHEST, NARROWEST = 10.0, 12.0, 6.5  # of a page
-TALLEST = 6.8  # of a map
+WIDTH, HIGHEST, NARROWEST = COLUMN_WIDTH, 9.2, COLUMN_WIDTH  # of a page
+TALLEST = 5.2  # of a map
 _LEFT, _RIGHT, _GAP, _HEAD, _TITLE, _TICKS, _LINE = 0.62, 0.2, 0.28, 0.38, 0.3, 0.5, 0.15
 _NOTE_CHARACTERS = 17.0  # of a note in one inch
 _TITLE_CHARACTERS = 12.8  # of a panel's titles in one inch
@@ -82,7 +82,7 @@ class MapPage:
         self.below = _HEAD + rows * (found.height + self.head) + _TICKS  # where the maps end
         self.height = self.below + foot + self.note_height
         self.figure = Figure(figsize=(self.width, self.height))
-        self.figure.suptitle(title, x=_LEFT / self.width, y=1 - 0.14 / self.height, ha="left", va="top", size=12)
+        self.figure.suptitle(title, x=_LEFT / self.width, y=1 - 0.14 / self.height, ha="left", va="top", size=10)
         self.figure.text(
             _LEFT / self.width,
             0.06 / self.height,

@@ -7,7 +7,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.clock import has_clock
-from thawslide.figures.style import BLUE, GREEN, NOTE, RED, letters, prefixed, styled, time_axis, time_line
+from thawslide.figures.style import (
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    NOTE,
+    RED,
+    letters,
+    prefixed,
+    styled,
+    time_axis,
+    time_line,
+)
 from thawslide.run import Run
 from thawslide.targets import KINDS
 
@@ -57,8 +68,8 @@ def motion(run: Run) -> Figure:
     """Draw (a) mean and largest velocity, (b) mean displacement, runout and the way of the front."""
     history = run.history
     time = run.shown_time
-    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
-    figure.suptitle(run.titled("motion of the slide"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 4.3), layout="constrained")
+    figure.suptitle(run.titled("motion of the slide"), x=0.01, ha="left", size=10)
     speed, distance = figure.subplots(1, 2)
 
     if "max_velocity_m_s" in history:
@@ -91,6 +102,7 @@ def motion(run: Run) -> Figure:
     for axes in (speed, distance):
         time_axis(axes, time, run.clock.label)
         axes.set_ylim(bottom=0.0)
-        axes.legend(loc="best")
+        # Below the panel: with many reported values it would hide the curves.
+        axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.2))
     letters((speed, distance), ("velocity", "displacement"))
     return figure

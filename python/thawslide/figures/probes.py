@@ -8,7 +8,20 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
-from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY, letters, styled, time_axis, time_line
+from thawslide.figures.style import (
+    BLACK,
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    letters,
+    styled,
+    time_axis,
+    time_line,
+)
 from thawslide.run import Run
 
 _COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY, BLACK)
@@ -55,8 +68,8 @@ def probes(run: Run) -> Figure:
     names = list(dict.fromkeys(_probe(name)[0] for lines in found.values() for name in lines))
     rows = -(-len(found) // 2)
     across = min(len(found), 2)
-    figure = Figure(figsize=(10.0 if across == 2 else 6.0, 0.9 + 2.6 * rows), layout="constrained")
-    figure.suptitle(run.titled("probes"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH if across == 2 else 4.5, 0.9 + 2.2 * rows), layout="constrained")
+    figure.suptitle(run.titled("probes"), x=0.01, ha="left", size=10)
     panels = list(figure.subplots(rows, across, squeeze=False, sharex=True).flat)
     for axes, (quantity, lines) in zip(panels, found.items(), strict=False):
         for name, values in lines.items():

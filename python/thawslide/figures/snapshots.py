@@ -24,7 +24,7 @@ from thawslide.figures.colours import (
 )
 from thawslide.figures.load import overburden
 from thawslide.figures.moments import LETTERS, chosen_snapshots, window_words
-from thawslide.figures.style import GROUND_LINE, NOTE, prefixed, styled, warn
+from thawslide.figures.style import COLUMN_WIDTH, GROUND_LINE, NOTE, prefixed, stretch, styled, warn
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
 from thawslide.run import Numbers, Run, Snapshot
 from thawslide.unphysical import EDGES, too_hot, too_much_for_weight
@@ -42,8 +42,8 @@ class Stretch:
 _OF_WARNINGS = {"temperature": ("liquid_saturation", "pore_pressure"), "pore_pressure": ("mass",)}
 
 # The page, in inches.
-_WIDTH, _LEFT, _RIGHT, _GAP = 10.0, 0.75, 0.2, 0.75
-_PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.9, 0.8, 0.8, 0.15
+_WIDTH, _LEFT, _RIGHT, _GAP = COLUMN_WIDTH, 0.65, 0.12, 0.7
+_PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.45, 0.65, 0.75, 0.13
 _OVERVIEW_MARGINS = (1.0, 1.15)
 
 
@@ -92,7 +92,7 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
     page = _Page(run, shots)
     figure = page.figure
     title = f"{run.title}: {painting.words}" + (f". {run.end_note.rstrip()}" if run.end_note else "")
-    figure.suptitle(title, x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=12)
+    figure.suptitle(title, x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=10)
     windows = [_window(run, shot, page.panel_width / _PANEL_HEIGHT) for shot in shots]
     _draw_stretches(_draw_overview(page, run, shots, windows), stretches)
     highest = max(extent(heights)[1] for heights in (above_ground(run, shot) for shot in shots))
@@ -137,7 +137,7 @@ class _Page:
         self.strips = run.terrain is not None
         (left, right), (low, high) = _whole(run, shots)
         shape = (high - low) * _OVERVIEW_MARGINS[1] / ((right - left) * _OVERVIEW_MARGINS[0])
-        self.overview_height = float(np.clip(self.full * shape, 0.9, 2.2))
+        self.overview_height = float(np.clip(self.full * shape, 0.75, 1.7))
         self.bars_height = _BAR_HEIGHT * len(shots)
         self.head = 0.6 + self.overview_height + self.bars_height + 0.95
         self.row = _PANEL_HEIGHT + _ROW_GAP + (_STRIP_HEIGHT + 0.08 if self.strips else 0.0)
@@ -252,8 +252,9 @@ def _draw_strip(
     axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
     flat.apply(axes)
     axes.set_ylabel("above\nground (m)")
-    times = (flat.right - flat.left) / width / ((flat.top - flat.bottom) / _STRIP_HEIGHT)
-    axes.text(0.99, 0.95, f"heights ×{times:.2g}", transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE)
+    axes.text(
+        0.99, 0.95, f"heights ×{stretch(axes):.2g}", transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE
+    )
 
 
 def _draw_stretches(axes: Axes, stretches: Sequence[Stretch]) -> None:

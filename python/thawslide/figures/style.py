@@ -31,6 +31,7 @@ BLUE, ORANGE, GREEN, RED, PURPLE, SKY, YELLOW, BLACK = (
     "#B8A800",
     "#222222",
 )
+COLUMN_WIDTH = 7.1  # inches: 180 mm, both columns of a journal's page; type keeps its size in print
 GROUND = "#D9D4CB"
 GROUND_LINE = "#6B6459"
 NOTE = "#555555"
@@ -38,7 +39,7 @@ NOTE = "#555555"
 STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 9,
-    "axes.titlesize": 9.5,
+    "axes.titlesize": 9,
     "axes.labelsize": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -49,8 +50,11 @@ STYLE: dict[str, Any] = {
     "grid.color": "#E4E4E4",
     "grid.linewidth": 0.6,
     "lines.linewidth": 1.6,
-    "legend.frameon": False,
-    "legend.fontsize": 8,
+    "legend.frameon": True,
+    "legend.framealpha": 0.85,
+    "legend.edgecolor": "none",
+    "legend.borderpad": 0.2,
+    "legend.fontsize": 7.5,
     "xtick.labelsize": 8,
     "ytick.labelsize": 8,
     "figure.facecolor": "white",
@@ -132,6 +136,15 @@ def time_axis(axes: Axes, time: Numbers, label: str = "") -> None:
 def say(axes: Axes, text: str) -> None:
     """Write why a panel is empty in its middle."""
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=NOTE, wrap=True)
+
+
+def stretch(axes: Axes, unit: float = 1.0) -> float:
+    """Return how many times heights [m] are larger on the page than distances, in units of `unit` [m]."""
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
+    width, height = figure.get_size_inches() * axes.get_position().size
+    (left, right), (low, top) = axes.get_xlim(), axes.get_ylim()
+    return float((right - left) * unit / width / ((top - low) / height))
 
 
 _WARNING = 0.3  # of the height of curves: room for a warning above them

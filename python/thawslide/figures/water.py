@@ -10,6 +10,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     ORANGE,
     PURPLE,
@@ -67,8 +68,8 @@ def water(run: Run) -> Figure:
     if not run.has_band_columns:
         raise NotInRunError("the band is not of columns: history.csv has no account of its water")
     time = run.shown_time
-    figure = Figure(figsize=(10.0, 9.0), layout="constrained")
-    figure.suptitle(run.titled("water of the band"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
+    figure.suptitle(run.titled("water of the band"), x=0.01, ha="left", size=10)
     held, lost, spaces, residual = panels = list(figure.subplots(4, 1, sharex=True, height_ratios=(1.2, 1.0, 1.0, 0.7)))
     _draw(held, run, HELD, "mass", MASSES)
     _draw(lost, run, LOST, "mass", MASSES)

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, PURPLE, RED, letters, styled
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, PURPLE, RED, letters, styled
 from thawslide.paper.band_model import BandHistory, Drive, solve
 from thawslide.paper.mixture import TABLE_1
 from thawslide.paper.runs import BLOCKS, NO_LATENT
@@ -186,7 +186,7 @@ def _panel(axes: Axes, time: Numbers, values: Numbers, colour: str, words: str, 
 
 @styled
 def _draw(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
-    figure = Figure(figsize=(10.0, 10.0), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 8.0), layout="constrained")
     panels = figure.subplots(3, 2)
     for side, ending in enumerate(("", NO_LATENT)):
         for name, words, colour in drawn:

@@ -12,7 +12,19 @@ from thawslide.clock import time_of_speed
 from thawslide.errors import NotInRunError
 from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.motion import draw_targets
-from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_axis, time_line
+from thawslide.figures.style import (
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    NOTE,
+    ORANGE,
+    RED,
+    letters,
+    stretch,
+    styled,
+    time_axis,
+    time_line,
+)
 from thawslide.history import History, read_history
 from thawslide.key_numbers import STOPPED_SHARE, stop_time
 from thawslide.paper.block import at
@@ -222,7 +234,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
 def figure_deposit(runs: dict[str, Run]) -> Figure:
     """Draw ground, start and deposit along the profile, and the deposit's thickness."""
     run = runs["lamplugh"]
-    figure = Figure(figsize=(10.0, 5.0), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 4.0), layout="constrained")
     section, thick = figure.subplots(2, 1, sharex=True, height_ratios=(1.0, 1.0))
     assert run.terrain is not None
     ground_x, ground_z = run.terrain
@@ -252,9 +264,13 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
         axes.grid(True)
         axes.set_axisbelow(True)
         axes.set_xlim(ground_x[0] / 1e3, max(FRONT + 1500.0, float(x.max()) + BIN) / 1e3)
+    figure.draw_without_rendering()  # sizes of panels are known from here on
     letters(
         [section, thick],
-        ("profile", "thickness of the deposit, means over 100 m; zones and words of Lei et al., places from this run"),
+        (
+            f"profile, heights ×{stretch(section, 1e3):.2g}",
+            "thickness of the deposit, means over 100 m; zones and words of Lei et al., places from this run",
+        ),
     )
     return figure
 
@@ -264,7 +280,7 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     """Draw velocity and displacement of the deforming slide and of the rigid blocks, with the reported values."""
     run = runs["lamplugh"]
     time = run.history["time_s"]
-    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.4), layout="constrained")
     speed, way = figure.subplots(1, 2)
     time_line(speed, time, run.history["mean_velocity_m_s"], color=BLUE, label="deforming (MPM)")
     time_line(way, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.snapshots import Stretch, plastic_strain, velocity
-from thawslide.figures.style import BLUE, NOTE, RED, letters, styled, time_axis, time_line
+from thawslide.figures.style import BLUE, COLUMN_WIDTH, NOTE, RED, letters, styled, time_axis, time_line
 from thawslide.paper.lamplugh import INVERSION, PHASE, zones
 from thawslide.run import Numbers, Run
 
@@ -68,7 +68,7 @@ def figure_17(runs: dict[str, Run]) -> Figure:
     time = run.shown_time
     _, magnitude = seismic_force(run)
     force = magnitude / 1e12
-    figure = Figure(figsize=(10.0, 4.6), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.7), layout="constrained")
     axes = figure.subplots()
     strain = run.history["mean_plastic_strain"]
     names = ("force on the ground less the static weight (TN)", "mean equivalent plastic strain")
@@ -95,7 +95,7 @@ def figure_20(runs: dict[str, Run]) -> Figure:
     """Draw the band: (a) temperature and pore pressure, (b) saturation and friction coefficient."""
     run = runs["lamplugh"]
     history = run.history
-    figure = Figure(figsize=(10.0, 7.2), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 5.8), layout="constrained")
     heat, melt = figure.subplots(2, 1, sharex=True)
     pressure = _pair(
         heat, run, (history["band_temperature_C"], "temperature (°C)"),

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from thawslide.figures.motion import draw_targets
-from thawslide.figures.style import BLUE, GREEN, NOTE, letters, styled
+from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, letters, styled
 from thawslide.paper.members import MODEL, QUANTITIES, SET_TIME
 from thawslide.run import Numbers, Run
 
@@ -29,7 +29,7 @@ def on_one_clock(runs: Sequence[Run], column: str) -> tuple[Numbers, Numbers]:
 @styled
 def members_over_time(runs: Sequence[Run]) -> Figure:
     """Draw mean velocity and mean displacement of all members and their median, with the reported values."""
-    figure = Figure(figsize=(10.0, 4.6), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.7), layout="constrained")
     speed, way = figure.subplots(1, 2)
     for axes, column, divisor, colour, reported in (
         (speed, "mean_velocity_m_s", 1.0, BLUE, ("mean_velocity",)),
