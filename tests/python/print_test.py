@@ -6,6 +6,7 @@ import re
 import struct
 from pathlib import Path
 
+import numpy as np
 import pytest
 from band_columns_test import column_history
 from conftest import MakeRun, write_history
@@ -15,7 +16,7 @@ from matplotlib.text import Text
 from thawslide import Run
 from thawslide.figures import FIGURES
 from thawslide.figures.style import COLUMN_WIDTH
-from thawslide.paper.lamplugh import figure_deposit
+from thawslide.paper import lamplugh
 from thawslide.report import make_report
 
 SMALLEST = 6.0  # points
@@ -57,8 +58,12 @@ def test_pictures_have_150_dots_an_inch(make_run: MakeRun, name: str) -> None:
     assert width == int(150 * COLUMN_WIDTH)
 
 
-def test_the_profile_of_a_deposit_states_how_it_is_stretched(make_run: MakeRun) -> None:
-    figure = figure_deposit({"lamplugh": Run(make_run())})
+def test_the_profile_of_a_deposit_states_how_it_is_stretched(
+    make_run: MakeRun, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lamplugh, "deposit", lambda run: (np.array([50.0, 150.0]), np.array([3.0, 4.0])))
+    monkeypatch.setattr(lamplugh, "zones", lambda run: [])
+    figure = lamplugh.figure_deposit({"lamplugh": Run(make_run())})
     section = figure.axes[0]
     width, height = figure.get_size_inches() * section.get_position().size
     (left, right), (low, top) = section.get_xlim(), section.get_ylim()
