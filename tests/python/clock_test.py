@@ -107,3 +107,16 @@ def test_sources_of_cases_are_publications_and_legends_name_them(make_run: MakeR
     of_speed = {target.source for target in targets if target.quantity == "mean_velocity"}
     marks = {str(line.get_label()) for line in speed.lines if str(line.get_label()).startswith("modelled: ")}
     assert marks == {f"modelled: {source}" for source in of_speed}
+
+
+def test_two_reported_forces_of_one_value_are_told_apart(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "inputs" / "targets.csv").write_text(
+        "quantity,time_s,value,unit,source\nmax_seismic_force,5,280,GN,One\nmax_seismic_force_2_8_s,5,280,GN,Two\n"
+    )
+    size = FIGURES["force"].draw(Run(folder)).axes[0]
+    one, two = (found for found in size.lines if "maximum" in str(found.get_label()))
+    np.testing.assert_array_equal(one.get_ydata(), two.get_ydata())
+    (passed,) = (found for found in size.lines if "band-passed" in str(found.get_label()))
+    assert one.get_color() != two.get_color() == passed.get_color()
+    assert one._unscaled_dash_pattern == (0.0, (4.0, 4.0)) and two._unscaled_dash_pattern == (4.0, (4.0, 4.0))

@@ -139,11 +139,6 @@ def test_three_dimensions_are_seen_from_the_side(make_run: MakeRun) -> None:
     np.testing.assert_allclose([(b.y0 + b.y1) / 2 for b in boxes], run.snapshot(4).points[order, 2])
 
 
-def test_six_moments_where_the_case_names_no_times(make_run: MakeRun) -> None:
-    shots = chosen_snapshots(Run(make_run(times="[]")))
-    assert [shot.time for shot in shots] == [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]
-
-
 def test_times_that_share_a_snapshot_get_one_panel(make_run: MakeRun) -> None:
     shots = chosen_snapshots(Run(make_run(times="[0.0, 8.9, 9.1, 500.0]")))
     assert [shot.time for shot in shots] == [0.0, 9.0, 10.0]
@@ -255,19 +250,6 @@ def test_seismic_force_and_its_reported_maximum(make_run: MakeRun) -> None:
     assert size.get_ylabel() == "force (GN)"
     (strain,) = titled(figure, "(c)").lines
     np.testing.assert_array_equal(strain.get_ydata(), run.history["mean_plastic_strain"])
-
-
-def test_two_reported_forces_of_one_value_are_told_apart(make_run: MakeRun) -> None:
-    folder = make_run()
-    (folder / "inputs" / "targets.csv").write_text(
-        "quantity,time_s,value,unit,source\nmax_seismic_force,5,280,GN,One\nmax_seismic_force_2_8_s,5,280,GN,Two\n"
-    )
-    size = titled(FIGURES["force"].draw(Run(folder)), "(a)")
-    one, two = (found for found in size.lines if "maximum" in str(found.get_label()))
-    np.testing.assert_array_equal(one.get_ydata(), two.get_ydata())
-    (passed,) = (found for found in size.lines if "band-passed" in str(found.get_label()))
-    assert one.get_color() != two.get_color() == passed.get_color()
-    assert one._unscaled_dash_pattern == (0.0, (4.0, 4.0)) and two._unscaled_dash_pattern == (4.0, (4.0, 4.0))
 
 
 def test_reported_force_needs_a_width_and_a_target(make_run: MakeRun) -> None:

@@ -130,8 +130,8 @@ def _draw_stresses(axes: Axes, run: Run) -> None:
     lines = (
         (load, "normal pressure N", BLACK),
         (pore_pressure, "pore pressure P", BLUE),
-        (load - pore_pressure, "effective normal stress N − P", GREEN),
-        (run.history["band_shear_Pa"], "shear traction of the base", RED),
+        (load - pore_pressure, "effective stress N − P", GREEN),
+        (run.history["band_shear_Pa"], "shear traction", RED),
     )
     divisor, unit = prefixed(np.concatenate([values for values, *_ in lines]), "Pa")
     axes.set_ylabel(f"stress ({unit})")
@@ -141,7 +141,7 @@ def _draw_stresses(axes: Axes, run: Run) -> None:
     legend = axes.legend(loc="upper center", ncols=2, columnspacing=0.7, handlelength=1.2, handletextpad=0.4)
     rows = (len(legend.get_texts()) + 1) // 2
     highest = axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1.0  # before any contact there is nothing
-    axes.set_ylim(0.0, highest / (1.0 - 0.06 - 0.09 * rows))  # the lines end below the legend
+    axes.set_ylim(0.0, highest / (1.0 - 0.06 - 0.13 * rows))  # the lines end below the legend
 
 
 def _draw_temperatures(axes: Axes, run: Run) -> None:
