@@ -8,7 +8,7 @@ from grounds import ALR, Variant
 from jobs import Job
 from matplotlib.figure import Figure
 from refinement import CAUSES, FILTERED, HERE, ROUGH, STUDIED, WIDE, Found, limit, order, read_found, spread
-from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, styled
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, ORANGE, RED, styled
 from thawslide.maps import Map, read_map
 from thawslide.run import Run
 from wedge import Interval, intervals
@@ -100,7 +100,7 @@ def friction_table(rows: list[Interval]) -> str:
 @styled
 def friction_picture(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure:
     """Return apparent friction over time, a panel for each way to filter the DEM."""
-    figure = Figure(figsize=(10.0, 4.4), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.8), layout="constrained")
     panels = figure.subplots(1, len(runs), sharey=True, sharex=True)
     for panel, (variant, cells), letter in zip(panels, runs.items(), "abc", strict=True):
         for colour, (cell, rows) in zip(COLOURS, cells.items(), strict=False):

@@ -11,11 +11,13 @@ from band_columns_test import column_history
 from conftest import MakeRun, history_columns, write_history
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from thawslide import Run
 from thawslide.boiling import boiling_temperature
 from thawslide.figures import FIGURES
 from thawslide.figures.load import load_on_band, overburden
+from thawslide.paper.lamplugh_figures import figure_20
 
 
 def warnings(figure: Figure) -> dict[str, str]:
@@ -125,3 +127,15 @@ def test_normal_pressure_stands_next_to_pore_pressure(make_run: MakeRun) -> None
         expected = 0.8 * overburden(run, shot)[shot["in_band"] == 1].mean()  # cos2 of a slope of 1/2
         assert load[index] == pytest.approx(expected)
     assert not len(load_on_band(Run(make_run(name="space", dimension=3)))[0])
+
+
+def test_the_band_of_the_paper_has_the_same_warnings(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    columns = run.history
+    figure = figure_20({"lamplugh": run})
+    (words,) = (text.get_text().replace("\n", " ") for text in figure.findobj(Text) if text.get_gid() == "warning")
+    hottest = float(np.nanmax(columns["band_temperature_C"]))
+    time, load = load_on_band(run)
+    ratio = np.nanmax(np.interp(time, columns["time_s"], columns["band_pore_pressure_Pa"]) / load)
+    assert f"up to {hottest:,.0f} °C, where water boils" in words
+    assert f"P is up to {ratio:.3g} times the weight above" in words

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_line
+from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, RED, letters, styled, time_line
 from thawslide.paper.block import at, first_time, mark
 from thawslide.paper.mixture import TABLE_1
 from thawslide.paper.runs import INCLINES
@@ -140,7 +140,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
 @styled
 def _draw(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...], titles: tuple[str, ...]) -> Figure:
     """Draw columns over time: (column, words, divisor, running mean [s])."""
-    figure = Figure(figsize=(10.0 if len(panels) == 2 else 12.0, 4.0), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.2), layout="constrained")
     axes = list(figure.subplots(1, len(panels)))
     for panel, (column, words, divisor, span) in zip(axes, panels, strict=True):
         for name in INCLINES:

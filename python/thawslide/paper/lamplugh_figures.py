@@ -9,10 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.figures.force import force_in_band, seismic_force
+from thawslide.figures.load import load_on_band
 from thawslide.figures.snapshots import Stretch, plastic_strain, velocity
-from thawslide.figures.style import BLUE, COLUMN_WIDTH, NOTE, RED, letters, styled, time_axis, time_line
+from thawslide.figures.style import BLUE, COLUMN_WIDTH, NOTE, RED, letters, styled, time_axis, time_line, warn
 from thawslide.paper.lamplugh import INVERSION, PHASE, zones
 from thawslide.run import Numbers, Run
+from thawslide.unphysical import too_hot, too_much_for_weight
 
 INVERTED = 0.28  # TN: the largest force inverted from seismic waves
 
@@ -107,6 +109,10 @@ def figure_20(runs: dict[str, Run]) -> Figure:
     )  # fmt: skip
     heat.set_xlabel("")
     pressure.set_ylim(bottom=0.0)
+    when, load = load_on_band(run)
+    over = np.interp(when, run.shown_time, history["band_pore_pressure_Pa"]) / load
+    found = (too_hot(run, history["band_temperature_C"], history["band_pore_pressure_Pa"]), too_much_for_weight(over))
+    warn(pressure, "; ".join(filter(None, found)))
     low, high = heat.get_ylim()
     for level, words in ((0.0, "ice melts"), (100.0, "boiling is not modelled")):
         if low < level < high:

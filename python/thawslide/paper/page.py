@@ -18,7 +18,7 @@ from thawslide.report import page_frame
 from thawslide.run import Run
 
 Runs = dict[str, Run]
-_DPI = 110
+_DPI = 150
 _OWN: dict[str, Callable[[Runs], Figure]] = {
     "figure-4": freezing.figure_4,
     "figure-6": block.figure_6,
