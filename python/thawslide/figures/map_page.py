@@ -45,7 +45,7 @@ def layout(count: int, aspect: float, bar: float, head: float, beside: float) ->
     # Somewhat smaller maps are better than empty places, and than a long page.
     largest = max(each.width for each in found)
     return min(
-        (each for each in found if each.width > 0.6 * largest),
+        (each for each in found if each.width > 0.65 * largest),
         key=lambda each: (-count % each.columns > 1, -(-count // each.columns) * (each.height + head), -each.columns),
     )
 
