@@ -28,11 +28,13 @@ def moments(run: Run) -> list[float]:
 def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Snapshot]:
     """Return the snapshots nearest to the report times of the case, or to moments of the motion, each once.
 
-    The last state of a run that did not come to its end is one of them. Their velocities are those of displacement.
+    Report times are on the clock of the figures. The last state of a run that did not come to its end is one of them.
+    Velocities are those of displacement.
     """
     if not len(run.times):
         raise NotInRunError(f"{run.folder}: no snapshots; set [time] output_interval and run again")
-    found = {int(np.argmin(np.abs(run.times - time))) for time in run.report_times or moments(run)}
+    wanted = [time - run.clock.shift for time in run.report_times] or moments(run)
+    found = {int(np.argmin(np.abs(run.times - time))) for time in wanted}
     indices = sorted(found if run.ended else found | {len(run.times) - 1})[: len(LETTERS)]
     return [shown_snapshot(run, index, fields) for index in indices]
 
