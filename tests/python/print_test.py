@@ -15,7 +15,7 @@ from matplotlib.text import Text
 
 from thawslide import Run
 from thawslide.figures import FIGURES
-from thawslide.figures.style import COLUMN_WIDTH
+from thawslide.figures.style import COLUMN_WIDTH, without_title
 from thawslide.paper import lamplugh
 from thawslide.report import make_report
 
@@ -48,6 +48,16 @@ def test_figures_fit_both_columns_of_a_page(make_run: MakeRun, map_run: Path) ->
         check(FIGURES[name].draw(Run(folder)))
     for name in ("extent_maps", "slide_speed", "cross_sections", "impact_maps"):
         check(FIGURES[name].draw(Run(map_run)))
+
+
+def test_pages_with_captions_have_no_titles_in_figures(make_run: MakeRun) -> None:
+    figure = FIGURES["band"].draw(Run(make_run()))
+    assert figure.get_suptitle()
+    figure.draw_without_rendering()
+    high = figure.axes[0].get_position().y1
+    assert without_title(figure).get_suptitle() == ""
+    figure.draw_without_rendering()
+    assert figure.axes[0].get_position().y1 > high, "its room goes to the panels"
 
 
 @pytest.mark.parametrize("name", ["motion", "velocity"])

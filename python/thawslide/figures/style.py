@@ -138,6 +138,12 @@ def say(axes: Axes, text: str) -> None:
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=NOTE, wrap=True)
 
 
+def without_title(figure: Figure) -> Figure:
+    """Return a figure for a page whose caption has what its title says, as journals ask for."""
+    figure.suptitle("")
+    return figure
+
+
 def stretch(axes: Axes, unit: float = 1.0) -> float:
     """Return how many times heights [m] are larger on the page than distances, in units of `unit` [m]."""
     figure = axes.get_figure()
