@@ -144,7 +144,7 @@ def _source_volume(run: Run) -> float | None:
     if run.per_metre or not run.times.size or run.times[0] > 0.0:
         return None
     volume = float(np.sum(run.snapshot(0, fields=["volume"])["volume"]))
-    return volume * float(run.section("case")["width"]) if run.dimension == 2 else volume
+    return volume * run.width if run.dimension == 2 else volume
 
 
 def boiling_note(run: Run) -> str:

@@ -39,14 +39,24 @@ def _is_positive(value: object) -> bool:
     return is_number(value) and isinstance(value, int | float) and value > 0
 
 
+def _is_width(value: object) -> bool:
+    if not isinstance(value, dict):
+        return is_number(value)
+    places, widths = value.get("x"), value.get("value")
+    if not (isinstance(places, list) and isinstance(widths, list) and _is_numbers(places)):
+        return False
+    return 0 < len(places) == len(widths) and places == sorted(places) and all(map(_is_positive, widths))
+
+
 Kind = tuple[Callable[[object], bool], str]
 _NUMBER: Kind = (is_number, "a finite number")
 _TEXT: Kind = (_is_text, "a text")
 _FLAG: Kind = (_is_flag, "true or false")
+_WIDTH: Kind = (_is_width, "a finite number, or as many ascending x as values above 0")
 _CORNER: Kind = (_is_corner, "a list of 2 or 3 finite numbers")
 
 _KINDS: dict[str, dict[str, Kind]] = {
-    "case": {"title": _TEXT, "dimension": (lambda value: value in (2, 3), "2 or 3"), "width": _NUMBER},
+    "case": {"title": _TEXT, "dimension": (lambda value: value in (2, 3), "2 or 3"), "width": _WIDTH},
     "grid": {"cell": (_is_positive, "a number above 0"), "min": _CORNER, "max": _CORNER},
     "time": {"end": _NUMBER},
     "heat": {"enabled": _FLAG, "latent": _FLAG, "steam": _FLAG},

@@ -71,7 +71,25 @@ class Run:
     @property
     def per_metre(self) -> bool:
         """Whether extensive columns are per metre of width: a 2D case that states no width."""
-        return self.dimension == 2 and not self.section("case").get("width", 0.0)
+        return self.dimension == 2 and not self.width
+
+    @property
+    def width(self) -> float:
+        """The width [m] of a 2D case that extensive columns are multiplied by; 0: none. Volumes are per metre of it."""
+        width = self.section("case").get("width", 0.0)
+        return float(width["value"][0] if isinstance(width, dict) else width)
+
+    def section_areas(self, shot: Snapshot) -> Numbers:
+        """Return the area [m2] of each particle of a 2D run in the section: its volume over the width there."""
+        volume = np.asarray(shot["volume"], dtype=np.float64)
+        return np.asarray(volume / self.relative_width(shot.points[:, 0]))
+
+    def relative_width(self, x: Numbers) -> Numbers:
+        """Return the width of the section at places x [m] over `width`, 1 where it does not vary."""
+        width = self.section("case").get("width", 0.0)
+        if not isinstance(width, dict):
+            return np.ones_like(x)
+        return np.asarray(np.interp(x, width["x"], width["value"]) / width["value"][0])
 
     @property
     def report_times(self) -> list[float]:

@@ -84,6 +84,9 @@ SetupFacts facts_of(const sim::Simulation<Dim, double>& simulation, const sim::R
   SetupFacts facts;
   facts.file = parameters.file;
   facts.dimension = Dim;
+  if (parameters.general.width.varies()) {
+    facts.width_varies_from = parameters.general.width.table.abscissa.front();
+  }
   facts.bodies = sim::body_figures(simulation);
   facts.substrates = substrate_facts(parameters, simulation.site());
   facts.roughness = simulation.site().roughness;

@@ -19,13 +19,16 @@ std::string size_text(double bytes) {
   return bytes < gigabyte ? fmt::format("{:.0f} MB", bytes / megabyte) : fmt::format("{:.3g} GB", bytes / gigabyte);
 }
 
-std::string text_of(const sim::BodyFigures& body, int dimension) {
-  const bool is_plane = dimension == 2;
+std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
+  const bool is_plane = facts.dimension == 2;
+  const std::string per_metre = facts.width_varies_from
+                                    ? fmt::format(" per metre of the width at x = {:g} m", *facts.width_varies_from)
+                                    : " per metre of width";
   return fmt::format(
       "  body        {}: {:.4g} m3 and {:.4g} kg{}, {} {:.4g} {}; {:.3g} m thick in the mean, {:.3g} m in the median "
       "and {:.3g} m at most (vertical)\n"
       "              {} particles {:.3g} m apart; {:.3g} across in the median and {:.3g} at most; {}\n",
-      body.name, body.volume, body.mass, is_plane ? " per metre of width" : "", is_plane ? "along" : "over", body.area,
+      body.name, body.volume, body.mass, is_plane ? per_metre : "", is_plane ? "along" : "over", body.area,
       is_plane ? "m" : "m2", body.mean_thickness, body.median_thickness, body.largest_thickness, body.particles,
       body.spacing, body.particles_across, body.most_particles_across,
       body.coldest == body.warmest ? fmt::format("{:.4g} C", body.coldest)
@@ -180,7 +183,7 @@ std::string text_of(const SetupFacts& facts) {
   std::string text = fmt::format("{}: {}\n", facts.file,
                                  facts.error.empty() ? "the case is sound" : "the run goes bad in its first steps");
   for (const sim::BodyFigures& body : facts.bodies) {
-    text += text_of(body, facts.dimension);
+    text += text_of(body, facts);
   }
   for (const SubstrateFacts& substrate : facts.substrates) {
     text += text_of(substrate, facts.dimension);

@@ -13,7 +13,7 @@ using mpm::Contact;
 namespace {
 
 constexpr double longest = 1.5;         // side of a piece along some axis, in cells
-constexpr double largest_joined = 1.0;  // area of two that join, in those of a cell's face
+constexpr double largest_joined = 1.0;  // area of two that join, in those of a cell's face, as wide as the section
 constexpr double joining_reach = 0.5;   // distance of two that join along each axis, in sizes of a lattice part
 
 }  // namespace
@@ -145,23 +145,33 @@ template <int Dim, class Real>
 void BaseColumns<Dim, Real>::take_from_nodes(const mpm::SparseGrid<Dim, Real>& grid, Real dt,
                                              const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const {
   const Stencil stencil(grid, piece.position);
-  Real force = 0, area = 0, heat = 0, slip = 0;
+  Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: of the normal force, per area of the piece [Pa]
   for (std::size_t k = 0; k < stencil.count; ++k) {
     const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
     if (contact[Contact::touching] > Real(0)) {
       force += stencil.weight[k] * contact[Contact::normal_force];
       area += stencil.weight[k] * contact[Contact::area];
       slip += stencil.weight[k] * contact[Contact::area] * contact[Contact::slip_speed];
-      heat += stencil.weight[k] * contact[Contact::friction_heat] /
-              nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
+      const Real seen = nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
+      heat += stencil.weight[k] * contact[Contact::friction_heat] / seen;
+      borne += stencil.weight[k] * contact[Contact::normal_force] / seen;
     }
   }
   if (piece.touched || area > Real(0)) {
-    follow_load(model_, area > Real(0) ? force / area : Real(0), dt, piece);
+    take_load(area > Real(0) ? force / area : Real(0), borne, dt, piece);
   }
   piece.speed = area > Real(0) ? slip / area : Real(0);
   piece.slip += dt * piece.speed;
   piece.heat += dt * heat * piece.area;
+}
+
+// The depth of the slide is what the piece bears [Pa]: its share of the normal force of nodes, all of which falls to
+// pieces. N is that where there is contact, and more than it bears where the slide has holes. Ground on which gravity
+// does not press shows no depth.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::take_load(Real normal_pressure, Real borne, Real dt, Piece& piece) const {
+  const Real weight = model_.density * gravity_.dot(piece.normal);  // [N/m3]
+  follow_load(model_, normal_pressure, weight > Real(0) ? borne / weight : model_.largest_thickness, dt, piece);
 }
 
 template <int Dim, class Real>
@@ -181,7 +191,7 @@ void BaseColumns<Dim, Real>::stretch_with(const Nearby& slide, const Ground& gro
   piece.velocity = slide.velocity;
   piece.sides += dt * slide.gradient * piece.sides;
   place_on(ground, piece);
-  piece.area = area_of<Dim, Real>(piece.sides);
+  piece.area = ground.area_of(piece.position, piece.sides);
 }
 
 // A piece with a side that reaches further than `most` along some axis parts in two along this side.
@@ -232,7 +242,8 @@ void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>&
       }
       return furthest < Real(joining_reach) * grid.cell();
     };
-    if (!is_first && small.area + pieces_[p].area <= largest && is_near(small.position)) {
+    const Real width = ground.width(small.position.template head<Dim - 1>());
+    if (!is_first && small.area + pieces_[p].area <= width * largest && is_near(small.position)) {
       join(pieces_[p], ground, small);
       continue;
     }
@@ -245,14 +256,15 @@ void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>&
 }
 
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::join(const Piece& other, const Ground& ground, Piece& piece) const {
+void BaseColumns<Dim, Real>::join(const Piece& other, const Ground& ground, Piece& piece) {
   const Real share = piece.area / (piece.area + other.area);
   const Vector<Real, Dim> middle = share * piece.position + (Real(1) - share) * other.position;
-  take_over(model_, other, piece);
+  add_to_ledger(take_over(model_, other, piece));
   piece.position = middle;
   place_on(ground, piece);
   piece.sides = sides_on<Dim, Real>(piece.normal, Vector<Real, Dim - 1>::Ones());
-  piece.sides *= std::pow(piece.area / area_of<Dim, Real>(piece.sides), Real(1) / static_cast<Real>(Dim - 1));
+  piece.sides *=
+      std::pow(piece.area / ground.area_of(piece.position, piece.sides), Real(1) / static_cast<Real>(Dim - 1));
 }
 
 template <int Dim, class Real>
@@ -268,15 +280,20 @@ void BaseColumns<Dim, Real>::step(Real thickness, Real duration) {
   parallel_for(pieces_.size(),
                [&](std::size_t p) { accounts[p] = step_piece(model_, thickness, duration, pieces_[p]); });
   for (const auto& account : accounts) {
-    ledger_.friction_heat += account.friction_heat;
-    ledger_.body_heat += account.body_heat;
-    ledger_.ground_heat += account.ground_heat;
-    ledger_.vented_heat += account.vented_heat;
-    ledger_.steam_heat += account.steam_heat;
-    ledger_.body_water += account.body_water;
-    ledger_.vented_water += account.vented_water;
-    ledger_.steam += account.steam;
+    add_to_ledger(account);
   }
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::add_to_ledger(const physics::ColumnAccount<Real>& account) {
+  ledger_.friction_heat += account.friction_heat;
+  ledger_.body_heat += account.body_heat;
+  ledger_.ground_heat += account.ground_heat;
+  ledger_.vented_heat += account.vented_heat;
+  ledger_.steam_heat += account.steam_heat;
+  ledger_.body_water += account.body_water;
+  ledger_.vented_water += account.vented_water;
+  ledger_.steam += account.steam;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real) template class BaseColumns<Dim, Real>;

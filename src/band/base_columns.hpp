@@ -50,6 +50,13 @@ class BaseColumns {
   struct Ground {
     std::function<Real(const Vector<Real, Dim - 1>&)> height;
     std::function<Vector<Real, Dim>(const Vector<Real, Dim - 1>&)> normal;  // into the ground
+    std::function<Real(const Vector<Real, Dim - 1>&)> width;                // of a 2D section, relative; 1 in space
+
+    // Of the ground below edges about a place [m2].
+    [[nodiscard]] Real area_of(const Vector<Real, Dim>& place,
+                               const typename BasePiece<Dim, Real>::Sides& sides) const {
+      return width(place.template head<Dim - 1>()) * band::area_of<Dim, Real>(sides);
+    }
   };
   // Of a node: its unit normal into the ground and its distance above it [m]; null where the ground is not near.
   struct NodeGround {
@@ -58,7 +65,9 @@ class BaseColumns {
   };
   using NodeGroundOf = std::function<NodeGround(std::size_t block, std::size_t node)>;
 
-  explicit BaseColumns(ColumnsModel<Real> model) : model_(std::move(model)) {}
+  // gravity [m/s2].
+  BaseColumns(ColumnsModel<Real> model, const Vector<Real, Dim>& gravity)
+      : model_(std::move(model)), gravity_(gravity) {}
 
   // Fills nodes.base_state of the blocks that hold contact.
   void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
@@ -108,8 +117,8 @@ class BaseColumns {
   [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place,
                                      const Lattice& cell, const Lattice& parts) const;
   [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const;
-  [[nodiscard]] BareCells feet_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
-                                          const mpm::Nodes<Dim, Real>& nodes) const;
+  [[nodiscard]] BareCells feet_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                          const NodeGroundOf& node_ground, const mpm::Nodes<Dim, Real>& nodes) const;
   void leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid, BareCells& cells) const;
   [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
                                        const mpm::Nodes<Dim, Real>& nodes) const;
@@ -120,8 +129,8 @@ class BaseColumns {
   struct InContact {
     Real area = 0, normal_force = 0;  // [m2], [N]
   };
-  void begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const InContact& contact, Real thickness,
-                   mpm::Nodes<Dim, Real>& nodes, Piece& piece);
+  void begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const InContact& contact,
+                   Real thickness, mpm::Nodes<Dim, Real>& nodes, Piece& piece);
   [[nodiscard]] InContact in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
                                      const Piece& piece) const;
   [[nodiscard]] Piece new_piece(const Vector<Real, Dim - 1>& middle, const Vector<Real, Dim - 1>& size,
@@ -139,11 +148,14 @@ class BaseColumns {
   void stretch_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const;
   void part_long_pieces(Real most, const Ground& ground);
   void join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground);
-  void join(const Piece& other, const Ground& ground, Piece& piece) const;
+  void join(const Piece& other, const Ground& ground, Piece& piece);
+  void add_to_ledger(const physics::ColumnAccount<Real>& account);
   void take_up(const Piece& piece);
   void place_on(const Ground& ground, Piece& piece) const;
+  void take_load(Real normal_pressure, Real borne, Real dt, Piece& piece) const;
 
   ColumnsModel<Real> model_;
+  Vector<Real, Dim> gravity_;
   std::vector<Piece> pieces_;
   ColumnLedger<Real> ledger_;
   std::int64_t next_id_ = 0;

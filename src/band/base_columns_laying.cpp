@@ -66,18 +66,22 @@ bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>&
 // of those with so much contact that a piece should lie there.
 template <int Dim, class Real>
 typename BaseColumns<Dim, Real>::BareCells BaseColumns<Dim, Real>::feet_in_contact(
-    const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground, const mpm::Nodes<Dim, Real>& nodes) const {
+    const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+    const mpm::Nodes<Dim, Real>& nodes) const {
   const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
   BareCells cells;
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
       const auto& contact = nodes.contact(b, k);
-      const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
-      if (!(contact[Contact::touching] > Real(0)) || !(unseen || contact[Contact::area] > least_area)) {
+      if (!(contact[Contact::touching] > Real(0))) {
         continue;
       }
       const NodeGround near = node_ground(b, k);
       const Vector<Real, Dim> foot = mpm::node_position(grid, b, k) + near.distance * *near.normal;
+      const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
+      if (!unseen && !(contact[Contact::area] > least_area * ground.width(foot.template head<Dim - 1>()))) {
+        continue;
+      }
       const Lattice cell = lattice_cell(grid, foot);
       const auto [found, is_new] = cells.try_emplace(cell);
       if (is_new) {
@@ -123,7 +127,7 @@ void BaseColumns<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>&
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
                                         const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim, Real>& nodes) {
-  BareCells cells = feet_in_contact(grid, node_ground, nodes);
+  BareCells cells = feet_in_contact(grid, ground, node_ground, nodes);
   leave_out_covered(grid, cells);
   const std::size_t known = pieces_.size();
   for (const auto& [cell, wanted] : cells) {
@@ -143,20 +147,22 @@ void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, 
     contacts.push_back(in_contact(grid, nodes, pieces_[p]));
   }
   for (std::size_t p = known; p < pieces_.size(); ++p) {
-    begin_piece(grid, contacts[p - known], thickness, nodes, pieces_[p]);
+    begin_piece(grid, ground, contacts[p - known], thickness, nodes, pieces_[p]);
     pieces_[p].velocity = slide_near(grid, node_ground, nodes, pieces_[p]).velocity;
   }
 }
 
 // At the edge of the slide a piece is smaller than its part of the lattice.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const InContact& contact,
-                                         Real thickness, mpm::Nodes<Dim, Real>& nodes, Piece& piece) {
+void BaseColumns<Dim, Real>::begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                         const InContact& contact, Real thickness, mpm::Nodes<Dim, Real>& nodes,
+                                         Piece& piece) {
   const Real share = std::clamp(contact.area / piece.area, Real(0.1), Real(1));
   add_area(grid, piece, nodes, share - Real(1));
   piece.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
-  piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
-  follow_load(model_, contact.area > Real(0) ? contact.normal_force / contact.area : Real(0), Real(0), piece);
+  piece.area = piece.area_of_column = ground.area_of(piece.position, piece.sides);
+  take_load(contact.area > Real(0) ? contact.normal_force / contact.area : Real(0), contact.normal_force / piece.area,
+            Real(0), piece);
   start_column_of(model_, thickness, piece);
   ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
   ledger_.laid_water += piece.area * physics::water_of(piece.column);
@@ -203,7 +209,7 @@ BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Vector<Real, Dim - 
   piece.position.template head<Dim - 1>() = middle;
   piece.position[Dim - 1] = ground.height(middle);
   piece.sides = sides_on<Dim, Real>(piece.normal, size);
-  piece.area = piece.area_of_column = area_of<Dim, Real>(piece.sides);
+  piece.area = piece.area_of_column = ground.area_of(piece.position, piece.sides);
   return piece;
 }
 

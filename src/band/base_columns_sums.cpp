@@ -21,8 +21,8 @@ void for_each_number(BasePiece<Dim, Real>& piece, const Visit& visit) {
       visit(piece.sides(a, side));
     }
   }
-  for (Real* number : {&piece.area, &piece.area_of_column, &piece.slip, &piece.speed, &piece.load, &piece.heat,
-                       &piece.column.thickness}) {
+  for (Real* number : {&piece.area, &piece.area_of_column, &piece.slip, &piece.speed, &piece.load, &piece.depth,
+                       &piece.loaded_for, &piece.heat, &piece.column.thickness, &piece.column.cell_growth}) {
     visit(*number);
   }
   for (int k = 0; k < physics::ColumnCells::all; ++k) {
@@ -44,7 +44,7 @@ Real water_of_full_pores(const ColumnsModel<Real>& model) {
 
 template <int Dim, class Real>
 physics::ColumnGrid<Real> grid_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece) {
-  return std::visit([&](const auto& column) { return physics::grid_of(column, piece.column.thickness); }, model.column);
+  return std::visit([&](const auto& column) { return physics::grid_of(column, piece.column); }, model.column);
 }
 
 // Whether some cell of the band has no water left, as ice or melt.

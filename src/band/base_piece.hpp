@@ -28,6 +28,8 @@ struct BasePiece {
   Real slip = 0;            // [m]
   Real speed = 0;           // of slip [m/s]
   Real load = 0;            // normal pressure N, averaged over time [Pa]
+  Real depth = 0;           // of the slide above, along the normal, from what the piece bears, averaged [m]
+  Real loaded_for = 0;      // how long the depth has been averaged [s]
   Real heat = 0;            // friction heat of its whole area since the column's last step [J]
   bool touched = false;     // has ever carried load
   physics::BandColumn<Real> column;

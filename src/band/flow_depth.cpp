@@ -10,7 +10,8 @@ namespace thawslide::band {
 
 // Numbers every column that particles of the tiles might overlap; holds until there are other tiles.
 template <int Dim, class Real>
-void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid, const SlopeCosine& slope_cosine) {
+void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid, const mpm::SectionWidth<Real>& width,
+                                          const SlopeCosine& slope_cosine) {
   column_index_.clear();
   column_keys_.clear();
   numbered_.clear();
@@ -32,6 +33,7 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
     for (std::size_t side = 0; side < column_sides<Dim>; ++side) {
       columns_[c].beside[side] = column_index_.find(column_beside(column_keys_[c], side));
     }
+    columns_[c].width = width.at(middle_of_column<Dim, Real>(column_keys_[c], grid.cell())[0]);
     if (slope_cosine) {
       columns_[c].cosine = cosines_.at(column_keys_[c], grid.cell(), slope_cosine);
     }
@@ -126,8 +128,9 @@ void FlowDepth<Dim, Real>::set_footprints(Real cell) {
     }
   }
   for (Column& column : columns_) {
-    column.footprint = footprint_of<Dim>(cell, column.at_edge, column.extent,
-                                         [&](std::size_t side) { return is_filled(column.beside[side]); });
+    column.footprint = column.width * footprint_of<Dim>(cell, column.at_edge, column.extent, [&](std::size_t side) {
+                         return is_filled(column.beside[side]);
+                       });
   }
 }
 
@@ -138,7 +141,7 @@ void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const 
                                      [](std::uint64_t key, const auto& tile) { return key == tile.key; });
   if (!same_tiles) {
     sizes_ = model.sizes.times(grid.cell());
-    number_columns(grid, model.normal_thickness ? slope_cosine : SlopeCosine());
+    number_columns(grid, model.width, model.normal_thickness ? slope_cosine : SlopeCosine());
   }
   parallel_for(tiles_.size(), [&](std::size_t t) { add_tile(grid, particles, t); });
   sum_columns();

@@ -50,6 +50,7 @@ class FlowDepth {
     bool at_edge = false;
     Real footprint = 0;
     Real cosine = 1;                                       // of the terrain's slope
+    Real width = 1;                                        // of the section, relative
     std::array<std::int32_t, column_sides<Dim>> beside{};  // the next columns, or KeyIndex::absent
   };
   // What one tile's particles are to the columns they see, by place.
@@ -59,7 +60,8 @@ class FlowDepth {
     std::array<std::int32_t, places> number;
   };
 
-  void number_columns(const mpm::SparseGrid<Dim, Real>& grid, const SlopeCosine& slope_cosine);
+  void number_columns(const mpm::SparseGrid<Dim, Real>& grid, const mpm::SectionWidth<Real>& width,
+                      const SlopeCosine& slope_cosine);
   void add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
   void add_extents(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
   void sum_columns();

@@ -12,6 +12,7 @@
 #include "base/linear.hpp"
 #include "mpm/body_sizes.hpp"
 #include "mpm/particles.hpp"
+#include "mpm/section_width.hpp"
 #include "mpm/transfer.hpp"
 
 namespace thawslide::band {
@@ -34,6 +35,7 @@ struct BandModel : BandPhysics<Real> {
   mpm::BodySizes<Real> sizes;                    // of particles, in cells
   mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
   mpm::HeldSides<Dim> sides;
+  mpm::SectionWidth<Real> width;  // of a 2D section
 
   [[nodiscard]] HydraulicConductivity<Real> hydraulic() const {
     return {hydraulic_conductivity.data(), hydraulic_conductivity.size() == 1};

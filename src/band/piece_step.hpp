@@ -25,13 +25,14 @@ template <class Real>
 struct ColumnsModel {
   AnyColumnModel<Real> column;
   Real body_temperature = 0, ground_temperature = 0;  // [C]
+  Real density = 0;                                   // of the body at its base, at the start [kg/m3]
   Real load_time = 0;                                 // over which N is averaged [s]
   BandGrowth growth = BandGrowth::none;
   Real grain_size = 0, inertial_number = 1;  // d [m], I
   Real growth_per_slip = 0;
   Real mixing_slip = std::numeric_limits<Real>::infinity();  // over which shear mixes the band [m]
   Real rock_density = 0;                                     // rho_S [kg/m3]
-  Real largest_thickness = 0;                                // of the band [m]
+  Real largest_thickness = 0;                                // of the band: depth of the slide at the start [m]
 };
 
 template <int Dim, class Real>
@@ -46,13 +47,16 @@ Real pressure_ratio(const physics::BandMeans<Real>& means, const BasePiece<Dim, 
   return piece.load > Real(0) ? means.pore_pressure / piece.load : Real(0);
 }
 
-// A new column of the body's matter, with a band of this thickness [m], under the piece's load.
+// A new column of the body's matter, with a band of this thickness [m], under the piece's load and no taller than the
+// slide is deep above it.
 template <int Dim, class Real>
 void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasePiece<Dim, Real>& piece);
 
-// Follows a normal pressure [Pa] of this step, averaged over the model's time.
+// Follows a normal pressure [Pa] of this step, averaged over the model's time, and the depth of the slide [m] that
+// belongs to it, averaged over ten times that, or since the first load.
 template <int Dim, class Real>
-void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real dt, BasePiece<Dim, Real>& piece);
+void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real depth, Real dt,
+                 BasePiece<Dim, Real>& piece);
 
 // Steps the column over `duration` [s], at the end of which the case wants a band so thick [m]: with the friction heat
 // that waits, and the area that the piece has by now. Returns what it got and gave, whole ([J], [kg]).
@@ -61,8 +65,10 @@ physics::ColumnAccount<Real> step_piece(const ColumnsModel<Real>& model, Real th
                                         BasePiece<Dim, Real>& piece);
 
 // Gives a piece what another one beside it has: area, heat and water, and by their areas the means of all else. Where
-// it lies and what shape it has stays.
+// it lies and what shape it has stays. Returns what both columns got and gave as they came to cells of one ratio,
+// whole.
 template <int Dim, class Real>
-void take_over(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& other, BasePiece<Dim, Real>& piece);
+physics::ColumnAccount<Real> take_over(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& other,
+                                       BasePiece<Dim, Real>& piece);
 
 }  // namespace thawslide::band

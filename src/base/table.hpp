@@ -21,6 +21,16 @@ struct Table {
   [[nodiscard]] double at(double x) const;
 };
 
+// The width of a 2D section: a number, 0 where none is given, or a table over x [m].
+struct WidthOverX {
+  Table table{0.0};
+
+  [[nodiscard]] bool varies() const { return !table.is_constant(); }
+  // The width that results are per metre of, the first of a table; and what sums of them are multiplied by.
+  [[nodiscard]] double reference() const { return table.value.front(); }
+  [[nodiscard]] double factor() const { return reference() > 0.0 ? reference() : 1.0; }
+};
+
 // An initial field: a value, a table over depth below the body's surface [m] or over x [m], or from a map, as an
 // attribute of polygons or a raster: then it has no table.
 struct InitialField {

@@ -57,7 +57,7 @@ struct General {
   std::string based_on;  // a case file of the same folder; empty: none
   std::string title;
   int dimension = 2;
-  double width = 0.0;  // m; 0: extensive results are per metre of width (2D)
+  WidthOverX width;  // m; 0: extensive results are per metre of width (2D)
   double gravity = 9.81;
   double gravity_tilt = 0.0;  // degrees, turned from -up towards +x
 };

@@ -358,6 +358,7 @@ void check_case(const Case& checked, Reading& reading) {
   check_bodies(checked, checked_profile(checked, reading), reading);
   check_maps(checked, reading);
   check_files(checked, reading);
+  check_width(checked, reading);
 }
 
 }  // namespace thawslide::config

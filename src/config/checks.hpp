@@ -29,6 +29,9 @@ void check_contact(const Case& checked, Reading& reading);
 // known here.
 void check_maps(const Case& checked, Reading& reading);
 
+// The part on the width of a section. After the others.
+void check_width(const Case& checked, Reading& reading);
+
 // The part on the names of input files, and on reported values.
 void check_files(const Case& checked, Reading& reading);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "physics/basal/laws.hpp"
@@ -16,6 +17,7 @@ constexpr double stiffest = 1e11;       // [Pa]; fresh rock has some 5e10
 constexpr double smallest_angle = 3.0;  // [degrees]; tan 3 is 0.05, the least that is said of ice on ice
 constexpr double largest_coefficient = 1.5;
 constexpr double least_turbulence = 100.0, most_turbulence = 10000.0;  // [m/s2]
+constexpr double steepest_widening = 1.0;                              // [m/m]; 27 degrees a side
 constexpr double warm = 0.0;                                           // [C]
 constexpr double most_snapshots = 10000.0;
 constexpr double least_wall_interval = 1.0;  // [s]
@@ -69,6 +71,24 @@ void doubt_phases(const Case& parameters, Doubts& doubts) {
   const double gravity = parameters.general.gravity;
   if (gravity != 0.0 && (gravity < least_on_earth || gravity > most_on_earth)) {
     doubts.add("case.gravity", gravity, " m/s2", "on Earth it is 9.81 m/s2.");
+  }
+}
+
+// Lateral motion of a widening section has b'^2/12 of the kinetic energy, and none here.
+void doubt_width(const Case& parameters, Doubts& doubts) {
+  const Table& width = parameters.general.width.table;
+  for (std::size_t k = 1; k < width.abscissa.size(); ++k) {
+    const double slope = (width.value[k] - width.value[k - 1]) / (width.abscissa[k] - width.abscissa[k - 1]);
+    if (std::abs(slope) > steepest_widening) {
+      doubts.add("case.width",
+                 fmt::format("{:g} m at x = {:g} m and {:g} m at x = {:g} m", width.value[k - 1], width.abscissa[k - 1],
+                             width.value[k], width.abscissa[k]),
+                 "",
+                 fmt::format("it changes by {:.3g} m per m. The lateral motion that the section leaves out would have "
+                             "{:.2g} of the kinetic energy there. Give the change of width more length.",
+                             std::abs(slope), slope * slope / 12.0));
+      return;
+    }
   }
 }
 
@@ -229,6 +249,7 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
 std::vector<std::string> implausible(const Case& parameters) {
   Doubts doubts(parameters);
   doubt_phases(parameters, doubts);
+  doubt_width(parameters, doubts);
   doubt_materials(parameters, doubts);
   doubt_band(parameters, doubts);
   doubt_ground("basal", parameters.basal, doubts);

@@ -53,8 +53,11 @@ std::vector<std::string> keys_of(const toml::table& table) {
   return keys;
 }
 
+enum class Jumps { allowed, refused };
+
 // Reads { ABSCISSA = [...], value = [...] }: equal lengths, ascending, a jump being two equal abscissae.
-bool read_table(const toml::table& node, const std::string& abscissa, const ValueReader& at, Table& table) {
+bool read_table(const toml::table& node, const std::string& abscissa, const ValueReader& at, Table& table,
+                Jumps jumps = Jumps::allowed) {
   Table found;
   if (!at.numbers(*node.get(abscissa), found.abscissa, false) || !at.numbers(*node.get("value"), found.value, true)) {
     return false;
@@ -65,11 +68,14 @@ bool read_table(const toml::table& node, const std::string& abscissa, const Valu
   }
   for (std::size_t k = 1; k < found.abscissa.size(); ++k) {
     const bool descends = found.abscissa[k] < found.abscissa[k - 1];
+    const bool jumps_here = found.abscissa[k] == found.abscissa[k - 1];
     const bool third_at_a_jump = k > 1 && found.abscissa[k] == found.abscissa[k - 2];
-    if (descends || third_at_a_jump) {
-      return at.fail(*node.get(abscissa)->as_array()->get(k),
-                     fmt::format("holds {} {} after {}; allowed: ascending, and a jump as two equal entries", abscissa,
-                                 plain_number(found.abscissa[k]), plain_number(found.abscissa[k - 1])));
+    if (descends || third_at_a_jump || (jumps_here && jumps == Jumps::refused)) {
+      return at.fail(
+          *node.get(abscissa)->as_array()->get(k),
+          fmt::format("holds {} {} after {}; allowed: {}", abscissa, plain_number(found.abscissa[k]),
+                      plain_number(found.abscissa[k - 1]),
+                      jumps == Jumps::allowed ? "ascending, and a jump as two equal entries" : "strictly increasing"));
     }
   }
   table = std::move(found);
@@ -85,6 +91,20 @@ bool fail_keys(const toml::node& node, const ValueReader& at) {
                  fmt::format("is a table with {}; allowed: {}",
                              node.as_table()->empty() ? "no key" : "the keys " + list_words(keys_of(*node.as_table())),
                              at.allowed));
+}
+
+// Reads a number, or { ABSCISSA = [...], value = [...] }.
+bool read_number_or_table(const toml::node& node, const std::string& abscissa, const ValueReader& at, Table& value,
+                          Jumps jumps = Jumps::allowed) {
+  if (const toml::table* table = node.as_table()) {
+    return has_exactly(*table, abscissa) ? read_table(*table, abscissa, at, value, jumps) : fail_keys(node, at);
+  }
+  double number = 0.0;
+  if (!at.number_in_range(node, number)) {
+    return false;
+  }
+  value = Table(number);
+  return true;
 }
 
 // The first of the keys that the table has, if it has no other; empty if none is its only one.
@@ -140,20 +160,36 @@ std::string Value<Table>::type(const Rule& rule) {
   return fmt::format("a number or {{ time = [...], value = [...] }}{}", range_and_unit(rule));
 }
 bool Value<Table>::read(const toml::node& node, const ValueReader& at, Table& value) {
-  if (const toml::table* table = node.as_table()) {
-    return has_exactly(*table, "time") ? read_table(*table, "time", at, value) : fail_keys(node, at);
-  }
-  double number = 0.0;
-  if (!at.number_in_range(node, number)) {
-    return false;
-  }
-  value = Table(number);
-  return true;
+  return read_number_or_table(node, "time", at, value);
 }
 std::string Value<Table>::write(const Table& value, const Rule&, const WriteContext&) {
   return write_table(value, "time");
 }
 json Value<Table>::schema(const Rule& rule) { return table_schema({"time"}, rule); }
+
+// width of a section
+std::string Value<WidthOverX>::type(const Rule& rule) {
+  return fmt::format("a number or {{ x = [...], value = [...] }}{}", range_and_unit(rule));
+}
+bool Value<WidthOverX>::read(const toml::node& node, const ValueReader& at, WidthOverX& value) {
+  Table found;
+  if (!read_number_or_table(node, "x", at, found, Jumps::refused)) {
+    return false;
+  }
+  for (std::size_t k = 0; k < found.abscissa.size(); ++k) {
+    if (!(found.value[k] > 0.0)) {
+      return at.fail(*node.as_table()->get("value")->as_array()->get(k),
+                     fmt::format("holds the value {} at x = {}; allowed in a table: > 0", plain_number(found.value[k]),
+                                 plain_number(found.abscissa[k])));
+    }
+  }
+  value.table = std::move(found);
+  return true;
+}
+std::string Value<WidthOverX>::write(const WidthOverX& value, const Rule&, const WriteContext&) {
+  return write_table(value.table, "x");
+}
+json Value<WidthOverX>::schema(const Rule& rule) { return table_schema({"x"}, rule); }
 
 // initial field
 std::string Value<InitialField>::type(const Rule& rule) {

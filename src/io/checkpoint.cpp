@@ -13,7 +13,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" in bytes
-constexpr std::uint64_t format_version = 7;
+constexpr std::uint64_t format_version = 8;
 
 class Writer {
  public:

@@ -29,6 +29,11 @@ struct NoAccount {
   THAWSLIDE_HD NoAccount& operator+=(const NoAccount& /*part*/) { return *this; }
 };
 
+// What kernels know of a section as wide everywhere (mpm/section_width.hpp).
+struct EvenWidth {
+  static constexpr bool varies = false;
+};
+
 template <class... Names>
 struct RecordList {};
 

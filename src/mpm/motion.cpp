@@ -45,16 +45,24 @@ void split_total_stress(Particles<Dim, Real>& particles, std::size_t first) {
 }
 
 template <int Dim, class Real>
-void momentum_to_grid(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
+Real momentum_to_grid(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes) {
+  Real of_walls = 0;
   with_weights(model, [&](const auto& weights) {
-    const AddMomentum<Dim, Real> add{model.gravity, model.effective_stress, model.viscous()};
-    particle_pass(grid, weights, particles, nodes, every_tile, add);
+    with_width<Dim>(model.width, [&](const auto& width) {
+      using Width = std::decay_t<decltype(width)>;
+      const AddMomentum<Dim, Real, Width> add{model.gravity, model.effective_stress, model.viscous(), width};
+      const auto sums = particle_pass(grid, weights, particles, nodes, every_tile, add);
+      if constexpr (Width::varies) {
+        of_walls = std::get<0>(sums);
+      }
+    });
     if constexpr (is_affine<std::decay_t<decltype(weights)>>) {
       particle_pass(grid, weights, particles, nodes, every_tile, AddAffineMomentum<Dim, Real>{});
     }
   });
   sum_patches(grid, nodes.momentum);
+  return of_walls;
 }
 
 template <int Dim, class Real>
@@ -81,7 +89,7 @@ void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
   template void split_total_stress<Dim, Real>(Particles<Dim, Real>&, std::size_t);                           \
-  template void momentum_to_grid<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,             \
+  template Real momentum_to_grid<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,             \
                                             const MotionModel<Dim, Real>&, Nodes<Dim, Real>&);               \
   template MoveWork<Real> move_particles<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,     \
                                                     const MotionModel<Dim, Real>&, Real, Nodes<Dim, Real>&); \

@@ -10,6 +10,7 @@
 #include "mpm/material.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/particles.hpp"
+#include "mpm/section_width.hpp"
 #include "physics/mixture.hpp"
 
 namespace thawslide::mpm {
@@ -30,6 +31,7 @@ struct MotionModel {
   TransferKind transfer = TransferKind::flip_pic;
   Real pic_share = 0;         // of TransferKind::flip_pic; 0: FLIP
   int filter_order = 0;       // of the filter of velocities (mpm/velocity_filter.hpp); 0: none
+  SectionWidth<Real> width;   // of a 2D section
   Vector<Real, Dim> gravity;  // [m/s2]
   Real mass_damping = 0;      // [1/s]
   BodySizes<Real> sizes;      // of particles, in cells
@@ -51,9 +53,10 @@ struct MoveWork {
 template <int Dim, class Real>
 void split_total_stress(Particles<Dim, Real>& particles, std::size_t first = 0);
 
-// Particle mass, momentum, force (Eq. 12) and volume to the nodes.
+// Particle mass, momentum, force (Eq. 12) and volume to the nodes. Returns the force of the walls along x [N], where
+// the width of the section varies.
 template <int Dim, class Real>
-void momentum_to_grid(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
+Real momentum_to_grid(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes);
 
 // New velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with the sum sign it lost) from node motion;

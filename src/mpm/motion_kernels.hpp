@@ -1,27 +1,31 @@
 // What a particle does to move: kernels (mpm/kernel.hpp).
 #pragma once
 
+#include <type_traits>
+
 #include "base/linear.hpp"
 #include "base/select.hpp"
+#include "mpm/kernel.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
 
 namespace thawslide::mpm {
 
-// Mass, momentum, force (Eq. 12) and volume to the nodes.
-template <int Dim, class Real>
+// Mass, momentum, force (Eq. 12) and volume to the nodes. Sums the force of the walls along x where the width varies.
+template <int Dim, class Real, class Width = EvenWidth>
 struct AddMomentum {
   using Reads = RecordList<>;
   using Adds = RecordList<Momentum>;
-  using Account = NoAccount;
+  using Account = std::conditional_t<Width::varies, Real, NoAccount>;
 
   Vector<Real, Dim> gravity;  // [m/s2]
   bool effective_stress;      // the pore pressure acts inside the body too
   bool viscous;               // some material is
+  Width width{};
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Added& added, [[maybe_unused]] Account& of_walls) const {
     using Layout = MomentumLayout<Dim>;
     using Value = typename At::Value;
     constexpr int row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of a symmetric tensor
@@ -35,6 +39,11 @@ struct AddMomentum {
       unrolled<static_cast<std::size_t>(Dim)>(
           [&](auto b) THAWSLIDE_INLINE_LAMBDA { momentum.flux[b][Layout::force + a] = -stress[row[a()][b()]]; });
     });
+    if constexpr (Width::varies) {
+      const Value force = -stress[2] * width.widening(particles.position.load(at, 0));
+      momentum.value[Layout::force] += force;
+      at.add_to(of_walls, force);
+    }
     momentum.value[Layout::mass] = mass;
     momentum.value[Layout::volume] = particles.volume.load(at);
   }

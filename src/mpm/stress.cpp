@@ -13,8 +13,11 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
   StressWork<Real> work;
   with_shape<Real>(model.shape, [&](auto shape) {
     const MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
-    const UpdateStress<Dim, Real> update{model.materials.data(), model.phases, model.effective_stress, dt};
-    const Deformed<Real> deformed = std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, update));
+    const Deformed<Real> deformed = with_width<Dim>(model.width, [&](const auto& width) {
+      const UpdateStress<Dim, Real, std::decay_t<decltype(width)>> update{model.materials.data(), model.phases,
+                                                                          model.effective_stress, dt, width};
+      return std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, update));
+    });
     work = deformed.work;
     bad += deformed.bad;
   });

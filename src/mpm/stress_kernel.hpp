@@ -37,7 +37,7 @@ struct Deformed {
 
 // Strain, rotation, stress, volume and porosity (Eqs. 6, 11) from the mapped-back velocities, of particles of one
 // material with the constitutive law Law.
-template <int Dim, class Real, class Law>
+template <int Dim, class Real, class Law, class Width = EvenWidth>
 struct Deform {
   using Reads = RecordList<Velocity>;
   using Adds = RecordList<>;
@@ -50,14 +50,19 @@ struct Deform {
   Real viscosity_time;    // Kelvin-Voigt [s]
   bool effective_stress;  // the pore pressure acts inside the body too
   Real dt;
+  Width width{};
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
                                                        Added& /*added*/, Account& account) const {
     using Value = typename At::Value;
     using Tensor = SymmetricTensor<Value>;
-    const Matrix<Value, Dim> gradient = Value(dt) * gradient_of(seen.template read<Velocity, Dim>());
-    const auto increment = physics::strain_increment<Value, Dim>(gradient);
+    const auto velocity = seen.template read<Velocity, Dim>();
+    const Matrix<Value, Dim> gradient = Value(dt) * gradient_of(velocity);
+    auto increment = physics::strain_increment<Value, Dim>(gradient);
+    if constexpr (Width::varies) {
+      stretch_across(particles, at, velocity.value[0], increment);
+    }
     const Tensor old_stress = particles.stress.template load_vector<6>(at);
     const Value volume_strain = increment.strain[0] + increment.strain[1] + increment.strain[2];
     const Value closing =
@@ -95,6 +100,18 @@ struct Deform {
   }
 
  private:
+  // The strain across, as the others on the middle configuration, follows the velocity whose work the force of the
+  // walls does; the volume follows the displacement, so that volume over width is the area of the section.
+  template <class Particles, class At, class Value, class Increment>
+  THAWSLIDE_ALWAYS_INLINE void stretch_across(const Particles& particles, const At& at, const Value& velocity,
+                                              Increment& increment) const {
+    const Value x = particles.position.load(at, 0);
+    const Value way = Value(dt) * velocity;
+    increment.strain[2] = way * width.widening(Value(x + Value(Real(0.5)) * way));
+    increment.volume_ratio =
+        increment.volume_ratio * width.at(Value(x + particles.step_displacement.load(at, 0))) / width.at(x);
+  }
+
   // The stress that follows from an elastic trial stress.
   template <class Particles, class At, class Tensor, class Value>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void admit(Particles& particles, const At& at, Tensor& stress,
@@ -129,7 +146,7 @@ struct Deform {
 
 // The same for particles of any material: the processor chooses the law, batch by batch, since a batch is of one
 // material.
-template <int Dim, class Real>
+template <int Dim, class Real, class Width = EvenWidth>
 struct UpdateStress {
   using Reads = RecordList<Velocity>;
   using Adds = RecordList<>;
@@ -139,14 +156,16 @@ struct UpdateStress {
   const physics::Phases<Real>& phases;
   bool effective_stress;
   Real dt;
+  Width width{};
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
                                           Account& account) const {
     const MaterialModel<Real>& material = materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
     const auto deform = [&]<class Law>(const Law& law) {
-      const Deform<Dim, Real, Law> with_law{
-          law, material.elastic, phases, material.gaps_close_first, material.viscosity_time, effective_stress, dt};
+      const Deform<Dim, Real, Law, Width> with_law{
+          law,  material.elastic, phases, material.gaps_close_first, material.viscosity_time, effective_stress, dt,
+          width};
       with_law(particles, at, seen, added, account);
     };
     std::visit(deform, material.law);

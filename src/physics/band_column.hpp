@@ -1,6 +1,6 @@
 // A column through the base of a slide: ground, shear band and the body above it, per area of the base. It belongs to a
 // piece of the base and moves with it. Its cells lie along the normal; those of the band share its true thickness e,
-// those above and below grow with the distance from it.
+// those above and below grow with the distance from it: above by a ratio that keeps the column within the slide.
 //   heat      d(A H)/dt = A (eta tau v over e - div q_T) + what comes in,   q_T = -k grad T
 //   water     d(A w)/dt = -A div (rho_L q) + what comes in - steam,         q = -(k_L/gamma_w) grad P
 //   surplus   theta = v (1 + integral of beta_L dT) - n + (1 - n) beta_S (T - Tref) + m_v (N - N_thaw) + S_s P_thaw,
@@ -47,15 +47,17 @@ struct ColumnModel {
   EndOfWater at_frozen = EndOfWater::sealed, at_top = EndOfWater::vented;
   Real water_to_steam_viscosity = 0;  // ratio; 0: steam does not seep
   bool latent = true, conduction = true, seepage = true, pressurization = true, steam = true;
-  Real ground_conductivity = 0;          // [W/m/K]
-  Real ground_capacity = 0;              // [J/m3/K]
-  Real ground_cell = 0;                  // height of the ground's uppermost cell [m]
-  Real growth = static_cast<Real>(1.4);  // height of a cell over that of its neighbour nearer to the band
+  Real ground_conductivity = 0;  // [W/m/K]
+  Real ground_capacity = 0;      // [J/m3/K]
+  Real ground_cell = 0;          // height of the ground's uppermost cell [m]
+  Real growth =
+      static_cast<Real>(1.4);  // height of a cell over that of its neighbour nearer to the band; above: at most
 };
 
 template <class Real>
 struct BandColumn {
   Real thickness;                      // of the band, e [m]
+  Real cell_growth;                    // r: height of a cell above the band over that of the one below it
   Real heat[ColumnCells::all];         // H [J/m2]
   Real temperature[ColumnCells::all];  // [C], that of H
   Real water[ColumnCells::slide];      // w [kg/m2]
@@ -72,6 +74,7 @@ struct ColumnDrive {
   Real heat_flux;        // eta tau v [W/m2]
   Real stretching;       // dA/dt / A [1/s]
   Real thickness;        // of the band at the end of the step [m]
+  Real cell_growth;      // r at the end of the step
   Real mixed;            // share of the band that shear mixes in the step, 0 to 1
   Real body_heat;        // enthalpy of what the body gives at the top [J/m3]
   Real body_water;       // its ice and water [kg/m3]
@@ -91,24 +94,55 @@ THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Real, Curve>& model, Rea
   return model.porosity * (saturation * model.phases.water_density + (Real(1) - saturation) * model.phases.ice_density);
 }
 
-// The heights of a column's cells, with a band of thickness e. Face f of the slide is the lower one of its cell f; face
-// 0 is the base.
+// The ratio r with which the column's top is at the depth of the slide above its base [m]:
+//   e + (e/8) sum of r^j, j = 1 to 12 = depth,   within 1 <= r <= full.
+// Below a slide as deep as the column of ratio `full`, or deeper, r is exactly that. Below one of less than 2.5 e it is
+// 1: all cells are of one height, and the column is taller than the slide. The sum is convex in r: Newton's iteration
+// comes down from `full` to the root and does not pass it.
+template <class Real>
+THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full) {
+  constexpr int most_iterations = 50;
+  constexpr Real close = by_precision<Real>(1e-15, 1e-7);
+  const Real cells = ColumnCells::band * (depth / thickness - Real(1));  // the sum that is wanted
+  Real growth = full;
+  THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    Real sum = 0, slope = 0;
+    THAWSLIDE_ROLLED for (int j = 0; j < ColumnCells::above; ++j) {
+      slope = slope * growth + sum;
+      sum = sum * growth + Real(1);
+    }
+    slope = slope * growth + sum;
+    sum *= growth;
+    const Real step = (sum - cells) / slope;
+    if (!(step > close)) {
+      break;
+    }
+    growth -= step;
+    if (growth <= Real(1)) {
+      return min(Real(1), full);
+    }
+  }
+  return growth;
+}
+
+// The heights of a column's cells, with a band of thickness e, above which they grow by r and in the ground by their
+// own ratio. Face f of the slide is the lower one of its cell f; face 0 is the base.
 template <class Real>
 class ColumnGrid {
  public:
-  THAWSLIDE_HD ColumnGrid(Real thickness, Real ground_cell, Real growth) {
+  THAWSLIDE_HD ColumnGrid(Real thickness, Real cell_growth, Real ground_cell, Real ground_growth) {
     const Real cell = thickness / ColumnCells::band;
     face_[0] = Real(0);
     THAWSLIDE_ROLLED for (int f = 1; f <= ColumnCells::band; ++f) { face_[f] = cell * static_cast<Real>(f); }
     Real height = cell;
     THAWSLIDE_ROLLED for (int f = ColumnCells::band + 1; f <= ColumnCells::slide; ++f) {
-      height *= growth;
+      height *= cell_growth;
       face_[f] = face_[f - 1] + height;
     }
     Real depth = ground_cell;
     THAWSLIDE_ROLLED for (int k = ColumnCells::ground - 1; k >= 0; --k) {
       height_[k] = depth;
-      depth *= growth;
+      depth *= ground_growth;
     }
     THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
       height_[ColumnCells::ground + k] = face_[k + 1] - face_[k];
@@ -124,8 +158,12 @@ class ColumnGrid {
 };
 
 template <class Real, class Curve>
-THAWSLIDE_HD ColumnGrid<Real> grid_of(const ColumnModel<Real, Curve>& model, Real thickness) {
-  return {thickness, model.ground_cell, model.growth};
+THAWSLIDE_HD ColumnGrid<Real> grid_of(const ColumnModel<Real, Curve>& model, Real thickness, Real cell_growth) {
+  return {thickness, cell_growth, model.ground_cell, model.growth};
+}
+template <class Real, class Curve>
+THAWSLIDE_HD ColumnGrid<Real> grid_of(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column) {
+  return grid_of(model, column.thickness, column.cell_growth);
 }
 
 }  // namespace thawslide::physics

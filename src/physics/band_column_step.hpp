@@ -1,7 +1,7 @@
 // One step of a column (band_column.hpp), and how it begins (docs/theory, chapter 16).
 #pragma once
 
-#include "physics/band_column_heat.hpp"
+#include "physics/band_column_intake.hpp"
 #include "physics/band_column_water.hpp"
 
 namespace thawslide::physics {
@@ -18,46 +18,6 @@ template <class Real>
 struct ColumnVolumes {
   Real opening, gas_void, liquid;
 };
-
-// The faces of a column's cells move: with the band's thickness, and against matter that spreads as the piece
-// stretches. What they sweep changes cells; at the top the body gives it, or takes it.
-template <class Real, class Curve>
-THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& before,
-                          const ColumnGrid<Real>& after, const ColumnDrive<Real>& drive, BandColumn<Real>& column,
-                          ColumnAccount<Real>& account) {
-  constexpr int count = ColumnCells::slide;
-  const Real left = Real(1) / (Real(1) + drive.stretching * drive.dt);        // old area over new
-  Real heat[count + 1] = {}, water[count + 1] = {}, thawing[count + 1] = {};  // that go down through each lower face
-  THAWSLIDE_ROLLED for (int f = 1; f <= count; ++f) {
-    const Real swept = after.face(f) - left * before.face(f);  // [m]
-    if (swept > Real(0) && f == count) {
-      heat[f] = swept * drive.body_heat;
-      water[f] = swept * drive.body_water;
-      thawing[f] = swept * column.thawing[count - 1];
-    } else {
-      const int from = swept > Real(0) ? f : f - 1;
-      const Real share = swept / before.slide_height(from);
-      heat[f] = share * column.heat[ColumnCells::ground + from];
-      water[f] = share * column.water[from];
-      thawing[f] = swept * column.thawing[from];
-    }
-  }
-  THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
-    Real& of_cell = column.heat[ColumnCells::ground + k];
-    of_cell = left * of_cell + heat[k + 1] - heat[k];
-    column.water[k] = left * column.water[k] + water[k + 1] - water[k];
-    column.thawing[k] =
-        (left * before.slide_height(k) * column.thawing[k] + thawing[k + 1] - thawing[k]) / after.slide_height(k);
-  }
-  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground;
-                        ++k) {  // the ground that the piece comes to cover is as warm as its own
-    account.ground_heat += (Real(1) - left) * column.heat[k];
-  }
-  column.thickness = drive.thickness;
-  account.body_heat += heat[count];
-  account.body_water += water[count];
-  temperatures_from_heat(model, after, column);
-}
 
 // Shear mixes a share of the band: its cells, all of one height, come nearer to their mean.
 template <class Real, class Curve>
@@ -78,9 +38,9 @@ THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& mod
                                              BandColumn<Real>& column) {
   ColumnAccount<Real> account;
   bool was_melted[ColumnCells::slide];
-  const ColumnGrid<Real> grid = grid_of(model, drive.thickness);
-  if (drive.stretching != Real(0) || drive.thickness != column.thickness) {
-    take_in(model, grid_of(model, column.thickness), grid, drive, column, account);
+  const ColumnGrid<Real> grid = grid_of(model, drive.thickness, drive.cell_growth);
+  if (drive.stretching != Real(0) || drive.thickness != column.thickness || drive.cell_growth != column.cell_growth) {
+    take_in(model, grid_of(model, column), grid, drive, column, account);
   }
   if (drive.mixed > Real(0)) {
     mix_band(model, grid, drive.mixed, column);
@@ -123,11 +83,12 @@ THAWSLIDE_HD Real water_of(const BandColumn<Real>& column) {
 
 // A column in matter of one temperature [C], its pores full of ice and water.
 template <class Real, class Curve>
-THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model, Real thickness, Real temperature,
-                                           Real ground_temperature, Real normal_pressure) {
+THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model, Real thickness, Real cell_growth,
+                                           Real temperature, Real ground_temperature, Real normal_pressure) {
   BandColumn<Real> column{};
   column.thickness = thickness;
-  const ColumnGrid<Real> grid = grid_of(model, thickness);
+  column.cell_growth = cell_growth;
+  const ColumnGrid<Real> grid = grid_of(model, column);
   const Real water = water_of_full_pores(model, temperature);
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { column.water[k] = water * grid.slide_height(k); }
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) {
@@ -175,7 +136,7 @@ template <class Real, class Curve>
 THAWSLIDE_HD ColumnVolumes<Real> column_volumes(const ColumnModel<Real, Curve>& model, Real normal_pressure,
                                                 const BandColumn<Real>& column) {
   ColumnVolumes<Real> volumes{};
-  const ColumnGrid<Real> grid = grid_of(model, column.thickness);
+  const ColumnGrid<Real> grid = grid_of(model, column);
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     if (is_melted(model, column, k)) {
@@ -189,8 +150,8 @@ THAWSLIDE_HD ColumnVolumes<Real> column_volumes(const ColumnModel<Real, Curve>& 
   return volumes;
 }
 
-// One column of two that hold `share` and the rest of its area: with their heat, their water and their rock, since the
-// heights of cells go with the band's thickness.
+// One column of two that hold `share` and the rest of its area, and whose cells grow by the same ratio: with their
+// heat, their water and their rock, since the heights of cells go with the band's thickness.
 template <class Real, class Curve>
 THAWSLIDE_HD BandColumn<Real> joined_columns(const ColumnModel<Real, Curve>& model, Real share,
                                              const BandColumn<Real>& first, const BandColumn<Real>& second,
@@ -204,7 +165,7 @@ THAWSLIDE_HD BandColumn<Real> joined_columns(const ColumnModel<Real, Curve>& mod
     column.thawing[k] =
         mean(first.thickness * first.thawing[k], second.thickness * second.thawing[k]) / column.thickness;
   }
-  const ColumnGrid<Real> grid = grid_of(model, column.thickness);
+  const ColumnGrid<Real> grid = grid_of(model, column);
   temperatures_from_heat(model, grid, column);
   bool was_melted[ColumnCells::slide];
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { was_melted[k] = is_melted(model, column, k); }

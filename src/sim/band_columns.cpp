@@ -77,7 +77,7 @@ void Simulation<Dim, Real>::start_band_columns() {
         "{}: the band is up to {} m thick, and the slide above it {:.4g} m in the mean. Use a thinner band.",
         config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
   }
-  band_columns_.emplace(make_columns_model(parameters_, model_, matter));
+  band_columns_.emplace(make_columns_model(parameters_, model_, matter), model_.motion.gravity);
   column_time_ = 0.0;
 }
 
@@ -101,7 +101,8 @@ void Simulation<Dim, Real>::band_columns_follow(const mpm::SparseGrid<Dim, Real>
       [&](const auto& place) { return static_cast<Real>(surface.height(place.template cast<double>())); },
       [&](const auto& place) -> Vector<Real, Dim> {
         return surface.normal_below(place.template cast<double>(), cell).template cast<Real>();
-      }};
+      },
+      [&](const auto& place) { return model_.motion.width.at(place[0]); }};
   const auto node_ground = [&](std::size_t b, std::size_t k) {
     using NodeGround = typename band::BaseColumns<Dim, Real>::NodeGround;
     if (!ground_on_grid.any_candidate(b) || !ground_on_grid.block(b)[k].candidate) {

@@ -294,6 +294,11 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
     throw UserError(fmt::format("{}: the block model takes up no bed. Remove [bed], or use `thawslide run`.",
                                 config::place_of(parameters, "bed.law")));
   }
+  if (parameters.general.width.varies()) {
+    throw UserError(
+        fmt::format("{}: the block model has one width. Give case.width as a number, or use `thawslide run`.",
+                    config::place_of(parameters, "case.width")));
+  }
   require_one_body(parameters);
   const Model<2, double> model = make_model<2, double>(parameters, site);
   mpm::Particles<2, double> particles;

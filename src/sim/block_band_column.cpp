@@ -11,12 +11,12 @@ BlockBandColumn::BlockBandColumn(const band::ColumnsModel<double>& model, double
   piece_.normal.setZero();
   piece_.sides.setZero();
   piece_.area = piece_.area_of_column = 1.0;
-  band::follow_load(model_, load, 0.0, piece_);
+  band::follow_load(model_, load, model_.largest_thickness, 0.0, piece_);
   band::start_column_of(model_, thickness, piece_);
 }
 
 double BlockBandColumn::step(const BlockDrive& drive) {
-  band::follow_load(model_, drive.normal_pressure, drive.dt, piece_);
+  band::follow_load(model_, drive.normal_pressure, model_.largest_thickness, drive.dt, piece_);
   piece_.speed = drive.speed;
   piece_.slip = drive.slip;
   const double before = physics::heat_of(piece_.column) + piece_.heat;

@@ -259,7 +259,10 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     particles.id(p) = static_cast<std::int64_t>(p);
     particles.body(p) = seed.body;
     particles.material(p) = static_cast<std::int32_t>(material_of[static_cast<std::size_t>(seed.body)]);
-    particles.initial_volume(p) = particles.volume(p) = static_cast<Real>(seed.volume);
+    const Vector<double, Dim> place =
+        starting_place(parameters, model, body, shapes[static_cast<std::size_t>(seed.body)], seed);
+    const Real width = model.motion.width.at(static_cast<Real>(place[0] - model.origin[0]));
+    particles.initial_volume(p) = particles.volume(p) = width * static_cast<Real>(seed.volume);
     particles.temperature(p) = static_cast<Real>(initial_temperature(model, body, release, seed));
     const Real saturation = model.band.with_heat_content(
         [&](const auto& content) { return content.curve.saturation(particles.temperature(p)); });
@@ -268,8 +271,6 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     particles.thermal_scaling(p) = Real(1);
     const Real density = physics::mixture_density(model.motion.phases, particles.porosity(p), saturation);
     particles.mass(p) = density * particles.volume(p);
-    const Vector<double, Dim> place =
-        starting_place(parameters, model, body, shapes[static_cast<std::size_t>(seed.body)], seed);
     for (int a = 0; a < Dim; ++a) {
       particles.position(p, a) = static_cast<Real>(place[a] - model.origin[a]);
       particles.velocity(p, a) = static_cast<Real>(body.velocity[static_cast<std::size_t>(a)]);

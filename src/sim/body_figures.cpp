@@ -39,8 +39,8 @@ class Bodies {
       const auto body = static_cast<std::size_t>(particles.body(p));
       const double spacing = spacing_[body];
       Column& column = columns_[{particles.body(p), column_of(p, spacing)}];
-      column.volume += particles.volume(p);
-      const double underside = height(p) - 0.5 * particles.volume(p) / std::pow(spacing, Dim - 1);
+      column.volume += volume_in_section(p);
+      const double underside = height(p) - 0.5 * volume_in_section(p) / std::pow(spacing, Dim - 1);
       if (underside < column.underside) {
         column.underside = underside;
         column.lowest = p;
@@ -56,13 +56,14 @@ class Bodies {
     figures.name = simulation_.model().body_names[number];
     figures.spacing = spacing_[number];
     sum_particles(number, figures);
-    figures.shape_volume = shape_volume(figures);
+    const double section = sum_in_section(number);
+    figures.shape_volume = shape_volume(figures, section) * (figures.volume / section);
     measure_columns(number, figures);
     const auto release = simulation_.site().releases.find(figures.name);
     if (release != simulation_.site().releases.end()) {
       measure_release(release->second, figures);
     }
-    figures.mean_thickness = figures.volume / figures.area;
+    figures.mean_thickness = section / figures.area;
     figures.particles_across = figures.median_thickness / figures.spacing;
     figures.most_particles_across = figures.largest_thickness / figures.spacing;
     return figures;
@@ -89,11 +90,24 @@ class Bodies {
     return place;
   }
 
-  // A release and what has no shape have that of their particles.
-  [[nodiscard]] double shape_volume(const BodyFigures& figures) const {
+  // In a section as wide everywhere as results are per metre of.
+  [[nodiscard]] double volume_in_section(std::size_t p) const {
+    const auto& particles = simulation_.particles();
+    return particles.volume(p) / simulation_.model().motion.width.at(particles.position(p, 0));
+  }
+  [[nodiscard]] double sum_in_section(std::size_t number) const {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < simulation_.particles().size(); ++p) {
+      sum += static_cast<std::size_t>(simulation_.particles().body(p)) == number ? volume_in_section(p) : 0.0;
+    }
+    return sum;
+  }
+
+  // A release and what has no shape have that of their particles, `seeded`.
+  [[nodiscard]] double shape_volume(const BodyFigures& figures, double seeded) const {
     const auto body = parameters().bodies.find(figures.name);
     if (body == parameters().bodies.end() || body->second.shape == config::BodyShape::release) {
-      return figures.volume;
+      return seeded;
     }
     return BodyShape<Dim>(parameters(), simulation_.site(), body->second, std::nullopt).volume();
   }

@@ -67,6 +67,10 @@ band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, cons
   columns.body_temperature = static_cast<Real>(matter.temperature);
   columns.ground_temperature =
       static_cast<Real>(std::isnan(band.ground_temperature) ? matter.temperature : band.ground_temperature);
+  columns.density = model.band.with_heat_content([&](const auto& content) {
+    return physics::mixture_density(model.motion.phases, static_cast<Real>(matter.porosity),
+                                    content.curve.saturation(columns.body_temperature));
+  });
   columns.load_time = static_cast<Real>(band.load_time);
   columns.growth = growth_of(band.growth);
   columns.grain_size = static_cast<Real>(band.grain_size);

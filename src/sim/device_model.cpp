@@ -16,6 +16,7 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real
     bool is_asked;
     const char* what;
   } options[] = {
+      {model.motion.width.varies(), "a case.width that varies along x"},
       {!model.constraints.frames.empty(), "a [frame]"},
       {model.between_bodies.any(), "frictional contact between bodies ([contact])"},
       {parameters.terrain.form == config::TerrainForm::rigid_points, "terrain.representation = \"rigid_points\""},

@@ -9,7 +9,7 @@ template <int Dim>
 EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const config::Case& parameters = simulation.parameters();
-  const double width = Dim == 2 && parameters.general.width > 0.0 ? parameters.general.width : 1.0;
+  const double width = parameters.general.width.factor();
   EndState state;
   state.time = simulation.time();
   state.rest_rule = simulation.rest_rule();

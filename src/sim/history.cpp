@@ -175,7 +175,7 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow
   const config::Case& parameters = simulation.parameters();
   const BodySums<Dim, Real> sums = simulation.sum_over_body();
   const auto& contact = simulation.contact();
-  const double width = Dim == 2 && parameters.general.width > 0.0 ? parameters.general.width : 1.0;
+  const double width = parameters.general.width.factor();
   HistoryRow row;
   row.emplace_back("time_s", simulation.time());
   row.emplace_back("step", static_cast<double>(simulation.step_number()));

@@ -215,6 +215,7 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   band.sizes = motion.sizes;
   band.shape = motion.shape;
   band.sides = motion.sides;
+  band.width = motion.width;
   return band;
 }
 
@@ -251,7 +252,8 @@ std::optional<terrain::Polyline> make_profile(const config::Case& parameters, co
 template <int Dim>
 std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& parameters, const config::Site& site,
                                                          const Vector<double, Dim>& origin,
-                                                         const std::optional<terrain::Polyline>& profile) {
+                                                         const std::optional<terrain::Polyline>& profile,
+                                                         const mpm::SectionWidth<double>& width) {
   if constexpr (Dim == 3) {
     if (parameters.terrain.kind == config::TerrainKind::dem) {
       THAWSLIDE_ASSERT(site.ground != nullptr, "{}: no raster was read from {}", parameters.name,
@@ -270,9 +272,9 @@ std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& par
   }
   if (parameters.terrain.form == config::TerrainForm::rigid_points) {
     return std::make_shared<terrain::ProfileSurface<Dim>>(*profile, 0.5 * parameters.grid.cell,
-                                                          parameters.terrain.layers);
+                                                          parameters.terrain.layers, width);
   }
-  return std::make_shared<terrain::ProfileSurface<Dim>>(*profile);
+  return std::make_shared<terrain::ProfileSurface<Dim>>(*profile, width);
 }
 
 // The thickness of the cells that make up the band, where it follows the ground; and its largest value where bodies
@@ -319,6 +321,9 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
   }
   set_transfer(parameters, model.motion);
   const double tilt = radians(parameters.general.gravity_tilt);
+  if (parameters.general.width.varies()) {
+    model.motion.width = mpm::SectionWidth<Real>(parameters.general.width.table, model.origin[0]);
+  }
   model.motion.gravity.setZero();
   model.motion.gravity[0] = static_cast<Real>(parameters.general.gravity * std::sin(tilt));
   model.motion.gravity[Dim - 1] = static_cast<Real>(-parameters.general.gravity * std::cos(tilt));
@@ -341,6 +346,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
   model.constraints = make_constraints<Dim, Real>(parameters, model.origin);
   model.between_bodies = between_bodies<Real>(parameters);
   model.contact.law = make_basal_law<Real>(parameters);
+  model.contact.width = model.motion.width;
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
   model.contact.band_columns = parameters.band.model == config::BandKind::columns;
@@ -353,7 +359,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
         physics::mixture_density(model.band.phases, static_cast<Real>(parameters.bed.porosity), saturation);
   }
   model.profile = make_profile<Dim>(parameters, site, model.origin);
-  model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile);
+  model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile, model.motion.width);
   model.substrates = make_substrates(parameters, site);
   set_layer_thickness(parameters, site, model);
   return model;

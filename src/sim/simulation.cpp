@@ -132,7 +132,7 @@ void Simulation<Dim, Real>::average_band_on_grid() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::momentum_to_grid() {
-  mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
+  force_of_walls_ = mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
 }
 
 template <int Dim, class Real>
@@ -147,6 +147,7 @@ void Simulation<Dim, Real>::resolve_contact() {
   band_columns_to_nodes();
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_, bed_to_meet());
+  contact_.force[0] -= force_of_walls_;  // the walls are part of the ground
   collect_bed();
   book_contact();
   book_bed();

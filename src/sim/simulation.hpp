@@ -289,7 +289,7 @@ class Simulation {
   } even_steps_;
   std::size_t particles_at_start_ = 0;
   int sorting_interval_ = 64;
-  Real dt_ = 0;
+  Real dt_ = 0, force_of_walls_ = 0;  // of the step, the latter along x [N]
 };
 
 }  // namespace thawslide::sim

@@ -58,22 +58,26 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
 // How much of the space that belongs to a node the slide fills, 0 to 1.
 template <int Dim, class Real>
 Real filled_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                     const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k) {
+                     const mpm::SectionWidth<Real>& width, const mpm::Nodes<Dim, Real>& nodes, std::size_t b,
+                     std::size_t k) {
   const bool near_ground = ground.any_candidate(b) && ground.block(b)[k].candidate;
   const Real cell = grid.cell();
-  const Real space = near_ground ? ground.block(b)[k].space : Dim == 2 ? cell * cell : cell * cell * cell;
+  const Real space = near_ground ? ground.block(b)[k].space
+                     : Dim == 2  ? cell * cell * width.at(mpm::node_position(grid, b, k)[0])
+                                 : cell * cell * cell;
   return filled_share(nodes.momentum(b, k)[MomentumLayout<Dim>::volume], space);
 }
 
 // The share of its ground that a slide over a node covers.
 template <int Dim, class Real>
 Real covered_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                      const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k) {
+                      const mpm::SectionWidth<Real>& width, const mpm::Nodes<Dim, Real>& nodes, std::size_t b,
+                      std::size_t k) {
   return covered_share<Dim, Real>(k, ground.block(b)[k].normal, [&](int direction, int node) {
     const std::int32_t block = grid.blocks_about_block(b)[direction];
-    return block == KeyIndex::absent
-               ? Real(0)
-               : filled_share_at(grid, ground, nodes, static_cast<std::size_t>(block), static_cast<std::size_t>(node));
+    return block == KeyIndex::absent ? Real(0)
+                                     : filled_share_at(grid, ground, width, nodes, static_cast<std::size_t>(block),
+                                                       static_cast<std::size_t>(node));
   });
 }
 
@@ -105,7 +109,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
                                   Real(state.momentum.dot(known.normal)));
       }
       // A node that a hovering slide does not reach has its share of the ground below it all the same.
-      base[BaseLayout::covered] = known.area * covered_share_at(grid, ground, nodes, b, k);
+      base[BaseLayout::covered] = known.area * covered_share_at(grid, ground, model.width, nodes, b, k);
     }
   });
 }

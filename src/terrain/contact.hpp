@@ -5,6 +5,7 @@
 
 #include "mpm/constraints.hpp"
 #include "mpm/nodes.hpp"
+#include "mpm/section_width.hpp"
 #include "terrain/basal_law.hpp"
 #include "terrain/bed.hpp"
 #include "terrain/contact_work.hpp"
@@ -15,11 +16,12 @@ namespace thawslide::terrain {
 template <int Dim, class Real>
 struct ContactModel {
   BasalLaw<Real> law;
-  bool base_holds = false;      // no slip at all: while gravity is being settled in
-  bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
-  bool band_columns = false;    // the base's state is that of nodes.base_state
-  Real mass_damping = 0;        // [1/s]
-  bool distance_check = false;  // a node may close its clearance before contact acts
+  mpm::SectionWidth<Real> width;  // of a 2D section
+  bool base_holds = false;        // no slip at all: while gravity is being settled in
+  bool pore_pressure = true;      // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
+  bool band_columns = false;      // the base's state is that of nodes.base_state
+  Real mass_damping = 0;          // [1/s]
+  bool distance_check = false;    // a node may close its clearance before contact acts
 };
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null.

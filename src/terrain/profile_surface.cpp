@@ -17,7 +17,7 @@ typename ProfileSurface<Dim>::Place ProfileSurface<Dim>::gradient(const Place& p
 template <int Dim>
 void ProfileSurface<Dim>::learn_from_points(double x, double z, double cell, GroundAtNode<Dim, double>& node) const {
   const RigidPoints::AtNode rock = RigidPoints(line_, spacing_, layers_).at_node(x, z, cell);
-  const double across = Dim == 2 ? 1.0 : cell;
+  const double across = Dim == 2 ? width_.at(x) : cell;
   const double slide = std::max(0.0, cell * cell - rock.volume);
   node.candidate = rock.volume > 0.0;
   node.plane = node.candidate ? x * rock.normal[0] + z * rock.normal[1] + node.distance : HUGE_VAL;
@@ -40,7 +40,7 @@ GroundAtNode<Dim, double> ProfileSurface<Dim>::at_node(const Vector<double, Dim>
     return node;
   }
   const Polyline::LinearShare share = line_.linear_share(x, z, cell);
-  const double across = Dim == 2 ? 1.0 : cell;  // the shape function's integral along y
+  const double across = Dim == 2 ? width_.at(x) : cell;  // the shape function's integral along y
   node.candidate = line_.highest(x - cell, x + cell) > z - cell + round_off * cell;
   const Vector<double, 2> place(x, z);
   Vector<double, 2> normal = nearest.normal;
@@ -57,6 +57,9 @@ GroundAtNode<Dim, double> ProfileSurface<Dim>::at_node(const Vector<double, Dim>
   node.normal[0] = normal[0];
   node.normal[Dim - 1] = normal[1];
   node.area = across * share.length;
+  if (Dim == 2 && share.length > round_off * cell) {
+    node.area = width_.at(x + share.moment[0] / share.length) * share.length;
+  }
   node.space = across * share.above;
   return node;
 }

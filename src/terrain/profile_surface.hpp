@@ -2,6 +2,7 @@
 // points along it, as the paper has it.
 #pragma once
 
+#include "mpm/section_width.hpp"
 #include "terrain/polyline.hpp"
 #include "terrain/surface.hpp"
 
@@ -13,10 +14,12 @@ class ProfileSurface final : public Surface<Dim> {
   using Place = typename Surface<Dim>::Place;
   using NodeIndex = typename Surface<Dim>::NodeIndex;
 
-  explicit ProfileSurface(Polyline line) : line_(std::move(line)) {}
+  // width: of a 2D section.
+  explicit ProfileSurface(Polyline line, mpm::SectionWidth<double> width = {})
+      : line_(std::move(line)), width_(std::move(width)) {}
   // Nodes learn of the ground from rigid points in `layers` layers, `spacing` [m] apart.
-  ProfileSurface(Polyline line, double spacing, int layers)
-      : line_(std::move(line)), spacing_(spacing), layers_(layers) {}
+  ProfileSurface(Polyline line, double spacing, int layers, mpm::SectionWidth<double> width = {})
+      : line_(std::move(line)), width_(std::move(width)), spacing_(spacing), layers_(layers) {}
 
   [[nodiscard]] double height(const Place& place) const override { return line_.height(place[0]); }
   // Of the segment at the place, whatever the width.
@@ -32,6 +35,7 @@ class ProfileSurface final : public Surface<Dim> {
   void learn_from_points(double x, double height, double cell, GroundAtNode<Dim, double>& node) const;
 
   Polyline line_;
+  mpm::SectionWidth<double> width_;
   double spacing_ = 0;  // of the rigid points; 0: none, the line itself is the ground
   int layers_ = 0;
 };

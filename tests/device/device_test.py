@@ -41,11 +41,11 @@ REGISTERS_OF_PHYSICS = {
     "basal_contact": 30,  # 24
     "body_contact": 40,  # 34
     "entrainment": 36,  # 30
-    "band_column<PowerLawCurve<double>>": 130,  # 84; the cells' numbers lie in local memory
-    "band_column<LinearCurve<double>>": 130,  # 130
-    "join_columns<PowerLawCurve<double>>": 138,  # 126
-    "join_columns<LinearCurve<double>>": 138,  # 126
-    "start_columns<PowerLawCurve<double>>": 136,  # 124
+    "band_column<PowerLawCurve<double>>": 146,  # 92; the cells' numbers lie in local memory
+    "band_column<LinearCurve<double>>": 146,  # 134
+    "join_columns<PowerLawCurve<double>>": 184,  # 168
+    "join_columns<LinearCurve<double>>": 184,  # 168
+    "start_columns<PowerLawCurve<double>>": 136,  # 120
 }
 REGISTERS_OF_BASAL_LAW = 36  # 30
 

@@ -170,7 +170,10 @@ template <class Curve>
 __global__ void join_columns(ColumnModel<Real, Curve> model, const Real* shares, const BandColumn<Real>* others,
                              Real load, BandColumn<Real>* columns) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
-  columns[k] = joined_columns(model, shares[k], columns[k], others[k], load);
+  BandColumn<Real> other = others[k];
+  take_cell_growth(model, columns[k].cell_growth, body_enthalpy(model, Real(0)), water_of_full_pores(model, Real(0)),
+                   other);
+  columns[k] = joined_columns(model, shares[k], columns[k], other, load);
 }
 template __global__ void join_columns<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, const Real*,
                                                            const BandColumn<Real>*, Real, BandColumn<Real>*);
@@ -181,7 +184,8 @@ template <class Curve>
 __global__ void start_columns(ColumnModel<Real, Curve> model, Real thickness, const Real* temperatures, Real load,
                               BandColumn<Real>* columns, Real* sums) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
-  columns[k] = start_column(model, thickness, temperatures[k], temperatures[k], load);
+  const Real cell_growth = cell_growth_below(sums[k], thickness, model.growth);
+  columns[k] = start_column(model, thickness, cell_growth, temperatures[k], temperatures[k], load);
   sums[k] = heat_of(columns[k]) + water_of(columns[k]);
 }
 template __global__ void start_columns<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, Real, const Real*,

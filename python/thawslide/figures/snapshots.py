@@ -183,8 +183,8 @@ def _window(run: Run, shot: Snapshot, box: float) -> Window:
 
 def particle_size(run: Run, shot: Snapshot) -> Numbers:
     """Return the side [m] of each particle as a square (2D) or cube (3D), shape (n,)."""
-    volume = np.maximum(np.nan_to_num(np.asarray(shot["volume"], dtype=np.float64)), 0.0)
-    return volume ** (1.0 / run.dimension)
+    size = run.section_areas(shot) if run.dimension == 2 else np.asarray(shot["volume"], dtype=np.float64)
+    return np.asarray(np.maximum(np.nan_to_num(size), 0.0) ** (1.0 / run.dimension))
 
 
 def above_ground(run: Run, shot: Snapshot) -> Numbers:

@@ -58,12 +58,12 @@ class Zone:
 
 
 def deposit(run: Run) -> tuple[Numbers, Numbers]:
-    """Return (x [m], thickness [m]) at the end of the run: volume over 100 m of distance."""
+    """Return (x [m], thickness [m]) at the end of the run: area of the section over 100 m of distance."""
     shot = run.snapshot(-1)
     x = shot.points[:, 0]
     edges = np.arange(np.floor(x.min() / BIN) * BIN, x.max() + BIN, BIN)
-    volume, _ = np.histogram(x, edges, weights=np.asarray(shot["volume"], dtype=np.float64))
-    return 0.5 * (edges[1:] + edges[:-1]), volume / BIN
+    area, _ = np.histogram(x, edges, weights=run.section_areas(shot))
+    return 0.5 * (edges[1:] + edges[:-1]), area / BIN
 
 
 def breaks(run: Run) -> tuple[float, float]:
@@ -92,11 +92,12 @@ def zones(run: Run) -> list[Zone]:
 def zone_shares(run: Run) -> dict[str, tuple[float, float]]:
     """Return by letter the share of the volume [%] and the mean thickness [m] in each zone at the end of the run."""
     shot = run.snapshot(-1)
-    x, volume = shot.points[:, 0], np.asarray(shot["volume"], dtype=np.float64)
+    x, volume, area = shot.points[:, 0], np.asarray(shot["volume"], dtype=np.float64), run.section_areas(shot)
     found = {}
     for zone in zones(run):
-        inside = float(volume[(x >= zone.start) & (x < zone.end)].sum())
-        found[zone.letter] = (100.0 * inside / float(volume.sum()), inside / (zone.end - zone.start))
+        inside = (x >= zone.start) & (x < zone.end)
+        share = float(volume[inside].sum() / volume.sum())
+        found[zone.letter] = (100.0 * share, float(area[inside].sum()) / (zone.end - zone.start))
     return found
 
 

@@ -76,7 +76,7 @@ def diffusion(run: Run) -> dict[str, float]:
     share: dict[str, float] = dict.fromkeys(("generated", "given_off", "given_off_share"), float("nan"))
     if run.times[-1] > JUMPED:
         first, last = run.snapshot(time=JUMPED), run.snapshot(-1)
-        volume = np.asarray(run.snapshot(0)["volume"], dtype=np.float64) * float(run.section("case")["width"])
+        volume = np.asarray(run.snapshot(0)["volume"], dtype=np.float64) * run.width
         scale = float(run.section("grid")["cell"]) / float(run.section("band")["thickness"]["value"][-1])
         content = HeatTable(TABLE_1, power_saturation, -50.0, True, HOTTEST).content
         before, after = (content(np.asarray(shot["temperature"], dtype=np.float64)) for shot in (first, last))
@@ -108,7 +108,7 @@ def _body(run: Run) -> dict[str, float]:
     along = np.concatenate(([0.0], np.cumsum(np.hypot(np.diff(x), np.diff(z)))))
     history = run.history
     return {
-        "lamplugh_volume": section * float(run.section("case")["width"]) / 1e6,
+        "lamplugh_volume": section * run.width / 1e6,
         "lamplugh_thickness": section / float(np.interp(high, x, along) - np.interp(low, x, along)),
         "lamplugh_top": float(shot.points[:, 1].max()),
         "lamplugh_length_m": float(history["runout_m"][0]),

@@ -15,7 +15,7 @@ TEST(BandColumn, MixesEnthalpyWhileItStretchesAndGrows) {
   Model model = make_model();
   model.conduction = model.pressurization = model.steam = false;
   const double e = 0.1;
-  Column column = start_column(model, e, -10.0, -10.0, load);
+  Column column = start_column(model, e, model.growth, -10.0, -10.0, load);
   const double cold = body_enthalpy(model, -10.0), hot = cold + 3e7;
   for (int k = 0; k < Cells::band; ++k) {
     column.heat[Cells::ground + k] = hot * e / Cells::band;
@@ -40,7 +40,7 @@ TEST(BandColumn, MixesEnthalpyWhileItStretchesAndGrows) {
 TEST(BandColumn, ShearMixesTheBand) {
   Model model = make_model();
   model.conduction = model.seepage = false;
-  Column column = start_column(model, 0.2, 5.0, 5.0, load);
+  Column column = start_column(model, 0.2, model.growth, 5.0, 5.0, load);
   column.heat[Cells::ground + 2] += 1e6;
   column.water[1] *= 0.5;
   const double heat = heat_of(column), water = water_of(column), above = column.heat[Cells::ground + Cells::band];
@@ -59,7 +59,8 @@ TEST(BandColumn, ShearMixesTheBand) {
 // Two columns of different thickness and heat become one that holds what both held.
 TEST(BandColumn, TwoJoinToWhatBothHold) {
   const Model model = make_model();
-  Column hot = start_column(model, 0.3, 60.0, 5.0, load), cold = start_column(model, 0.1, -10.0, -10.0, load);
+  Column hot = start_column(model, 0.3, model.growth, 60.0, 5.0, load),
+         cold = start_column(model, 0.1, model.growth, -10.0, -10.0, load);
   Drive drive = drive_of(model, 0.01, 0.3, 60.0);
   drive.heat_flux = 1e6;
   for (int step = 0; step < 20; ++step) {
@@ -98,7 +99,7 @@ TEST(BandColumn, LosesNothingInRandomSteps) {
     model.water_to_steam_viscosity = run % 2 == 0 ? 0.0 : 50.0;
     double e = between(0.02, 0.6);
     const double body = run % 4 == 3 ? 5.0 : -10.0;
-    Column column = start_column(model, e, body, -5.0, load);
+    Column column = start_column(model, e, model.growth, body, -5.0, load);
     double heat = heat_of(column), water = water_of(column), scale = 0.0;
     for (int step = 0; step < 400; ++step) {
       Drive drive = drive_of(model, between(0.001, 0.1), e, body);

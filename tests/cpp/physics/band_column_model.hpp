@@ -40,6 +40,7 @@ Drive drive_of(const ModelOf<Curve>& model, double dt, double thickness, double 
           0.0,
           0.0,
           thickness,
+          model.growth,
           0.0,
           body_enthalpy(model, body_temperature),
           water_of_full_pores(model, body_temperature)};

@@ -20,7 +20,7 @@ TEST_P(Undrained, HeatingIsTheClosedForm) {
   model.conduction = model.seepage = model.steam = false;
   model.residual_stress = load - 1e4;
   const double e = 0.1, flux = 1e5, dt = 0.01;
-  Column column = start_column(model, e, 20.0, 20.0, load);
+  Column column = start_column(model, e, model.growth, 20.0, 20.0, load);
   EXPECT_DOUBLE_EQ(column.pressure[0], 1e4) << "N - s0";
   Drive drive = drive_of(model, dt, e, 20.0);
   drive.heat_flux = flux;
@@ -48,7 +48,7 @@ TEST(BandColumn, LoadThatGoesTakesPressureAlong) {
   Model model = make_model();
   model.conduction = model.seepage = false;
   model.residual_stress = 2e5;
-  Column column = start_column(model, 0.1, 5.0, 5.0, load);
+  Column column = start_column(model, 0.1, model.growth, 5.0, 5.0, load);
   Drive drive = drive_of(model, 0.01, 0.1, 5.0);
   drive.normal_pressure = 4e5;
   step_column(model, drive, column);
@@ -67,7 +67,7 @@ TEST(BandColumn, MeltLeavesAVoidThatHeatingMustFill) {
   model.conduction = model.seepage = model.steam = false;
   model.residual_stress = 0.0;
   const double e = 0.1, dt = 0.05;
-  Column column = start_column(model, e, -10.0, -10.0, 1e4);
+  Column column = start_column(model, e, model.growth, -10.0, -10.0, 1e4);
   Drive drive = drive_of(model, dt, e, -10.0);
   drive.normal_pressure = 1e4;
   drive.heat_flux = 1e6;
@@ -98,8 +98,8 @@ TEST(BandColumn, DrainedBandComesToItsSteadyStrength) {
   model.at_frozen = EndOfWater::vented;
   model.hydraulic_conductivity = 1e-8;
   const double e = 0.1, friction = 0.3, speed = 2.0, dt = 0.02;
-  Column column = start_column(model, e, -10.0, -10.0, load);
-  const ColumnGrid<double> grid = grid_of(model, e);
+  Column column = start_column(model, e, model.growth, -10.0, -10.0, load);
+  const ColumnGrid<double> grid = grid_of(model, e, model.growth);
   for (int k = 0; k < Cells::band; ++k) {  // the band alone is melted, its pores full
     column.water[k] = model.porosity * model.phases.water_density * grid.slide_height(k);
     column.heat[Cells::ground + k] =
@@ -135,7 +135,7 @@ TEST(BandColumn, StrengthOfASlippingPlane) {
   const double length = exact::one_sided_slip_length(capacity, coefficient, hydraulic, thermal, friction, speed);
   const double reach = std::sqrt(thermal * length / speed);
   const double e = 0.05 * reach, dt = 2e-4 * length / speed;
-  Column column = start_column(model, e, 10.0, 10.0, load);
+  Column column = start_column(model, e, model.growth, 10.0, 10.0, load);
   Drive drive = drive_of(model, dt, e, 10.0);
   double slip = 0.0, largest = 0.0;
   while (slip < length) {
@@ -165,7 +165,7 @@ TEST(BandColumn, FreezingFrontIsNeumanns) {
   model.ground_capacity = 1e12;
   model.ground_cell = 1.0;
   const double e = 0.16;
-  Column column = start_column(model, e, 5.0, -10.0, load);
+  Column column = start_column(model, e, model.growth, 5.0, -10.0, load);
   const double water = model.porosity * model.phases.ice_density;
   const auto of = slide_coefficients(model, 1.0, water);
   const double frozen_k = conductivity(model.phases, model.porosity, 0.0);
@@ -173,7 +173,7 @@ TEST(BandColumn, FreezingFrontIsNeumanns) {
   const exact::SharpFront front(
       {5.0, -10.0, 0.0, 0.0, {frozen_k, frozen_k, melted_k}, {of.frozen, of.frozen, of.frozen + of.rise}, of.melting});
   const Drive drive = drive_of(model, 20.0, e, 5.0);
-  const ColumnGrid<double> grid = grid_of(model, e);
+  const ColumnGrid<double> grid = grid_of(model, e, model.growth);
   double time = 0.0;
   for (; time < 40000.0; time += drive.dt) {
     step_column(model, drive, column);
@@ -198,7 +198,7 @@ TEST_P(Boiling, TakesItsTime) {
   Model model = make_model();
   model.conduction = model.seepage = false;
   const double e = 0.1, flux = 2e6, dt = 0.02, boiling = boiling_temperature(GetParam());
-  Column column = start_column(model, e, -10.0, -10.0, GetParam());
+  Column column = start_column(model, e, model.growth, -10.0, -10.0, GetParam());
   Drive drive = drive_of(model, dt, e, -10.0);
   drive.normal_pressure = GetParam();
   drive.heat_flux = flux;
@@ -225,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(BandColumn, Boiling, testing::Values(0.0, 2e5));
 TEST(BandColumn, SteamPressesInAVoid) {
   Model model = make_model();
   model.conduction = false;
-  Column column = start_column(model, 0.1, -10.0, -10.0, load);
+  Column column = start_column(model, 0.1, model.growth, -10.0, -10.0, load);
   Drive drive = drive_of(model, 0.02, 0.1, -10.0);
   drive.heat_flux = 1e6;
   while (column.temperature[Cells::ground] < 130.0) {
@@ -245,10 +245,10 @@ TEST(BandColumn, ThawConsolidation) {
   model.residual_stress = 0.0;
   model.growth = 1.0;
   const double e = 0.8;
-  const ColumnGrid<double> grid = grid_of(model, e);
+  const ColumnGrid<double> grid = grid_of(model, e, model.growth);
   const double consolidation = model.hydraulic_conductivity / (model.phases.water_unit_weight * storage(model));
   const double height = grid.face(Cells::slide), ratio = 0.6, speed = ratio * 2.0 * std::sqrt(consolidation);
-  Column column = start_column(model, e, -1.0, -1.0, load);
+  Column column = start_column(model, e, model.growth, -1.0, -1.0, load);
   const double end = std::pow(0.95 * height / speed, 2.0), dt = end / 4000.0;
   const Drive drive = drive_of(model, dt, e, -1.0);
   for (int step = 0; step < 4000; ++step) {

@@ -1,8 +1,12 @@
 // Band columns under a slide: balances, motion, bits, and what they have in common with the rigid block's.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
+#include "../physics/band_column_model.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/column_slab.hpp"
 #include "band/base_columns.hpp"
@@ -10,6 +14,7 @@
 #include "base/thread_choice.hpp"
 #include "sim/base_table.hpp"
 #include "sim/block.hpp"
+#include "sim/block_band_column.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 
@@ -127,8 +132,10 @@ TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
 // One that comes together: pieces crowd, and small ones join, so that there are about as many as cells of the base;
 // what leaves at the top and what stays is all that there was.
 TEST(BandColumns, PiecesOfAShorteningSlideJoin) {
-  for (const int dimension : {2, 3}) {
-    SCOPED_TRACE(fmt::format("{}D", dimension));
+  using Which =
+      std::pair<int, std::string>;  // thick bands: columns as tall as the slide, each of its own ratio of cells
+  for (const auto& [dimension, thickness] : {Which{2, "0.1"}, Which{3, "0.1"}, Which{2, "3.0"}}) {
+    SCOPED_TRACE(fmt::format("{}D, {} m", dimension, thickness));
     const auto come_together = [](auto& simulation) {
       auto& particles = simulation.particles();
       for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -147,8 +154,9 @@ TEST(BandColumns, PiecesOfAShorteningSlideJoin) {
     };
     const config::Case parameters = case_from_text(
         column_slab(dimension),
-        {"time.end=4.0", "guards.smallest_volume=0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
-         "body.slab.velocity=[0" + std::string(dimension == 3 ? ",0,0]" : ",0]"), "material.rock.youngs_modulus=1e6"});
+        {"time.end=4.0", "band.thickness=" + thickness, "guards.smallest_volume=0", "basal.friction_angle=1.0",
+         "case.gravity_tilt=0.0", "body.slab.velocity=[0" + std::string(dimension == 3 ? ",0,0]" : ",0]"),
+         "material.rock.youngs_modulus=1e6"});
     if (dimension == 2) {
       Simulation<2, double> simulation(parameters);
       come_together(simulation);
@@ -156,6 +164,65 @@ TEST(BandColumns, PiecesOfAShorteningSlideJoin) {
       Simulation<3, double> simulation(parameters);
       come_together(simulation);
     }
+  }
+}
+
+// The heights of columns [m].
+template <class Simulation>
+std::vector<double> heights_in(const Simulation& simulation) {
+  std::vector<double> heights;
+  for (const auto& piece : simulation.band_columns()->pieces()) {
+    const physics::ColumnGrid<double> grid(piece.column.thickness, piece.column.cell_growth, 1.0, 1.0);
+    heights.push_back(grid.face(physics::ColumnCells::slide));
+  }
+  return heights;
+}
+
+// With a band 3 m thick full columns would be 76 m tall below a slab of 40 m. They end at its surface, and together
+// hold no more ice and water than it has.
+TEST(BandColumns, AreNoTallerThanTheSlide) {
+  Simulation<2, double> simulation(
+      case_from_text(column_slab(), {"band.thickness=3.0", "body.slab.velocity=[0.0, 0.0]"}));
+  run_until(simulation, 2.0);
+  const double middle = median_over_base(simulation, [](const auto& piece) { return piece.depth; });
+  EXPECT_NEAR(middle, 40.0, 2.0) << "N over rho g cos(30 degrees)";
+  const std::vector<double> heights = heights_in(simulation);
+  for (std::size_t p = 0; p < heights.size(); ++p) {
+    const auto& piece = simulation.band_columns()->pieces()[p];
+    EXPECT_NEAR(heights[p], std::clamp(piece.depth, 7.5, 76.1), 0.01 * heights[p]);
+  }
+  const HistoryRow row = history_row(simulation);
+  const double of_slide = value_of(row, "ice_kg") + value_of(row, "water_kg");
+  EXPECT_LT(value_of(row, "column_water_kg"), 1.03 * of_slide);
+  EXPECT_GT(value_of(row, "column_water_kg"), 0.9 * of_slide);
+  EXPECT_LT(std::abs(value_of(row, "column_water_residual_kg")), 1e-12 * value_of(row, "column_water_kg"));
+  EXPECT_LT(std::abs(value_of(row, "thermal_residual_J")), 1e-10 * std::abs(value_of(row, "column_heat_J")));
+}
+
+// Below a slide that is deeper than a full column all cells grow by the one ratio, to the bit.
+TEST(BandColumns, AreFullBelowADeepSlide) {
+  Simulation<2, double> simulation(case_from_text(column_slab()));
+  run_until(simulation, 1.0);
+  for (const auto& piece : simulation.band_columns()->pieces()) {
+    if (piece.position[0] > 80.0 && piece.position[0] < 260.0) {
+      EXPECT_EQ(piece.column.cell_growth, 1.4);
+    }
+  }
+}
+
+// The column below the rigid block is as tall as the block is thick, whatever presses on it.
+TEST(BandColumns, BelowABlockAreAsTallAsItIsThick) {
+  band::ColumnsModel<double> model;
+  model.column = physics::make_model();
+  model.body_temperature = model.ground_temperature = -10.0;
+  model.load_time = 1.0;
+  model.rock_density = 2750.0;
+  model.largest_thickness = 11.0;
+  BlockBandColumn column(model, 1.35, 2e5, 0.05);
+  for (int step = 0; step < 100; ++step) {
+    column.step({0.0, 8e5, 10.0, 10.0, 1.35, 0.05});
+    const physics::ColumnGrid<double> grid(1.35, column.piece().column.cell_growth, 1.0, 1.0);
+    EXPECT_NEAR(grid.face(physics::ColumnCells::slide), 11.0, 1e-9);
   }
 }
 

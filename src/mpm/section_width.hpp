@@ -1,0 +1,83 @@
+// The width b(x) of a 2D section over that which results are per metre of: linear between places, constant beyond the
+// ends. Volumes and masses of particles, areas of the ground and forces are those of the section so wide, over the
+// latter. Smooth upright walls bound it, as planes of constant angle do in axial symmetry, where b is 2 pi r:
+//   strain rate across   D_zz = u_x b'/b
+//   force of the walls   -V sigma_zz b'/b along x       (with Eq. 12)
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "base/select.hpp"
+#include "base/table.hpp"
+#include "mpm/kernel.hpp"
+
+namespace thawslide::mpm {
+
+template <class Real>
+class SectionWidth {
+ public:
+  SectionWidth() = default;  // the same everywhere
+  // table: of widths > 0 [m] over strictly increasing x [m]; results are per metre of the first. origin: x from which
+  // the places below count [m].
+  SectionWidth(const Table& table, double origin) {
+    for (std::size_t k = 0; k < table.abscissa.size(); ++k) {
+      place_.push_back(static_cast<Real>(table.abscissa[k] - origin));
+      relative_.push_back(static_cast<Real>(table.value[k] / table.value.front()));
+    }
+  }
+
+  [[nodiscard]] bool varies() const { return !place_.empty(); }
+
+  // b over that which results are per metre of.
+  [[nodiscard]] Real at(Real x) const {
+    const std::size_t k = after(x);
+    return k == 0 ? Real(1) : k == place_.size() ? relative_.back() : relative_[k - 1] + slope(k) * (x - place_[k - 1]);
+  }
+  // b'/b [1/m].
+  [[nodiscard]] Real widening(Real x) const {
+    const std::size_t k = after(x);
+    return k == 0 || k == place_.size() ? Real(0) : slope(k) / at(x);
+  }
+
+ private:
+  // The first place beyond x.
+  [[nodiscard]] std::size_t after(Real x) const {
+    return static_cast<std::size_t>(std::upper_bound(place_.begin(), place_.end(), x) - place_.begin());
+  }
+  [[nodiscard]] Real slope(std::size_t k) const {
+    return (relative_[k] - relative_[k - 1]) / (place_[k] - place_[k - 1]);
+  }
+
+  std::vector<Real> place_, relative_;
+};
+
+// What kernels know of it; EvenWidth where it is the same everywhere (mpm/kernel.hpp).
+template <class Real>
+struct UnevenWidth {
+  static constexpr bool varies = true;
+  const SectionWidth<Real>& width;
+
+  template <class Value>
+  [[nodiscard]] Value at(const Value& x) const {
+    return each_lane(x, [&](Real one) { return width.at(one); });
+  }
+  template <class Value>
+  [[nodiscard]] Value widening(const Value& x) const {
+    return each_lane(x, [&](Real one) { return width.widening(one); });
+  }
+};
+
+// Calls work(width) with what kernels are to know of it; only sections have a width.
+template <int Dim, class Real, class Work>
+decltype(auto) with_width(const SectionWidth<Real>& width, const Work& work) {
+  if constexpr (Dim == 2) {
+    if (width.varies()) {
+      return work(UnevenWidth<Real>{width});
+    }
+  }
+  return work(EvenWidth{});
+}
+
+}  // namespace thawslide::mpm

@@ -1,0 +1,46 @@
+"""A section whose width varies along x, from the outside: what check says, and a resume that would change it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from conftest import Program
+
+ROOT = Path(__file__).resolve().parents[2]
+WIDE = ROOT / "cases" / "lamplugh-columns" / "wide-valley.toml"
+
+
+def test_check_says_what_figures_are_per_metre_of(thawslide: Program) -> None:
+    outcome = thawslide("check", WIDE)
+    assert outcome.returncode == 0, outcome.stderr
+    assert "slide: 8.428e+04 m3 and 1.738e+08 kg per metre of the width at x = 2190 m, along 1055 m; " in outcome.stdout
+    assert "case.width" not in outcome.stdout, "1,883 m over 2 km is no reason to doubt"
+    steep = thawslide("check", WIDE, "--set", "case.width={ x = [2190.0, 3190.0], value = [617.0, 2500.0] }")
+    assert steep.returncode == 0, steep.stderr
+    assert (
+        "it changes by 1.88 m per m. The lateral motion that the section leaves out would have 0.3 of " in steep.stdout
+    )
+
+
+def test_resolved_case_of_a_run_has_the_width_and_resume_keeps_it(thawslide: Program, tmp_path: Path) -> None:
+    folder = tmp_path / "wide"
+    started = thawslide("run", WIDE, "--output", folder, "--set", "time.end=0.1", "--threads", "1")
+    assert started.returncode == 0, started.stderr
+    resolved = (folder / "case.toml").read_text(encoding="utf-8")
+    assert "\nwidth = { x = [2190.0, 4190.0], value = [617.0, 2500.0] }  # m\n" in resolved
+    again = thawslide("run", folder, "--output", tmp_path / "again", "--threads", "1")
+    assert again.returncode == 0, again.stderr
+    assert (folder / "history.csv").read_bytes() == (tmp_path / "again" / "history.csv").read_bytes()
+    changed = thawslide("resume", folder, "--set", "time.end=0.2", "--set", "case.width=617.0")
+    assert changed.returncode == 2
+    assert "error: a run that goes on cannot change case.width: " in changed.stderr
+    longer = thawslide("resume", folder, "--set", "time.end=0.2", "--threads", "1")
+    assert longer.returncode == 0, longer.stderr
+
+
+def test_block_has_one_width(thawslide: Program) -> None:
+    outcome = thawslide("block", WIDE)
+    assert outcome.returncode == 2
+    assert outcome.stderr.endswith(
+        "wide-valley.toml:6:9: the block model has one width. Give case.width as a number, or use `thawslide run`.\n"
+    )

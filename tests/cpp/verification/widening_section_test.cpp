@@ -1,0 +1,124 @@
+// Flow without strength and friction through sections of varying width, where thin flow is known exactly.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../support/case_from_text.hpp"
+#include "../support/dry_sand.hpp"
+#include "../support/record.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+constexpr double gravity = 9.81;
+
+const std::string fluid = dry_sand(2e7) + R"(
+[time]
+end = 6.0
+step = 0.003
+[grid]
+cell = 0.625
+min = [0.0, -2.5]
+max = [320.0, 10.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[body.fluid]
+material = "sand"
+)";
+const std::vector<std::string> without_strength = {"material.sand.friction_angle=0", "material.sand.tension_cutoff=0",
+                                                   "basal.friction_angle=0"};
+
+std::vector<std::string> with(std::vector<std::string> more) {
+  more.insert(more.end(), without_strength.begin(), without_strength.end());
+  return more;
+}
+
+// A body that runs from a channel into one twice as wide. Its middle knows nothing of its ends: it flows steadily, with
+//   h u b = const,  u^2/2 + g h = const
+TEST(WideningSection, HalvesTheDepthWhereTheWidthDoubles) {
+  constexpr double depth = 2.5, speed = 40.0, time = 4.0;
+  Record record(
+      "Flow into a wider channel",
+      "Matter without strength or friction, 2.5 m deep and 80 m long, runs at 40 m/s from a channel 20 m wide "
+      "into one 40 m wide.",
+      "depth and speed of the middle by h u b = const, u^2/2 + g h = const", "Bernoulli");
+  Simulation<2, double> simulation(
+      paper_case(fluid, with({"case.width={ x = [120.0, 160.0], value = [20.0, 40.0] }", "body.fluid.min=[10.0, 0.0]",
+                              "body.fluid.max=[90.0, 2.5]", "body.fluid.velocity=[40.0, 0.0]"})));
+  const double density = simulation.particles().mass(0) / simulation.particles().volume(0);
+  run_until(simulation, time);
+  double exact = 0.5 * depth;
+  for (int k = 0; k < 50; ++k) {
+    exact = 0.5 * depth * speed / std::sqrt(speed * speed + 2.0 * gravity * (depth - exact));
+  }
+  const auto& particles = simulation.particles();
+  const double from = 200.0, to = 220.0;
+  double mass = 0.0, momentum = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (particles.position(p, 0) > from && particles.position(p, 0) < to) {
+      mass += particles.mass(p);
+      momentum += particles.mass(p) * particles.velocity(p, 0);
+    }
+  }
+  record.expect_near("mass over exact", mass / (density * 2.0 * (to - from) * exact), 1.0, 0.01);
+  record.expect_near("speed over exact", momentum / mass / (0.5 * depth * speed / exact), 1.0, 0.002);
+}
+
+// A paraboloid of thin flow stays one as it spreads (Thacker 1981): its radius grows as R0 s(t), with
+//   s'' = 2 g h0/(R0^2 s^(n + 1)),  s(0) = 1,  s'(0) = 0
+// n = 1 in the plane; n = 2 about an axis, where s^2 = 1 + 2 g h0 t^2/R0^2, and in a section b = x.
+double spread(int n, double rate, double time) {
+  double s = 1.0, growth = 0.0;
+  constexpr int steps = 10000;
+  const double dt = time / steps;
+  for (int k = 0; k < steps; ++k) {  // leapfrog
+    growth += 0.5 * dt * rate / std::pow(s, n + 1);
+    s += dt * growth;
+    growth += 0.5 * dt * rate / std::pow(s, n + 1);
+  }
+  return s;
+}
+
+TEST(WideningSection, SpreadsAsAParaboloidAboutItsAxis) {
+  constexpr double radius = 50.0, depth = 5.0, time = 6.0, rate = 2.0 * gravity * depth / (radius * radius);
+  Record record("Paraboloid that spreads",
+                "Matter without strength or friction, 5 m deep at x = 0 and 50 m long, spreads over level ground: in a "
+                "section as wide everywhere, and in one as wide as x, which is a sector about the axis.",
+                "mean x over that at the start: s(t) with s'' = 2 g h0/(R0^2 s^(n + 1)), n = 1 and 2", "Thacker 1981");
+  ASSERT_NEAR(spread(2, rate, time), std::sqrt(1.0 + rate * time * time), 1e-6);
+  std::string vertices = "[0.0, 0.0]";
+  for (int k = 20; k >= 0; --k) {
+    const double x = 2.5 * k;
+    vertices += fmt::format(", [{}, {}]", x, depth * (1.0 - x * x / (radius * radius)));
+  }
+  for (const auto& [n, width] : {std::pair(1, "0.0"), std::pair(2, "{ x = [0.5, 1000.0], value = [0.5, 1000.0] }")}) {
+    Simulation<2, double> simulation(
+        paper_case(fluid, with({fmt::format("case.width={}", width), "body.fluid.shape=polygon",
+                                fmt::format("body.fluid.vertices=[{}]", vertices), "grid.boundary.x_min=roller"})));
+    const auto mean_x = [&] {
+      double mass = 0.0, moment = 0.0;
+      for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+        mass += simulation.particles().mass(p);
+        moment += simulation.particles().mass(p) * simulation.particles().position(p, 0);
+      }
+      return moment / mass;
+    };
+    const double before = mean_x();
+    // Of (1 - r^2) r^(n-1) over (0, 1): 3/8, 8/15.
+    EXPECT_NEAR(before / radius, n == 1 ? 3.0 / 8.0 : 8.0 / 15.0, 0.005);
+    run_until(simulation, time);
+    const double exact = spread(n, rate, time) - 1.0;
+    record.expect_near(fmt::format("growth of the mean x, n = {}, over exact", n), (mean_x() / before - 1.0) / exact,
+                       1.0, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace thawslide::verification

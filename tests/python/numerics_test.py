@@ -1,0 +1,42 @@
+"""What the Lamplugh case on band columns owes to the numerics: its runs and tables."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from thawslide.paper.members import Observed
+from thawslide.paper.numerics import CELLS, cell_key, cell_rows, cells_table, numerics_rows, numerics_table
+
+
+def test_rows_scale_the_step_and_keep_the_domain_whole() -> None:
+    rows = {row.key: row.sets for row in cell_rows()}
+    assert len(rows) == 9
+    assert rows["e-0.21-cell-5"] == ("band.thickness=0.21", "grid.cell=5", "time.step=0.005")
+    assert next(iter(rows)).endswith("cell-5"), "the long runs first"
+    shifted = {row.key: row.sets for row in numerics_rows()}
+    assert shifted["quarter-shift"] == ("grid.min=[-202.5,197.5]", "grid.max=[13997.5,2397.5]")
+
+
+def test_table_of_cells_gives_what_the_finer_two_differ_by() -> None:
+    found = {
+        row.key: Observed(peak=80.0, displacement=5.0 if row.key.endswith("-5") else 4.0, runout=9.0)
+        for row in cell_rows()
+    }
+    found[cell_key(0.4, CELLS[-1])] = Observed(failure="not run")
+    lines = cells_table(found).splitlines()
+    assert lines[0] == "| e [m] | quantity | 20 m | 10 m | 5 m | finer two differ by |"
+    assert lines[2] == "| 0.21 | mean displacement [km] | 4.00 | 4.00 | 5.00 | 25.0 % |"
+    assert lines[8] == "| 0.4 | mean displacement [km] | 4.00 | 4.00 | none | none |"
+
+
+def test_table_of_numerics_gives_differences_from_the_case() -> None:
+    base = Observed(peak=80.0, displacement=5.0, runout=9.0)
+    rows = numerics_rows()[:2]
+    found = {
+        rows[0].key: dataclasses.replace(base, displacement=4.9, runout=9.27),
+        rows[1].key: Observed(failure="broke off at 3 s"),
+    }
+    lines = numerics_table(rows, base, found).splitlines()
+    assert lines[0] == "| run | runout [km] | peak [m/s] | mean displacement [km] | set |"
+    assert lines[2] == "| half the time step | 9.3 (+3.0 %) | 80.0 (+0.0 %) | 4.90 (−2.0 %) | `time.step=0.005` |"
+    assert lines[3] == "| half of Young's modulus | broke off at 3 s | | | |"
