@@ -139,3 +139,11 @@ def test_the_band_of_the_paper_has_the_same_warnings(make_run: MakeRun) -> None:
     ratio = np.nanmax(np.interp(time, columns["time_s"], columns["band_pore_pressure_Pa"]) / load)
     assert f"up to {hottest:,.0f} °C, where water boils" in words
     assert f"P is up to {ratio:.3g} times the weight above" in words
+
+
+def test_the_weight_above_is_that_over_the_width_of_the_section(make_run: MakeRun) -> None:
+    folder = make_run()
+    before = overburden(Run(folder), Run(folder).snapshot(4))
+    case = folder / "case.toml"
+    case.write_text(case.read_text().replace("width = 10.0", "width = { x = [0.0, 1.0], value = [10.0, 20.0] }"))
+    np.testing.assert_allclose(overburden(Run(folder), Run(folder).snapshot(4)), 0.5 * before)

@@ -13,7 +13,7 @@ _MOST_SNAPSHOTS = 60  # that a curve of the load is made of
 def overburden(run: Run, shot: Snapshot) -> Numbers:
     """Return the weight [Pa] of what lies above each particle of a 2D run, and of half of itself, over a grid cell."""
     cell, gravity = float(run.section("grid")["cell"]), float(run.section("case").get("gravity", 9.81))
-    mass = np.asarray(shot["mass"], dtype=np.float64)
+    mass = np.asarray(shot["mass"], dtype=np.float64) / run.relative_width(shot.points[:, 0])
     column = np.floor(shot.points[:, 0] / cell)
     order = np.lexsort((-shot.points[:, 1], column))
     below = np.cumsum(mass[order]) - mass[order]
