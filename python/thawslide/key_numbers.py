@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thawslide.clock import own_time, time_of_speed
+from thawslide.clock import has_clock, time_of_speed
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.force import force_in_band, reported_bands, reported_forces, seismic_force
 from thawslide.figures.style import area_text, prefixed, volume_text
@@ -55,8 +55,8 @@ def stop_time(run: Run, below: float | None = None) -> float | None:
 def key_numbers(run: Run) -> list[KeyNumber]:
     """Return the rows that this run has columns for."""
     history = run.history
-    time = history["time_s"]
-    rows = [KeyNumber("Simulated time", shown(float(time[-1]), "s"))]
+    time = run.shown_time
+    rows = [KeyNumber("Simulated time", shown(float(history["time_s"][-1]), "s"))]
     if "mean_velocity_m_s" in history:
         speed = history["mean_velocity_m_s"]
         if np.isfinite(speed).any():
@@ -92,13 +92,13 @@ def found_for(run: Run, target: Target) -> str:
     """Return what a run has for a reported value, with its unit, or why it has nothing to compare."""
     if target.quantity == SETS_CLOCK:
         start = time_of_speed(run, target.value)
-        return f"at {shown(start, 's')}" if np.isfinite(start) else "never"
+        return f"{shown(start, 's')} after its start" if np.isfinite(start) else "never"
     if not quantity_of(target.quantity).is_compared:
         return "not compared"
     if quantity_of(target.quantity).column in run.history:
-        time, first, last = own_time(run, target), *(float(run.history["time_s"][end]) for end in (0, -1))
-        if time < first or time > last:
-            return f"not compared: the run is of {first:g} to {last:g} s"
+        first, last = (float(run.shown_time[end]) for end in (0, -1))
+        if has_clock(run) and not first <= target.time <= last:
+            return f"not compared: the run is of {first:.4g} to {last:.4g} s"
     value = _found(run, target)
     if value is None:
         return _why_not(run, target)
@@ -124,8 +124,9 @@ def _found(run: Run, target: Target) -> float | None:
     """
     history, quantity = run.history, quantity_of(target.quantity)
     if quantity.column in history:
-        time = own_time(run, target)
-        return None if np.isnan(time) else float(np.interp(time, history["time_s"], history[quantity.column]))
+        if not has_clock(run):
+            return None
+        return float(np.interp(target.time, run.shown_time, history[quantity.column]))
     if quantity.fact:
         fact = run.facts.get(quantity.fact)
         return None if fact is None else float(fact)
@@ -153,7 +154,7 @@ def boiling_note(run: Run) -> str:
     values = run.history["band_temperature_C"]
     if not np.any(values > BOILING):
         return ""
-    first = float(run.history["time_s"][int(np.argmax(values > BOILING))])
+    first = float(run.shown_time[int(np.argmax(values > BOILING))])
     highest = shown(float(np.nanmax(values)), "°C")
     nothing = "Nothing boils, as heat.steam is false" if run.has_band_columns else "Nothing in the model boils"
     return (
@@ -167,11 +168,13 @@ def _stop_number(run: Run) -> KeyNumber:
     last = shown(float(run.history["mean_velocity_m_s"][-1]), "m/s")
     since = run.facts.get("rest_since_s")
     if since is not None:
-        return KeyNumber("Stop time", shown(float(since), "s"), "at rest from here on")
+        return KeyNumber("Stop time", shown(float(since) + run.clock.shift, "s"), "at rest from here on")
     stopped = None if run.moves_at_end else stop_time(run)
     if stopped is None:
         return KeyNumber("Stop time", "not reached", f"mean velocity at {run.last_state}: {last}")
-    return KeyNumber("Stop time", shown(stopped, "s"), "mean velocity below 1 % of its peak from here on")
+    return KeyNumber(
+        "Stop time", shown(stopped + run.clock.shift, "s"), "mean velocity below 1 % of its peak from here on"
+    )
 
 
 def _volume_numbers(run: Run) -> list[KeyNumber]:
@@ -201,7 +204,7 @@ def _front_numbers(run: Run) -> list[KeyNumber]:
         own = f", {_metres(runout[0])} of it before anything moves" if np.isfinite(runout[0]) else ""
         rows.append(_along_path("Runout", runout[-1], f"front at {run.last_state} less rear at the start{own}"))
         first = int(np.argmax(np.isfinite(runout)))  # 0 where none is
-        since = "the start" if first == 0 else f"{shown(float(run.history['time_s'][first]), 's')}, the first known"
+        since = "the start" if first == 0 else f"{shown(float(run.shown_time[first]), 's')}, the first known"
         remark = f"front at {run.last_state} less front at {since}"
         rows.append(_along_path("Way of the front", runout[-1] - runout[first], remark))
     return rows
@@ -224,7 +227,7 @@ def _force_numbers(run: Run) -> list[KeyNumber]:
     for words, magnitude in forces.items():
         if np.isfinite(magnitude).any():
             at = int(np.nanargmax(magnitude))
-            when = f"at {shown(float(run.history['time_s'][at]), 's')}"
+            when = f"at {shown(float(run.shown_time[at]), 's')}"
             rows.append(KeyNumber(f"Largest seismic force{words}", shown(float(magnitude[at]), unit), when))
     return rows
 
@@ -259,7 +262,7 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
             values = run.history[column]
             if np.isfinite(values).any():
                 at = int(np.nanargmax(values))
-                when = f"at {shown(float(run.history['time_s'][at]), 's')}"
+                when = f"at {shown(float(run.shown_time[at]), 's')}"
                 rows.append(KeyNumber(words, shown(float(values[at]), unit), when))
             else:
                 rows.append(KeyNumber(words, "none", "no particle was ever in the band"))

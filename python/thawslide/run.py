@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from thawslide.arrays import Numbers
+from thawslide.clock import Clock, clock_of
 from thawslide.errors import NotInRunError, ReportError, printable, quoted
 from thawslide.force_record import ForceRecord, read_force_record
 from thawslide.history import History, read_history
@@ -103,6 +104,16 @@ class Run:
     def history(self) -> History:
         """The history; a last row cut off while it was written is left out, with a warning."""
         return read_history(self.folder / "history.csv", self.warnings)
+
+    @cached_property
+    def clock(self) -> Clock:
+        """The clock of all figures."""
+        return clock_of(self)
+
+    @property
+    def shown_time(self) -> Numbers:
+        """The time [s] of each row of the history on the clock of all figures."""
+        return self.history["time_s"] + self.clock.shift
 
     @property
     def has_band_columns(self) -> bool:
@@ -203,15 +214,17 @@ class Run:
     def last_state(self) -> str:
         """When the last state of the run is, and what keeps it from being a deposit, as "19.5 s (stopped)"."""
         how = _HOW[self.ending][0] if not self.ended else "not at rest" if self.moves_at_end else ""
-        return f"{self.last_time:.4g} s{f' ({how})' if how else ''}"
+        return f"{self.last_time + self.clock.shift:.4g} s{f' ({how})' if how else ''}"
 
     @property
     def end_note(self) -> str:
         """A sentence for figures of a run that did not come to its end, or not to rest; "" for others."""
+        last = self.last_time + self.clock.shift
         if self.ended:
-            return f"The slide is not at rest at {self.last_time:.4g} s. " if self.moves_at_end else ""
+            return f"The slide is not at rest at {last:.4g} s. " if self.moves_at_end else ""
         wanted = self.section("time").get("end")
-        return f"The run {_HOW[self.ending][1]} at {self.last_time:.4g} s" + (f" of {wanted:g} s. " if wanted else ". ")
+        of_wanted = f" of {wanted + self.clock.shift:.4g} s" if wanted else ""
+        return f"The run {_HOW[self.ending][1]} at {last:.4g} s{of_wanted}. "
 
     @cached_property
     def snapshot_files(self) -> list[Path]:

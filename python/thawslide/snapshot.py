@@ -9,6 +9,7 @@ import sys
 import threading
 from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from copy import copy
 from pathlib import Path
 from typing import Any
 
@@ -71,6 +72,12 @@ class Snapshot(Mapping[str, NDArray[Any]]):
 
     def __len__(self) -> int:
         return len(self._fields)
+
+    def with_velocity(self, velocity: Numbers) -> Snapshot:
+        """Return the same snapshot with other velocities [m/s], shape (n, 3)."""
+        other = copy(self)
+        other._fields = self._fields | {"velocity": velocity}
+        return other
 
     def unit(self, name: str) -> str:
         """Return the unit of a field as the file states it, "" where it states none."""

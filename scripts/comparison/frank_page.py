@@ -7,7 +7,7 @@ from jobs import Job, processor_time
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from thawslide.figures.map_panel import coordinate_text, outline, scale_bar
-from thawslide.figures.style import BLACK, BLUE, RED, styled
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, RED, styled
 from thawslide.maps import Map
 from thawslide.run import Run
 
@@ -111,7 +111,7 @@ def deposits(
     pile: Map,
 ) -> Figure:
     """Return the outlines of the deposits, one panel an angle."""
-    figure = Figure(figsize=(9.0, 8.4), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 7.0), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True, sharey=True).ravel()
     for panel, angle, letter in zip(panels, frank.ANGLES, "abcd", strict=True):
         outline(panel, pile, 0.5, colors=BLACK, linewidths=0.9, linestyles="dotted")
@@ -148,7 +148,7 @@ def deposits(
 @styled
 def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank.Deposit], pile: Map) -> Figure:
     """Return the section area of the deposits along x, one panel an angle."""
-    figure = Figure(figsize=(9.0, 6.2), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 5.2), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True).ravel()
     for panel, angle, letter in zip(panels, frank.ANGLES, "abcd", strict=True):
         x = pile.grid.x / 1e3
@@ -181,8 +181,8 @@ def draw(
 ) -> None:
     """Write both pictures."""
     folder.mkdir(exist_ok=True)
-    deposits(found, numbers, fluid, pile).savefig(folder / "frank-deposits.png", dpi=110)
-    sections(found, fluid, pile).savefig(folder / "frank-sections.png", dpi=110)
+    deposits(found, numbers, fluid, pile).savefig(folder / "frank-deposits.png", dpi=150)
+    sections(found, fluid, pile).savefig(folder / "frank-sections.png", dpi=150)
 
 
 def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:

@@ -8,9 +8,12 @@ import numpy as np
 from grounds import Ground
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
 from results import AFFECTED, Numbered, Outcome, PointMass, numbers, point_mass
+from thawslide.figures.colours import THICKNESS, VELOCITY, label_bar, normalisation, thickness_words
 from thawslide.figures.map_page import MapPage
-from thawslide.figures.map_panel import box_about, covered_box, make_scene, outline, paint, scale_bar
+from thawslide.figures.map_panel import box_about, colour_map, covered_box, make_scene, outline, paint, scale_bar
+from thawslide.figures.style import styled
 from thawslide.maps import Map
 
 FOLDER = Path(__file__).resolve().parent
@@ -39,9 +42,10 @@ SHALTOP](frank.md), [the same slide on finer cells](refinement.md).
 """
 
 FIELDS = [
-    ("thickness", "largest thickness (m, vertical)", "YlOrRd"),
-    ("speed", "largest speed (m/s)", "viridis"),
+    ("thickness", "largest thickness (m, vertical)"),
+    ("speed", "largest speed (m/s)"),
 ]
+PAINTINGS = {"thickness": THICKNESS, "speed": VELOCITY}
 ROWS = {
     "travel distance (m)": lambda found: f"{found.travel:,.0f}",
     "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",
@@ -75,27 +79,56 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
-def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], folder: Path) -> None:
-    """Draw two pictures, largest thickness and largest speed, the programs beside each other over the terrain."""
+def differences(first: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Return other less first where either was reached (nan elsewhere); a place that one never reached counts as 0."""
+    both = np.nan_to_num(other) - np.nan_to_num(first)
+    return np.where(np.isfinite(first) | np.isfinite(other), both, np.nan)
+
+
+@styled
+def picture(
+    ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], field: str, words: str
+) -> Figure:
+    """Draw a field as each program has it over the terrain, and how each differs from the first."""
     places = [covered_box(outcome.thickness, AFFECTED) for outcome in outcomes]
     scene = make_scene(terrain, box_about([place for place in places if place is not None]))
-    note = f"Reached: at least {AFFECTED} m thick. Blue: the release. {scene.note()}"
-    for field, words, colours in FIELDS:
-        page = MapPage(f"{ground.title}: {words}", scene, len(outcomes), note=note, foot=0.0, bar=0.55)
-        shown = [np.where(each.thickness.values >= AFFECTED, getattr(each, field).values, np.nan) for each in outcomes]
-        most = max(float(np.nanquantile(values, 0.998)) for values in shown)
-        painter = ScalarMappable(Normalize(0.0, most), colours)
-        panels = []
-        for number, (outcome, values) in enumerate(zip(outcomes, shown, strict=True)):
-            axes = page.panel(number, labels=False)
-            paint(axes, Map(terrain.grid, values), painter)
-            outline(axes, outcome.thickness, AFFECTED, colors="#222222", linewidths=0.6)
-            axes.plot(*zip(*corners, strict=True), color="#0072B2", linewidth=1.0, zorder=6)
-            panels.append((axes, outcome.program.split(", ")[-1], ""))
-            page.figure.colorbar(painter, cax=page.panel_bar(axes), extend="max")
-            scale_bar(axes, "lower left")
-        page.name(panels)
-        page.figure.savefig(folder / f"{ground.name}-{field}.png", dpi=100)
+    note = f"Reached: at least {AFFECTED} m thick. Blue line: the release. Differences count 0 where a program has not "
+    note += f"reached. {scene.note()}"
+    page = MapPage(f"{ground.title}: {words}", scene, 2 * len(outcomes) - 1, note=note, foot=0.0, bar=0.62)
+    shown = [np.where(each.thickness.values >= AFFECTED, getattr(each, field).values, np.nan) for each in outcomes]
+    norm, extend = normalisation(np.concatenate([values.ravel() for values in shown]), PAINTINGS[field])
+    painter = ScalarMappable(norm, colour_map(PAINTINGS[field].colours))
+    changes = [differences(shown[0], values) for values in shown[1:]]
+    most = float(np.nanquantile(np.abs(np.concatenate([change.ravel() for change in changes])), 0.998))
+    change_painter = ScalarMappable(Normalize(-most, most), "RdBu_r")
+    names = [outcome.program.split(", ")[-1] for outcome in outcomes]
+    drawn = [(values, painter, name) for values, name in zip(shown, names, strict=True)]
+    drawn += [
+        (change, change_painter, f"{name} − {names[0]}") for change, name in zip(changes, names[1:], strict=True)
+    ]
+    panels = []
+    for number, (values, colours, name) in enumerate(drawn):
+        axes = page.panel(number, labels=False)
+        paint(axes, Map(terrain.grid, values), colours)
+        outcome = outcomes[number if number < len(outcomes) else number - len(outcomes) + 1]
+        outline(axes, outcome.thickness, AFFECTED, colors="#222222", linewidths=0.6)
+        axes.plot(*zip(*corners, strict=True), color="#0072B2", linewidth=1.0, zorder=6)
+        panels.append((axes, name, ""))
+        bar = page.figure.colorbar(colours, cax=page.panel_bar(axes), extend=extend if colours is painter else "both")
+        if colours is painter:
+            label_bar(bar, norm)
+            if field == "thickness":
+                bar.set_label(thickness_words(norm).replace("thickness (m)", "m").replace("; ", "\n"), labelpad=2)
+        scale_bar(axes, "lower left")
+    page.name(panels)
+    return page.figure
+
+
+def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], folder: Path) -> None:
+    """Write two pictures, of largest thickness and of largest speed."""
+    for field, words in FIELDS:
+        drawn = picture(ground, terrain, corners, outcomes, field, words)
+        drawn.savefig(folder / f"{ground.name}-{field}.png", dpi=150)
 
 
 def section(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome]) -> str:
@@ -108,6 +141,6 @@ def section(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: 
     parts = [
         f"## {ground.title}",
         textwrap.fill(f"{ground.text} {friction}", 118),
-        *(f"![{words}](comparison/{ground.name}-{field}.png)" for field, words, _ in FIELDS),
+        *(f"![{words}](comparison/{ground.name}-{field}.png)" for field, words in FIELDS),
     ]
     return "\n\n".join([*parts, table(outcomes, found, point), reasons]) + "\n\n"

@@ -8,7 +8,7 @@ from grounds import ALR, Variant
 from jobs import Job
 from matplotlib.figure import Figure
 from refinement import CAUSES, FILTERED, HERE, ROUGH, STUDIED, WIDE, Found, limit, order, read_found, spread
-from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, styled
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, ORANGE, RED, styled
 from thawslide.maps import Map, read_map
 from thawslide.run import Run
 from wedge import Interval, intervals
@@ -100,7 +100,7 @@ def friction_table(rows: list[Interval]) -> str:
 @styled
 def friction_picture(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure:
     """Return apparent friction over time, a panel for each way to filter the DEM."""
-    figure = Figure(figsize=(10.0, 4.4), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.8), layout="constrained")
     panels = figure.subplots(1, len(runs), sharey=True, sharex=True)
     for panel, (variant, cells), letter in zip(panels, runs.items(), "abc", strict=True):
         for colour, (cell, rows) in zip(COLOURS, cells.items(), strict=False):
@@ -114,7 +114,7 @@ def friction_picture(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure
         panel.plot(middle, wedge, color=BLACK, linestyle="dashed", label="wedge factor, finest cells")
         panel.fill_between(middle, 0.9 * wedge, 1.1 * wedge, color=BLACK, alpha=0.12, linewidth=0, label="within 10 %")
         panel.set_title(f"({letter}) {variant.words}", loc="left")
-        panel.set_xlabel("time (s)")
+        panel.set_xlabel("time (s), 0 at the start of the run")
         panel.grid(True)
     panels[0].set_ylabel("apparent friction / friction coefficient")
     handles, labels = max((panel.get_legend_handles_labels() for panel in panels), key=lambda each: len(each[0]))
@@ -140,7 +140,7 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
     studied = {each.words: friction(each.name)[STUDIED] for each in causes}
     (folder / "comparison").mkdir(exist_ok=True)
     friction_picture({each: friction(each.name) for each in (WIDE, FILTERED, ROUGH)}).savefig(
-        folder / "comparison" / "alr-friction.png", dpi=110
+        folder / "comparison" / "alr-friction.png", dpi=150
     )
     parts = [
         (HERE / "refinement.md").read_text().strip(),

@@ -111,8 +111,8 @@ def test_stresses_stand_beside_each_other(columns_run: Path) -> None:
     for label, values in (
         ("normal pressure N", load),
         ("pore pressure P", pore_pressure),
-        ("effective normal stress N − P", load - pore_pressure),
-        ("shear traction of the base", run.history["band_shear_Pa"]),
+        ("effective stress N − P", load - pore_pressure),
+        ("shear traction", run.history["band_shear_Pa"]),
     ):
         np.testing.assert_allclose(line(stresses, label)[1] * 1e6, values)
     assert 'of the law "coefficient" N alone' in FIGURES["band"].caption_of(run)
@@ -145,7 +145,10 @@ def test_pieces_of_base_along_the_section(columns_run: Path) -> None:
     np.testing.assert_allclose(line(heat, "mean of the band")[1], 2.0 * x)
     np.testing.assert_allclose(line(heat, "boils at N")[1], boiling_temperature(1.0e6 + 1e4 * x))
     assert figure.axes[0].get_title(loc="left") != "t = 0 s", "a time before the first contact has nothing to show"
-    assert figure.axes[0].get_legend() is not None
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == [
+        "normal pressure N", "pore pressure P", "N − P", "hottest", "mean of the band", "boils at N",
+    ]  # fmt: skip
 
 
 def test_snapshots_without_base_are_told(make_run: MakeRun) -> None:

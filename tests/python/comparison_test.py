@@ -13,6 +13,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
 
 import grounds
+import page
 import results
 
 from thawslide.maps import Grid, Map, read_map
@@ -128,3 +129,25 @@ def test_coarser_map_covers_the_cells_of_the_terrain_in_blocks() -> None:
     ]
     same = Map(Grid(7.5, 2.5, 5.0, 5.0, 2, 2), np.array([[1.0, 2.0], [3.0, 4.0]]))
     assert results.on_grid(same, terrain).values[:2, 1:3].tolist() == [[1.0, 2.0], [3.0, 4.0]]
+
+
+def test_each_pair_of_maps_has_its_difference() -> None:
+    grid = Grid(0.0, 0.0, 10.0, 10.0, 40, 30)
+    terrain = Map(grid, np.add.outer(np.linspace(0.0, 100.0, 30), np.zeros(40)), "EPSG:31287")
+    thickness = [np.zeros((30, 40)), np.zeros((30, 40))]
+    thickness[0][5:20, 5:20], thickness[1][5:20, 10:25] = 3.0, 8.0
+    found = [
+        results.Outcome(name, Map(grid, values), Map(grid, 2.0 * values), Map(grid, values), 1, 1.0, 1.0, 0.0, 1.0)
+        for name, values in zip(("A 1", "B 2"), thickness, strict=True)
+    ]
+    corners = [[50.0, 50.0], [90.0, 50.0], [90.0, 90.0], [50.0, 50.0]]
+    for field, factor in (("thickness", 1.0), ("speed", 2.0)):
+        figure = page.picture(grounds.PLANE, terrain, corners, found, field, "words")
+        maps = [axes for axes in figure.axes if len(axes.images) > 1]
+        assert [axes.get_title(loc="left") for axes in maps] == ["(a) A 1", "(b) B 2", "(c) B 2 − A 1"]
+        first, other, change = (axes.images[-1].get_array() for axes in maps)
+        reached = (thickness[0] > 0.0) | (thickness[1] > 0.0)
+        np.testing.assert_array_equal(~np.ma.getmaskarray(change), reached)
+        np.testing.assert_allclose(change[reached], factor * (thickness[1] - thickness[0])[reached])
+        np.testing.assert_allclose(change.filled(0.0), other.filled(0.0) - first.filled(0.0))
+        assert maps[2].images[-1].get_clim() == (-8.0 * factor, 8.0 * factor), "0 is white"

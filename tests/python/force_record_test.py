@@ -99,7 +99,7 @@ def test_a_force_that_is_the_record_is_drawn_on_it(folder: Path) -> None:
         assert np.abs(np.interp(time[inside], record_time, theirs) - 0.5 * ours[inside]).max() < 0.005 * ours.max()
         assert np.abs(ours).max() > 20.0, "GN"
     assert figure.axes[0].get_ylabel() == "force (GN)"
-    assert figure.axes[1].get_xlabel() == "time (s)"
+    assert figure.axes[1].get_xlabel() == "time (s), 0 at the start of the run"
     assert figure.axes[1].get_title(loc="left").endswith("(record: azimuth 30°)")
     marks = [text.get_text() for text in figure.axes[0].texts]
     found = compared(run)

@@ -38,4 +38,4 @@ def labels(figure: Figure) -> set[str]:
 
 def notes(figure: Figure) -> str:
     """Return what stands beside the panels, in one line."""
-    return " ".join(text.get_text() for text in figure.texts)
+    return " ".join(" ".join(text.get_text().split()) for text in figure.texts)

@@ -11,7 +11,7 @@ import pytest
 from conftest import MakeRun, history_columns, write_history
 
 from thawslide import ReportError, Run
-from thawslide.clock import clock_note, own_time
+from thawslide.clock import clock_note
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
 from thawslide.key_numbers import found_for, key_numbers, shown, stop_time
@@ -230,24 +230,26 @@ def test_command_refuses_odd_resolutions(make_run: MakeRun, dpi: str, capsys: py
 def test_reported_values_are_compared_on_the_clock_they_name(make_run: MakeRun) -> None:
     folder = make_run()
     run = Run(folder)
-    assert "Compared at the run&#x27;s own times." in make_report(run, names=["motion"], dpi=50).page.read_text()
+    assert "Times count from the start of the run." in make_report(run, names=["motion"], dpi=50).page.read_text()
     targets = next(folder.glob("**/*targets*.csv"))
     # 12 sin2(pi t/10) m/s comes to 6 m/s at 2.5 s of its own.
     targets.write_text("quantity,time_s,value,unit,source\nstart_velocity,4,6,m/s,x\nmean_displacement,7,50,m,x\n")
     run = Run(folder)
     start, displacement = run.targets
-    assert own_time(run, displacement) == pytest.approx(5.5, abs=1e-3)
+    assert run.clock.shift == pytest.approx(1.5, abs=1e-3)
     assert found_for(run, displacement) == "44 m"  # 8 m/s for 5.5 s
-    assert found_for(run, start) == "at 2.5 s"
+    assert found_for(run, start) == "2.5 s after its start"
     page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
-    assert "comes to 6 m/s at 4 s, as this run does at 2.5 s of its own: compared 1.5 s earlier there" in page
+    assert "the mean velocity first reaches 6 m/s at 4 s. The run starts at 1.5 s on it." in page
     panel = FIGURES["motion"].draw(run).axes[1]
     marks = next(drawn for drawn in panel.lines if str(drawn.get_label()).startswith("reported mean"))
-    assert marks.get_xdata()[0] == pytest.approx(5.5, abs=1e-3)
+    assert marks.get_xdata()[0] == 7.0
     targets.write_text("quantity,time_s,value,unit,source\nstart_velocity,4,60,m/s,x\nmean_displacement,7,50,m,x\n")
     run = Run(folder)
     assert [found_for(run, target) for target in run.targets] == [
         "never",
         "not compared: the run never reaches the speed that sets the clock",
     ]
-    assert "This run never does" in clock_note(run)
+    assert "It never reaches 60 m/s at 4 s" in clock_note(run)
+    (note,) = FIGURES["motion"].draw(run).axes[1].texts
+    assert note.get_text() == "1 reported mean not drawn: the run never reaches the speed that sets the clock"

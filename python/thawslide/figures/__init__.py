@@ -45,7 +45,8 @@ class FigureKind:
 
 _PANELS = (
     "Top: the whole profile and which stretch each panel shows. Under each panel: the slide peeled off the terrain, by "
-    "height above the ground right below. Particles are squares of their real size, or just large enough to be seen."
+    "height above the ground right below. Particles have their real height and at least the width of a grid cell, as "
+    "the model has no narrower gaps, or are just large enough to be seen."
 )
 
 _FROM_ABOVE = (
@@ -144,7 +145,7 @@ FIGURES: dict[str, FigureKind] = {
     "band": FigureKind(
         "The shear band",
         "Means over the particles next to the ground; the friction coefficient is the mean over nodes in contact. "
-        "Gaps: no particle there at that time.",
+        "N is the weight above them on the slope, at rest. Gaps: no particle there at that time.",
         band,
         of_columns="Means over the base by area, as its columns have it. The shear traction is what the base resists "
         "with, cohesion and friction, over the area in contact: friction follows the effective normal stress N − P, "

@@ -18,7 +18,7 @@ from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
 from thawslide.errors import NotInRunError, ReportError
-from thawslide.figures.colours import THICKNESS, Painting, colour_range
+from thawslide.figures.colours import THICKNESS, Painting, colour_range, label_bar, thickness_norm, thickness_words
 from thawslide.figures.map_page import WIDTH, MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
@@ -103,7 +103,9 @@ class _Picture:
         self.site = site
         # The thickness is shown as well where that leaves the map of speeds no smaller.
         self.paintings = (SPEED, THICKNESS) if site.scene.aspect < _SLIM else (SPEED,)
-        note = f"{run.end_note}Dashed: release. Brown: passed by the slide. {site.scene.note()}"
+        note = (
+            f"{run.end_note}Dashed: release. Brown: passed by the slide. Time: {run.clock.words}. {site.scene.note()}"
+        )
         title = f"{run.title}: {' and '.join(painting.words.split(',')[0] for painting in self.paintings)}"
         count = len(self.paintings)
         self.page = page = MapPage(title, site.scene, count, note=note, foot=_FOOT, bar=0.72, narrowest=WIDTH)
@@ -111,10 +113,10 @@ class _Picture:
         panels = [self._panel(number, painting) for number, painting in enumerate(self.paintings)]
         self.slides = [slide for _, slide in panels]
         self.traces = [trace for trace, _ in panels]
-        self.clock = page.figure.axes[0].set_title("", loc="left", size=12)
+        self.clock = page.figure.axes[0].set_title("", loc="left", size=10)
         course = page.place(page.left, page.below + 0.1, page.width - page.left - 0.25, 0.68)
-        time_line(course, run.history["time_s"], run.history["mean_velocity_m_s"], color=BLUE)
-        time_axis(course, run.history["time_s"])
+        time_line(course, run.shown_time, run.history["mean_velocity_m_s"], color=BLUE)
+        time_axis(course, run.shown_time, run.clock.label)
         course.set_ylim(bottom=0.0)
         course.set_ylabel("mean\nspeed (m/s)")
         self.hand = course.axvline(0.0, color=RED, linewidth=1.2)
@@ -125,8 +127,12 @@ class _Picture:
         """Draw a map of the film; return what the slide has passed and the slide itself, both still empty."""
         site, page = self.site, self.page
         largest = site.part("max_speed").values if painting is SPEED else site.reached.values
-        _, high, extend = colour_range(largest[np.nan_to_num(largest) > 0.0], from_zero=True)
-        painter = ScalarMappable(Normalize(0.0, high), colour_map(painting.colours))
+        values = largest[np.nan_to_num(largest) > 0.0]
+        _, high, extend = colour_range(values, from_zero=True)
+        norm: Normalize = Normalize(0.0, high)
+        if painting is THICKNESS:
+            norm, extend = thickness_norm(values)
+        painter = ScalarMappable(norm, colour_map(painting.colours))
         axes = page.panel(number, labels=True)
         empty = Map(site.grid, np.full(self.passed.shape, np.nan))
         trace = paint(axes, empty, ScalarMappable(Normalize(0.0, 1.0), ListedColormap([_PASSED])))
@@ -136,7 +142,9 @@ class _Picture:
         if number == 0:
             scale_bar(axes, quiet_corner(site.reached, site.scene.box))
         bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
-        bar.set_label(f"{painting.words.split(',')[0]} ({painting.unit})", labelpad=2)
+        label_bar(bar, norm)
+        words = f"{painting.words.split(',')[0]} ({painting.unit})"
+        bar.set_label(thickness_words(norm).replace("; ", "\n") if painting is THICKNESS else words, labelpad=2)
         return trace, slide
 
     def _draw_what_stays(self) -> None:
@@ -161,8 +169,9 @@ class _Picture:
             trace.set_data(np.ma.masked_invalid(np.where(self.passed, 1.0, np.nan)))
             field = columns.speed if painting is SPEED else columns.thickness
             slide.set_data(np.ma.masked_invalid(where_thick(field, columns, self.site.threshold).values))
-        self.clock.set_text(f"t = {columns.time:.1f} s")
-        self.hand.set_xdata([columns.time, columns.time])
+        time = columns.time + self.site.run.clock.shift
+        self.clock.set_text(f"t = {time:.1f} s")
+        self.hand.set_xdata([time, time])
         self.canvas.restore_region(self.still)
         for artist in self.changing:
             self.page.figure.draw_artist(artist)

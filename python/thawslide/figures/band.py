@@ -10,10 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.boiling import boiling_temperature
+from thawslide.figures.load import load_on_band
 from thawslide.figures.motion import draw_targets
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     NOTE,
     ORANGE,
@@ -26,8 +28,10 @@ from thawslide.figures.style import (
     styled,
     time_axis,
     time_line,
+    warn,
 )
 from thawslide.run import Run
+from thawslide.unphysical import too_hot, too_much_for_weight, too_much_pressure
 
 # Column, words, unit, colour, names of the reported quantity.
 _PANELS = (
@@ -45,13 +49,13 @@ def band(run: Run) -> Figure:
 
 
 def _of_particles(run: Run) -> Figure:
-    time = run.history["time_s"]
-    figure = Figure(figsize=(10.0, 6.4), layout="constrained")
-    figure.suptitle(run.titled("the shear band"), x=0.01, ha="left", size=12)
+    time = run.shown_time
+    figure = Figure(figsize=(COLUMN_WIDTH, 5.1), layout="constrained")
+    figure.suptitle(run.titled("the shear band"), x=0.01, ha="left", size=10)
     panels: list[Axes] = list(figure.subplots(2, 2, sharex=True).flat)
     for axes, (column, words, unit, colour, quantities) in zip(panels, _PANELS, strict=True):
         axes.set_ylabel(words)
-        time_axis(axes, time, label=axes in panels[2:])
+        time_axis(axes, time, run.clock.label if axes in panels[2:] else "")
         if column not in run.history:
             say(axes, f"history.csv has no column {column}")
             continue
@@ -59,19 +63,26 @@ def _of_particles(run: Run) -> Figure:
         if not np.isfinite(values).any():
             say(axes, "never in contact" if "friction" in column else "no particle was ever in the band")
             continue
-        divisor, shown = prefixed(values, unit) if unit == "Pa" else (1.0, unit)
+        is_pressure = unit == "Pa"
+        when, load = load_on_band(run) if is_pressure else (time[:0], time[:0])
+        divisor, shown = prefixed([*values, *load], unit) if is_pressure else (1.0, unit)
         axes.set_ylabel(words + (f" ({shown})" if shown else ""))
-        time_line(axes, time, values / divisor, color=colour, label="run")
-        if draw_targets(axes, run, quantities, divisor, colour):
+        time_line(axes, time, values / divisor, color=colour, label="pore pressure P" if is_pressure else "run")
+        if np.isfinite(load).any():
+            time_line(axes, when, load / divisor, color=BLACK, linestyle="--", label="normal pressure N, weight above")
+            warn(axes, too_much_for_weight(np.interp(when, time, values) / load))
+        if draw_targets(axes, run, quantities, divisor, colour) or is_pressure:
             axes.legend(loc="best")
         _finish(axes, column, values / divisor)
+        if column == "band_temperature_C" and "band_pore_pressure_Pa" in run.history:
+            warn(axes, too_hot(run, values, run.history["band_pore_pressure_Pa"]))
     letters(panels, [words for _, words, *_ in _PANELS])
     return figure
 
 
 def _of_columns(run: Run) -> Figure:
-    figure = Figure(figsize=(10.0, 8.6), layout="constrained")
-    figure.suptitle(run.titled("the band along the base"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 6.9), layout="constrained")
+    figure.suptitle(run.titled("the band along the base"), x=0.01, ha="left", size=10)
     panels: list[Axes] = list(figure.subplots(3, 2, sharex=True).flat)
     pressure, heat, saturation, thickness, ratio, friction = panels
     _draw_stresses(pressure, run)
@@ -84,8 +95,9 @@ def _of_columns(run: Run) -> Figure:
     _draw_mean(friction, run, "band_friction_coefficient", "friction coefficient", PURPLE)
     for axes in (thickness, ratio, friction):
         axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
+    warn(ratio, too_much_pressure(run.history["band_largest_pressure_ratio"]))
     for axes in panels:
-        time_axis(axes, run.history["time_s"], label=axes in panels[4:])
+        time_axis(axes, run.shown_time, run.clock.label if axes in panels[4:] else "")
     letters(
         panels,
         (
@@ -93,7 +105,7 @@ def _of_columns(run: Run) -> Figure:
             "temperature",
             "liquid saturation",
             "thickness",
-            "largest pore pressure of any column, over its N",
+            "largest P of any column, over its N",
             "friction coefficient",
         ),
     )
@@ -107,7 +119,7 @@ def _draw_mean(axes: Axes, run: Run, column: str, words: str, colour: str, quant
     if not np.isfinite(values).any():
         say(axes, "never in contact")
         return
-    time_line(axes, run.history["time_s"], values, color=colour, label="run")
+    time_line(axes, run.shown_time, values, color=colour, label="run")
     if draw_targets(axes, run, quantities, 1.0, colour):
         axes.legend(loc="best")
 
@@ -118,22 +130,22 @@ def _draw_stresses(axes: Axes, run: Run) -> None:
     lines = (
         (load, "normal pressure N", BLACK),
         (pore_pressure, "pore pressure P", BLUE),
-        (load - pore_pressure, "effective normal stress N − P", GREEN),
-        (run.history["band_shear_Pa"], "shear traction of the base", RED),
+        (load - pore_pressure, "effective stress N − P", GREEN),
+        (run.history["band_shear_Pa"], "shear traction", RED),
     )
     divisor, unit = prefixed(np.concatenate([values for values, *_ in lines]), "Pa")
     axes.set_ylabel(f"stress ({unit})")
     for values, words, colour in lines:
-        time_line(axes, run.history["time_s"], values / divisor, color=colour, label=words)
+        time_line(axes, run.shown_time, values / divisor, color=colour, label=words)
     draw_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
-    legend = axes.legend(loc="upper center", ncols=2, columnspacing=1.0, handlelength=1.5)
+    legend = axes.legend(loc="upper center", ncols=2, columnspacing=0.7, handlelength=1.2, handletextpad=0.4)
     rows = (len(legend.get_texts()) + 1) // 2
     highest = axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1.0  # before any contact there is nothing
-    axes.set_ylim(0.0, highest / (1.0 - 0.06 - 0.09 * rows))  # the lines end below the legend
+    axes.set_ylim(0.0, highest / (1.0 - 0.06 - 0.13 * rows))  # the lines end below the legend
 
 
 def _draw_temperatures(axes: Axes, run: Run) -> None:
-    time = run.history["time_s"]
+    time = run.shown_time
     boiling = boiling_temperature(run.history["band_normal_pressure_Pa"])
     axes.set_ylabel("temperature (°C)")
     time_line(axes, time, run.history["band_hottest_C"], color=ORANGE, label="hottest of any column")
@@ -141,7 +153,10 @@ def _draw_temperatures(axes: Axes, run: Run) -> None:
     time_line(axes, time, boiling, color=SKY, linestyle="--", label="water boils at the mean N")
     axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
     draw_targets(axes, run, ("band_temperature",), 1.0, RED)
-    axes.legend(loc="best")
+    low, top = axes.get_ylim()
+    axes.set_ylim(top=top + 0.4 * (top - low))  # room for the legend
+    warn(axes, too_hot(run, run.history["band_hottest_C"], run.history["band_pore_pressure_Pa"]), high=False)
+    axes.legend(loc="upper right")
 
 
 def _finish(axes: Axes, column: str, values: np.ndarray) -> None:

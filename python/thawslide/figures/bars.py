@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from thawslide.figures.style import BLACK, BLUE, NOTE, ORANGE, RED, styled
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, NOTE, ORANGE, RED, styled
 
 Quantity = tuple[str, Sequence[float]]  # axis label, one value a run, the first of them the run to compare with
 
@@ -32,7 +33,7 @@ def bars(names: Sequence[str], quantities: Sequence[Quantity], ends: Sequence[st
 
     Every run that did not stop has its marker in each panel: at the end of its bar, or at the line where it has none.
     """
-    figure = Figure(figsize=(11.0, 1.5 + 0.21 * len(names)), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 1.5 + 0.21 * len(names)), layout="constrained")
     panels = figure.subplots(1, len(quantities), sharey=True, squeeze=False)[0]
     places = -np.arange(len(names), dtype=np.float64)
     kinds = np.asarray(ends)
@@ -48,7 +49,7 @@ def bars(names: Sequence[str], quantities: Sequence[Quantity], ends: Sequence[st
                 at = kinds == kind
                 look: dict[str, Any] = {"color": colour, "markersize": 4.5, "linestyle": "", "clip_on": False}
                 axes.plot(base + change[at], places[at], marker, **look)
-        axes.set_xlabel(label)
+        axes.set_xlabel(textwrap.fill(label, 14))
         axes.set_xlim(left=0.0)
         axes.grid(True, axis="x")
         axes.set_axisbelow(True)

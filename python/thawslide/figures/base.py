@@ -10,14 +10,16 @@ from thawslide.binning import gather_base
 from thawslide.boiling import boiling_temperature
 from thawslide.errors import NotInRunError
 from thawslide.figures.colours import TEMPERATURE, Painting
+from thawslide.figures.moments import LETTERS, chosen_snapshots
 from thawslide.figures.slide_on_map import cell_of, draw_on_map
-from thawslide.figures.snapshots import chosen_snapshots
-from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, RED, SKY, prefixed, styled
+from thawslide.figures.snapshots import time_text
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, RED, SKY, prefixed, styled, warn
 from thawslide.run import Run, Snapshot
+from thawslide.unphysical import too_hot, too_much_pressure
 
 _RATIO = Painting("pore_pressure", "pore pressure over normal pressure", "1", "viridis")
 _HEAT = Painting("temperature", "temperature of the band", TEMPERATURE.unit, TEMPERATURE.colours)
-_ROW = 1.65  # inches
+_ROW = 1.4  # inches
 
 
 @styled
@@ -31,19 +33,22 @@ def base_along(run: Run) -> Figure:
         raise NotInRunError(f"{run.folder}: no snapshot has pieces of base, as a run on band columns writes")
     loads = [shot.base["normal_pressure_Pa"] for shot in shots]
     divisor, unit = prefixed(np.concatenate(loads), "Pa")
-    figure = Figure(figsize=(10.0, 0.9 + _ROW * len(shots)), layout="constrained")
-    figure.suptitle(run.titled("along the base"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 0.9 + _ROW * len(shots)), layout="constrained")
+    figure.suptitle(run.titled("along the base"), x=0.01, ha="left", size=10)
     rows = figure.subplots(len(shots), 2, squeeze=False)
     for number, (row, shot) in enumerate(zip(rows, shots, strict=True)):
         _draw_row(row[0], row[1], shot, divisor)
-        row[0].set_title(f"t = {shot.time:g} s", loc="left")
+        load, pressure = shot.base["normal_pressure_Pa"], shot.base["pore_pressure_Pa"]
+        warn(row[0], too_much_pressure(pressure / np.maximum(load, 1.0)))
+        warn(row[1], too_hot(run, shot.base["hottest_C"], pressure))
+        row[0].set_title(f"({LETTERS[number]}) {time_text(run, shot)}", loc="left")
         row[0].set_ylabel(f"stress ({unit})")
         row[1].set_ylabel("temp. (°C)")
-        if number == 0:
-            row[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
-            row[1].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
     for axes in rows[-1]:
         axes.set_xlabel("distance (m)")
+    rows[0][1].set_title(f"time: {run.clock.words}", loc="left", color=NOTE)
+    handles = [handle for axes in rows[0] for handle in axes.get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside lower center", ncols=6, columnspacing=1.0, handlelength=1.4)
     return figure
 
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.colorbar import Colorbar
-from matplotlib.colors import Normalize, SymLogNorm, TwoSlopeNorm
+from matplotlib.colors import Normalize, PowerNorm, SymLogNorm, TwoSlopeNorm
 from matplotlib.ticker import MaxNLocator, NullLocator
 
+from thawslide.relief import round_number
 from thawslide.run import Numbers, Snapshot
 
 
@@ -29,6 +30,9 @@ THICKNESS = Painting("thickness", "thickness", "m", "YlOrRd")
 PORE_PRESSURE = Painting("pore_pressure", "pore pressure", "Pa", "viridis")
 
 BOILING = 100.0  # °C: beyond it a scale of equal steps would show the hottest particles alone
+THIN = "#6BAED6"  # of thicknesses below the scale
+_THIN_SHARE = 0.02  # of the thickest: what is thinner has that colour
+_TICKS_APART = 0.09  # of the length of a bar
 EVEN = 10.0  # °C: on the scale of decades, steps are equal between this much below and above 0 °C
 
 
@@ -63,7 +67,9 @@ def normalisation(values: Numbers, painting: Painting) -> tuple[Normalize, str]:
 
     Temperatures change pace where ice melts; where they pass 100 °C they go by decades, to the hottest particle.
     """
-    low, high, extend = colour_range(values, painting.field in ("velocity", "plastic_strain", "thickness"))
+    if painting.field == THICKNESS.field:
+        return thickness_norm(values)
+    low, high, extend = colour_range(values, painting.field in ("velocity", "plastic_strain"))
     if painting.field != TEMPERATURE.field:
         return Normalize(low, high), extend
     if high > BOILING:
@@ -71,6 +77,26 @@ def normalisation(values: Numbers, painting: Painting) -> tuple[Normalize, str]:
         open_end = "min" if extend in ("min", "both") else "neither"
         return SymLogNorm(EVEN, vmin=min(low, 0.0), vmax=hottest, base=10), open_end
     return (TwoSlopeNorm(0.0, low, high) if low < 0.0 < high else Normalize(low, high)), extend
+
+
+def thickness_norm(values: Numbers) -> tuple[PowerNorm, str]:
+    """Return a square-root scale of thicknesses, so that thin margins show, above a class of the thinnest of all."""
+    _, high, extend = colour_range(values, from_zero=True)
+    return PowerNorm(0.5, round_number(_THIN_SHARE * high), high), "both" if extend == "max" else "min"
+
+
+def thickness_words(norm: Normalize) -> str:
+    """Say on the bar how thicknesses are drawn."""
+    return f"thickness (m), square-root scale; blue: below {number_text(float(norm.vmin or 0.0))} m"
+
+
+def _apart(norm: Normalize, low: float, high: float) -> list[float]:
+    """Return the low end of a scale and round numbers up to its high end that have room for their labels."""
+    found = [low]
+    for tick in (digit * 10.0**power for power in range(-3, 6) for digit in (1.0, 2.0, 5.0)):
+        if low < tick <= high and float(norm(tick)) - float(norm(found[-1])) > _TICKS_APART:
+            found.append(tick)
+    return found
 
 
 def label_bar(bar: Colorbar, norm: Normalize) -> None:
@@ -82,6 +108,10 @@ def label_bar(bar: Colorbar, norm: Normalize) -> None:
         ticks = {float(tick) for tick in (*below.tick_values(low, 0.0), *above.tick_values(0.0, high))}
         bar.set_ticks(sorted(tick for tick in ticks if low <= tick <= high))
         bar.ax.xaxis.set_major_formatter(lambda value, _: f"{value:.10g}".replace("-", "−"))
+    elif isinstance(norm, PowerNorm):
+        shown = _apart(norm, low, high)
+        bar.set_ticks(shown, labels=[number_text(tick) for tick in shown])
+        bar.minorticks_off()
     elif isinstance(norm, SymLogNorm):
         # The end has its own label; a decade less than half of one below it would stand in its way.
         decades = [10.0**power for power in range(1, 7) if 3.0 * 10.0**power < high]

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 
 from thawslide.errors import NotInRunError
 from thawslide.figures.site import Site, distances, make_site
-from thawslide.figures.style import GROUND, GROUND_LINE, NOTE, ORANGE, RED, SKY, length_unit, styled
+from thawslide.figures.style import COLUMN_WIDTH, GROUND, GROUND_LINE, NOTE, ORANGE, RED, SKY, length_unit, styled
 from thawslide.figures.window import Window, fill_terrain, fit
 from thawslide.maps import Map
 from thawslide.relief import round_number
@@ -28,8 +28,8 @@ _SEEN = 0.06  # of the height of a panel: thinner bodies are drawn thicker than 
 _RELEASE, _LAST, _LARGEST = SKY, ORANGE, RED
 _CHORD = 0.02  # of the path, to either side of a place: its direction there
 _MARGINS = (1.0, 1.3)
-_FIRST = (1.6, 5.5)  # inches, least and most height of the section along the path
-_WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH, _LINE = 10.0, 0.75, 0.2, 0.7, 2.45, 1.75, 0.15  # inches
+_FIRST = (1.3, 4.2)  # inches, least and most height of the section along the path
+_WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH, _LINE = COLUMN_WIDTH, 0.65, 0.12, 0.65, 2.15, 1.35, 0.15  # inches
 _NOTE_CHARACTERS = 17.0  # of a note in one inch
 
 
@@ -142,7 +142,7 @@ def cross_sections(run: Run) -> Figure:
     rows = -(-len(places) // 2)
     height = head + 1.2 + 0.85 + rows * _ROW + 0.3
     figure = Figure(figsize=(_WIDTH, height))
-    figure.suptitle(run.titled("sections"), x=_LEFT / _WIDTH, y=1 - 0.14 / height, ha="left", va="top", size=12)
+    figure.suptitle(run.titled("sections"), x=_LEFT / _WIDTH, y=1 - 0.14 / height, ha="left", va="top", size=10)
 
     figure.text(_LEFT / _WIDTH, 1 - 0.4 / height, "\n".join(told), size=7.5, color=NOTE, va="top", linespacing=1.3)
 

@@ -10,6 +10,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     NOTE,
     ORANGE,
@@ -81,15 +82,15 @@ def energy(run: Run) -> Figure:
     """Draw (a) mechanical and (b) thermal accounts as changes since the start, (c) the residuals on a log axis."""
     if not any(name in run.history for name in (*MECHANICAL, *THERMAL)):
         raise NotInRunError("history.csv has no columns of the energy ledger")
-    time = run.history["time_s"]
-    figure = Figure(figsize=(10.0, 9.0), layout="constrained")
-    figure.suptitle(run.titled("energy ledger"), x=0.01, ha="left", size=12)
+    time = run.shown_time
+    figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
+    figure.suptitle(run.titled("energy ledger"), x=0.01, ha="left", size=10)
     mechanical, thermal, residual = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 0.8))
     _draw_accounts(mechanical, run, MECHANICAL)
     _draw_accounts(thermal, run, THERMAL | COLUMNS)
     _draw_residuals(residual, run)
     for axes in (mechanical, thermal, residual):
-        time_axis(axes, time, label=axes is residual)
+        time_axis(axes, time, run.clock.label if axes is residual else "")
     letters(
         (mechanical, thermal, residual),
         (
@@ -112,7 +113,7 @@ def _draw_accounts(axes: Axes, run: Run, accounts: dict[str, tuple[str, str]]) -
         return
     for name, values in moving.items():
         words, colour = accounts[name]
-        time_line(axes, run.history["time_s"], values / divisor, color=colour, label=words)
+        time_line(axes, run.shown_time, values / divisor, color=colour, label=words)
     axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
     title = "zero throughout:\n" + "\n".join(still) if still else ""
     legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
@@ -136,7 +137,7 @@ def _draw_residuals(axes: Axes, run: Run) -> None:
             continue
         time_line(
             axes,
-            run.history["time_s"],
+            run.shown_time,
             np.where(values > 0.0, values, np.nan),
             color=colour,
             label=column.split("_")[0],

@@ -10,6 +10,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     ORANGE,
     RED,
@@ -47,9 +48,9 @@ def entrainment(run: Run) -> Figure:
     """Draw (a) mass taken up and still loose, (b) work lost to it and heat, (c) depth taken up along x."""
     if "entrained_mass_kg" not in run.history:
         raise NotInRunError("the case has no bed: history.csv has no account of what was taken up")
-    time = run.history["time_s"]
-    figure = Figure(figsize=(10.0, 8.0), layout="constrained")
-    figure.suptitle(run.titled("bed taken up"), x=0.01, ha="left", size=12)
+    time = run.shown_time
+    figure = Figure(figsize=(COLUMN_WIDTH, 6.4), layout="constrained")
+    figure.suptitle(run.titled("bed taken up"), x=0.01, ha="left", size=10)
     mass, work, depth = figure.subplots(3, 1)
     per = "/m of width" if run.per_metre else ""
     divisor, unit = scaled(float(np.nanmax(run.history["mass_kg"])), MASSES)
@@ -65,7 +66,7 @@ def entrainment(run: Run) -> Figure:
     time_line(work, time, run.history["entrained_heat_J"] / divisor, color=GREEN, label="of that, heat in what joined")
     work.set_ylabel(f"energy ({unit}{per})")
     for axes in (mass, work):
-        time_axis(axes, time, label=axes is work)
+        time_axis(axes, time, run.clock.label if axes is work else "")
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     _draw_depth(depth, run)
     letters(

@@ -11,6 +11,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     NOTE,
     ORANGE,
@@ -53,13 +54,13 @@ def force_in_band(run: Run, band: Band) -> Numbers:
 
 
 def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
-    """Name the force with which the stress of t = 0 adjusts, where it is of the size of the rest."""
+    """Name the force with which the initial stress adjusts, where it is of the size of the rest."""
     start = time <= time[0] + 0.01 * (time[-1] - time[0])
     if not np.isfinite(magnitude[start]).any() or np.nanmax(magnitude[start]) < 0.5 * np.nanmax(magnitude):
         return
     first = int(np.nanargmax(np.where(start, magnitude, -np.inf)))
     axes.annotate(
-        "the stress of t = 0 adjusts", (time[first], magnitude[first]), xytext=(12, 4), textcoords="offset points",
+        "the initial stress adjusts", (time[first], magnitude[first]), xytext=(12, 4), textcoords="offset points",
         size=8, color=NOTE, arrowprops={"arrowstyle": "-", "color": NOTE, "linewidth": 0.6},
     )  # fmt: skip
 
@@ -67,25 +68,29 @@ def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
 @styled
 def force(run: Run) -> Figure:
     """Draw the force on the ground less the static weight, (a) its size, (b) its components; (c) plastic strain."""
-    time = run.history["time_s"]
+    time = run.shown_time
     parts, magnitude = seismic_force(run)
     reported = reported_forces(run)
     comparable = [] if run.per_metre else reported
     divisor, unit = prefixed([np.nanmax(np.abs(magnitude)), *(t.value for t in comparable)], "N")
     unit += "/m of width" if run.per_metre else ""
 
-    figure = Figure(figsize=(10.0, 7.6), layout="constrained")
-    figure.suptitle(run.titled("seismic force and internal deformation"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH, 6.1), layout="constrained")
+    figure.suptitle(run.titled("seismic force and internal deformation"), x=0.01, ha="left", size=10)
     size, components, strain = panels = list(figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1.2, 1.0)))
     time_line(size, time, magnitude / divisor, color=BLACK, linewidth=1.1, label="run")
     bands = reported_bands(run)
-    for band, colour in zip(bands, (BLUE, GREEN, PURPLE, ORANGE), strict=False):
+    colours = dict(zip(bands, (BLUE, GREEN, PURPLE, ORANGE), strict=False))
+    for band, colour in colours.items():
         words = f"run, band-passed {band.words}"
         time_line(size, time, force_in_band(run, band) / divisor, color=colour, linewidth=1.3, label=words)
-    for target in comparable:
-        of_band = f" ({found.words})" if (found := band_of(target)) else ""
+    for number, target in enumerate(comparable):
+        found = band_of(target)
+        of_band = f" ({found.words})" if found else ""
+        # In the colour of what it is compared with; dashes of equal values fall between one another.
+        look = {"color": colours.get(found, RED) if found else RED, "linestyle": (4.0 * number, (4.0, 4.0))}
         label = f"{target.adjective} maximum {target.value / divisor:g} {unit}{of_band}: {target.source}"
-        size.axhline(target.value / divisor, color=RED, linestyle="--", linewidth=1.2, label=label)
+        size.axhline(target.value / divisor, linewidth=1.4, label=label, **look)
     if reported and run.per_metre:
         note = "reported force not drawn: the case states no width"
         size.text(0.01, 0.96, note, transform=size.transAxes, va="top", size=8, color=NOTE)
@@ -104,7 +109,7 @@ def force(run: Run) -> Figure:
     strain.set_ylabel("mean plastic strain")
     strain.set_ylim(bottom=0.0)
     for axes in panels:
-        time_axis(axes, time, label=axes is strain)
+        time_axis(axes, time, run.clock.label if axes is strain else "")
     letters(
         panels,
         (

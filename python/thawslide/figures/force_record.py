@@ -12,7 +12,7 @@ from thawslide.arrays import Numbers
 from thawslide.band_pass import SAMPLES, band_passed, even_times
 from thawslide.errors import NotInRunError
 from thawslide.figures.force import force_in_band, reported_forces, seismic_force
-from thawslide.figures.style import BLACK, BLUE, NOTE, letters, prefixed, styled, time_axis
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, NOTE, letters, prefixed, styled, time_axis
 from thawslide.force_record import (
     PARTS,
     ForceRecord,
@@ -70,7 +70,7 @@ def compared(run: Run) -> Comparison:
     theirs = Curves(of_record, up, projected(north, east, azimuth), reversal(of_record, up))
 
     # A first filter from the start to the end of the run, to find the clock; then over the record's time.
-    start = float(run.history["time_s"][0])
+    start = float(run.shown_time[0])
     clock = _curves(run, record, azimuth, start)
     aligned = clock.reversal is not None and theirs.reversal is not None
     shift = clock.reversal.zero - theirs.reversal.zero if clock.reversal and theirs.reversal else 0.0
@@ -94,7 +94,7 @@ def _curves(run: Run, record: ForceRecord, azimuth: float, start: float) -> Curv
     if absent:
         raise NotInRunError(f"history.csv has no column {absent[0]}")
     parts, _ = seismic_force(run)
-    time = run.history["time_s"]
+    time = run.shown_time
     at = _times(start, float(time[-1]), record.band)
     passed = {axis: filtered(time, values, at, record.band) for axis, values in parts.items()}
     up = passed["xyz"[run.vertical]]
@@ -189,12 +189,12 @@ def force_record(run: Run) -> Figure:
     found = compared(run)
     record = run.force_record
     assert record is not None
-    start = float(run.history["time_s"][0])
+    start = float(run.shown_time[0])
     both = [found.run.up, found.run.along, found.record.up, found.record.along]
     divisor, unit = prefixed(np.concatenate(both), "N")
     clock = f"clock moved by {_signed(found.shift)} s" if found.aligned else "clocks not aligned"
-    figure = Figure(figsize=(10.0, 6.4), layout="constrained")
-    figure.suptitle(run.titled("force and its seismic inversion"), x=0.01, ha="left", size=12)  # fmt: skip
+    figure = Figure(figsize=(COLUMN_WIDTH, 5.1), layout="constrained")
+    figure.suptitle(run.titled("force and its seismic inversion"), x=0.01, ha="left", size=10)  # fmt: skip
     panels = list(figure.subplots(2, 1, sharex=True))
     for axes, name in zip(panels, ("up", "along"), strict=True):
         axes.axhline(0.0, color=NOTE, linewidth=0.6)
@@ -207,9 +207,9 @@ def force_record(run: Run) -> Figure:
         axes.plot(found.run.time[moves], ours[moves], color=BLUE, label="run")
         axes.plot(found.run.time[~moves], ours[~moves], color=BLUE, alpha=0.35, label="filter before the run")
         axes.axvline(start, color=BLUE, linewidth=0.8, linestyle=":")
-        time_axis(axes, found.record.time, label=False)
+        time_axis(axes, found.record.time)
         axes.set_ylabel(f"force ({unit})")
-    panels[-1].set_xlabel("time (s)")
+    panels[-1].set_xlabel(run.clock.label)
     _mark_reversals(panels[0], found, divisor)
     panels[0].legend(loc="upper right")
     letters(

@@ -12,7 +12,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
-from thawslide.figures.colours import colour_range, number_text
+from thawslide.figures.colours import colour_range, label_bar, number_text, thickness_norm, thickness_words
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import HALO, colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
@@ -36,11 +36,16 @@ class MapKind:
     from_zero: bool = True
     of_last_state: bool = False
 
+    @property
+    def is_thickness(self) -> bool:
+        """Whether it has the scale of thicknesses."""
+        return self.name.endswith("_thickness")
+
 
 _EXTENT = (
     MapKind("max_thickness", "largest thickness", "m", "YlOrRd"),
     MapKind("max_speed", "largest speed", "m/s", "viridis"),
-    MapKind("arrival_time", "arrival time", "s", "cividis"),
+    MapKind("arrival_time", "arrival time", "s", "cividis", from_zero=False),
     MapKind("final_thickness", "thickness", "m", "YlOrRd", of_last_state=True),
 )
 _IMPACT = (
@@ -72,7 +77,8 @@ def _draw(run: Run, kinds: Sequence[MapKind], words: str) -> Figure:
     fields = [(kind, field) for kind, field in fields if np.isfinite(field.values).any()]
     if not fields:
         raise NotInRunError(f"{site.maps.folder}: none of the maps {', '.join(kind.name for kind in kinds)} has values")
-    note = f"{run.end_note}Thin line: affected area, thicker than {site.threshold:g} m. {site.scene.note()}"
+    lines = f"Thin line: affected area, thicker than {site.threshold:g} m."
+    note = f"{run.end_note}{lines} Time: {run.clock.words}. {site.scene.note()}"
     page = MapPage(run.titled(words), site.scene, len(fields), note=note, foot=_FOOT, bar=0.72)
     corner = quiet_corner(site.reached, site.scene.box)
     panels = []
@@ -97,11 +103,13 @@ def _touched(site: Site, kind: MapKind) -> Map:
     """Return a map where the slide was; magnitudes of zero are left free as well."""
     field = site.part(kind.name)
     values = field.values
-    if kind.name in ("max_thickness", "final_thickness"):
+    if kind.is_thickness:
         values = np.where(values > site.threshold, values, np.nan)
+    elif kind.name == "arrival_time":
+        values = values + site.run.clock.shift
     elif kind.name == "elevation_change":
         values = np.where(np.abs(values) > 0.0, values, np.nan)
-    elif kind.from_zero and kind.name != "arrival_time":
+    elif kind.from_zero:
         values = np.where(values > 0.0, values, np.nan)
     return replace(field, values=values)
 
@@ -114,13 +122,20 @@ def _paint(page: MapPage, axes: Axes, kind: MapKind, field: Map) -> str:
     painter = ScalarMappable(norm, colour_map(kind.colours))
     paint(axes, field, painter)
     bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
-    bar.ax.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
-    bar.set_label(unit, labelpad=2)
+    if kind.is_thickness:
+        label_bar(bar, norm)
+        unit_words = thickness_words(norm).replace("thickness (m)", "m").replace("; ", "\n")
+    else:
+        bar.ax.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
+        unit_words = unit
+    bar.set_label(unit_words, labelpad=2)
     low, high = float(np.nanmin(field.values)), float(np.nanmax(field.values))
     return f"max {number_text(high)} {unit}" if kind.from_zero else f"{number_text(low)} to {number_text(high)} {unit}"
 
 
 def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:
+    if kind.is_thickness:
+        return thickness_norm(values)
     low, high, extend = colour_range(values[np.isfinite(values)], kind.from_zero)
     if kind.name == "elevation_change":
         # As deep a colour for a metre gained as for a metre lost.
@@ -132,7 +147,7 @@ def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:
 def _isochrones(axes: Axes, field: Map) -> None:
     """Draw lines of equal arrival time with their seconds."""
     levels = contour_levels(field.values, 7)
-    levels = levels[levels > 0.0]
+    levels = levels[levels > np.nanmin(field.values)]
     if len(levels) < 2:
         return
     grid = field.grid

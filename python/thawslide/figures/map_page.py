@@ -11,13 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.figures.map_panel import HALO, Scene, draw_scene
-from thawslide.figures.style import NOTE
+from thawslide.figures.style import COLUMN_WIDTH, NOTE
 
 # Inches.
-WIDTH, HIGHEST, NARROWEST = 10.0, 12.0, 6.5  # of a page
-TALLEST = 6.8  # of a map
+WIDTH, HIGHEST, NARROWEST = COLUMN_WIDTH, 9.2, COLUMN_WIDTH  # of a page
+TALLEST = 5.2  # of a map
 _LEFT, _RIGHT, _GAP, _HEAD, _TITLE, _TICKS, _LINE = 0.62, 0.2, 0.28, 0.38, 0.3, 0.5, 0.15
 _NOTE_CHARACTERS = 17.0  # of a note in one inch
+_NAME_CHARACTERS = 13.5  # of the page's title in one inch
 _TITLE_CHARACTERS = 12.8  # of a panel's titles in one inch
 
 
@@ -44,8 +45,8 @@ def layout(count: int, aspect: float, bar: float, head: float, beside: float) ->
     # Somewhat smaller maps are better than empty places, and than a long page.
     largest = max(each.width for each in found)
     return min(
-        (each for each in found if each.width > 0.75 * largest),
-        key=lambda each: (-count % each.columns, -each.columns),
+        (each for each in found if each.width > 0.65 * largest),
+        key=lambda each: (-count % each.columns > 1, -(-count // each.columns) * (each.height + head), -each.columns),
     )
 
 
@@ -79,10 +80,14 @@ class MapPage:
         wrapped = textwrap.wrap(note, int(_NOTE_CHARACTERS * (self.width - _LEFT - _RIGHT)), break_on_hyphens=False)
         self.note_height = 0.06 + len(wrapped) * _LINE
         rows = -(-count // found.columns)
-        self.below = _HEAD + rows * (found.height + self.head) + _TICKS  # where the maps end
+        titles = textwrap.wrap(title, int(_NAME_CHARACTERS * (self.width - _LEFT - _RIGHT)))
+        self.top = _HEAD + 0.17 * (len(titles) - 1)
+        self.below = self.top + rows * (found.height + self.head) + _TICKS  # where the maps end
         self.height = self.below + foot + self.note_height
         self.figure = Figure(figsize=(self.width, self.height))
-        self.figure.suptitle(title, x=_LEFT / self.width, y=1 - 0.14 / self.height, ha="left", va="top", size=12)
+        self.figure.suptitle(
+            "\n".join(titles), x=_LEFT / self.width, y=1 - 0.14 / self.height, ha="left", va="top", size=10
+        )
         self.figure.text(
             _LEFT / self.width,
             0.06 / self.height,
@@ -106,7 +111,7 @@ class MapPage:
         """
         row, column = divmod(number, self.columns)
         left = _LEFT + column * (self.map_width + self.bar + _GAP)
-        top = _HEAD + row * (self.map_height + self.head) + self.head
+        top = self.top + row * (self.map_height + self.head) + self.head
         axes = self.place(left, top, self.map_width, self.map_height)
         draw_scene(axes, scene or self.scene, labels)
         if column == 0:

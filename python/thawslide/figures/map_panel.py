@@ -17,6 +17,7 @@ from matplotlib.offsetbox import AnchoredOffsetbox, AuxTransformBox, HPacker, Te
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
+from thawslide.figures.colours import THICKNESS, THIN
 from thawslide.figures.style import BLACK
 from thawslide.maps import Box, Map
 from thawslide.relief import contour_levels, hillshade, round_number
@@ -237,4 +238,5 @@ def name_place(axes: Axes, name: str, place: tuple[float, float]) -> None:
 
 def colour_map(name: str) -> Colormap:
     """Return a colour map of matplotlib by its name."""
-    return ScalarMappable(cmap=name).get_cmap()
+    found = ScalarMappable(cmap=name).get_cmap()
+    return found.with_extremes(under=THIN) if name == THICKNESS.colours else found

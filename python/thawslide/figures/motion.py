@@ -6,8 +6,19 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from thawslide.clock import own_time
-from thawslide.figures.style import BLUE, GREEN, NOTE, RED, letters, prefixed, styled, time_axis, time_line
+from thawslide.clock import has_clock
+from thawslide.figures.style import (
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    NOTE,
+    RED,
+    letters,
+    prefixed,
+    styled,
+    time_axis,
+    time_line,
+)
 from thawslide.run import Run
 from thawslide.targets import KINDS
 
@@ -21,22 +32,23 @@ def draw_targets(
 
     A note says how many lie outside of it.
     """
-    begin, end = (float(run.history["time_s"][row]) for row in (0, -1))
+    begin, end = (float(run.shown_time[row]) for row in (0, -1))
     asked = [target for target in run.targets if target.quantity in quantities]
-    times = {target: own_time(run, target) for target in asked}
-    found = [target for target in asked if begin <= times[target] <= end]
+    found = [target for target in asked if begin <= target.time <= end and has_clock(run)]
     if len(found) < len(asked):
         # One line of note for each call on the same panel.
         height = 0.02 + 0.06 * len(axes.texts)
-        early = sum(times[target] < begin for target in asked)
+        early = sum(target.time < begin for target in asked)
         counts = {"before the start": early, "after the end": len(asked) - len(found) - early}
         note = ", ".join(f"{count} reported{words} {when} of the run" for when, count in counts.items() if count)
+        if not has_clock(run):
+            note = f"{len(asked)} reported{words} not drawn: the run never reaches the speed that sets the clock"
         axes.text(0.98, height, note, transform=axes.transAxes, ha="right", size=7.5, color=NOTE)
     groups = list(dict.fromkeys((target.adjective, target.source) for target in found))
     for number, (adjective, source) in enumerate(groups):
         of_source = [target for target in found if (target.adjective, target.source) == (adjective, source)]
         axes.plot(
-            [times[target] for target in of_source],
+            [target.time for target in of_source],
             [target.value / divisor for target in of_source],
             marker=_MARKERS[number % len(_MARKERS)],
             markerfacecolor=colour if adjective == KINDS["observation"][0] else "white",
@@ -55,9 +67,9 @@ def draw_targets(
 def motion(run: Run) -> Figure:
     """Draw (a) mean and largest velocity, (b) mean displacement, runout and the way of the front."""
     history = run.history
-    time = history["time_s"]
-    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
-    figure.suptitle(run.titled("motion of the slide"), x=0.01, ha="left", size=12)
+    time = run.shown_time
+    figure = Figure(figsize=(COLUMN_WIDTH, 4.3), layout="constrained")
+    figure.suptitle(run.titled("motion of the slide"), x=0.01, ha="left", size=10)
     speed, distance = figure.subplots(1, 2)
 
     if "max_velocity_m_s" in history:
@@ -77,7 +89,7 @@ def motion(run: Run) -> Figure:
             history["runout_m"] / divisor,
             color=RED,
             linestyle="--",
-            label="runout (front − rear at t = 0)",
+            label="runout (front − rear at the start)",
         )
         if "front_position_m" in history:
             front = history["front_position_m"]
@@ -88,8 +100,9 @@ def motion(run: Run) -> Figure:
     distance.set_ylabel(f"distance ({unit})")
 
     for axes in (speed, distance):
-        time_axis(axes, time)
+        time_axis(axes, time, run.clock.label)
         axes.set_ylim(bottom=0.0)
-        axes.legend(loc="best")
+        # Below the panel: with many reported values it would hide the curves.
+        axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.2))
     letters((speed, distance), ("velocity", "displacement"))
     return figure

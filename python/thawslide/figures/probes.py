@@ -8,7 +8,20 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from thawslide.errors import NotInRunError
-from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SKY, letters, styled, time_axis, time_line
+from thawslide.figures.style import (
+    BLACK,
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    RED,
+    SKY,
+    letters,
+    styled,
+    time_axis,
+    time_line,
+)
 from thawslide.run import Run
 
 _COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY, BLACK)
@@ -39,7 +52,7 @@ def probes(run: Run) -> Figure:
     columns = run.probes
     if columns is None:
         raise NotInRunError(f"{run.folder / 'probes.csv'}: no such file; the case has no [probe.NAME]")
-    time = columns["time_s"]
+    time = columns["time_s"] + run.clock.shift
     found = {
         quantity: {
             name.removesuffix(quantity.ending): values
@@ -55,8 +68,8 @@ def probes(run: Run) -> Figure:
     names = list(dict.fromkeys(_probe(name)[0] for lines in found.values() for name in lines))
     rows = -(-len(found) // 2)
     across = min(len(found), 2)
-    figure = Figure(figsize=(10.0 if across == 2 else 6.0, 0.9 + 2.6 * rows), layout="constrained")
-    figure.suptitle(run.titled("probes"), x=0.01, ha="left", size=12)
+    figure = Figure(figsize=(COLUMN_WIDTH if across == 2 else 4.5, 0.9 + 2.2 * rows), layout="constrained")
+    figure.suptitle(run.titled("probes"), x=0.01, ha="left", size=10)
     panels = list(figure.subplots(rows, across, squeeze=False, sharex=True).flat)
     for axes, (quantity, lines) in zip(panels, found.items(), strict=False):
         for name, values in lines.items():
@@ -73,7 +86,7 @@ def probes(run: Run) -> Figure:
         axes.set_ylim(None if low < 0.0 else 0.0, None if high > 0.0 else 1.0 if low == 0.0 else 0.0)
         axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
         axes.legend(loc="best")
-        time_axis(axes, time)
+        time_axis(axes, time, run.clock.label)
     for axes in panels[len(found) :]:
         axes.remove()
     letters(panels[: len(found)], [quantity.words for quantity in found])

@@ -11,11 +11,21 @@ from matplotlib.figure import Figure
 
 from thawslide.binning import FIELDS, Columns, gather
 from thawslide.errors import NotInRunError
-from thawslide.figures.colours import TEMPERATURE, THICKNESS, VELOCITY, Painting, label_bar, normalisation, number_text
+from thawslide.figures.colours import (
+    TEMPERATURE,
+    THICKNESS,
+    VELOCITY,
+    Painting,
+    label_bar,
+    normalisation,
+    number_text,
+    thickness_words,
+)
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
+from thawslide.figures.moments import chosen_snapshots, window_words
 from thawslide.figures.site import Site, make_site
-from thawslide.figures.snapshots import chosen_snapshots
+from thawslide.figures.snapshots import time_text
 from thawslide.figures.style import styled
 from thawslide.maps import Grid, Map
 from thawslide.run import Run, Snapshot
@@ -78,23 +88,26 @@ def draw_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
         raise NotInRunError(f"no snapshot has a {painting.words} to show on the map")
     norm, extend = normalisation(values, painting)
     painter = ScalarMappable(norm, colour_map(painting.colours))
-    note = f"{run.end_note}Dashed: release. Thinner than {site.threshold:g} m is not drawn. {site.scene.note()}"
+    lines = f"Dashed: release. Thinner than {site.threshold:g} m is not drawn."
+    note = f"{run.end_note}{lines} Time: {run.clock.words}. {site.scene.note()}"
     title = f"{run.title}: {painting.words.split(',')[0]}"
     page = MapPage(title, site.scene, len(fields), note=note, foot=_FOOT)
     corner = quiet_corner(site.reached, site.scene.box)
     panels = []
-    for number, (columns, field) in enumerate(zip(gathered, fields, strict=True)):
+    for number, (shot, field) in enumerate(zip(shots, fields, strict=True)):
         axes = page.panel(number, labels=False)
         paint(axes, field, painter)
         site.draw_release(axes, 1.0)
         finite = field.values[np.isfinite(field.values)]
         unit = "" if painting.unit == "1" else f" {painting.unit}"
         remark = f"max {number_text(float(finite.max()))}{unit}" if finite.size else ""
-        panels.append((axes, f"t = {number_text(columns.time)} s", remark))
+        panels.append((axes, time_text(run, shot), remark))
         if number == 0:
             scale_bar(axes, corner)
     page.name(panels)
     bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    bar.set_label(painting.words + (f" ({painting.unit})" if painting.unit != "1" else ""), labelpad=1)
+    over = f", {window_words(run)}" if painting is SPEED and window_words(run) else ""
+    words = painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + over
+    bar.set_label(thickness_words(norm) if painting is THICKNESS else words, labelpad=1)
     return page.figure

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,6 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from thawslide.errors import NotInRunError
 from thawslide.figures.colours import (
     PLASTIC_STRAIN,
     PORE_PRESSURE,
@@ -23,9 +22,12 @@ from thawslide.figures.colours import (
     number_text,
     painted_values,
 )
-from thawslide.figures.style import GROUND_LINE, NOTE, prefixed, styled
+from thawslide.figures.load import overburden
+from thawslide.figures.moments import LETTERS, chosen_snapshots, window_words
+from thawslide.figures.style import COLUMN_WIDTH, GROUND_LINE, NOTE, prefixed, stretch, styled, warn
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
 from thawslide.run import Numbers, Run, Snapshot
+from thawslide.unphysical import EDGES, too_hot, too_much_for_weight
 
 
 @dataclass(frozen=True)
@@ -37,24 +39,17 @@ class Stretch:
     end: float
 
 
+_OF_WARNINGS = {"temperature": ("liquid_saturation", "pore_pressure"), "pore_pressure": ("mass",)}
+
 # The page, in inches.
-_WIDTH, _LEFT, _RIGHT, _GAP = 10.0, 0.75, 0.2, 0.75
-_PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.9, 0.8, 0.8, 0.15
+_WIDTH, _LEFT, _RIGHT, _GAP = COLUMN_WIDTH, 0.65, 0.12, 0.7
+_PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.45, 0.65, 0.75, 0.13
 _OVERVIEW_MARGINS = (1.0, 1.15)
-_LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
-def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Snapshot]:
-    """Return the snapshots nearest to the report times of the case, or to six even times, each once.
-
-    The last state of a run that did not come to its end is one of them.
-    """
-    if not len(run.times):
-        raise NotInRunError(f"{run.folder}: no snapshots; set [time] output_interval and run again")
-    wanted = run.report_times or list(np.linspace(run.times[0], run.times[-1], 6))
-    found = {int(np.argmin(np.abs(run.times - time))) for time in wanted}
-    indices = sorted(found if run.ended else found | {len(run.times) - 1})
-    return [run.snapshot(index, fields=fields) for index in indices[: len(_LETTERS)]]
+def time_text(run: Run, shot: Snapshot) -> str:
+    """Write the time of a snapshot on the clock of all figures."""
+    return f"t = {round(shot.time + run.clock.shift, 1):g} s".replace("-", "−")
 
 
 @styled
@@ -86,7 +81,7 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
 
     Stretches stand between grey dotted lines, with their names in the overview and in the panels that show them.
     """
-    shots = chosen_snapshots(run, ("volume", painting.field))
+    shots = chosen_snapshots(run, ("volume", *_OF_WARNINGS.get(painting.field, ()), painting.field))
     values = [painted_values(shot, painting.field) for shot in shots]
     divisor, unit = prefixed(np.concatenate(values), "Pa") if painting.unit == "Pa" else (1.0, painting.unit)
     values = [value / divisor for value in values]
@@ -97,15 +92,16 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
     page = _Page(run, shots)
     figure = page.figure
     title = f"{run.title}: {painting.words}" + (f". {run.end_note.rstrip()}" if run.end_note else "")
-    figure.suptitle(title, x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=12)
+    figure.suptitle(title, x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=10)
     windows = [_window(run, shot, page.panel_width / _PANEL_HEIGHT) for shot in shots]
     _draw_stretches(_draw_overview(page, run, shots, windows), stretches)
     highest = max(extent(heights)[1] for heights in (above_ground(run, shot) for shot in shots))
     for number, (shot, value, window) in enumerate(zip(shots, values, windows, strict=True)):
         panel, strip = page.panel(number)
         _draw_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
-        panel.set_title(f"({_LETTERS[number]}) t = {shot.time:g} s, {window.note()}", loc="left")
+        panel.set_title(f"({LETTERS[number]}) {time_text(run, shot)}, {window.note()}", loc="left")
         _draw_stretches(panel, stretches)
+        warn(panel, _warning(run, shot, painting), high=False)
         largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
         panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
         if strip is not None:
@@ -114,8 +110,20 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
             panel.tick_params(labelbottom=False)
     bar = figure.colorbar(painter, cax=page.colourbar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    bar.set_label(painting.words + (f" ({unit})" if unit else ""), labelpad=1)
+    over = f", {window_words(run)}" if painting is VELOCITY and window_words(run) else ""
+    bar.set_label(painting.words + (f" ({unit})" if unit else "") + over, labelpad=1)
     return figure
+
+
+def _warning(run: Run, shot: Snapshot, painting: Painting) -> str:
+    """Return what cannot be of the values of a panel, "" for nothing."""
+    if painting is TEMPERATURE:
+        wet = np.asarray(shot["liquid_saturation"]) > 0.0
+        return too_hot(run, np.asarray(shot["temperature"])[wet], np.asarray(shot["pore_pressure"])[wet])
+    if painting is PORE_PRESSURE and run.dimension == 2:
+        ratio = np.asarray(shot["pore_pressure"]) / np.maximum(overburden(run, shot), 1.0)
+        return too_much_for_weight(ratio, EDGES)
+    return ""
 
 
 class _Page:
@@ -129,7 +137,7 @@ class _Page:
         self.strips = run.terrain is not None
         (left, right), (low, high) = _whole(run, shots)
         shape = (high - low) * _OVERVIEW_MARGINS[1] / ((right - left) * _OVERVIEW_MARGINS[0])
-        self.overview_height = float(np.clip(self.full * shape, 0.9, 2.2))
+        self.overview_height = float(np.clip(self.full * shape, 0.75, 1.7))
         self.bars_height = _BAR_HEIGHT * len(shots)
         self.head = 0.6 + self.overview_height + self.bars_height + 0.95
         self.row = _PANEL_HEIGHT + _ROW_GAP + (_STRIP_HEIGHT + 0.08 if self.strips else 0.0)
@@ -194,9 +202,11 @@ def _painted(
     painter: ScalarMappable,
     inches: tuple[float, float],
 ) -> PolyCollection:
+    # The material is one body across gaps narrower than a cell.
+    cell = float(run.section("grid").get("cell", 0.0))
     # In 3D the nearest particles (smallest y) are drawn last.
     order = np.argsort(-shot.points[:, 1], kind="stable") if run.dimension == 3 else np.arange(len(heights))
-    particles = squares(shot.points[order, 0], heights[order], particle_size(run, shot)[order], window, inches)
+    particles = squares(shot.points[order, 0], heights[order], particle_size(run, shot)[order], window, inches, cell)
     particles.set_array(values[order])
     particles.set_cmap(painter.get_cmap())
     particles.set_norm(painter.norm)
@@ -242,6 +252,9 @@ def _draw_strip(
     axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
     flat.apply(axes)
     axes.set_ylabel("above\nground (m)")
+    axes.text(
+        0.99, 0.95, f"heights ×{stretch(axes):.2g}", transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE
+    )
 
 
 def _draw_stretches(axes: Axes, stretches: Sequence[Stretch]) -> None:
@@ -286,8 +299,12 @@ def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Win
     window.apply(axes)
     axes.set_xlabel("")
     axes.tick_params(labelbottom=False)
-    states = f"grey: t = {shots[0].time:g} s, red: t = {shots[-1].time:g} s" if len(shots) > 1 else ""
-    axes.set_title("; ".join(filter(None, (f"whole profile, {window.note()}", states))), loc="left", color=NOTE)
+    states = f"grey: {time_text(run, shots[0])}, red: {time_text(run, shots[-1])}" if len(shots) > 1 else ""
+    axes.set_title(
+        "; ".join(filter(None, (f"whole profile, {window.note()}", states, f"time: {run.clock.words}"))),
+        loc="left",
+        color=NOTE,
+    )
 
     for number, (shot, view) in enumerate(zip(shots, views, strict=True)):
         slide = extent(shot.points[:, 0])
@@ -295,7 +312,7 @@ def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Win
         bars.plot(slide, [number, number], color=GROUND_LINE, linewidth=4, solid_capstyle="butt")
     window.apply(bars)
     bars.set_ylim(len(shots) - 0.4, -0.6)
-    bars.set_yticks(range(len(shots)), [f"({_LETTERS[number]})" for number in range(len(shots))], size=6.5)
+    bars.set_yticks(range(len(shots)), [f"({LETTERS[number]})" for number in range(len(shots))], size=6.5)
     bars.tick_params(axis="y", length=0)
     bars.set_ylabel("")
     bars.xaxis.label.set_text(f"{bars.get_xlabel()}; bars: what each panel shows (light), where the slide is (dark)")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable, Sequence
 from functools import wraps
 from typing import Any, ParamSpec, cast
@@ -30,6 +31,7 @@ BLUE, ORANGE, GREEN, RED, PURPLE, SKY, YELLOW, BLACK = (
     "#B8A800",
     "#222222",
 )
+COLUMN_WIDTH = 7.1  # inches: 180 mm, both columns of a journal's page; type keeps its size in print
 GROUND = "#D9D4CB"
 GROUND_LINE = "#6B6459"
 NOTE = "#555555"
@@ -37,7 +39,7 @@ NOTE = "#555555"
 STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 9,
-    "axes.titlesize": 9.5,
+    "axes.titlesize": 9,
     "axes.labelsize": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -48,8 +50,11 @@ STYLE: dict[str, Any] = {
     "grid.color": "#E4E4E4",
     "grid.linewidth": 0.6,
     "lines.linewidth": 1.6,
-    "legend.frameon": False,
-    "legend.fontsize": 8,
+    "legend.frameon": True,
+    "legend.framealpha": 0.85,
+    "legend.edgecolor": "none",
+    "legend.borderpad": 0.2,
+    "legend.fontsize": 7.5,
     "xtick.labelsize": 8,
     "ytick.labelsize": 8,
     "figure.facecolor": "white",
@@ -119,18 +124,51 @@ def time_line(axes: Axes, time: Numbers, values: ArrayLike, **style: Any) -> Non
     )
 
 
-def time_axis(axes: Axes, time: Numbers, label: bool = True) -> None:
-    """Set the time axis to the run's span and, where `label`, name it."""
+def time_axis(axes: Axes, time: Numbers, label: str = "") -> None:
+    """Set the time axis to the run's span and label it."""
     start, end = float(time[0]), float(time[-1])
     axes.set_xlim(start, end if end > start else start + 1.0)
     axes.grid(True)
     if label:
-        axes.set_xlabel("time (s)")
+        axes.set_xlabel(label)
 
 
 def say(axes: Axes, text: str) -> None:
     """Write why a panel is empty in its middle."""
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=NOTE, wrap=True)
+
+
+def without_title(figure: Figure) -> Figure:
+    """Return a figure for a page whose caption has what its title says, as journals ask for."""
+    figure.suptitle("")
+    return figure
+
+
+def stretch(axes: Axes, unit: float = 1.0) -> float:
+    """Return how many times heights [m] are larger on the page than distances, in units of `unit` [m]."""
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
+    width, height = figure.get_size_inches() * axes.get_position().size
+    (left, right), (low, top) = axes.get_xlim(), axes.get_ylim()
+    return float((right - left) * unit / width / ((top - low) / height))
+
+
+_WARNING = 0.3  # of the height of curves: room for a warning above them
+
+
+def warn(axes: Axes, words: str, high: bool = True) -> None:
+    """Write a warning across the top, or the bottom, of a panel, inside it; nothing for no words.
+
+    Above curves there is room made for it.
+    """
+    if words:
+        low, top = axes.get_ylim()
+        axes.set_ylim(low, low + (1.0 + _WARNING * high) * (top - low))
+        axes.text(
+            0.5, 0.97 if high else 0.04, textwrap.fill(f"⚠ {words}", 46), transform=axes.transAxes, ha="center", size=8,
+            va="top" if high else "bottom", color="#B00020", zorder=12, gid="warning",
+            bbox={"facecolor": "white", "edgecolor": "#B00020", "alpha": 0.92, "linewidth": 0.8, "pad": 2.5},
+        )  # fmt: skip
 
 
 def letters(axes: Sequence[Axes], titles: Sequence[str]) -> None:

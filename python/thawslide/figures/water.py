@@ -10,6 +10,7 @@ from thawslide.errors import NotInRunError
 from thawslide.figures.style import (
     BLACK,
     BLUE,
+    COLUMN_WIDTH,
     GREEN,
     ORANGE,
     PURPLE,
@@ -55,7 +56,7 @@ def _draw(
     largest = max(float(np.nanmax(np.abs(run.history[name]))) for name in accounts)
     divisor, unit = scaled(largest, steps)
     for name, (words, colour) in accounts.items():
-        time_line(axes, run.history["time_s"], run.history[name] / divisor, color=colour, label=words)
+        time_line(axes, run.shown_time, run.history[name] / divisor, color=colour, label=words)
     axes.set_ylabel(f"{quantity} ({unit}{'/m of width' if run.per_metre else ''})")
     axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
@@ -66,9 +67,9 @@ def water(run: Run) -> Figure:
     """Draw (a) what columns hold and took in, (b) what they lost, (c) openings and voids, (d) the residual."""
     if not run.has_band_columns:
         raise NotInRunError("the band is not of columns: history.csv has no account of its water")
-    time = run.history["time_s"]
-    figure = Figure(figsize=(10.0, 9.0), layout="constrained")
-    figure.suptitle(run.titled("water of the band"), x=0.01, ha="left", size=12)
+    time = run.shown_time
+    figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
+    figure.suptitle(run.titled("water of the band"), x=0.01, ha="left", size=10)
     held, lost, spaces, residual = panels = list(figure.subplots(4, 1, sharex=True, height_ratios=(1.2, 1.0, 1.0, 0.7)))
     _draw(held, run, HELD, "mass", MASSES)
     _draw(lost, run, LOST, "mass", MASSES)
@@ -81,7 +82,7 @@ def water(run: Run) -> Figure:
     else:
         say(residual, "no residual: no water yet, or it is exactly zero")
     for axes in panels:
-        time_axis(axes, time, label=axes is residual)
+        time_axis(axes, time, run.clock.label if axes is residual else "")
     letters(
         panels,
         (

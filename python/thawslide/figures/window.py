@@ -93,9 +93,15 @@ def fill_terrain(axes: Axes, terrain: tuple[Numbers, Numbers] | None, floor: flo
     axes.plot(x, z, color=GROUND_LINE, linewidth=0.9, zorder=4)
 
 
-def squares(x: Numbers, z: Numbers, size: Numbers, window: Window, inches: tuple[float, float]) -> PolyCollection:
-    """Return particles as squares of their real size [m], but never too small to be seen on `inches` of page."""
-    half_width = 0.5 * np.maximum(size, _SMALLEST_DRAWN * (window.right - window.left) / inches[0])
+def squares(
+    x: Numbers, z: Numbers, size: Numbers, window: Window, inches: tuple[float, float], widest_gap: float = 0.0
+) -> PolyCollection:
+    """Return particles as squares of their real size [m], but never too small to be seen on `inches` of page.
+
+    They are at least `widest_gap` [m] wide: narrower gaps between them would look like cracks.
+    """
+    size_across = np.maximum(size, widest_gap)
+    half_width = 0.5 * np.maximum(size_across, _SMALLEST_DRAWN * (window.right - window.left) / inches[0])
     half_height = 0.5 * np.maximum(size, _SMALLEST_DRAWN * (window.top - window.bottom) / inches[1])
     corners = np.stack(
         [

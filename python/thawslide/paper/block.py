@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from thawslide.figures.style import BLACK, BLUE, GREEN, NOTE, ORANGE, PURPLE, RED, letters, styled
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, PURPLE, RED, letters, styled
 from thawslide.paper.band_model import BandHistory, Drive, solve
 from thawslide.paper.mixture import TABLE_1
 from thawslide.paper.runs import BLOCKS, NO_LATENT
@@ -186,7 +186,7 @@ def _panel(axes: Axes, time: Numbers, values: Numbers, colour: str, words: str, 
 
 @styled
 def _draw(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
-    figure = Figure(figsize=(10.0, 10.0), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 8.0), layout="constrained")
     panels = figure.subplots(3, 2)
     for side, ending in enumerate(("", NO_LATENT)):
         for name, words, colour in drawn:
@@ -200,9 +200,9 @@ def _draw(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
             axes.set_ylabel(words)
             axes.grid(True)
             axes.set_xlim(0.0, min(end, max(runs[f"block-{name}"].history["time_s"][-1] for name, *_ in drawn)))
-        panels[2][side].set_xlabel("time (s)")
+        panels[2][side].set_xlabel(runs[f"block-{drawn[0][0]}"].clock.label)
         panels[1][side].set_ylim(-0.02, 1.02)
-        mark(panels[1][side], EARLY, 1.0, "the paper: melted", drawn[0][2])  # of e = 0.05 m
+        mark(panels[1][side], EARLY, 1.0, "Lei et al.: melted", drawn[0][2])  # of e = 0.05 m
         panels[0][side].plot([], [], color=BLACK, linewidth=0.9, linestyle=(0, (4, 2)), label="the same as ODEs")
     panels[0][0].legend(loc="best")
     titles = [f"{words}, {heat}" for words in ("temperature", "saturation", "pore pressure")

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from thawslide.figures.style import BLACK, BLUE, GREEN, ORANGE, RED, letters, styled
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, ORANGE, RED, letters, styled
 from thawslide.paper.mixture import FREEZING_BAR, HeatTable, Mixture, linear_saturation
 from thawslide.paper.runs import BARS, PRINTED
 from thawslide.run import Numbers, Run
@@ -132,7 +132,7 @@ def figure_4(runs: dict[str, Run]) -> Figure:
 
     Below, how far the points are off the lines, here and with the update that the paper prints.
     """
-    figure = Figure(figsize=(10.0, 10.4), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 8.3), layout="constrained")
     panels = list(figure.subplots(3, 2).flat)
     for name, words, colour in _DRAWN:
         run = runs[name]

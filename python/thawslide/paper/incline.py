@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_line
+from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, RED, letters, styled, time_line
 from thawslide.paper.block import at, first_time, mark
 from thawslide.paper.mixture import TABLE_1
 from thawslide.paper.runs import INCLINES
@@ -140,7 +140,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
 @styled
 def _draw(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...], titles: tuple[str, ...]) -> Figure:
     """Draw columns over time: (column, words, divisor, running mean [s])."""
-    figure = Figure(figsize=(10.0 if len(panels) == 2 else 12.0, 4.0), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.2), layout="constrained")
     axes = list(figure.subplots(1, len(panels)))
     for panel, (column, words, divisor, span) in zip(axes, panels, strict=True):
         for name in INCLINES:
@@ -149,7 +149,7 @@ def _draw(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...
             dashes = "--" if name == "PL" else "-"  # it often lies on D-L-P
             time_line(panel, run.history["time_s"], values, color=COLOURS[name], linestyle=dashes, label=NAMES[name])
         panel.set_ylabel(words)
-        panel.set_xlabel("time (s)")
+        panel.set_xlabel(runs["incline-DLP"].clock.label)
         panel.set_xlim(0.0, runs["incline-DLP"].history["time_s"][-1])
         panel.grid(True)
     axes[0].legend(loc="best")
@@ -162,7 +162,7 @@ def figure_9(runs: dict[str, Run]) -> Figure:
     panels = (("band_temperature_C", "temperature (°C)", 1.0, 0.0), ("band_saturation", "liquid saturation", 1.0, 0.0))
     figure = _draw(runs, panels, ("band temperature", "band saturation"))
     figure.axes[1].set_ylim(-0.02, 1.02)
-    mark(figure.axes[1], 10.0, 1.0, "the paper: P-L has melted", COLOURS["PL"])
+    mark(figure.axes[1], 10.0, 1.0, "Lei et al.: P-L has melted", COLOURS["PL"])
     return figure
 
 

@@ -12,7 +12,19 @@ from thawslide.clock import time_of_speed
 from thawslide.errors import NotInRunError
 from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.motion import draw_targets
-from thawslide.figures.style import BLUE, GREEN, NOTE, ORANGE, RED, letters, styled, time_axis, time_line
+from thawslide.figures.style import (
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    NOTE,
+    ORANGE,
+    RED,
+    letters,
+    stretch,
+    styled,
+    time_axis,
+    time_line,
+)
 from thawslide.history import History, read_history
 from thawslide.key_numbers import STOPPED_SHARE, stop_time
 from thawslide.paper.block import at
@@ -223,12 +235,12 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
 def figure_deposit(runs: dict[str, Run]) -> Figure:
     """Draw ground, start and deposit along the profile, and the deposit's thickness."""
     run = runs["lamplugh"]
-    figure = Figure(figsize=(10.0, 5.0), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 4.0), layout="constrained")
     section, thick = figure.subplots(2, 1, sharex=True, height_ratios=(1.0, 1.0))
     assert run.terrain is not None
     ground_x, ground_z = run.terrain
     section.fill_between(ground_x / 1e3, ground_z, ground_z.min() - 50.0, color="#E4E0DA")
-    for index, colour, words in ((0, NOTE, "start"), (-1, RED, f"t = {run.times[-1]:g} s")):
+    for index, colour, words in ((0, NOTE, "start"), (-1, RED, f"end, t = {run.times[-1] + run.clock.shift:.4g} s")):
         points = run.snapshot(index).points
         section.plot(points[:, 0] / 1e3, points[:, 1], ".", color=colour, markersize=1.5, label=words)
     section.set_ylim(0.8 * float(run.snapshot(-1).points[:, 1].min()), None)
@@ -245,16 +257,21 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
         thick.annotate(f"{zone.letter}\n{words}", (middle, 0.97), xycoords=("data", "axes fraction"), ha="center",
                        va="top", size=7, color=NOTE)  # fmt: skip
     thick.axvline(FRONT / 1e3, color=RED, linewidth=1.0, linestyle="--")
-    thick.annotate("reported front", (FRONT / 1e3, 0.6), xycoords=("data", "axes fraction"), xytext=(4, 0),
-                   textcoords="offset points", va="top", size=8, color=RED)  # fmt: skip
+    thick.annotate("front, Bessette-\nKirton et al.\n(2018)", (FRONT / 1e3, 0.6), xytext=(4, 0),
+                   xycoords=("data", "axes fraction"), textcoords="offset points", va="top", size=8,
+                   color=RED)  # fmt: skip
     thick.set_ylim(0.0, 1.35 * float(thickness.max()))
     for axes in (section, thick):
         axes.grid(True)
         axes.set_axisbelow(True)
         axes.set_xlim(ground_x[0] / 1e3, max(FRONT + 1500.0, float(x.max()) + BIN) / 1e3)
+    figure.draw_without_rendering()  # sizes of panels are known from here on
     letters(
         [section, thick],
-        ("profile", "thickness of the deposit, means over 100 m; zones with the words of the text, at places of ours"),
+        (
+            f"profile, heights ×{stretch(section, 1e3):.2g}",
+            "thickness of the deposit, means over 100 m; zones and words of Lei et al., places from this run",
+        ),
     )
     return figure
 
@@ -264,7 +281,7 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     """Draw velocity and displacement of the deforming slide and of the rigid blocks, with the reported values."""
     run = runs["lamplugh"]
     time = run.history["time_s"]
-    figure = Figure(figsize=(10.0, 4.2), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.4), layout="constrained")
     speed, way = figure.subplots(1, 2)
     time_line(speed, time, run.history["mean_velocity_m_s"], color=BLUE, label="deforming (MPM)")
     time_line(way, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
@@ -278,7 +295,7 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     speed.set_ylabel("mean velocity (m/s)")
     way.set_ylabel("mean displacement (km)")
     for axes in (speed, way):
-        time_axis(axes, time)
+        time_axis(axes, time, run.clock.label)
         axes.set_ylim(bottom=0.0)
         axes.legend(loc="best")
     letters((speed, way), ("velocity", "displacement"))

@@ -9,10 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.figures.force import force_in_band, seismic_force
+from thawslide.figures.load import load_on_band
 from thawslide.figures.snapshots import Stretch, plastic_strain, velocity
-from thawslide.figures.style import BLUE, NOTE, RED, letters, styled, time_axis, time_line
+from thawslide.figures.style import BLUE, COLUMN_WIDTH, NOTE, RED, letters, styled, time_axis, time_line, warn
 from thawslide.paper.lamplugh import INVERSION, PHASE, zones
 from thawslide.run import Numbers, Run
+from thawslide.unphysical import too_hot, too_much_for_weight
 
 INVERTED = 0.28  # TN: the largest force inverted from seismic waves
 
@@ -32,15 +34,15 @@ def figure_15(runs: dict[str, Run]) -> Figure:
     return plastic_strain(runs["lamplugh"], stretches(runs["lamplugh"]))
 
 
-def _pair(axes: Axes, time: Numbers, left: tuple[Numbers, str], right: tuple[Numbers, str]) -> Axes:
+def _pair(axes: Axes, run: Run, left: tuple[Numbers, str], right: tuple[Numbers, str]) -> Axes:
     """Draw one curve by the left axis in red, another by the right axis in blue; return the right axes."""
-    other = axes.twinx()
+    other, time = axes.twinx(), run.shown_time
     for panel, (values, words), colour in ((axes, left, RED), (other, right, BLUE)):
         time_line(panel, time, values, color=colour)
         panel.set_ylabel(words, color=colour)
         panel.tick_params(axis="y", colors=colour)
     other.spines["right"].set_visible(True)
-    time_axis(axes, time)
+    time_axis(axes, time, run.clock.label)
     return other
 
 
@@ -65,24 +67,25 @@ def _at_the_peak(axes: Axes, words: str, height: float, alignment: str) -> None:
 def figure_17(runs: dict[str, Run]) -> Figure:
     """Draw the contact force with the ground (red) and the mean plastic strain (blue) in one panel."""
     run = runs["lamplugh"]
-    time = run.history["time_s"]
+    time = run.shown_time
     _, magnitude = seismic_force(run)
     force = magnitude / 1e12
-    figure = Figure(figsize=(10.0, 4.6), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.7), layout="constrained")
     axes = figure.subplots()
     strain = run.history["mean_plastic_strain"]
-    words = ("force on the ground less the static weight (TN)", "mean equivalent plastic strain")
-    other = _pair(axes, time, (force, words[0]), (strain, words[1]))
+    names = ("force on the ground less the static weight (TN)", "mean equivalent plastic strain")
+    other = _pair(axes, run, (force, names[0]), (strain, names[1]))
     passed = force_in_band(run, INVERSION) / 1e12
     time_line(axes, time, passed, color=RED, linewidth=1.0, linestyle="-.", label=f"band-passed {INVERSION.words}")
     axes.legend(loc="upper left")
     axes.axhline(INVERTED, color=RED, linewidth=1.0, linestyle="--")
-    axes.annotate("largest force inverted from seismic waves, 0.28 TN", (0.99, INVERTED), va="bottom", ha="right",
-                  size=8, xycoords=("axes fraction", "data"), xytext=(0, 2), textcoords="offset points",
+    words = "Dufresne et al. (2019), seismic inversion: largest force 0.28 TN"
+    axes.annotate(words, (0.99, INVERTED), va="bottom", ha="right", size=8,
+                  xycoords=("axes fraction", "data"), xytext=(0, 2), textcoords="offset points",
                   color=NOTE)  # fmt: skip
-    _at_the_peak(axes, "the paper: hits the glacier", 0.985, "top")
+    _at_the_peak(axes, "Lei et al., MPM: reaches the glacier", 0.985, "top")
     first = int(np.nanargmax(np.where(time <= 0.01 * time[-1], force, -np.inf)))
-    axes.annotate("the stress of t = 0 adjusts", (time[first], force[first]), xytext=(8, 8), size=8, color=NOTE,
+    axes.annotate("the initial stress adjusts", (time[first], force[first]), xytext=(8, 8), size=8, color=NOTE,
                   textcoords="offset points")  # fmt: skip
     axes.set_ylim(0.0, 1.25 * max(float(np.nanmax(force)), INVERTED))
     other.set_ylim(0.0, 1.6 * max(float(np.nanmax(strain)), 1e-9))
@@ -93,19 +96,23 @@ def figure_17(runs: dict[str, Run]) -> Figure:
 def figure_20(runs: dict[str, Run]) -> Figure:
     """Draw the band: (a) temperature and pore pressure, (b) saturation and friction coefficient."""
     run = runs["lamplugh"]
-    history, time = run.history, run.history["time_s"]
-    figure = Figure(figsize=(10.0, 7.2), layout="constrained")
+    history = run.history
+    figure = Figure(figsize=(COLUMN_WIDTH, 5.8), layout="constrained")
     heat, melt = figure.subplots(2, 1, sharex=True)
     pressure = _pair(
-        heat, time, (history["band_temperature_C"], "temperature (°C)"),
+        heat, run, (history["band_temperature_C"], "temperature (°C)"),
         (history["band_pore_pressure_Pa"] / 1e6, "pore pressure (MPa)"),
     )  # fmt: skip
     friction = _pair(
-        melt, time, (history["band_saturation"], "liquid saturation"),
+        melt, run, (history["band_saturation"], "liquid saturation"),
         (history["band_friction_coefficient"], "friction coefficient"),
     )  # fmt: skip
     heat.set_xlabel("")
     pressure.set_ylim(bottom=0.0)
+    when, load = load_on_band(run)
+    over = np.interp(when, run.shown_time, history["band_pore_pressure_Pa"]) / load
+    found = (too_hot(run, history["band_temperature_C"], history["band_pore_pressure_Pa"]), too_much_for_weight(over))
+    warn(pressure, "; ".join(filter(None, found)))
     low, high = heat.get_ylim()
     for level, words in ((0.0, "ice melts"), (100.0, "boiling is not modelled")):
         if low < level < high:
@@ -114,8 +121,8 @@ def figure_20(runs: dict[str, Run]) -> Figure:
                           textcoords="offset points", ha="right", size=7.5, color=NOTE)  # fmt: skip
     melt.set_ylim(0.0, 1.04)
     friction.set_ylim(0.0, 1.0)
-    _reported(melt, 40.0, 0.3, "the paper: 0.3 at 40 s", (9, -3))
-    _reported(melt, 75.0, 0.9, "the paper: 0.9 at 75 s", (9, -10))
+    _reported(melt, 40.0, 0.3, "Lei et al., MPM: 0.3 at 40 s", (9, -3))
+    _reported(melt, 75.0, 0.9, "Lei et al., MPM: 0.9 at 75 s", (9, -10))
     _at_the_peak(heat, "the band widens to 0.5 m", 0.14, "bottom")
     _at_the_peak(melt, "", 0.0, "bottom")
     letters((heat, melt), ("temperature and pore pressure of the band", "saturation and friction coefficient"))

@@ -21,6 +21,7 @@ NOISE = 0.1  # of the distance of particles
 MEMBERS = 20
 SET_SPEED, SET_TIME = 8.0, 40.0  # m/s, s: the clock is set so that the mean velocity is so high then
 REST = 0.1  # m/s
+MODEL = "Lei et al., MPM"  # whose results rows of the kind "model" have
 ROUND_OFF = 1e-9
 
 

@@ -12,13 +12,14 @@ from matplotlib.figure import Figure
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures.motion import motion
 from thawslide.figures.snapshots import pore_pressure, temperature
+from thawslide.figures.style import without_title
 from thawslide.paper import block, freezing, incline, lamplugh, lamplugh_figures, old_capacity, stages
 from thawslide.paper.sentences import MEANINGS, VERDICTS, filled, sentences, table
 from thawslide.report import page_frame
 from thawslide.run import Run
 
 Runs = dict[str, Run]
-_DPI = 110
+_DPI = 150
 _OWN: dict[str, Callable[[Runs], Figure]] = {
     "figure-4": freezing.figure_4,
     "figure-6": block.figure_6,
@@ -58,7 +59,7 @@ def make_page(runs: Runs, output: Path, quick: bool, progress: Callable[[str], N
         (output / "figures").mkdir(parents=True, exist_ok=True)
         for name in NAMES:
             try:
-                draw(name, runs).savefig(output / "figures" / f"{name}.png", dpi=_DPI)
+                without_title(draw(name, runs)).savefig(output / "figures" / f"{name}.png", dpi=_DPI)
                 progress(f"{name}: drawn")
             except NotInRunError as error:
                 progress(f"{name}: left out, {error}")

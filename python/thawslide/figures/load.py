@@ -1,0 +1,47 @@
+"""What lies on particles of a 2D run: the static load that pore pressure is set against."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from thawslide.errors import ReportError
+from thawslide.run import Numbers, Run, Snapshot
+
+_MOST_SNAPSHOTS = 60  # that a curve of the load is made of
+
+
+def overburden(run: Run, shot: Snapshot) -> Numbers:
+    """Return the weight [Pa] of what lies above each particle of a 2D run, and of half of itself, over a grid cell."""
+    cell, gravity = float(run.section("grid")["cell"]), float(run.section("case").get("gravity", 9.81))
+    mass = np.asarray(shot["mass"], dtype=np.float64) / run.relative_width(shot.points[:, 0])
+    column = np.floor(shot.points[:, 0] / cell)
+    order = np.lexsort((-shot.points[:, 1], column))
+    below = np.cumsum(mass[order]) - mass[order]
+    first = np.flatnonzero(np.diff(column[order], prepend=-np.inf))
+    before = np.repeat(below[first], np.diff(first, append=len(order)))
+    weight = np.empty_like(mass)
+    weight[order] = gravity * (below + 0.5 * mass[order] - before) / cell
+    return weight
+
+
+def load_on_band(run: Run) -> tuple[Numbers, Numbers]:
+    """Return times [s] and the normal pressure N [Pa] of the weight above the band, mean of its mass; none in 3D.
+
+    N = w cos2(a), with the weight w above and the slope a of the ground: static, without what bends or impact add.
+    Nothing either where snapshots lack fields or are damaged.
+    """
+    if run.dimension != 2 or run.terrain is None or run.section("case").get("gravity_tilt", 0.0) or not len(run.times):
+        return np.empty(0), np.empty(0)
+    chosen = np.unique(np.linspace(0, len(run.times) - 1, _MOST_SNAPSHOTS).round().astype(int))
+    slope = np.gradient(run.terrain[1], run.terrain[0])
+    loads = []
+    for index in chosen:
+        try:
+            shot = run.snapshot(int(index), fields=("mass", "in_band"))
+            band, mass = np.asarray(shot["in_band"]) > 0, np.asarray(shot["mass"], dtype=np.float64)
+        except ReportError:
+            return np.empty(0), np.empty(0)
+        squared = 1.0 / (1.0 + np.interp(shot.points[band, 0], run.terrain[0], slope) ** 2)
+        load = overburden(run, shot)[band] * squared
+        loads.append(np.average(load, weights=mass[band]) if mass[band].sum() > 0.0 else np.nan)
+    return run.times[chosen] + run.clock.shift, np.array(loads)

@@ -1,0 +1,124 @@
+"""One clock for all figures of a run: what a target start_velocity sets, and the run's own otherwise."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from band_columns_test import column_history
+from conftest import MakeRun, history_columns, write_history
+from matplotlib.figure import Figure
+
+from thawslide import Run
+from thawslide.figures import FIGURES
+from thawslide.key_numbers import key_numbers
+from thawslide.targets import read_targets
+
+ROOT = Path(__file__).resolve().parents[2]
+OVER_TIME = ("motion", "force", "band", "energy")
+SHIFT = 40.0 - 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/10) = 8
+
+
+@pytest.fixture
+def folder(make_run: MakeRun) -> Path:
+    """Return a run whose targets set the clock."""
+    made = make_run()
+    (made / "inputs" / "targets.csv").write_text(
+        "quantity,time_s,value,unit,source\nstart_velocity,40,8,m/s,x\nmean_velocity,42,9,m/s,x\n"
+    )
+    return made
+
+
+def labels_of_time(figure: Figure) -> set[str]:
+    return {axes.get_xlabel() for axes in figure.axes if axes.get_xlabel().startswith("time")}
+
+
+@pytest.mark.parametrize("name", OVER_TIME)
+def test_all_curves_of_a_run_are_on_the_clock_of_its_reported_values(folder: Path, name: str) -> None:
+    run = Run(folder)
+    figure = FIGURES[name].draw(run)
+    assert labels_of_time(figure) == {"time (s), mean velocity 8 m/s at 40 s"}
+    drawn = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == run.history.rows]
+    assert drawn
+    for line in drawn:
+        np.testing.assert_allclose(line.get_xdata(), run.history["time_s"] + SHIFT, atol=2e-3)
+
+
+def test_reported_values_are_drawn_at_their_own_times(folder: Path) -> None:
+    speed = FIGURES["motion"].draw(Run(folder)).axes[0]
+    (marks,) = [line for line in speed.lines if str(line.get_label()).startswith("reported")]
+    np.testing.assert_array_equal(marks.get_data(), [[42.0], [9.0]])
+    (curve,) = [line for line in speed.lines if line.get_label() == "mean (of mass)"]
+    assert np.interp(40.0, *curve.get_data()) == pytest.approx(8.0, abs=0.01)
+
+
+def test_snapshots_name_the_times_of_the_same_clock(folder: Path) -> None:
+    case = folder / "case.toml"
+    case.write_text(case.read_text().replace("times = [0.0, 4.0, 7.4]", "times = [0.0, 41.0, 44.4]"))
+    run = Run(folder)
+    titles = [axes.get_title(loc="left") for axes in FIGURES["velocity"].draw(run).axes]
+    assert any(title.endswith("; time: mean velocity 8 m/s at 40 s") for title in titles)
+    found = [float(match[1]) for title in titles if (match := re.match(r"\(.\) t = ([\d.]+) s", title))]
+    assert found == pytest.approx([SHIFT, SHIFT + 4.0, SHIFT + 7.0], abs=0.05)
+
+
+def test_the_page_has_the_clock_of_its_figures(folder: Path) -> None:
+    (peak,) = [row for row in key_numbers(Run(folder)) if row.words == "Peak mean velocity"]
+    assert float(peak.remark.split()[1]) == pytest.approx(5.0 + SHIFT, abs=0.06)
+
+
+def test_columns_of_a_band_are_on_the_same_clock(folder: Path) -> None:
+    write_history(folder / "history.csv", column_history())
+    run = Run(folder)
+    for name in ("band", "water"):
+        assert labels_of_time(FIGURES[name].draw(run)) == {run.clock.label} == {"time (s), mean velocity 8 m/s at 40 s"}
+
+
+def test_without_such_a_target_or_speed_times_count_from_the_start(
+    make_run: MakeRun,
+) -> None:
+    for value in ("mean_velocity,42,9", "start_velocity,40,99"):
+        folder = make_run(name=value[:5])
+        (folder / "inputs" / "targets.csv").write_text(f"quantity,time_s,value,unit\n{value},m/s\n")
+        run = Run(folder)
+        np.testing.assert_array_equal(run.shown_time, run.history["time_s"])
+        assert labels_of_time(FIGURES["motion"].draw(run)) == {"time (s), 0 at the start of the run"}
+
+
+@pytest.mark.parametrize(
+    "path",
+    sorted((ROOT / "cases").glob("**/*targets*.csv")),
+    ids=lambda path: path.parent.name,
+)
+def test_sources_of_cases_are_publications_and_legends_name_them(make_run: MakeRun, path: Path) -> None:
+    targets = read_targets(path)
+    assert targets
+    for target in targets:
+        assert re.match(r"[A-Z][\w-]+( et al\.,| et al\. \(\d{4}\)| \(\d{4}\))", target.source), target.source
+    folder = make_run()
+    columns = history_columns(101, 2)
+    columns["time_s"], columns["mean_velocity_m_s"] = (
+        np.linspace(0.0, 250.0, 101),
+        np.linspace(0.0, 20.0, 101),
+    )
+    write_history(folder / "history.csv", columns)
+    (folder / "inputs" / "targets.csv").write_text(path.read_text(encoding="utf-8"), encoding="utf-8")
+    speed, _ = FIGURES["motion"].draw(Run(folder)).axes
+    of_speed = {target.source for target in targets if target.quantity == "mean_velocity"}
+    marks = {str(line.get_label()) for line in speed.lines if str(line.get_label()).startswith("modelled: ")}
+    assert marks == {f"modelled: {source}" for source in of_speed}
+
+
+def test_two_reported_forces_of_one_value_are_told_apart(make_run: MakeRun) -> None:
+    folder = make_run()
+    (folder / "inputs" / "targets.csv").write_text(
+        "quantity,time_s,value,unit,source\nmax_seismic_force,5,280,GN,One\nmax_seismic_force_2_8_s,5,280,GN,Two\n"
+    )
+    size = FIGURES["force"].draw(Run(folder)).axes[0]
+    one, two = (found for found in size.lines if "maximum" in str(found.get_label()))
+    np.testing.assert_array_equal(one.get_ydata(), two.get_ydata())
+    (passed,) = (found for found in size.lines if "band-passed" in str(found.get_label()))
+    assert one.get_color() != two.get_color() == passed.get_color()
+    assert one._unscaled_dash_pattern == (0.0, (4.0, 4.0)) and two._unscaled_dash_pattern == (4.0, (4.0, 4.0))
