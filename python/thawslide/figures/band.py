@@ -72,7 +72,9 @@ def _of_particles(run: Run) -> Figure:
             time_line(axes, when, load / divisor, color=BLACK, linestyle="--", label="normal pressure N, weight above")
             warn(axes, too_much_for_weight(np.interp(when, time, values) / load))
         if draw_targets(axes, run, quantities, divisor, colour) or is_pressure:
-            axes.legend(loc="best")
+            warned = any(text.get_gid() == "warning" for text in axes.texts)
+            # A warning lies at the top; P is then far above N, and there is room between them.
+            axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.08)) if warned else axes.legend(loc="best")
         _finish(axes, column, values / divisor)
         if column == "band_temperature_C" and "band_pore_pressure_Pa" in run.history:
             warn(axes, too_hot(run, values, run.history["band_pore_pressure_Pa"]))
