@@ -19,7 +19,7 @@ struct Maps {
 };
 
 struct Report {
-  std::vector<double> times;          // s, of the snapshot figures; empty: six even times
+  std::vector<double> times;          // s, of the snapshot figures; empty: by displacement
   std::string targets;                // CSV: quantity,time_s,value,unit,source,kind
   std::string force_record;           // CSV: time_s,up_N,north_N,east_N
   std::vector<double> force_periods;  // s, the shortest and the longest of the record's waves

@@ -245,10 +245,12 @@ std::vector<Parameter<Report>> report_parameters() {
   const std::string when_record = "when force_record is given";
   const auto has_record = [](const Case&, const Report& report) { return !report.force_record.empty(); };
   return {
-      parameter(&Report::times, {.key = "times",
-                                 .unit = "s",
-                                 .range = at_least(0),
-                                 .text = "times of the snapshot figures; []: six even times"}),
+      parameter(&Report::times,
+                {.key = "times",
+                 .unit = "s",
+                 .range = at_least(0),
+                 .text = "times of the snapshot figures, on their clock; []: when the slide has gone 0, 20, "
+                         "..., 100 % of its mean displacement"}),
       parameter(&Report::targets, {.key = "targets",
                                    .text = "CSV file of reported values, columns "
                                            "quantity,time_s,value,unit,source,kind",

@@ -125,7 +125,10 @@ std::string doubt_of_strength(const config::Case& parameters, const BodyFigures&
   const physics::basal::ContactNode<double> frozen{.normal_pressure = load, .solid_fraction = 1.0};
   const double base = std::visit([&](const auto& law) { return law.coefficient(frozen); },
                                  config::friction_of<double>(parameters.basal));
-  const double cohesive = material.residual_cohesion * cosine_of(material.residual_friction_angle) / load;
+  // The paper's softening over a strain of 1 leaves a body unbroken while it slides.
+  const bool stays_whole = material.softening_strain >= 1.0;
+  const double cohesion = stays_whole ? material.cohesion : material.residual_cohesion;
+  const double cohesive = cohesion * cosine_of(material.residual_friction_angle) / load;
   const double borne = sine_of(material.residual_friction_angle) + cohesive;
   if (base <= most_of_base * borne) {
     return "";

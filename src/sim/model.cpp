@@ -359,7 +359,11 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
         physics::mixture_density(model.band.phases, static_cast<Real>(parameters.bed.porosity), saturation);
   }
   model.profile = make_profile<Dim>(parameters, site, model.origin);
-  model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile, model.motion.width);
+  // The ground is in double precision whatever the step is in.
+  const auto width = parameters.general.width.varies()
+                         ? mpm::SectionWidth<double>(parameters.general.width.table, model.origin[0])
+                         : mpm::SectionWidth<double>();
+  model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile, width);
   model.substrates = make_substrates(parameters, site);
   set_layer_thickness(parameters, site, model);
   return model;

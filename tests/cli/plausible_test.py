@@ -43,7 +43,11 @@ def test_nothing_is_doubted_of_a_plain_case(thawslide: Program, plain_case: Path
 def test_nothing_is_doubted_of_the_cases_of_the_project(thawslide: Program, case: Path) -> None:
     if case.parent.name in BROUGHT:
         pytest.skip("the case needs data that are not in the repository")
-    assert "note:" not in thawslide("check", case).stdout
+    notes = re.findall(r"^note: (.*)$", thawslide("check", case).stdout, re.MULTILINE)
+    if case.parent.name == "valley3d" and case.stem in ("columns", "weak"):  # their bodies are weaker than the base
+        assert len(notes) == 1 and "broken material of body slide bears 0." in notes[0]
+    else:
+        assert notes == []
 
 
 COARSE = (

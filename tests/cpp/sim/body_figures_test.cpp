@@ -117,6 +117,7 @@ TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseIsTold) {
   EXPECT_TRUE(doubts_with({slip, angle, residual + "25.0", "material.rock.residual_cohesion=2e4"}).empty());
   EXPECT_EQ(doubts_with({slip, "material.rock.friction_angle=20.0"}).size(), 1U) << "nor what does not soften";
   EXPECT_TRUE(doubts_with({slip, angle, residual + "25.0", "mechanisms.deformation=false"}).empty());
+  EXPECT_TRUE(doubts_with({"material.rock.softening_strain=1.0", angle}).empty()) << "the paper's";
 }
 
 // R_0 - R_f is 1e5 cos 35 + p (sin 35 - sin 30), p the weight of 4 m.
