@@ -177,8 +177,8 @@ std::vector<Parameter<Material>> material_parameters() {
       parameter(
           &Material::gaps_close_first,
           {.key = "gaps_close_first",
-           .text = "true: what tension has torn apart bears no compression until its gap is closed; false: it bears "
-                   "at once, as classical plasticity has it, and a loose slide swells"}),
+           .text = "true: material torn apart by tension bears no compression until its gap is closed; false: it bears "
+                   "at once, as in classical plasticity, and a loose slide swells"}),
       parameter(&Material::viscosity_time,
                 {.key = "viscosity_time",
                  .unit = "s",

@@ -19,8 +19,8 @@ std::vector<Parameter<General>> general_parameters() {
           {.key = "width",
            .unit = "m",
            .range = at_least(0),
-           .text = "width that extensive results are multiplied by; 0: results per metre of width; a table over x: so "
-                   "wide is the section there, linear between entries and constant beyond",
+           .text = "width that extensive results are multiplied by; 0: results per metre of width; a table over x: "
+                   "width of the section at x, linear between entries and constant beyond",
            .dimension = 2}),
       parameter(&General::gravity, {.key = "gravity", .unit = "m/s2", .range = at_least(0), .text = "gravity"}),
       parameter(&General::gravity_tilt,
@@ -249,8 +249,8 @@ std::vector<Parameter<Report>> report_parameters() {
                 {.key = "times",
                  .unit = "s",
                  .range = at_least(0),
-                 .text = "times of the snapshot figures, on their clock; []: when the slide has gone 0, 20, "
-                         "..., 100 % of its mean displacement"}),
+                 .text = "times of the snapshot figures, on their clock; []: at 0, 20, ..., 100 % of the "
+                         "final mean displacement"}),
       parameter(&Report::targets, {.key = "targets",
                                    .text = "CSV file of reported values, columns "
                                            "quantity,time_s,value,unit,source,kind",

@@ -265,7 +265,7 @@ def test_the_caption_says_where_two_inversions_differ(folder: Path) -> None:
     words = FIGURES["force_record"].caption_of(run)
     assert "(A survey). Both are filtered to periods of 10 to 200 s by the same filter." in words
     assert "The record's clock is moved by +7.0 s, so that both vertical forces pass 0 between" in words
-    assert "of the record the azimuth of 30 degrees" in words
+    assert "for the record, the azimuth of 30 degrees" in words
     of_others = re.search(
         r"Largest force in 35 to 150 s \(Others\): 280 GN as reported, ([\d.]+) GN in the record, "
         r"([\d.]+) GN in the run; the two inversions differ by a factor of ([\d.]+)\.",

@@ -168,17 +168,18 @@ def caption(run: Run) -> str:
     assert record is not None
     fixed = (
         f"Force on the ground less the static weight: run, and inversion of seismic waves ({record.source}). Both are "
-        f"filtered to periods of {record.band.words} by the same filter. Since timing is compared, it shifts no phase, "
-        "and so spreads by up to half a period before an onset: what is drawn before the start of the run is that "
-        "alone. The run is taken to be at rest before its start and to keep its last force after its end."
+        f"filtered to periods of {record.band.words} by the same filter. Since timing is compared, the filter has "
+        "no phase shift. It therefore spreads by up to half a period before an onset: the curve before the start of "
+        "the run is only this effect. The run is assumed to be at rest before its start and to keep its last force "
+        "after its end."
     )
     if run.per_metre:
         return fixed
     found = compared(run)
     of_run = "its section" if run.dimension == 2 else "the same, with x as east and y as north"
     way = (
-        f"Direction of travel: of the record the azimuth of {found.azimuth:.0f} degrees, that of the slide's largest "
-        f"horizontal momentum, which is minus the time integral of the force; of the run {of_run}."
+        f"Direction of travel: for the record, the azimuth of {found.azimuth:.0f} degrees, that of the slide's largest "
+        f"horizontal momentum, which is minus the time integral of the force; for the run, {of_run}."
     )
     return " ".join([fixed, clock_words(found), way, *inversion_words(run)])
 
