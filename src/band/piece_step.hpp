@@ -47,7 +47,7 @@ Real pressure_ratio(const physics::BandMeans<Real>& means, const BasePiece<Dim, 
   return piece.load > Real(0) ? means.pore_pressure / piece.load : Real(0);
 }
 
-// A new column of the body's matter, with a band of this thickness [m], under the piece's load and no taller than the
+// A new column of the body's material, with a band of this thickness [m], under the piece's load and no taller than the
 // slide is deep above it.
 template <int Dim, class Real>
 void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasePiece<Dim, Real>& piece);

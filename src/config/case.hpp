@@ -138,9 +138,9 @@ struct Material {
   double cohesion = 0, residual_cohesion = 0;       // softening: c_f + (c_0 - c_f) exp(-eps/eps_c); equal: none
   double softening_strain = 0, softening_slip = 0;  // eps_c, s_c [m]: where it softens one is given, 0 is the other
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
-  bool gaps_close_first = true;                                     // torn matter bears nothing until its gap is closed
-  double viscosity_time = 0;                                        // s, Kelvin-Voigt
-  double hydraulic_conductivity = 0;                                // m/s
+  bool gaps_close_first = true;       // torn material bears nothing until its gap is closed
+  double viscosity_time = 0;          // s, Kelvin-Voigt
+  double hydraulic_conductivity = 0;  // m/s
 };
 
 // A quantity of a release: a number, an attribute of its polygons, a raster, or for a thickness the difference between

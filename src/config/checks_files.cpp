@@ -1,5 +1,5 @@
-// Checks of the files that a case names beside its maps: names that a run can keep side by side, reported values, a
-// force record.
+// Checks of the files that a case names in addition to its maps: names that a run can keep in one folder, reported
+// values, a force record.
 #include <fmt/format.h>
 
 #include "base/error.hpp"

@@ -31,7 +31,7 @@ void check_width(const Case& checked, Reading& reading) {
     return;
   }
   const struct {
-    bool is_asked;
+    bool is_given;
     const char* what;
   } others[] = {
       {reading.sound({"bed.law"}) && checked.bed.law != BedLaw::none, "an erodible bed ([bed])"},
@@ -39,7 +39,7 @@ void check_width(const Case& checked, Reading& reading) {
       {bodies_are_apart(checked, reading), "frictional contact between bodies ([contact])"},
   };
   for (const auto& other : others) {
-    if (other.is_asked) {
+    if (other.is_given) {
       reading.report_misfit({key}, fmt::format("{}: a width that varies along x and {} exclude each other. Give one "
                                                "width, or remove the latter.",
                                                key, other.what));

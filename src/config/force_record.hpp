@@ -1,6 +1,6 @@
-// A force that was inverted from seismic waves, from the CSV file of report.force_record: read before a run, so that a
-// mistake in it is not told after it. python/thawslide/force_record.py, which compares, has the same rules
-// (tests/cli/force_record_test.py).
+// A force that was inverted from seismic waves, from the CSV file of report.force_record: read before a run, so that
+// mistakes in it are reported before the run starts. python/thawslide/force_record.py, which compares, has the same
+// rules (tests/cli/force_record_test.py).
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace thawslide::config {
 
-// What is wrong with the file, with file and line; empty where nothing is.
+// Returns the first mistake in the file, with file and line; empty if there is none.
 [[nodiscard]] std::string mistake_in_force_record(const std::filesystem::path& file);
 
 }  // namespace thawslide::config

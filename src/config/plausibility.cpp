@@ -84,8 +84,8 @@ void doubt_width(const Case& parameters, Doubts& doubts) {
                  fmt::format("{:g} m at x = {:g} m and {:g} m at x = {:g} m", width.value[k - 1], width.abscissa[k - 1],
                              width.value[k], width.abscissa[k]),
                  "",
-                 fmt::format("it changes by {:.3g} m per m. The lateral motion that the section leaves out would have "
-                             "{:.2g} of the kinetic energy there. Give the change of width more length.",
+                 fmt::format("it changes by {:.3g} m per m. The neglected lateral motion would have {:.2g} of the "
+                             "kinetic energy there. Spread the change of width over a longer distance.",
                              std::abs(slope), slope * slope / 12.0));
       return;
     }

@@ -171,7 +171,7 @@ auto of_tiles(const Raster& raster, const OfTile& of_tile) {
   return values;
 }
 
-// Of the values that are numbers; 0 where none is.
+// Quantile of the values that are numbers; 0 if there are none.
 double quantile_of_known(std::vector<double> values, double share) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
                values.end());

@@ -29,7 +29,7 @@ struct NoAccount {
   THAWSLIDE_HD NoAccount& operator+=(const NoAccount& /*part*/) { return *this; }
 };
 
-// What kernels know of a section as wide everywhere (mpm/section_width.hpp).
+// The width, for kernels, of a section that is equally wide everywhere (mpm/section_width.hpp).
 struct EvenWidth {
   static constexpr bool varies = false;
 };

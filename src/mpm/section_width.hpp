@@ -53,7 +53,7 @@ class SectionWidth {
   std::vector<Real> place_, relative_;
 };
 
-// What kernels know of it; EvenWidth where it is the same everywhere (mpm/kernel.hpp).
+// The width that kernels use; EvenWidth if it is the same everywhere (mpm/kernel.hpp).
 template <class Real>
 struct UnevenWidth {
   static constexpr bool varies = true;
@@ -69,7 +69,7 @@ struct UnevenWidth {
   }
 };
 
-// Calls work(width) with what kernels are to know of it; only sections have a width.
+// Calls work(width) with the width that kernels use; only sections have one.
 template <int Dim, class Real, class Work>
 decltype(auto) with_width(const SectionWidth<Real>& width, const Work& work) {
   if constexpr (Dim == 2) {

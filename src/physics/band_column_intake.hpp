@@ -1,4 +1,4 @@
-// Intake of a column (band_column.hpp): matter that changes cells, or comes from the body and goes back to it, as the
+// Intake of a column (band_column.hpp): material that changes cells, or comes from the body and goes back to it, as the
 // faces of cells move (docs/theory, chapter 16).
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace thawslide::physics {
 
-// The largest share of what a cell holds that leaves it for its neighbours, or the body, as faces move from one grid to
-// another while matter spreads: `left` is the old area over the new. Up to 1 no cell gives more than it has.
+// The largest fraction of a cell's content that leaves it for its neighbours, or the body, as faces move from one grid
+// to another while material spreads: `left` is the old area over the new. Up to 1 no cell gives more than it has.
 template <class Real>
 THAWSLIDE_HD Real largest_share_given(const ColumnGrid<Real>& before, const ColumnGrid<Real>& after, Real left) {
   Real largest = 0, below = 0;  // below: what the cell's lower face sweeps [m]
@@ -60,8 +60,9 @@ THAWSLIDE_HD int parts_of(const ColumnModel<Real, Curve>& model, const ColumnCha
   }
 }
 
-// The faces of a column's cells move: with the band's thickness and the ratio of the cells above it, and against matter
-// that spreads as the piece stretches. What they sweep changes cells; at the top the body gives it, or takes it.
+// The faces of a column's cells move: with the band's thickness and the ratio of the cells above it, and against
+// material that spreads as the piece stretches. The volume that they sweep changes cells; at the top the body gives it,
+// or takes it.
 template <class Real, class Curve>
 THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& before,
                           const ColumnGrid<Real>& after, const ColumnDrive<Real>& drive, BandColumn<Real>& column,

@@ -5,7 +5,7 @@
 
 namespace thawslide::physics {
 
-// eps_c of matter whose shear gathers in one cell: simple shear gamma without dilation has eps = gamma/sqrt(3), so a
+// eps_c of material whose shear gathers in one cell: simple shear gamma without dilation has eps = gamma/sqrt(3), so a
 // slip s across a cell h is s = sqrt(3) eps h. A surface of rupture then takes the same energy on every cell (crack
 // band: Bazant and Oh 1983). slip: s_c [m]; cell: h [m].
 template <class Real>
@@ -13,7 +13,7 @@ template <class Real>
   return slip / (std::sqrt(Real(3)) * cell);
 }
 
-// The widest cell [m] in which a surface of rupture lets go of no more elastic energy than it takes: beyond it the
+// The widest cell [m] in which a surface of rupture releases no more elastic energy than it takes: beyond it the
 // stress would fall faster than the cell can follow (snap-back). Across one cell the displacement is tau h/G + sqrt(3)
 // eps h, and d(tau)/d(eps) = -(R_0 - R_f)/eps_c at first, so that h <= s_c G/(R_0 - R_f). slip: s_c [m]; loss: R_0 -
 // R_f [Pa], with R = c cos(phi) + p sin(phi) at a mean pressure p.

@@ -112,8 +112,8 @@ double usual_load(const config::Case& parameters, const BodyFigures& body) {
 }
 
 // A base that bears more than the broken body above it: the slide then shears in the cells above its base, which
-// stays frozen, and how much depends on the cell. Soil mechanics knows the same bound of an interface, whose friction
-// angle is at most that of the soil. In simple shear without dilation the body bears N sin(phi) + c cos(phi) (Davis
+// stays frozen, and how much depends on the cell. The same bound holds in soil mechanics: the friction angle of an
+// interface is at most that of the soil. In simple shear without dilation the body bears N sin(phi) + c cos(phi) (Davis
 // 1968).
 std::string doubt_of_strength(const config::Case& parameters, const BodyFigures& body) {
   const std::string& name = parameters.bodies.at(body.name).material;
@@ -126,8 +126,8 @@ std::string doubt_of_strength(const config::Case& parameters, const BodyFigures&
   const double base = std::visit([&](const auto& law) { return law.coefficient(frozen); },
                                  config::friction_of<double>(parameters.basal));
   // The paper's softening over a strain of 1 leaves a body unbroken while it slides.
-  const bool stays_whole = material.softening_strain >= 1.0;
-  const double cohesion = stays_whole ? material.cohesion : material.residual_cohesion;
+  const bool is_unbroken = material.softening_strain >= 1.0;
+  const double cohesion = is_unbroken ? material.cohesion : material.residual_cohesion;
   const double cohesive = cohesion * cosine_of(material.residual_friction_angle) / load;
   const double borne = sine_of(material.residual_friction_angle) + cohesive;
   if (base <= most_of_base * borne) {
@@ -143,7 +143,7 @@ std::string doubt_of_strength(const config::Case& parameters, const BodyFigures&
       std::floor(std::atan(most_of_base * borne) * 180.0 / pi<double>));
 }
 
-// Material that softens over a slip lets go of more elastic energy in a cell than its rupture takes.
+// Material that softens over a slip and releases more elastic energy in a cell than its rupture takes.
 std::string doubt_of_softening(const config::Case& parameters, const BodyFigures& body) {
   const std::string& name = parameters.bodies.at(body.name).material;
   const config::Material& material = parameters.materials.at(name);

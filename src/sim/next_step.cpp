@@ -14,7 +14,7 @@ namespace {
 std::string advice_on(LimitKind kind) {
   switch (kind) {
     case LimitKind::wave:
-      return "A wave runs the faster the lighter the matter: the particle is torn apart. Take such particles out "
+      return "Waves are faster in lighter material: the particle is torn apart. Remove such particles "
              "with guards.volume = \"remove\" and a guards.largest_volume.";
     case LimitKind::viscosity:
       return "Try a smaller viscosity_time in the material: its limit falls with the square of the wave speed, which "

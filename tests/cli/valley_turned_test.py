@@ -128,7 +128,7 @@ def test_valley_turned_and_shifted_is_within_the_spread_of_starting_noise(thawsl
 
     From the plain run, not from the middle of the five: all three share its regular lattice of particles. The shift is
     along the map. Along the vertical it changes by some per cent the area that cohesion and pore pressure act on, while
-    the slide is one or two cells thick (docs/theory/contact.md, "Pressure and area"); it then comes 33 m further.
+    the slide is one or two cells thick (docs/theory/contact.md, "Pressure and area"); it then travels 33 m further.
     """
     plain = valley_as_it_is()
     by_plain = at_rest(thawslide, plain, tmp_path / "plain")

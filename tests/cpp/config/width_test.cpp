@@ -1,4 +1,4 @@
-// What reading a case says of a section whose width varies along x, and how the case is written again.
+// Errors and warnings for a section whose width varies along x, and how the case is written again.
 #include "case_messages.hpp"
 #include "config/describe.hpp"
 #include "config/plausibility.hpp"
@@ -76,22 +76,22 @@ TEST(Width, IsOfASection) {
       "FOLDER/case.toml:2:9: case.width has a meaning only in two dimensions, and case.dimension is 3. Remove it.");
 }
 
-TEST(Width, IsDoubtedWhereItWidensSteeply) {
-  const auto doubts = [](const std::string& width) {
+TEST(Width, CausesAWarningIfItWidensSteeply) {
+  const auto warnings = [](const std::string& width) {
     std::vector<std::string> found;
-    for (const std::string& doubt : implausible(testing_support::case_from_text(with_width(width)))) {
-      if (doubt.find("case.width") != std::string::npos) {
-        found.push_back(doubt.substr(doubt.find("case.toml")));
+    for (const std::string& warning : implausible(testing_support::case_from_text(with_width(width)))) {
+      if (warning.find("case.width") != std::string::npos) {
+        found.push_back(warning.substr(warning.find("case.toml")));
       }
     }
     return found;
   };
-  EXPECT_EQ(doubts("{ x = [10.0, 60.0], value = [20.0, 70.0] }"), std::vector<std::string>{});
-  EXPECT_EQ(doubts("{ x = [10.0, 60.0], value = [170.0, 20.0] }"),
+  EXPECT_EQ(warnings("{ x = [10.0, 60.0], value = [20.0, 70.0] }"), std::vector<std::string>{});
+  EXPECT_EQ(warnings("{ x = [10.0, 60.0], value = [170.0, 20.0] }"),
             (std::vector<std::string>{
                 "case.toml:2:9: case.width is 170 m at x = 10 m and 20 m at x = 60 m: it changes by 3 m per m. The "
-                "lateral motion that the section leaves out would have 0.75 of the kinetic energy there. Give the "
-                "change of width more length."}));
+                "neglected lateral motion would have 0.75 of the kinetic energy there. Spread the change of width over "
+                "a longer distance."}));
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ class RandomChanges : public testing::Test {
 };
 
 // What is the same everywhere stays so, whatever the faces do: cells take in and give by the volume that they sweep.
-TEST_F(RandomChanges, LeaveUniformMatterUniform) {
+TEST_F(RandomChanges, LeaveUniformMaterialUniform) {
   const Model model = make_model();
   const double water = water_of_full_pores(model, -10.0), heat = body_enthalpy(model, -10.0);
   Column column = start_column(model, 0.3, 1.2, -10.0, -10.0, load);
@@ -100,7 +100,7 @@ TEST_F(RandomChanges, LeaveUniformMatterUniform) {
   }
 }
 
-// Single wet cells among dry ones: none comes to hold less than nothing, and the sums are what came in.
+// Single wet cells among dry ones: no content becomes negative, and the sums are what came in.
 TEST_F(RandomChanges, TakeFromNoCellMoreThanItHas) {
   const Model model = make_model();
   int most_parts = 0, single = 0;

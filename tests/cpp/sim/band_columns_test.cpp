@@ -199,7 +199,7 @@ TEST(BandColumns, AreNoTallerThanTheSlide) {
   EXPECT_LT(std::abs(value_of(row, "thermal_residual_J")), 1e-10 * std::abs(value_of(row, "column_heat_J")));
 }
 
-// Below a slide that is deeper than a full column all cells grow by the one ratio, to the bit.
+// Below a slide that is deeper than a full column all cells grow by the one ratio, bitwise identical.
 TEST(BandColumns, AreFullBelowADeepSlide) {
   Simulation<2, double> simulation(case_from_text(column_slab()));
   run_until(simulation, 1.0);

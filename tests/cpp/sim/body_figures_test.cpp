@@ -96,7 +96,7 @@ std::vector<std::string> with_strength(const std::vector<std::string>& others) {
   return sets;
 }
 
-TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseIsTold) {
+TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseCausesAWarning) {
   const auto doubts_with = [](const std::vector<std::string>& others) {
     const std::vector<std::string> sets = with_strength(others);
     return doubts_of_bodies(case_from_text(step, sets), figures_of(step, sets));
@@ -121,7 +121,7 @@ TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseIsTold) {
 }
 
 // R_0 - R_f is 1e5 cos 35 + p (sin 35 - sin 30), p the weight of 4 m.
-TEST(BodyFigures, ACellTooWideForSofteningIsTold) {
+TEST(BodyFigures, ACellTooWideForSofteningCausesAWarning) {
   const std::vector<std::string> sets =
       with_strength({"material.rock.friction_angle=35.0", "material.rock.residual_friction_angle=30.2",
                      "material.rock.softening_slip=0.001"});

@@ -62,7 +62,7 @@ TEST(SectionWidth, OfOneNumberGivesItsBits) {
   expect_bits_of_one_width(column_slab(), {"mechanics.transfer=apic", "terrain.representation=rigid_points"});
 }
 
-// Elastic matter under its own weight between sides of the domain, in a section that opens, narrows and opens again.
+// Elastic material under its own weight between sides of the domain, in a section that opens, narrows and opens again.
 const std::string basin = R"(
 [case]
 width = { x = [20.0, 60.0, 80.0, 90.0], value = [10.0, 50.0, 20.0, 25.0] }
@@ -120,7 +120,7 @@ TEST(SectionWidth, HasTheVolumeOfTheSectionSoWide) {
   const BodyFigures figures = body_figures(simulation).at(0);
   EXPECT_NEAR(figures.mean_thickness, 20.0, 1e-9);
   EXPECT_NEAR(figures.largest_thickness, 20.0, 1e-9);
-  EXPECT_NEAR(figures.shape_volume, volume, 1e-9 * volume) << "nothing is doubted of its volume";
+  EXPECT_NEAR(figures.shape_volume, volume, 1e-9 * volume) << "no warning of its volume";
   EXPECT_LT(figures.clearance, 1e-9);
 }
 

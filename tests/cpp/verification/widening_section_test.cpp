@@ -40,7 +40,7 @@ std::vector<std::string> with(std::vector<std::string> more) {
   return more;
 }
 
-// A body that runs from a channel into one twice as wide. Its middle knows nothing of its ends: it flows steadily, with
+// A body that runs from a channel into one twice as wide. Its ends do not affect its middle: it flows steadily, with
 //   h u b = const,  u^2/2 + g h = const
 TEST(WideningSection, HalvesTheDepthWhereTheWidthDoubles) {
   constexpr double depth = 2.5, speed = 40.0, time = 4.0;
