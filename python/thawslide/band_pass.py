@@ -29,7 +29,7 @@ def even_times(start: float, end: float, step: float, shortest: float, longest: 
     if not samples <= MOST_SAMPLES:
         raise ReportError(
             f"a force between periods of {shortest:g} and {longest:g} s over {end - start:g} s takes "
-            f"{samples:.3g} samples, above {MOST_SAMPLES:g}; ask for longer periods"
+            f"{samples:.3g} samples, above {MOST_SAMPLES:g}; specify longer periods"
         )
     return np.arange(start, end + 0.5 * step, step)
 

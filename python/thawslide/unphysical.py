@@ -1,6 +1,6 @@
-"""Values that cannot be: water hotter than it boils, heat that would melt rock, pore pressure above what loads it.
+"""Unphysical values: water above its boiling point, heat that would melt rock, pore pressure above the load.
 
-The model leaves boiling in particles and melting of rock out, so that nothing in a run holds such values back.
+The model has no boiling in particles and no melting of rock, so that nothing in a run prevents such values.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from thawslide.run import Numbers, Run
 ROCK_MELTS = 1000.0  # C: about where granite is molten throughout
 ROUND_OFF = 1e-3  # of N, and of temperatures
 MOST_OF_WEIGHT = 2.0  # of the static load, that bends and impact may add up to
-EDGES = 0.05  # of particles, that may be anything
+EDGES = 0.05  # fraction of particles that are ignored
 
 
 def boils(run: Run) -> bool:
@@ -22,9 +22,9 @@ def boils(run: Run) -> bool:
 
 
 def temperature_limit(run: Run, pressure: Numbers) -> Numbers:
-    """Return above which temperature [C] a value cannot be, at a pore pressure [Pa].
+    """Return the temperature [C] above which values are unphysical at a pore pressure [Pa].
 
-    Where water does not boil in the model that is where water of the pressure would; elsewhere where rock melts.
+    It is the boiling point at that pressure if water does not boil in the model, else the melting point of rock.
     """
     if boils(run):
         return np.full_like(pressure, ROCK_MELTS)

@@ -100,7 +100,7 @@ def test_a_path_of_no_length_is_refused(thawslide: Program, slope: Path) -> None
         assert "the path has no length; allowed: a line of at least two different points" in refused.stderr
 
 
-def test_a_path_beside_the_release_is_reported(thawslide: Program, slope: Path) -> None:
+def test_a_path_next_to_the_release_is_reported(thawslide: Program, slope: Path) -> None:
     assert "passes the release by" not in thawslide("check", slope).stdout
     write_line(slope / "path.geojson", [(50.0, 190.0), (790.0, 190.0)])
     done = thawslide("check", slope)

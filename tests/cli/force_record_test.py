@@ -46,9 +46,9 @@ def case(small_case: Path) -> Path:
 def test_both_say_the_same(thawslide: Program, case: Path, text: str) -> None:
     file = case / "force.csv"
     file.write_text(text)
-    told = thawslide("check", case)
-    assert told.returncode == 2
-    (found,) = re.findall(r"report\.force_record: (.*)$", told.stderr, re.MULTILINE)
+    checked = thawslide("check", case)
+    assert checked.returncode == 2
+    (found,) = re.findall(r"report\.force_record: (.*)$", checked.stderr, re.MULTILINE)
     with pytest.raises(ReportError) as error:
         read_force_record(file, Band(10.0, 200.0), "")
     assert str(error.value) == found
@@ -68,5 +68,5 @@ def test_a_changed_record_does_not_hinder_a_resume(thawslide: Program, case: Pat
     assert thawslide("run", case, "--output", run).returncode == 0
     (run / "inputs" / "force.csv").write_text(HEADER + "0,1,0,0\n1,0,0,0\n")
     end = float(re.findall(r"\[time\][^\[]*?\nend = ([\d.]+)", (run / "case.toml").read_text())[0])
-    told = thawslide("resume", run, "--end", str(1.5 * end))
-    assert told.returncode == 0, told.stderr
+    resumed = thawslide("resume", run, "--end", str(1.5 * end))
+    assert resumed.returncode == 0, resumed.stderr

@@ -111,7 +111,7 @@ def test_sources_of_cases_are_publications_and_legends_name_them(make_run: MakeR
     assert marks == {f"modelled: {source}" for source in of_speed}
 
 
-def test_two_reported_forces_of_one_value_are_told_apart(make_run: MakeRun) -> None:
+def test_two_reported_forces_of_one_value_can_be_distinguished(make_run: MakeRun) -> None:
     folder = make_run()
     (folder / "inputs" / "targets.csv").write_text(
         "quantity,time_s,value,unit,source\nmax_seismic_force,5,280,GN,One\nmax_seismic_force_2_8_s,5,280,GN,Two\n"

@@ -1,4 +1,4 @@
-"""What the Lamplugh case on band columns owes to the numerics: its runs and tables."""
+"""Influence of numerical parameters on the Lamplugh case with band columns: its runs and tables."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from thawslide.paper.members import Observed
 from thawslide.paper.numerics import CELLS, cell_key, cell_rows, cells_table, numerics_rows, numerics_table
 
 
-def test_rows_scale_the_step_and_keep_the_domain_whole() -> None:
+def test_rows_scale_the_step_and_keep_the_domain() -> None:
     rows = {row.key: row.sets for row in cell_rows()}
     assert len(rows) == 9
     assert rows["e-0.21-cell-5"] == ("band.thickness=0.21", "grid.cell=5", "time.step=0.005")

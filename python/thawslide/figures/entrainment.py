@@ -50,7 +50,7 @@ def entrainment(run: Run) -> Figure:
         raise NotInRunError("the case has no bed: history.csv has no account of what was taken up")
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 6.4), layout="constrained")
-    figure.suptitle(run.titled("bed taken up"), x=0.01, ha="left", size=10)
+    figure.suptitle(run.titled("entrained bed material"), x=0.01, ha="left", size=10)
     mass, work, depth = figure.subplots(3, 1)
     per = "/m of width" if run.per_metre else ""
     divisor, unit = scaled(float(np.nanmax(run.history["mass_kg"])), MASSES)

@@ -54,7 +54,7 @@ def force_in_band(run: Run, band: Band) -> Numbers:
 
 
 def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
-    """Name the force with which the initial stress adjusts, where it is of the size of the rest."""
+    """Label the force of the initial stress adjustment, if it is of the size of the rest."""
     start = time <= time[0] + 0.01 * (time[-1] - time[0])
     if not np.isfinite(magnitude[start]).any() or np.nanmax(magnitude[start]) < 0.5 * np.nanmax(magnitude):
         return

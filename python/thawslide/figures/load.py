@@ -1,4 +1,4 @@
-"""What lies on particles of a 2D run: the static load that pore pressure is set against."""
+"""The static load on particles of a 2D run, with which pore pressure is compared."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from thawslide.errors import ReportError
 from thawslide.run import Numbers, Run, Snapshot
 
-_MOST_SNAPSHOTS = 60  # that a curve of the load is made of
+_MOST_SNAPSHOTS = 60  # used for a curve of the load
 
 
 def overburden(run: Run, shot: Snapshot) -> Numbers:
@@ -28,7 +28,7 @@ def load_on_band(run: Run) -> tuple[Numbers, Numbers]:
     """Return times [s] and the normal pressure N [Pa] of the weight above the band, mean of its mass; none in 3D.
 
     N = w cos2(a), with the weight w above and the slope a of the ground: static, without what bends or impact add.
-    Nothing either where snapshots lack fields or are damaged.
+    Both are empty, too, if snapshots lack fields or are damaged.
     """
     if run.dimension != 2 or run.terrain is None or run.section("case").get("gravity_tilt", 0.0) or not len(run.times):
         return np.empty(0), np.empty(0)

@@ -1,4 +1,4 @@
-"""Which snapshots figures show, and velocities of particles from where they were before and after."""
+"""Snapshots that figures show, and velocities of particles from their displacement."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SHARES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # of the final mean displacement
 
 
 def moments(run: Run) -> list[float]:
-    """Return times [s] at which the slide has gone shares of its final mean displacement; even ones if it never moves.
+    """Return times [s] at which the slide reaches shares of its final mean displacement, even ones if it never moves.
 
     They are those of the run's own clock.
     """
@@ -40,7 +40,7 @@ def chosen_snapshots(run: Run, fields: Collection[str] | None = None) -> list[Sn
 
 
 def shown_snapshot(run: Run, index: int, fields: Collection[str] | None = None) -> Snapshot:
-    """Return a snapshot, its velocities (if asked for) replaced by those from displacement."""
+    """Return a snapshot, its velocities (if requested) replaced by those from displacement."""
     shot = run.snapshot(index, fields=fields if fields is None else {*fields, "id"})
     return shot.with_velocity(displacement_velocity(run, index, shot)) if "velocity" in shot else shot
 

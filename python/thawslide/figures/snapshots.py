@@ -116,7 +116,7 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
 
 
 def _warning(run: Run, shot: Snapshot, painting: Painting) -> str:
-    """Return what cannot be of the values of a panel, "" for nothing."""
+    """Return a warning for unphysical values in a panel, "" for none."""
     if painting is TEMPERATURE:
         wet = np.asarray(shot["liquid_saturation"]) > 0.0
         return too_hot(run, np.asarray(shot["temperature"])[wet], np.asarray(shot["pore_pressure"])[wet])

@@ -139,7 +139,7 @@ def say(axes: Axes, text: str) -> None:
 
 
 def without_title(figure: Figure) -> Figure:
-    """Return a figure for a page whose caption has what its title says, as journals ask for."""
+    """Return a figure without its title, which the caption of the page repeats, as journals require."""
     figure.suptitle("")
     return figure
 

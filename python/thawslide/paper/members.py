@@ -226,9 +226,9 @@ def verdict(found: Sequence[Observed]) -> str:
     """Say plainly which rows are met and which are not, and which members broke off."""
     counts = []
     for kind, words in KINDS.items():
-        asked = [each for each in QUANTITIES if each.kind == kind]
-        met = [each.name_in_text for each in asked if is_met(found, each)]
-        counts.append(f"{len(met)} of {len(asked)} {words} ({'; '.join(met) or 'none'})")
+        rows = [each for each in QUANTITIES if each.kind == kind]
+        met = [each.name_in_text for each in rows if is_met(found, each)]
+        counts.append(f"{len(met)} of {len(rows)} {words} ({'; '.join(met) or 'none'})")
     parts = [f"Met: {', '.join(counts)}."]
     missed = [f"- {_miss(found, each)}" for each in QUANTITIES if not is_met(found, each)]
     parts.append("Not met:\n\n" + "\n".join(missed) if missed else "Not met: none.")

@@ -1,4 +1,4 @@
-"""How much of the Lamplugh case on band columns is a matter of the cell, the step, the stiffness and the viscosity."""
+"""Influence of the cell, the time step, the stiffness and the viscosity on the Lamplugh case with band columns."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def _shifted(share: float, cell: float = 10.0) -> tuple[str, ...]:
 
 
 def numerics_rows() -> list[Row]:
-    """Return the runs that differ from the case in what should not matter."""
+    """Return the runs that differ from the case in one numerical parameter."""
     modulus, viscosity = "material.rock_ice.youngs_modulus", "material.rock_ice.viscosity_time"
     return [
         Row("half-step", "half the time step", ("time.step=0.005",)),
