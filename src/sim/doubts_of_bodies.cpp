@@ -22,7 +22,7 @@ constexpr double most_volume_off = 0.02;  // share that particles may have more 
 constexpr double least_standing = 0.5;    // share of a body's area
 constexpr double touching = 0.5;          // spacings: particles stand on a lattice, and the ground need not
 constexpr int digits_of_places = 6;
-constexpr double most_of_base = 1.15;  // friction of the base over what broken material above it bears
+constexpr double strain_of_unbroken = 1.0;  // material that softens over a strain as long stays unbroken as it slides
 
 // Particles stand on a lattice, which the shape need not.
 std::string doubt_of_volume(const config::Case& parameters, const BodyFigures& body) {
@@ -113,8 +113,7 @@ double usual_load(const config::Case& parameters, const BodyFigures& body) {
 
 // A base that bears more than the broken body above it: the slide then shears in the cells above its base, which
 // stays frozen, and how much depends on the cell. The same bound holds in soil mechanics: the friction angle of an
-// interface is at most that of the soil. In simple shear without dilation the body bears N sin(phi) + c cos(phi) (Davis
-// 1968).
+// interface is at most that of the soil. Along planes parallel to the base the body bears N tan(phi) + c.
 std::string doubt_of_strength(const config::Case& parameters, const BodyFigures& body) {
   const std::string& name = parameters.bodies.at(body.name).material;
   const config::Material& material = parameters.materials.at(name);
@@ -125,22 +124,23 @@ std::string doubt_of_strength(const config::Case& parameters, const BodyFigures&
   const physics::basal::ContactNode<double> frozen{.normal_pressure = load, .solid_fraction = 1.0};
   const double base = std::visit([&](const auto& law) { return law.coefficient(frozen); },
                                  config::friction_of<double>(parameters.basal));
-  // The paper's softening over a strain of 1 leaves a body unbroken while it slides.
-  const bool is_unbroken = material.softening_strain >= 1.0;
+  const double strain = std::max(material.softening_strain,
+                                 physics::softening_strain_of_slip(material.softening_slip, parameters.grid.cell));
+  const bool is_unbroken = strain >= strain_of_unbroken;
+  const double angle = is_unbroken ? material.friction_angle : material.residual_friction_angle;
   const double cohesion = is_unbroken ? material.cohesion : material.residual_cohesion;
-  const double cohesive = cohesion * cosine_of(material.residual_friction_angle) / load;
-  const double borne = sine_of(material.residual_friction_angle) + cohesive;
-  if (base <= most_of_base * borne) {
+  const double borne = std::tan(angle * pi<double> / 180.0) + cohesion / load;
+  if (base <= borne * (1.0 + round_off<double>)) {
     return "";
   }
   const bool softens = material.residual_friction_angle < material.friction_angle;
   const std::string key = "material." + name + (softens ? ".residual_friction_angle" : ".friction_angle");
   return fmt::format(
-      "{}: broken material of body {} bears {:.2f} of its load in shear, and friction of the base is {:.2f} of it: the "
+      "{}: broken material of body {} bears {:.3f} of its load in shear, and friction of the base is {:.3f} of it: the "
       "slide shears above its base, which then does not warm, and the results depend on grid.cell. Give {} a larger "
-      "angle, or [basal] a friction of at most {:.2f} (an angle of {:.0f} degrees).",
-      config::place_of(parameters, key), body.name, borne, base, key, most_of_base * borne,
-      std::floor(std::atan(most_of_base * borne) * 180.0 / pi<double>));
+      "angle, or [basal] a friction of at most {:.3f} (an angle of {:.1f} degrees).",
+      config::place_of(parameters, key), body.name, borne, base, key, borne,
+      std::floor(10.0 * std::atan(borne) * 180.0 / pi<double>) / 10.0);
 }
 
 // Material that softens over a slip and releases more elastic energy in a cell than its rupture takes.
@@ -157,7 +157,7 @@ std::string doubt_of_softening(const config::Case& parameters, const BodyFigures
                       radius(material.residual_cohesion, material.residual_friction_angle);
   const double shear_modulus = material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
   const double widest = physics::widest_softening_cell(material.softening_slip, shear_modulus, loss);
-  if (parameters.grid.cell <= widest) {
+  if (!(loss > 0.0) || parameters.grid.cell <= widest) {
     return "";
   }
   const std::string key = "material." + name + ".softening_slip";

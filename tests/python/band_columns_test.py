@@ -29,6 +29,7 @@ def column_history(rows: int = 101) -> dict[str, np.ndarray]:
         "band_normal_pressure_Pa": np.full(rows, 1.0e6),
         "band_shear_Pa": 4.0e5 - 2.0e4 * t,
         "band_thickness_m": np.full(rows, 0.55),
+        "dilation_share": 0.003 * t,
         "band_hottest_C": 17.0 * t,
         "band_largest_pressure_ratio": 0.1 * t,
         "base_area_m2": np.full(rows, 1.0e6),

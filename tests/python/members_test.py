@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 from band_columns_test import column_history
 from conftest import MakeRun, write_history
+from force_record_test import pulse, write_record
 
 from thawslide import Run
 from thawslide.figures.force import force_in_band
+from thawslide.figures.force_record import compared
 from thawslide.paper.lamplugh import INVERSION
 from thawslide.paper.member_figures import MEMBER, members_over_time, on_one_clock
 from thawslide.paper.members import (
@@ -34,7 +36,8 @@ from thawslide.paper.one_at_a_time import Row, commit_of, is_of_commit, words_to
 
 START = 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/10) = 8
 GOOD = Observed(
-    start=20.0, end=220.0, peak=80.0, rise=35.0, displacement=5.7, runout=10.0, stop=180.0, force=0.28, hottest=190.0,
+    start=20.0, end=220.0, peak=80.0, rise=35.0, displacement=5.7, runout=10.0, stop=180.0, force=0.28, reversal=10.0,
+    dilation=5.0, hottest=190.0,
     ratio=1.0,
 )  # fmt: skip
 WANTED = {each.name: each for each in QUANTITIES}
@@ -64,6 +67,23 @@ def test_what_a_run_gives(make_run: MakeRun) -> None:
     assert (found.displacement, found.runout) == (pytest.approx(0.08), pytest.approx(0.16))
     assert found.force == pytest.approx(np.nanmax(force_in_band(Run(folder), INVERSION)) / 1e12)
     assert (found.hottest, found.ratio) == (pytest.approx(170.0), pytest.approx(1.0))
+    assert found.dilation == pytest.approx(3.0)
+    assert np.isnan(found.reversal), "the case names no record"
+
+
+def test_the_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
+    folder = make_run()
+    time = np.linspace(0.0, 200.0, 2001)
+    force = {
+        "time_s": time,
+        "seismic_force_x_N": -1e11 * pulse(time, 52.0),
+        "seismic_force_y_N": 1e11 * pulse(time, 60.0),
+    }
+    write_history(folder / "history.csv", column_history(2001) | force)
+    write_record(folder)
+    found = compared(Run(folder)).run.reversal
+    assert found is not None and 8.0 < found.duration < 20.0
+    assert observed(folder).reversal == found.duration
 
 
 def test_a_run_that_goes_on_does_not_stop(make_run: MakeRun) -> None:
@@ -96,7 +116,8 @@ def test_a_row_is_met_by_the_median_but_pressure_by_every_member() -> None:
 def test_the_verdict_is_plain() -> None:
     assert verdict([GOOD, GOOD]).endswith("Not met: none.")
     assert verdict([GOOD, GOOD]).startswith(
-        "Met: 2 of 2 observations (runout; force, band-passed 35 to 150 s), 4 of 4 results of other models (peak "
+        "Met: 3 of 3 observations (runout; force, band-passed 35 to 150 s (the band is assumed); vertical force, 10 to "
+        "200 s), 4 of 4 results of other models (peak "
     )
     words = verdict([changed(peak=60.0, ratio=1.2), GOOD, changed(peak=70.0, failure="it\nleft")])
     assert "3 of 4 results of other models (from 8 m/s to the peak; " in words
@@ -139,13 +160,13 @@ def test_variants_outside_the_intervals_are_bold() -> None:
     rows = [Row("a", "the case"), Row("b", "hot", ("x=1",)), Row("c", "gone", ("y=2",))]
     found = {"a": GOOD, "b": changed(hottest=300.0, failure="it left", stop=float("inf")), "c": Observed("not run")}
     head, _, case, hot, gone, _, broken = variants_table(rows, found).splitlines()
-    assert case == "| the case | 10.0 | 0.28 | 80.0 | 35.0 | 5.70 | 180 | 190 | 1.000 | 20.0 |  |"
+    assert case == "| the case | 10.0 | 0.28 | 10.0 | 80.0 | 35.0 | 5.70 | 180 | 190 | 1.000 | 20.0 |  |"
     assert head.startswith(
-        "| run | observation: runout [km] | observation: force 35 to 150 s [TN] | model: peak [m/s] |"
+        "| run | observation: runout [km] | observation: force 35 to 150 s [TN] | observation: force reverses in [s] | model: peak [m/s] |"
     )
     assert "| **not by 220** | **300** | 1.000 | 20.0 | `x=1` |" in hot
     assert "| gone | not run |" in gone
-    assert {line.count("|") for line in (head, case, hot, gone)} == {12}
+    assert {line.count("|") for line in (head, case, hot, gone)} == {13}
     assert broken == "- hot broke off: it left"
 
 

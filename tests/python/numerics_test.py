@@ -19,14 +19,15 @@ def test_rows_scale_the_step_and_keep_the_domain() -> None:
 
 def test_table_of_cells_gives_what_the_finer_two_differ_by() -> None:
     found = {
-        row.key: Observed(peak=80.0, displacement=5.0 if row.key.endswith("-5") else 4.0, runout=9.0)
+        row.key: Observed(peak=80.0, displacement=5.0 if row.key.endswith("-5") else 4.0, runout=9.0, dilation=15.0)
         for row in cell_rows()
     }
     found[cell_key(0.4, CELLS[-1])] = Observed(failure="not run")
     lines = cells_table(found).splitlines()
     assert lines[0] == "| e [m] | quantity | 20 m | 10 m | 5 m | finer two differ by |"
     assert lines[2] == "| 0.21 | mean displacement [km] | 4.00 | 4.00 | 5.00 | 25.0 % |"
-    assert lines[8] == "| 0.4 | mean displacement [km] | 4.00 | 4.00 | none | none |"
+    assert lines[5] == "| 0.21 | growth of the volume [%] | 15.0 | 15.0 | 15.0 | |"
+    assert lines[10] == "| 0.4 | mean displacement [km] | 4.00 | 4.00 | none | none |"
 
 
 def test_table_of_numerics_gives_differences_from_the_case() -> None:

@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 
 from thawslide.clock import time_of_speed
+from thawslide.errors import ReportError
 from thawslide.figures.force import force_in_band
+from thawslide.figures.force_record import compared
 from thawslide.key_numbers import stop_time
 from thawslide.paper.lamplugh import INVERSION
 from thawslide.paper.one_at_a_time import Row, refusal, why_not_whole
@@ -38,6 +40,8 @@ class Observed:
     runout: float = float("nan")  # km
     stop: float = float("nan")  # s, on the clock set
     force: float = float("nan")  # TN
+    reversal: float = float("nan")  # s, from the largest upward to the largest downward force
+    dilation: float = float("nan")  # %, growth of the volume
     hottest: float = float("nan")  # C
     ratio: float = float("nan")  # P over averaged N
 
@@ -80,8 +84,10 @@ KINDS = {"observation": "observations", "model": "results of other models", "bou
 QUANTITIES = (
     Quantity("runout", "observation", "runout: front at the end less rear at the start", "runout", "km", "10.5",
              "9 to 11.5", 9.0, 11.5, ".1f"),
-    Quantity("force", "observation", f"force, band-passed {INVERSION.words}", f"force {INVERSION.words}", "TN", "0.28",
-             "0.22 to 0.34", 0.22, 0.34, ".2f"),
+    Quantity("force", "observation", f"force, band-passed {INVERSION.words} (the band is assumed)",
+             f"force {INVERSION.words}", "TN", "0.28", "0.22 to 0.34", 0.22, 0.34, ".2f"),
+    Quantity("reversal", "observation", "vertical force, 10 to 200 s: from its largest upward to its largest downward "
+             "value", "force reverses in", "s", "10.6", "8 to 13", 8.0, 13.0, ".1f"),
     Quantity("peak", "model", "peak of the mean velocity", "peak", "m/s", "80", "72 to 88", 72.0, 88.0, ".1f"),
     Quantity("rise", "model", "from 8 m/s to the peak", "to the peak", "s", "35", "28 to 42", 28.0, 42.0, ".1f"),
     Quantity("displacement", "model", "mean displacement", "mean displacement", "km", "5.6 to 5.9", "5.3 to 6.2", 5.3,
@@ -114,9 +120,20 @@ def observed(folder: Path) -> Observed:
         runout=float(history["runout_m"][-1]) / 1e3,
         stop=float("inf") if stop is None else stop + shift,
         force=float(np.nanmax(force_in_band(run, INVERSION))) / 1e12,
+        reversal=_reversal(run),
+        dilation=100.0 * float(history["dilation_share"][-1]),
         hottest=float(np.nanmax(history["band_hottest_C"])),
         ratio=float(np.nanmax(history["band_largest_pressure_ratio"])),
     )
+
+
+def _reversal(run: Run) -> float:
+    """Return how long the vertical force takes from its largest upward to its largest downward value [s]."""
+    try:
+        found = compared(run).run.reversal
+    except ReportError:
+        return float("nan")
+    return found.duration if found else float("nan")
 
 
 def member_rows() -> list[Row]:

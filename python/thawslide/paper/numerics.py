@@ -61,6 +61,7 @@ def cells_table(found: Mapping[str, Observed]) -> str:
     lines.append("|---" * (len(CELLS) + 3) + "|")
     quantities = {each.name: each for each in QUANTITIES}
     for thickness in THICKNESSES:
+        growth = " | ".join(f"{found[cell_key(thickness, cell)].dilation:.1f}" for cell in CELLS)
         for name in QUANTITY_NAMES:
             quantity = quantities[name]
             values = [getattr(found[cell_key(thickness, cell)], name) for cell in CELLS]
@@ -69,6 +70,7 @@ def cells_table(found: Mapping[str, Observed]) -> str:
             head = f"{quantity.head} [{quantity.unit}]"
             numbers = " | ".join(quantity.text(value) for value in values)
             lines.append(f"| {thickness:g} | {head} | {numbers} | {shares} |")
+        lines.append(f"| {thickness:g} | growth of the volume [%] | {growth.replace('nan', 'none')} | |")
     return "\n".join(lines)
 
 

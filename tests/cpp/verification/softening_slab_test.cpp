@@ -1,0 +1,114 @@
+// A slab that breaks along its lowest cells and softens over a slip, against the motion of a block on that surface.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using sim::Simulation;
+
+constexpr double gravity = 9.81, tilt = 20.0, height = 40.0, length = 800.0, end = 6.0;
+constexpr double cohesion = 2.2e5, residual = 1.2e5, softening_slip = 1.0;
+
+const std::string slab = R"(
+[case]
+dimension = 2
+gravity_tilt = 20.0
+[time]
+end = 6.0
+step = 0.006
+[grid]
+cell = 10.0
+min = [-200.0, -40.0]
+max = [1400.0, 120.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[body.slab]
+material = "rock"
+shape = "polygon"
+vertices = [[0.0, 0.0], [800.0, 0.0], [800.0, 40.0], [0.0, 40.0]]
+temperature = -5.0
+porosity = 0.3
+[material.rock]
+law = "mohr_coulomb"
+youngs_modulus = 5.0e8
+poisson_ratio = 0.2
+friction_angle = 0.0
+cohesion = 2.2e5
+residual_cohesion = 1.2e5
+[mechanics]
+slope_shear = true
+[basal]
+friction = "constant"
+friction_angle = 60.0
+cohesion = 1e8
+cohesion_law = "constant"
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+// Slip [m] at the end of a slab of thickness `above` [m] on a surface of the strength
+//   c = c_f + (c_0 - c_f) exp(-s/s_c),     rho above s'' = rho g above sin(tilt) - c
+double slip_of_block(double density, double above) {
+  constexpr int steps = 6000;
+  constexpr double dt = end / steps;
+  double slip = 0.0, speed = 0.0;
+  for (int k = 0; k < steps; ++k) {
+    const double strength = residual + (cohesion - residual) * std::exp(-slip / softening_slip);
+    speed += dt * (gravity * std::sin(tilt * pi<double> / 180.0) - strength / (density * above));
+    slip += dt * speed;
+  }
+  return slip;
+}
+
+// Slip of the middle of the slab, above the cells that break, over that of the block. These cells stick to the ground
+// at their lower face, and the surface stands for their middle.
+double slip_over_exact(double cell, const std::string& softening) {
+  Simulation<2, double> simulation(testing_support::case_from_text(
+      slab, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 6e-4 * cell), softening}));
+  testing_support::run_until(simulation, end);
+  const auto& particles = simulation.particles();
+  const Vector<double, 2> origin = simulation.model().origin;
+  double mass = 0.0, moment = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double slipped = particles.displacement(p, 0);
+    const double x = particles.position(p, 0) + origin[0] - slipped;
+    const double y = particles.position(p, 1) + origin[1] - particles.displacement(p, 1);
+    if (std::abs(x - 0.5 * length) < 150.0 && y > cell) {
+      mass += particles.mass(p);
+      moment += particles.mass(p) * slipped;
+    }
+  }
+  const double density = particles.mass(0) / particles.volume(0);
+  return moment / mass / slip_of_block(density, height - 0.5 * cell);
+}
+
+TEST(SofteningSlab, SlipsAsABlockOnASurfaceThatSoftensOverASlip) {
+  Record record(
+      "Slab that softens over a slip",
+      "A slab 40 m thick and 800 m long sticks to its ground, tilted by 20 degrees. Its lowest cells break and "
+      "lose cohesion from 220 to 120 kPa over a slip of 1 m.",
+      "slip s of the middle after 6 s: rho (H - h/2) s'' = rho g (H - h/2) sin a - c_f - (c_0 - c_f) "
+      "exp(-s/s_c)",
+      "momentum of a block on that surface");
+  record.expect_near("slip over exact, cells of 10 m", slip_over_exact(10.0, "material.rock.softening_slip=1.0"), 1.0,
+                     0.08);
+  record.expect_near("slip over exact, cells of 5 m", slip_over_exact(5.0, "material.rock.softening_slip=1.0"), 1.0,
+                     0.04);
+  // The strain that belongs to this slip on cells of 10 m.
+  const double of_strain = slip_over_exact(5.0, "material.rock.softening_strain=0.057735");
+  EXPECT_GT(of_strain, 1.04) << "half of the slip breaks cells of half the size";
+}
+
+}  // namespace
+}  // namespace thawslide::verification
