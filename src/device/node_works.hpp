@@ -12,7 +12,6 @@
 #include "physics/basal/laws.hpp"
 #include "physics/basal_friction.hpp"
 #include "terrain/contact_node.hpp"
-#include "terrain/impulse_on_ground.hpp"
 
 namespace thawslide::device {
 
@@ -103,29 +102,6 @@ struct NodesInStep {
     found = static_cast<std::size_t>(block) * block_nodes + local;
     return block != absent;
   }
-  // The ground's normal impulse [kg m/s] on a candidate node, which has mass. momentum_of(node): of nodes with mass.
-  template <class MomentumOf>
-  [[nodiscard]] THAWSLIDE_HD Real normal_impulse(std::size_t node, const MomentumOf& momentum_of) const {
-    std::size_t other = 0;
-    const auto share = terrain::share_of_impulse(
-        node % block_nodes, nodes.known[node],
-        [&](int direction, int local) -> const terrain::GroundAtNode<Dim, Real>* {
-          return find(node, static_cast<std::size_t>(direction), static_cast<std::size_t>(local), other)
-                     ? nodes.known + other
-                     : nullptr;
-        });
-    const auto impact = [&](std::size_t of) {
-      terrain::ImpactOfNode<Real> found;
-      found.mass = nodes.momentum_at(of)[mpm::MomentumLayout<Dim>::mass];
-      if (found.mass > Real(0)) {
-        found.inward_momentum = momentum_of(of).dot(nodes.known[of].normal);
-        found.clearance = nodes.near_ground_at(of)[mpm::NearGround::clearance];
-      }
-      return found;
-    };
-    return terrain::normal_impulse(share, distance_check, dt, impact(node),
-                                   share.other > Real(0) ? impact(other) : terrain::ImpactOfNode<Real>{});
-  }
 };
 
 // A node's temperature and pore pressure, and the faces of the domain that tell it otherwise.
@@ -156,10 +132,12 @@ struct PressOnGround {
     const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[node];
     Real* base = step.nodes.base_at(node);
     base[mpm::BaseLayout::load] = Real(0);
-    base[mpm::BaseLayout::mapped_back] = Real(0);
     if (step.has_mass(node)) {
+      const auto state = step.trial(node);
       base[mpm::BaseLayout::load] =
-          known.bend * step.normal_impulse(node, [this](std::size_t of) { return step.trial(of).momentum; });
+          known.bend * terrain::approach(step.distance_check,
+                                         step.nodes.near_ground_at(node)[mpm::NearGround::clearance], step.dt,
+                                         state.mass, Real(state.momentum.dot(known.normal)));
     }
     const std::size_t local = node % NodesInStep<Dim, Real>::block_nodes;
     base[mpm::BaseLayout::covered] =
@@ -358,22 +336,6 @@ struct ResolveContact {
   }
 };
 
-// The ground's impulse on what particles map back to a candidate node.
-template <int Dim, class Real>
-struct PressMappedBack {
-  NodesInStep<Dim, Real> step;
-  const std::uint32_t* candidates;
-
-  THAWSLIDE_HD void operator()(std::size_t k) const {
-    const std::size_t node = candidates[k];
-    if (step.nodes.contact_at(node)[mpm::Contact::touching] > Real(0)) {
-      step.nodes.base_at(node)[mpm::BaseLayout::mapped_back] = step.normal_impulse(node, [this](std::size_t of) {
-        return mpm::vector_at<Dim, Real>(static_cast<const Real*>(step.nodes.velocity_at(of)), 0);
-      });
-    }
-  }
-};
-
 // Velocities from the momentum that particles map back.
 template <int Dim, class Real>
 struct MapBack {
@@ -387,12 +349,12 @@ struct MapBack {
     if (!step.has_mass(node)) {
       return;
     }
-    Vector<Real, Dim> from_ground = Vector<Real, Dim>::Zero();
-    if (nodes.known != nullptr) {
-      from_ground = -nodes.base_at(node)[mpm::BaseLayout::mapped_back] * nodes.known[node].normal;
-    }
+    const bool touching = nodes.contact_at(node)[mpm::Contact::touching] > Real(0);
+    const terrain::GroundOfMappedBack<Dim, Real> below{
+        touching, step.distance_check, touching ? &nodes.known[node].normal : nullptr,
+        touching ? nodes.near_ground_at(node)[mpm::NearGround::clearance] : Real(0)};
     Real* velocity = nodes.velocity_at(node);
-    work = terrain::map_back<Dim>(step.walls(node), from_ground, step.gravity, step.dt,
+    work = terrain::map_back<Dim>(step.walls(node), below, step.gravity, step.dt,
                                   static_cast<const Real*>(nodes.momentum_at(node)),
                                   static_cast<const Real*>(nodes.motion_at(node)), velocity);
   }

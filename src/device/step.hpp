@@ -204,13 +204,8 @@ class Step {
       filter_velocities(passes_, &sums_.data()->filtered);
     }
     passes_.template sum<mpm::Velocity, void>(EveryTile{});
-    const NodesInStep<Dim, Real> step = passes_.nodes_in_step(time, dt);
-    if (passes_.ground.exists()) {
-      passes_.backend.for_each(passes_.ground.candidate_count(),
-                               PressMappedBack<Dim, Real>{step, passes_.ground.candidates()});
-    }
     const std::size_t blocks = passes_.cells.tables().blocks;
-    passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim, Real>{step},
+    passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim, Real>{passes_.nodes_in_step(time, dt)},
                                  passes_.memory.template sums<Real>(room_to_add_up(blocks))),
                  &sums_.data()->mapped_back);
   }

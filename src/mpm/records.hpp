@@ -106,8 +106,7 @@ struct BaseLayout {
   // Trial momentum into the ground, less what closes the clearance, times the bend of the ground [kg m/s].
   static constexpr std::size_t load = 0;
   static constexpr std::size_t covered = 1;  // what the slide covers of the node's share of the ground's surface [m2]
-  static constexpr std::size_t mapped_back = 2;  // the ground's normal impulse on what particles map back [kg m/s]
-  static constexpr int size = 3;
+  static constexpr int size = 2;
 };
 
 // What contact leaves at a node for the stages after it.

@@ -90,7 +90,16 @@ device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model
     ask.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
       std::array<terrain::GroundAtNode<Dim, double>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> found;
       terrain::ask_ground<Dim>(*model.ground, model.substrates.get(), block, cell, found.data());
-      std::transform(found.begin(), found.end(), nodes, [](const auto& node) { return node.template cast<Real>(); });
+      std::transform(found.begin(), found.end(), nodes, [](const auto& node) {
+        return terrain::GroundAtNode<Dim, Real>{node.candidate,
+                                                node.substrate,
+                                                node.normal.template cast<Real>(),
+                                                static_cast<Real>(node.area),
+                                                static_cast<Real>(node.bend),
+                                                static_cast<Real>(node.plane),
+                                                static_cast<Real>(node.space),
+                                                static_cast<Real>(node.distance)};
+      });
       return terrain::is_ground_known<Dim>(*model.ground, block, cell);
     };
   }

@@ -6,7 +6,6 @@
 #include "base/instances.hpp"
 #include "terrain/base_pressure.hpp"
 #include "terrain/contact_node.hpp"
-#include "terrain/impulse_on_grid.hpp"
 
 namespace thawslide::terrain {
 
@@ -93,6 +92,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
     if (!ground.any_candidate(b)) {
       return;
     }
+    const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
       auto& base = nodes.base.of_block(b)[k];
       base.fill(Real(0));
@@ -102,15 +102,11 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
       const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
       const auto& record = nodes.momentum(b, k);
       if (record[MomentumLayout<Dim>::mass] > Real(0)) {
+        const mpm::NodeConstraints<Dim, Real> walls{on_block, k};
+        const auto state = trial_state<Dim>(walls, dt, model.mass_damping, record);
         base[BaseLayout::load] =
-            known.bend *
-            normal_impulse_at(grid, ground, nodes, model.distance_check, dt, b, k,
-                              [&](std::size_t block, std::size_t node) {
-                                const mpm::BlockConstraints<Dim, Real> about(grid, constraints, block, time);
-                                return trial_state<Dim>(mpm::NodeConstraints<Dim, Real>{about, node}, dt,
-                                                        model.mass_damping, nodes.momentum(block, node))
-                                    .momentum;
-                              });
+            known.bend * approach(model.distance_check, nodes.near_ground(b, k)[NearGround::clearance], dt, state.mass,
+                                  Real(state.momentum.dot(known.normal)));
       }
       // A node that a hovering slide does not reach has its share of the ground below it all the same.
       base[BaseLayout::covered] = known.area * covered_share_at(grid, ground, model.width, nodes, b, k);

@@ -51,6 +51,13 @@ THAWSLIDE_HD NodeState<Dim, Real> trial_state(const Walls& walls, Real dt, Real 
   return state;
 }
 
+// Momentum with which a node runs into the ground in this step, less what closes the clearance [m] before it.
+template <class Real>
+THAWSLIDE_HD Real approach(bool distance_check, Real clearance, Real dt, Real mass, Real inward_momentum) {
+  const Real left = max(Real(0), clearance);
+  return max(Real(0), distance_check ? inward_momentum - mass * (left / dt) : inward_momentum);
+}
+
 // How much of the space [m3] that belongs to a node the slide fills, 0 to 1.
 template <class Real>
 THAWSLIDE_HD Real filled_share(Real volume, Real space) {
@@ -240,15 +247,27 @@ THAWSLIDE_HD void finish_node(const NodeState<Dim, Real>& state, bool constraine
   }
 }
 
+// The ground below a node whose velocity is mapped back; not touching: it is not asked for.
+template <int Dim, class Real>
+struct GroundOfMappedBack {
+  bool touching, distance_check;
+  const Vector<Real, Dim>* normal;
+  Real clearance;
+};
+
 // From the momentum that particles map back to a node (MUSL), in its record of Velocity, to its velocity, by the same
-// conditions as in the step; from_ground: the ground's impulse [kg m/s]. Returns the work of internal forces [J] at the
-// mid-step velocity less that at this one.
+// conditions as in the step. Returns the work of internal forces [J] at the mid-step velocity less that at this one.
 template <int Dim, class Real, class Walls, class MomentumRecord, class MotionRecord, class VelocityRecord>
-THAWSLIDE_HD Real map_back(const Walls& walls, const Vector<Real, Dim>& from_ground, const Vector<Real, Dim>& gravity,
-                           Real dt, const MomentumRecord& record, const MotionRecord& motion, VelocityRecord& mapped) {
+THAWSLIDE_HD Real map_back(const Walls& walls, const GroundOfMappedBack<Dim, Real>& ground,
+                           const Vector<Real, Dim>& gravity, Real dt, const MomentumRecord& record,
+                           const MotionRecord& motion, VelocityRecord& mapped) {
   using Layout = mpm::MomentumLayout<Dim>;
   const Real mass = record[Layout::mass];
-  Vector<Real, Dim> momentum = mpm::vector_at<Dim, Real>(mapped, 0) + from_ground;
+  Vector<Real, Dim> momentum = mpm::vector_at<Dim, Real>(mapped, 0);
+  if (ground.touching) {
+    const Vector<Real, Dim>& normal = *ground.normal;
+    momentum -= approach(ground.distance_check, ground.clearance, dt, mass, Real(momentum.dot(normal))) * normal;
+  }
   walls.apply(mass, momentum);
   const Vector<Real, Dim> velocity = momentum * (Real(1) / mass);
   mpm::set_vector<Dim>(mapped, 0, velocity);

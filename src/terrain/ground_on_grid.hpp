@@ -7,7 +7,6 @@
 
 #include "base/key_index.hpp"
 #include "mpm/nodes.hpp"
-#include "terrain/main_axis.hpp"
 #include "terrain/substrates.hpp"
 #include "terrain/surface.hpp"
 
@@ -42,18 +41,10 @@ void ask_ground(const Surface<Dim>& surface, const Substrates* substrates, std::
   using T = mpm::Tile<Dim>;
   const typename T::Index first = first_node_of<Dim>(block);
   surface.at_block(first, cell, T::edge, nodes);
-  for (int n = 0; n < T::nodes; ++n) {
+  for (int n = 0; n < T::nodes && substrates != nullptr; ++n) {
     const typename T::Index node = T::node({}, n);
-    Vector<double, Dim> place;
-    for (int a = 0; a < Dim; ++a) {
-      const auto along = static_cast<std::size_t>(a);
-      place[a] = static_cast<double>(first[along] + node[along]) * cell;
-    }
-    const Vector<double, Dim>& normal = nodes[n].normal;
-    nodes[n].height = (nodes[n].plane - place.dot(normal)) / (std::abs(normal[main_axis<Dim, double>(normal)]) * cell);
-    if (substrates != nullptr) {
-      nodes[n].substrate = substrates->at(place[0], Dim == 3 ? place[1] : 0.0);
-    }
+    const auto along = [&](std::size_t a) { return static_cast<double>(first[a] + node[a]) * cell; };
+    nodes[n].substrate = substrates->at(along(0), Dim == 3 ? along(1) : 0.0);
   }
 }
 
@@ -147,8 +138,15 @@ class GroundOnGrid {
     any_candidate_[k] = 0;
     partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], cell) ? 0 : 1;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const GroundAtNode<Dim, Real> known = nodes[n].template cast<Real>();
-      blocks_[k][n] = known;
+      GroundAtNode<Dim, Real>& known = blocks_[k][n];
+      known.candidate = nodes[n].candidate;
+      known.substrate = nodes[n].substrate;
+      known.normal = nodes[n].normal.template cast<Real>();
+      known.area = static_cast<Real>(nodes[n].area);
+      known.bend = static_cast<Real>(nodes[n].bend);
+      known.plane = static_cast<Real>(nodes[n].plane);
+      known.space = static_cast<Real>(nodes[n].space);
+      known.distance = static_cast<Real>(nodes[n].distance);
       any_candidate_[k] |= known.candidate ? 1 : 0;
     }
   }

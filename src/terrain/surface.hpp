@@ -19,22 +19,8 @@ struct GroundAtNode {
   Real bend = 1;      // B/|G|: 1 on a plane, larger where the ground bends within reach of the node
   Real plane = 0;     // c.n with c = integral of x S dA / B: places x with x.n = c.n are the node's plane [m];
                       // infinite where the node is no candidate
-  Real height = 0;    // above its plane, along the grid's axis nearest to the normal [cells]
   Real space = 0;     // integral of the shape function over the space above the ground [m3]
   Real distance = 0;  // from the ground, positive above it [m]
-
-  template <class Other>
-  [[nodiscard]] GroundAtNode<Dim, Other> cast() const {
-    return {candidate,
-            substrate,
-            normal.template cast<Other>(),
-            static_cast<Other>(area),
-            static_cast<Other>(bend),
-            static_cast<Other>(plane),
-            static_cast<Other>(height),
-            static_cast<Other>(space),
-            static_cast<Other>(distance)};
-  }
 };
 
 template <int Dim>

@@ -82,7 +82,8 @@ void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarSt
     // Times the mass: nodes that see next to none have the accelerations of round-off.
     const auto& record = nodes.momentum(b, k);
     const double mass = record[mpm::MomentumLayout<Dim>::mass];
-    const Vector<double, Dim> velocity = scalar.mapped_velocity(node);
+    const auto mapped = Eigen::Map<const Vector<double, Dim>>(scalar.mapped().at(node).data());
+    const Vector<double, Dim> velocity = scalar.contact().mapped_velocity(node, mapped);
     for (int a = 0; a < Dim; ++a) {
       const auto axis = static_cast<std::size_t>(a);
       const auto& moves = nodes.motion(b, k);

@@ -39,8 +39,8 @@ class ScalarContact {
     for (const auto& [node, known] : ground_) {
       if (known.candidate) {
         covered_[node] = known.area * covered_share(node, known.normal);
-        load_[node] =
-            mass(node) > 0.0 ? known.bend * normal_impulse(node, [this](const Index& n) { return trial(n); }) : 0.0;
+        const double into_ground = mass(node) > 0.0 ? trial(node).dot(known.normal) : 0.0;
+        load_[node] = mass(node) > 0.0 ? known.bend * approach(node, into_ground) : 0.0;
       }
     }
     for (const auto& [node, sum] : sums_.momentum) {
@@ -54,12 +54,11 @@ class ScalarContact {
   // Smallest gap between candidate nodes' planes and the particles that they see [m]; nodes that see none are left out.
   [[nodiscard]] const ByNode<Dim, double>& clearance() const { return clearance_; }
 
-  // Velocity of a node from the momentum that particles mapped back: mapped_back(node) [kg m/s].
-  template <class MappedBack>
-  [[nodiscard]] Place mapped_velocity(const Index& node, const MappedBack& mapped_back) const {
-    Place momentum = mapped_back(node);
+  // Velocity of a node from the momentum that particles mapped back.
+  [[nodiscard]] Place mapped_velocity(const Index& node, Place momentum) const {
     if (motion_.at(node).touching) {
-      momentum -= normal_impulse(node, mapped_back) * ground_.at(node).normal;
+      const Place& normal = ground_.at(node).normal;
+      momentum -= approach(node, momentum.dot(normal)) * normal;
     }
     return momentum / mass(node);
   }
@@ -97,54 +96,11 @@ class ScalarContact {
     }
   }
 
-  // Speed [m/s] at which the clearance of a node closes within the step.
-  [[nodiscard]] double closing_speed(const Index& node) const {
+  // Momentum into the ground beyond what closes the clearance.
+  [[nodiscard]] double approach(const Index& node, double inward) const {
     const auto clearance = clearance_.find(node);
     const double left = clearance != clearance_.end() ? std::max(0.0, clearance->second) : HUGE_VAL;
-    return model_.distance_check ? left / dt_ : 0.0;
-  }
-
-  // How far a candidate node lies above the ground along the axis across it [cells].
-  [[nodiscard]] double height(const Index& node) const {
-    const auto& known = ground_.at(node);
-    double along = known.plane;
-    for (int a = 0; a < Dim; ++a) {
-      along -= known.normal[a] * node[static_cast<std::size_t>(a)] * cell_;
-    }
-    return along / (cell_ * std::abs(known.normal[terrain::main_axis<Dim, double>(known.normal)]));
-  }
-  [[nodiscard]] bool crossing_follows(const Index& node) const {
-    return height(node) < 1e-6 && height(node) > -1 + 1e-6;
-  }
-
-  // Impulse of the ground on a node: with the other one beside the crossing, or alone. momentum(node) [kg m/s].
-  template <class Momentum>
-  [[nodiscard]] double normal_impulse(const Index& node, const Momentum& momentum) const {
-    const Place& normal = ground_.at(node).normal;
-    const auto speed = [&](const Index& n) { return momentum(n).dot(ground_.at(n).normal) / mass(n); };
-    const auto alone = [&] { return mass(node) * std::max(0.0, speed(node) - closing_speed(node)); };
-    const int axis = terrain::main_axis<Dim, double>(normal);
-    const int outward = normal[axis] > 0.0 ? -1 : 1;
-    const bool lower = crossing_follows(node);
-    Index other = node;
-    other[static_cast<std::size_t>(axis)] += lower ? outward : -outward;
-    const auto known = ground_.find(other);
-    if (!model_.distance_check || known == ground_.end() || !known->second.candidate || mass(other) == 0.0 ||
-        std::max(known->second.bend, ground_.at(node).bend) > 1.005 ||
-        terrain::main_axis<Dim, double>(known->second.normal) != axis ||
-        known->second.normal[axis] * normal[axis] < 0.0 || crossing_follows(other) == lower ||
-        (height(other) > height(node)) != lower || (!lower && height(node) < 0.0)) {
-      return alone();
-    }
-    double upper_share = -height(lower ? node : other);
-    upper_share = upper_share > 0.75 ? 1.0 : std::max(0.0, upper_share);
-    const double own = lower ? 1.0 - upper_share : upper_share, beside = 1.0 - own;
-    if (beside == 0.0) {
-      return alone();
-    }
-    const double at_surface = own * speed(node) + beside * speed(other);
-    const double allowed = std::min(closing_speed(node), closing_speed(other));
-    return own * std::max(0.0, at_surface - allowed) / (own * own / mass(node) + beside * beside / mass(other));
+    return std::max(0.0, model_.distance_check ? inward - mass(node) * left / dt_ : inward);
   }
 
   [[nodiscard]] double filled_share(const Index& node) const {

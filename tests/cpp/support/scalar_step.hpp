@@ -72,11 +72,7 @@ class ScalarStep {
   [[nodiscard]] const Sums& linear() const { return linear_; }
   [[nodiscard]] const Sums& near_ground_by_mass() const { return near_ground_by_mass_; }
   [[nodiscard]] const Sums& near_ground_by_linear() const { return near_ground_by_linear_; }
-  // Velocity of a node after particles mapped their momentum back.
-  [[nodiscard]] Place mapped_velocity(const Index& node) const {
-    return contact_->mapped_velocity(
-        node, [this](const Index& n) -> Place { return Eigen::Map<const Place>(mapped_.at(n).data()); });
-  }
+  [[nodiscard]] const Sums& mapped() const { return mapped_; }
   [[nodiscard]] const ScalarContact<Dim>& contact() const { return *contact_; }
   [[nodiscard]] std::pair<std::size_t, std::size_t> at(const Index& node) const { return place_.at(node); }
   // The particles after the step, by id.
@@ -163,7 +159,8 @@ class ScalarStep {
       Matrix<double, Dim> gradient = Matrix<double, Dim>::Zero();
       for_nodes(p, Transfer::ugimp, [&](const Index& node, double /*weight*/, const Place& slope) {
         if (contact_->motion().count(node) == 1) {
-          gradient += dt_ * mapped_velocity(node) * slope.transpose();
+          const Place momentum = Eigen::Map<const Place>(mapped_.at(node).data());
+          gradient += dt_ * contact_->mapped_velocity(node, momentum) * slope.transpose();
         }
       });
       const auto& material = simulation_.model().motion.materials[p.material];

@@ -191,7 +191,6 @@ bool ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
     node.distance = static_cast<Real>(above) * cell;
     node.candidate = above == 0;
     node.plane = above == 0 ? -static_cast<Real>(ground_index) * cell : std::numeric_limits<Real>::infinity();
-    node.height = static_cast<Real>(above);
     node.area = above == 0 ? face : 0.0;
     node.space = above == 0 ? 0.5 * face * cell : above > 0 ? face * cell : 0.0;
     nodes[k] = node;
