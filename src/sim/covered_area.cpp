@@ -42,7 +42,10 @@ CellParts inner_parts(const Raster& thickness, int column, int row, long count) 
   for (int k = 0; k < parts_of_cell; ++k) {
     order[static_cast<std::size_t>(k)] = k;
   }
-  const auto depth = [&](int part) { return inwards_x * (part % parts_along) + inwards_y * (part / parts_along); };
+  const auto depth = [&](int part) {
+    const int along_x = part % parts_along, along_y = part / parts_along;
+    return inwards_x * along_x + inwards_y * along_y;
+  };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return depth(a) > depth(b); });
   unsigned parts = 0;
   for (long k = 0; k < count; ++k) {

@@ -258,7 +258,6 @@ class Simulation {
   mutable mpm::Particles<Dim, Real> particles_;
   mutable mpm::SparseGrid<Dim, Real> grid_;
   mutable terrain::GroundOnGrid<Dim, Real> ground_;
-  mutable bool particles_are_here_ = true, grid_is_here_ = true, device_has_failed_ = false;
   mpm::Nodes<Dim, Real> nodes_;
   device::MakeStep<Dim, Real> make_step_;  // empty: the processor takes the steps
   // Null: particles have changed here since, or the device has failed.
@@ -289,6 +288,7 @@ class Simulation {
   } even_steps_;
   std::size_t particles_at_start_ = 0;
   int sorting_interval_ = 64;
+  mutable bool particles_are_here_ = true, grid_is_here_ = true, device_has_failed_ = false;
   Real dt_ = 0, force_of_walls_ = 0;  // of the step, the latter along x [N]
 };
 

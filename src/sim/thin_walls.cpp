@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace thawslide::sim {
 
@@ -18,7 +19,9 @@ struct Wall {
 Wall highest_on_profile(const config::ProfileTable& profile, double from, double to, double cell) {
   Wall highest;
   const double step = cell / 16.0;
-  for (double x = from; x <= to; x += step) {
+  const auto steps = static_cast<std::int64_t>(std::floor((to - from) / step));
+  for (std::int64_t k = 0; k <= steps; ++k) {
+    const double x = from + static_cast<double>(k) * step;
     const double side = std::max(profile.terrain_at(x - 0.5 * cell), profile.terrain_at(x + 0.5 * cell));
     if (const double height = profile.terrain_at(x) - side; height > highest.height) {
       highest = {height, {x, 0.0}};

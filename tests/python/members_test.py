@@ -162,7 +162,8 @@ def test_variants_outside_the_intervals_are_bold() -> None:
     head, _, case, hot, gone, _, broken = variants_table(rows, found).splitlines()
     assert case == "| the case | 10.0 | 0.28 | 10.0 | 80.0 | 35.0 | 5.70 | 180 | 190 | 1.000 | 20.0 |  |"
     assert head.startswith(
-        "| run | observation: runout [km] | observation: force 35 to 150 s [TN] | observation: force reverses in [s] | model: peak [m/s] |"
+        "| run | observation: runout [km] | observation: force 35 to 150 s [TN] | "
+        "observation: force reverses in [s] | model: peak [m/s] |"
     )
     assert "| **not by 220** | **300** | 1.000 | 20.0 | `x=1` |" in hot
     assert "| gone | not run |" in gone

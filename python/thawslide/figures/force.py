@@ -62,6 +62,7 @@ def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
     axes.annotate(
         "the initial stress adjusts", (time[first], magnitude[first]), xytext=(12, 4), textcoords="offset points",
         size=8, color=NOTE, arrowprops={"arrowstyle": "-", "color": NOTE, "linewidth": 0.6},
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
     )  # fmt: skip
 
 
