@@ -56,6 +56,23 @@ GDALDatasetUniquePtr open_raster(const std::string& file) {
   return dataset;
 }
 
+// Of values that an ASCII grid lacks, GDAL would tell row by row, in minutes for millions.
+void require_whole(const std::string& file, GDALDataset& dataset) {
+  VSIStatBufL found;
+  if (std::string(dataset.GetDriverName()) != "AAIGrid" || VSIStatL(file.c_str(), &found) != 0) {
+    return;
+  }
+  const double points = static_cast<double>(dataset.GetRasterXSize()) * dataset.GetRasterYSize();
+  constexpr double per_point = 2.0;  // bytes: a digit and what separates it from the next
+  const double least = per_point * points - 1.0;
+  if (static_cast<double>(found.st_size) < least) {
+    throw UserError(fmt::format(
+        "{}: the file has {} bytes, too few for the {} x {} values that its head names (needed: {:.0f} or more). The "
+        "file seems to be damaged or cut off: copy it anew.",
+        file, found.st_size, dataset.GetRasterXSize(), dataset.GetRasterYSize(), least));
+  }
+}
+
 // The layout of the points from GDAL's six numbers: corner, columns and rows of the upper left pixel.
 Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up) {
   double transform[6];
@@ -163,6 +180,7 @@ RasterFile::RasterFile(const std::string& file, Quantity quantity) : handle_(std
   handle_->dataset = open_raster(file);
   const GdalMessages messages;
   GDALDataset& dataset = *handle_->dataset;
+  require_whole(file, dataset);
   GDALRasterBand* alpha = nullptr;
   handle_->band = band_of_values(file, dataset, alpha);
   layout_ = layout_from(file, dataset, north_up_);

@@ -88,6 +88,10 @@ TEST(RasterFaultsTest, TruncatedFilesAreNotTakenForData) {
   const std::string message = error_of_file(text_file("cut.asc", text));
   EXPECT_EQ(message.substr(0, message.find(';')), "FOLDER/cut.asc: the values cannot be read") << message;
   EXPECT_NE(message.find("The file seems to be damaged or cut off: copy it anew."), std::string::npos);
+  text = "ncols 5\nnrows 2400000\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2 3\n";
+  EXPECT_EQ(error_of_file(text_file("short.asc", text)),
+            "FOLDER/short.asc: the file has 63 bytes, too few for the 5 x 2400000 values that its head names (needed: "
+            "23999999 or more). The file seems to be damaged or cut off: copy it anew.");
 }
 
 TEST(RasterFaultsTest, MapsAreNotWrittenWhereTheyCannotBe) {
