@@ -56,7 +56,7 @@ GDALDatasetUniquePtr open_raster(const std::string& file) {
   return dataset;
 }
 
-// Of values that an ASCII grid lacks, GDAL would tell row by row, in minutes for millions.
+// GDAL reports each missing row of an ASCII grid separately, which takes minutes for millions of rows.
 void require_whole(const std::string& file, GDALDataset& dataset) {
   VSIStatBufL found;
   if (std::string(dataset.GetDriverName()) != "AAIGrid" || VSIStatL(file.c_str(), &found) != 0) {
@@ -66,10 +66,10 @@ void require_whole(const std::string& file, GDALDataset& dataset) {
   constexpr double per_point = 2.0;  // bytes: a digit and what separates it from the next
   const double least = per_point * points - 1.0;
   if (static_cast<double>(found.st_size) < least) {
-    throw UserError(fmt::format(
-        "{}: the file has {} bytes, too few for the {} x {} values that its head names (needed: {:.0f} or more). The "
-        "file seems to be damaged or cut off: copy it anew.",
-        file, found.st_size, dataset.GetRasterXSize(), dataset.GetRasterYSize(), least));
+    throw UserError(
+        fmt::format("{}: the file is too short for {} x {} values (found {} bytes; needed {:.0f} or more). The file "
+                    "seems to be damaged or truncated: copy it again.",
+                    file, dataset.GetRasterXSize(), dataset.GetRasterYSize(), found.st_size, least));
   }
 }
 
@@ -235,7 +235,7 @@ Raster RasterFile::read(const std::optional<Rectangle>& window) const {
                               part.rows, GDT_Float64, sizeof(double), north_up_ ? -line_bytes : line_bytes, nullptr);
   if (result != CE_None || messages.any_error()) {
     throw UserError(
-        fmt::format("{}: the values cannot be read{}. The file seems to be damaged or cut off: copy it anew.", file_,
+        fmt::format("{}: the values cannot be read{}. The file seems to be damaged or truncated: copy it again.", file_,
                     messages.remark()));
   }
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -266,8 +266,8 @@ void RasterFile::remove_masked(const PointWindow& part, Raster& raster) const {
                                            1, GDT_Float64, 0, 0, nullptr);
       if (result != CE_None || messages.any_error()) {
         throw UserError(
-            fmt::format("{}: the mask cannot be read{}. The file seems to be damaged or cut off: copy it again.", file_,
-                        messages.remark()));
+            fmt::format("{}: the mask cannot be read{}. The file seems to be damaged or truncated: copy it again.",
+                        file_, messages.remark()));
       }
       for (int column = 0; column < part.columns; ++column) {
         double& value = raster.values[raster.index(column, row)];

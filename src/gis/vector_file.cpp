@@ -150,8 +150,8 @@ class LayerReader {
     const auto require_whole = [&] {
       if (messages.any_error()) {
         throw UserError(
-            fmt::format("{}: the features cannot be read{}. The file seems to be damaged or cut off: copy it "
-                        "anew.",
+            fmt::format("{}: the features cannot be read{}. The file seems to be damaged or truncated: copy it "
+                        "again.",
                         result_.file, messages.remark()));
       }
     };

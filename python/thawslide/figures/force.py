@@ -60,9 +60,8 @@ def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
         return
     first = int(np.nanargmax(np.where(start, magnitude, -np.inf)))
     axes.annotate(
-        "the initial stress adjusts", (time[first], magnitude[first]), xytext=(12, 4), textcoords="offset points",
-        size=8, color=NOTE, arrowprops={"arrowstyle": "-", "color": NOTE, "linewidth": 0.6},
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+        "initial stress adjustment", (time[first], magnitude[first]), xytext=(0.01, 0.96), textcoords="axes fraction",
+        va="top", size=8, color=NOTE, arrowprops={"arrowstyle": "-", "color": NOTE, "linewidth": 0.6},
     )  # fmt: skip
 
 

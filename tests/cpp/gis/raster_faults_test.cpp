@@ -83,15 +83,16 @@ TEST(RasterFaultsTest, TruncatedFilesAreNotTakenForData) {
   std::filesystem::resize_file(tiff, std::filesystem::file_size(tiff) / 2);
   const std::string of_tiff = error_of_file(tiff);
   EXPECT_EQ(of_tiff.substr(0, of_tiff.find(';')), "FOLDER/cut.tif: the values cannot be read") << of_tiff;
-  EXPECT_EQ(of_tiff.substr(of_tiff.rfind(". The")), ". The file seems to be damaged or cut off: copy it anew.");
+  EXPECT_EQ(of_tiff.substr(of_tiff.rfind(". The")), ". The file seems to be damaged or truncated: copy it again.");
   std::string text = "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2 3\n4 5 6\n7";
   const std::string message = error_of_file(text_file("cut.asc", text));
   EXPECT_EQ(message.substr(0, message.find(';')), "FOLDER/cut.asc: the values cannot be read") << message;
-  EXPECT_NE(message.find("The file seems to be damaged or cut off: copy it anew."), std::string::npos);
+  EXPECT_NE(message.find("The file seems to be damaged or truncated: copy it again."), std::string::npos);
   text = "ncols 5\nnrows 2400000\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2 3\n";
-  EXPECT_EQ(error_of_file(text_file("short.asc", text)),
-            "FOLDER/short.asc: the file has 63 bytes, too few for the 5 x 2400000 values that its head names (needed: "
-            "23999999 or more). The file seems to be damaged or cut off: copy it anew.");
+  EXPECT_EQ(
+      error_of_file(text_file("short.asc", text)),
+      "FOLDER/short.asc: the file is too short for 5 x 2400000 values (found 63 bytes; needed 23999999 or more). The "
+      "file seems to be damaged or truncated: copy it again.");
 }
 
 TEST(RasterFaultsTest, MapsAreNotWrittenWhereTheyCannotBe) {

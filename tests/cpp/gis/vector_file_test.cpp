@@ -195,7 +195,7 @@ TEST(VectorFileTest, TruncatedShapefile) {
   // What GDAL says in between is its own.
   const std::string message = error_of_polygons(file);
   const std::string begin = "FOLDER/cut.shp: the features cannot be read; GDAL says: ";
-  const std::string end = ". The file seems to be damaged or cut off: copy it anew.";
+  const std::string end = ". The file seems to be damaged or truncated: copy it again.";
   EXPECT_EQ(message.substr(0, begin.size()), begin) << message;
   EXPECT_EQ(message.substr(message.size() - std::min(end.size(), message.size())), end) << message;
 }
