@@ -67,8 +67,8 @@ double spread(double cell, double above) {
   return std::sqrt(second / mass - first / mass * first / mass);
 }
 
-// What docs/theory/contact.md says of ground between nodes. Where contact no longer holds the node above the ground,
-// the last two rows come up to the others, and this test and that page have to change.
+// A known limitation (docs/theory/contact.md): contact also holds the node above ground that lies between nodes.
+// Without it the last two rows approach 1, and this test and that page have to change.
 TEST(SpreadingBlock, SpreadsLessWhereTheGroundCutsCells) {
   Record record(
       "Loose block that spreads over level ground",

@@ -139,7 +139,7 @@ TEST(BodyFigures, ACellTooWideForSofteningCausesAWarning) {
       << doubts.front();
 }
 
-// Where cohesion stays and friction falls, the radius of Mohr's circle may grow: nothing is released.
+// If cohesion stays and friction falls, the radius of Mohr's circle may grow, and no energy is released.
 TEST(BodyFigures, SofteningThatLosesNoStrengthIsNotReported) {
   const std::vector<std::string> sets = with_strength(
       {"material.rock.friction_angle=35.0", "material.rock.residual_friction_angle=20.0", "material.rock.cohesion=1e7",
