@@ -102,7 +102,11 @@ def test_dem_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slop
     dem, folder = slope(), tmp_path / "slide"
     whole = dem.read_bytes()
     for size, begin, end in (
-        (9000, "the values cannot be read; GDAL says: ", ". The file seems to be damaged or truncated: copy it again.\n"),
+        (
+            9000,
+            "the values cannot be read; GDAL says: ",
+            ". The file seems to be damaged or truncated: copy it again.\n",
+        ),
         (
             100,
             "the raster cannot be opened; GDAL says: ",
