@@ -1,0 +1,238 @@
+"""Numbers of hand-written pages that come from runs: where each is stated, and whether it agrees with its run.
+
+A file of declarations lists the runs by name, and for each page phrases with their numbers in braces and one expression
+for each number. Two spaces or a line break in a page are one space in a phrase. An expression names runs; it ends with
+"to STEP" if the page rounds to multiples of STEP, and with "at most" or "at least" if the page states a bound.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import shlex
+import tomllib
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+from thawslide.errors import ReportError
+
+_NUMBER = r"[-+−]?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e[-+−]?\d+)?"
+_MARKED = re.compile(r"\{(" + _NUMBER + r")\}")
+_RULE = re.compile(r"(?s)^(.*?)\s+(?:(to)\s+(\S+)|(at most|at least))$")
+# What a result has as its unit. Of a length in metres and a time in seconds a page states many that are no results.
+_UNITS = r"(?:m/s2?|km2?|m2|m3|TN|GN|[TGP]J|[MGk]?Pa|kg|t|C|K|%|s|m|min|degrees)(?![\w/])"
+_WITH_UNIT = re.compile(r"(?<![\w.,/-])" + _NUMBER + r"(?: to " + _NUMBER + r")? " + _UNITS)
+_CODE = re.compile(r"(?s)```.*?```|`[^`]*`|\]\([^)]*\)")
+ROUND_OFF = 1e-9
+
+
+class DeclarationError(Exception):
+    """A declaration that cannot be used; the text names it and the remedy."""
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number that a page states, and how it follows from runs."""
+
+    text: str
+    expression: str
+    step: float  # the page rounds to multiples of it; 0 for a bound
+    bound: str = ""  # "", "at most" or "at least"
+
+    @property
+    def value(self) -> float:
+        """The number as the page states it."""
+        return float(_plain(self.text))
+
+    def agrees(self, found: float) -> bool:
+        """Return whether a value found is rounded to this number, or keeps the bound."""
+        if self.bound:
+            return found <= self.value if self.bound == "at most" else found >= self.value
+        return abs(found - self.value) <= 0.5 * self.step * (1.0 + ROUND_OFF) + ROUND_OFF * abs(self.value)
+
+    def shown(self, found: float) -> str:
+        """Return a value found with one digit more than the page has."""
+        if self.bound or not self.step:
+            return f"{found:.4g}"
+        decimals = max(0, 1 - Decimal(f"{self.step:g}").adjusted())
+        return f"{found:,.{decimals}f}"
+
+    @property
+    def names(self) -> set[str]:
+        """The names that the expression uses."""
+        return {node.id for node in ast.walk(ast.parse(self.expression, mode="eval")) if isinstance(node, ast.Name)}
+
+
+@dataclass(frozen=True)
+class Phrase:
+    """Words of a page with numbers in them; without numbers, words whose numbers come from no run."""
+
+    text: str
+    numbers: tuple[Number, ...] = ()
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page's declarations."""
+
+    file: str
+    checked: tuple[Phrase, ...]
+    given: tuple[Phrase, ...]
+
+
+@dataclass(frozen=True)
+class Declarations:
+    """Texts that expressions name, runs by name as the words of a command after `thawslide`, and pages."""
+
+    texts: dict[str, str]
+    runs: dict[str, tuple[str, ...]]
+    pages: tuple[Page, ...]
+
+
+def _plain(text: str) -> str:
+    return text.replace(",", "").replace("−", "-")
+
+
+def shown_step(text: str) -> float:
+    """Return the unit of the last digit that a number shows: 1 for 1,220, 0.01 for 0.25, 1e-7 for 3e-7."""
+    exponent = Decimal(_plain(text)).as_tuple().exponent
+    assert isinstance(exponent, int)
+    return float(Decimal(1).scaleb(exponent))
+
+
+def number_of(text: str, expression: str) -> Number:
+    """Return a number from its text in the page and its declared expression, which may end with a rule."""
+    rule = _RULE.match(expression)
+    if rule is None:
+        return Number(text, expression, shown_step(text))
+    return Number(text, rule[1], float(rule[3]) if rule[2] else 0.0, rule[4] or "")
+
+
+def phrase_of(declared: list[str]) -> Phrase:
+    """Return a phrase from its text with {numbers} and their expressions."""
+    text, *expressions = declared
+    marked = _MARKED.findall(text)
+    if len(marked) != len(expressions):
+        raise DeclarationError(
+            f"'{text}': the numbers in braces and the expressions do not match "
+            f"(found {len(marked)} and {len(expressions)}). Give one expression for each number."
+        )
+    return Phrase(_MARKED.sub(r"\1", text), tuple(map(number_of, marked, expressions)))
+
+
+def read_declarations(path: Path) -> Declarations:
+    """Read the file of declarations."""
+    content: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
+    runs = {name: tuple(shlex.split(words)) for name, words in content["runs"].items()}
+    pages = tuple(
+        Page(
+            page["file"],
+            tuple(phrase_of(each) for each in page.get("checked", ())),
+            tuple(Phrase(each) for each in page.get("given", ())),
+        )
+        for page in content["page"]
+    )
+    return Declarations(content["texts"], runs, pages)
+
+
+class PageText:
+    """The text of a page with every white space as one space, which knows the line of each place."""
+
+    def __init__(self, text: str) -> None:
+        words = list(re.finditer(r"\S+", text))
+        self.flat = " ".join(word[0] for word in words)
+        self._starts: list[int] = []  # of words in the flat text
+        self._lines: list[int] = []
+        start = 0
+        for word in words:
+            self._starts.append(start)
+            self._lines.append(text.count("\n", 0, word.start()) + 1)
+            start += len(word[0]) + 1
+
+    def line(self, place: int) -> int:
+        """Return the line of a place in the flat text."""
+        return self._lines[bisect_right(self._starts, place) - 1]
+
+    def places(self, phrase: Phrase) -> list[tuple[int, int]]:
+        """Return where a phrase stands in the flat text, from and to."""
+        flat = " ".join(phrase.text.split())
+        return [found.span() for found in re.finditer(re.escape(flat), self.flat)]
+
+
+def section_places(text: PageText, source: str) -> Iterator[tuple[int, int, str]]:
+    """Yield from where to where each section below a heading goes in the flat text, with its heading."""
+    headings = re.findall(r"(?m)^#+ .+$", re.sub(r"(?s)```.*?```", "", source))
+    starts: list[int] = []
+    for heading in headings:
+        start = text.flat.find(" ".join(heading.split()), starts[-1] + 1 if starts else 0)
+        starts.append(start)
+    for start, end, heading in zip(starts, [*starts[1:], len(text.flat)], headings, strict=True):
+        yield start, end, heading
+
+
+def misplaced(page: Page, source: str) -> list[str]:
+    """Return what is wrong with the phrases of a page: a checked one stands there once, any other at least once."""
+    text = PageText(source)
+    wrong = []
+    for phrase in (*page.checked, *page.given):
+        found = len(text.places(phrase))
+        if found == 0 or (found > 1 and phrase.numbers):
+            allowed = "1" if phrase.numbers else "1 or more"
+            wrong.append(
+                f"{page.file}: the page does not state '{phrase.text}' as declared (found {found} times; allowed "
+                f"{allowed}). Write in the declarations what the page says."
+            )
+    return wrong
+
+
+def undeclared(page: Page, source: str) -> list[str]:
+    """Return the numbers with a unit that stand in no declared phrase and no section declared as given, by line."""
+    text = PageText(source)
+    covered = [place for phrase in (*page.checked, *page.given) for place in text.places(phrase)]
+    sections = {phrase.text for phrase in page.given if phrase.text.startswith("#")}
+    covered += [(start, end) for start, end, heading in section_places(text, source) if heading in sections]
+    covered += [found.span() for found in _CODE.finditer(text.flat)]
+    return [
+        f"{page.file}:{text.line(found.start())}: '{found[0]}' is not declared"
+        for found in _WITH_UNIT.finditer(text.flat)
+        if not any(start <= found.start() and found.end() <= end for start, end in covered)
+    ]
+
+
+def needed_runs(declared: Declarations, pages: Mapping[str, Page]) -> set[str]:
+    """Return the names of the runs that these pages need."""
+    numbers = (number for page in pages.values() for phrase in page.checked for number in phrase.numbers)
+    return {name for number in numbers for name in number.names if name in declared.runs}
+
+
+def evaluate(number: Number, names: Mapping[str, Any]) -> float:
+    """Return what the runs give for a number."""
+    return float(eval(number.expression, {"__builtins__": {}, **names}))  # the repository's own declarations
+
+
+def differences(page: Page, source: str, names: Mapping[str, Any]) -> tuple[list[str], int]:
+    """Return a line for each number of a page that differs from its run, and how many were compared."""
+    text = PageText(source)
+    wrong, compared = [], 0
+    for phrase in page.checked:
+        place = text.places(phrase)[0][0]
+        for number in phrase.numbers:
+            if not number.names <= names.keys():
+                continue
+            where = f"{page.file}:{text.line(place)}"
+            compared += 1
+            try:
+                found = evaluate(number, names)
+            except (LookupError, ReportError) as error:
+                wrong.append(f"{where}: '{number.expression}' has no value: {error}")
+                continue
+            if not number.agrees(found):
+                says = f"{number.bound} {number.text}".strip()
+                wrong.append(
+                    f"{where}: says {says}, the run gives {number.shown(found)} ('{phrase.text}': {number.expression})"
+                )
+    return wrong, compared

@@ -1,0 +1,39 @@
+"""The declarations of numbers in hand-written pages: they hold for the pages as they are, and leave no number out."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+
+from thawslide.paper.page_numbers import misplaced, read_declarations, undeclared  # noqa: E402
+
+DECLARED = read_declarations(ROOT / "scripts" / "page_numbers.toml")
+PAGES = {page.file: page for page in DECLARED.pages}
+WHOLE = [str(path.relative_to(ROOT)) for path in [ROOT / "README.md", *sorted(ROOT.glob("cases/*/README.md"))]]
+
+
+@pytest.mark.parametrize("file", PAGES)
+def test_declared_phrases_stand_in_their_page(file: str) -> None:
+    assert misplaced(PAGES[file], (ROOT / file).read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize("file", WHOLE)
+def test_every_number_of_a_case_page_is_declared(file: str) -> None:
+    assert undeclared(PAGES[file], (ROOT / file).read_text(encoding="utf-8")) == []
+
+
+def test_expressions_name_what_is_declared() -> None:
+    known = DECLARED.runs.keys() | DECLARED.texts.keys() | {"table", "abs", "max", "min", "round", "row", "column"}
+    used = set().union(*(n.names for page in DECLARED.pages for phrase in page.checked for n in phrase.numbers))
+    assert used - known == set()
+    assert (DECLARED.runs.keys() | DECLARED.texts.keys()) - used == set()
+
+
+def test_declared_cases_exist() -> None:
+    for name, words in DECLARED.runs.items():
+        assert (ROOT / words[words[0] == "block"]).exists(), name

@@ -1,0 +1,184 @@
+"""Numbers of pages against runs: what agrees, what is found wrong, and where."""
+
+from __future__ import annotations
+
+import random
+import subprocess
+import sys
+from decimal import Decimal
+from pathlib import Path
+
+import pytest
+
+from thawslide.paper.page_measures import from_table
+from thawslide.paper.page_numbers import (
+    DeclarationError,
+    Page,
+    Phrase,
+    differences,
+    misplaced,
+    number_of,
+    phrase_of,
+    read_declarations,
+    shown_step,
+    undeclared,
+)
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCE = """# A case
+
+It reaches a peak of 84 m/s, 31 s
+after the start, and `1 km` in code.
+
+## Inputs
+
+Cells of 10 m.
+"""
+PEAK = phrase_of(["a peak of {84} m/s, {31} s after the start", "peak", "rise"])
+
+
+def page_of(*checked: Phrase, given: tuple[str, ...] = ()) -> Page:
+    return Page("page.md", checked, tuple(Phrase(each) for each in given))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_number_agrees_with_what_rounds_to_it_and_with_nothing_else(seed: int) -> None:
+    chosen = random.Random(seed)
+    for _ in range(200):
+        digits, decimals = chosen.randint(1, 10**6), chosen.randint(0, 5)
+        said = Decimal(digits).scaleb(-decimals) * chosen.choice((1, -1))
+        text = f"{said:,.{decimals}f}"
+        number = number_of(text, "x")
+        step = 10.0**-decimals
+        assert shown_step(text) == pytest.approx(step, rel=1e-12)
+        apart = chosen.uniform(-3.0, 3.0)
+        if abs(abs(apart) - 0.5) > 1e-3:
+            assert number.agrees(float(said) + apart * step) == (abs(apart) < 0.5), (text, apart)
+
+
+@pytest.mark.parametrize(
+    ("text", "expression", "right", "wrong"),
+    [
+        ("1,220", "x to 10", (1215.1, 1224.9), (1214.0, 1226.0)),
+        ("1,220", "x", (1219.6, 1220.4), (1219.0, 1221.0)),
+        ("0.25", "x", (0.245, 0.2549), (0.24, 0.256)),
+        ("-36", "x", (-35.6, -36.4), (36.0, -35.0)),
+        ("+72", "x", (72.3,), (71.0,)),
+        ("−4", "x", (-4.2,), (4.0,)),
+        ("3e-7", "x", (3.4e-7,), (4e-7,)),
+        ("0.01", "x at most", (0.0, 0.01), (0.0101,)),
+        ("150", "x at least", (150.0, 1e3), (149.9,)),
+        ("1", "x", (), (float("nan"), float("inf"))),
+    ],
+)
+def test_number_agrees_by_its_rule(
+    text: str, expression: str, right: tuple[float, ...], wrong: tuple[float, ...]
+) -> None:
+    number = number_of(text, expression)
+    assert number.expression == "x"
+    assert [number.agrees(value) for value in right] == [True] * len(right)
+    assert [number.agrees(value) for value in wrong] == [False] * len(wrong)
+
+
+def test_right_numbers_give_no_line_and_a_wrong_one_is_named_with_its_line() -> None:
+    assert differences(page_of(PEAK), SOURCE, {"peak": 84.4, "rise": 30.9}) == ([], 2)
+    lines, compared = differences(page_of(PEAK), SOURCE, {"peak": 80.27, "rise": 30.9})
+    assert compared == 2
+    assert lines == [
+        "page.md:3: says 84, the run gives 80.3 ('a peak of 84 m/s, 31 s after the start': peak)",
+    ]
+
+
+def test_bound_that_is_passed_is_named() -> None:
+    page = page_of(phrase_of(["a peak of {84} m/s", "peak at most"]))
+    lines, _ = differences(page, SOURCE, {"peak": 84.5})
+    assert lines == ["page.md:3: says at most 84, the run gives 84.5 ('a peak of 84 m/s': peak)"]
+
+
+def test_number_of_a_run_that_is_not_there_is_not_compared() -> None:
+    assert differences(page_of(PEAK), SOURCE, {"peak": 84.4}) == ([], 1)
+
+
+def test_expression_without_a_value_is_named() -> None:
+    page = page_of(phrase_of(["a peak of {84} m/s", 'peak["speed"]']))
+    assert differences(page, SOURCE, {"peak": {}}) == (
+        ["page.md:3: 'peak[\"speed\"]' has no value: 'speed'"],
+        1,
+    )
+
+
+@pytest.mark.parametrize(("text", "count"), [("a peak of {85} m/s", 0), ("{1} km", 1), ("{10} m", 1)])
+def test_checked_phrase_has_to_stand_in_the_page_once(text: str, count: int) -> None:
+    wrong = misplaced(page_of(phrase_of([text, "x"])), SOURCE)
+    assert len(wrong) == 1 - count
+    assert all(f"as declared (found {count} times; allowed 1)" in line for line in wrong)
+    twice = misplaced(page_of(phrase_of([text, "x"])), SOURCE + SOURCE)
+    assert len(twice) == 1
+
+
+def test_given_phrase_may_stand_more_than_once_and_not_never() -> None:
+    assert misplaced(page_of(given=("Cells of 10 m",)), SOURCE + SOURCE) == []
+    assert misplaced(page_of(given=("Cells of 20 m",)), SOURCE) == [
+        "page.md: the page does not state 'Cells of 20 m' as declared (found 0 times; allowed 1 or more). Write in the "
+        "declarations what the page says."
+    ]
+
+
+def test_number_that_no_declaration_covers_is_found() -> None:
+    assert undeclared(page_of(PEAK, given=("Cells of 10 m",)), SOURCE) == []
+    assert undeclared(page_of(PEAK, given=("## Inputs",)), SOURCE) == []
+    assert undeclared(page_of(PEAK), SOURCE) == ["page.md:8: '10 m' is not declared"]
+    assert undeclared(page_of(given=("## Inputs",)), SOURCE) == [
+        "page.md:3: '84 m/s' is not declared",
+        "page.md:3: '31 s' is not declared",
+    ]
+
+
+def test_words_of_a_number_have_to_match_its_braces() -> None:
+    with pytest.raises(DeclarationError, match=r"do not match \(found 1 and 2\). Give one expression for each number"):
+        phrase_of(["a peak of {84} m/s", "peak", "rise"])
+
+
+def test_declarations_are_read_with_texts_runs_and_pages(tmp_path: Path) -> None:
+    file = tmp_path / "numbers.toml"
+    file.write_text(
+        '[texts]\nPAGE = "a.md"\n[runs]\nshort = "cases/block/e050.toml time.end=1 \'b = [1, 2]\'"\n'
+        '[[page]]\nfile = "page.md"\nchecked = [["a {1} m", "short.peak"]]\ngiven = ["2 m"]\n'
+    )
+    found = read_declarations(file)
+    assert found.texts == {"PAGE": "a.md"}
+    assert found.runs == {"short": ("cases/block/e050.toml", "time.end=1", "b = [1, 2]")}
+    assert found.pages == (Page("page.md", (phrase_of(["a {1} m", "short.peak"]),), (Phrase("2 m"),)),)
+    assert found.pages[0].checked[0].numbers[0].names == {"short"}
+
+
+TABLES = """| e | quantity | 5 m |
+|---|---|---|
+| 0.3 | runout | **8.4** |
+
+| run | runout | band |
+| --- | --- | --- |
+| the case | 9.0 (−0.4 %) | 177 to 192 |
+| none | 1,023 | −10 |
+"""
+
+
+def test_number_of_a_table_is_found_by_column_and_row() -> None:
+    assert from_table(TABLES, "5 m", "0.3", "runout") == 8.4
+    assert from_table(TABLES, "runout", "the case") == 9.0
+    assert from_table(TABLES, "band", "the case") == 192.0
+    assert from_table(TABLES, "runout", "none") == 1023.0
+    assert from_table(TABLES, "band", "none") == -10.0
+    with pytest.raises(KeyError, match=r"no table has the column 'band' and a row that begins with \('0.3',\)"):
+        from_table(TABLES, "band", "0.3")
+
+
+def test_script_refuses_a_page_that_is_not_declared(tmp_path: Path) -> None:
+    program = tmp_path / "thawslide"
+    program.touch()
+    done = subprocess.run(
+        [sys.executable, ROOT / "scripts" / "check-numbers", "--program", program, "NONE.md"],
+        capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "NONE.md: not in scripts/page_numbers.toml (allowed: README.md, " in done.stderr
