@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import subprocess
 import sys
 from decimal import Decimal
@@ -15,6 +16,7 @@ from thawslide.paper.page_numbers import (
     DeclarationError,
     Page,
     Phrase,
+    corrected,
     differences,
     misplaced,
     number_of,
@@ -82,17 +84,19 @@ def test_number_agrees_by_its_rule(
 
 def test_right_numbers_give_no_line_and_a_wrong_one_is_named_with_its_line() -> None:
     assert differences(page_of(PEAK), SOURCE, {"peak": 84.4, "rise": 30.9}) == ([], 2)
-    lines, compared = differences(page_of(PEAK), SOURCE, {"peak": 80.27, "rise": 30.9})
+    wrong, compared = differences(page_of(PEAK), SOURCE, {"peak": 80.27, "rise": 30.9})
     assert compared == 2
-    assert lines == [
+    assert [str(each) for each in wrong] == [
         "page.md:3: says 84, the run gives 80.3 ('a peak of 84 m/s, 31 s after the start': peak)",
     ]
 
 
 def test_bound_that_is_passed_is_named() -> None:
     page = page_of(phrase_of(["a peak of {84} m/s", "peak at most"]))
-    lines, _ = differences(page, SOURCE, {"peak": 84.5})
-    assert lines == ["page.md:3: says at most 84, the run gives 84.5 ('a peak of 84 m/s': peak)"]
+    wrong, _ = differences(page, SOURCE, {"peak": 84.5})
+    assert [str(each) for each in wrong] == [
+        "page.md:3: says at most 84, the run gives 84.5 ('a peak of 84 m/s': peak)"
+    ]
 
 
 def test_number_of_a_run_that_is_not_there_is_not_compared() -> None:
@@ -101,10 +105,51 @@ def test_number_of_a_run_that_is_not_there_is_not_compared() -> None:
 
 def test_expression_without_a_value_is_named() -> None:
     page = page_of(phrase_of(["a peak of {84} m/s", 'peak["speed"]']))
-    assert differences(page, SOURCE, {"peak": {}}) == (
-        ["page.md:3: 'peak[\"speed\"]' has no value: 'speed'"],
-        1,
-    )
+    wrong, compared = differences(page, SOURCE, {"peak": {}})
+    assert compared == 1
+    assert [str(each) for each in wrong] == ["page.md:3: 'peak[\"speed\"]' has no value: 'speed'"]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_corrected_page_agrees_and_is_the_same_but_for_its_numbers(seed: int) -> None:
+    chosen = random.Random(seed)
+    phrases = [
+        phrase_of(
+            [f"row {row}: {{{chosen.uniform(-5e3, 5e4):,.{chosen.randint(0, 4)}f}}} m and {{+1.0}} %", "one", "two"]
+        )
+        for row in range(9)
+    ]
+    page = page_of(*phrases)
+    spaces = (" ", "\n", "\n  ")
+    source = "".join(phrase.text.replace(" ", chosen.choice(spaces)) + ".\n\n" for phrase in phrases)
+    declarations = "\n".join(phrase.declared for phrase in phrases)
+    names = {"one": chosen.uniform(-5e3, 5e4), "two": chosen.uniform(-50.0, 50.0)}
+    wrong, _ = differences(page, source, names)
+    assert len(wrong) == 18
+    new_source, new_declarations = corrected(source, declarations, wrong)
+    new_page = page_of(*(phrase_of([line, "one", "two"]) for line in new_declarations.splitlines()))
+    assert differences(new_page, new_source, names) == ([], 18)
+    assert len(new_page.checked) == 9
+    words = [re.sub(r"[-+]?[\d,]*\.?\d+(?= |\n)", "#", each) for each in (source, new_source)]
+    assert words[0] == words[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "expression", "found", "written"),
+    [
+        ("1,220", "x to 10", 1234.0, "1,230"),
+        ("999", "x", 1000.4, "1,000"),
+        ("+72", "x", -3.2, "-3"),
+        ("+72", "x", 70.6, "+71"),
+        ("−4", "x", -5.1, "−5"),
+        ("0.25", "x", 0.3, "0.30"),
+        ("150", "x at most", 160.0, "150"),
+        ("1e-6", "x", 2e-6, "1e-6"),
+        ("84", "x", float("inf"), "84"),
+    ],
+)
+def test_value_is_written_as_the_page_writes_its_number(text: str, expression: str, found: float, written: str) -> None:
+    assert number_of(text, expression).written(found) == written
 
 
 @pytest.mark.parametrize(("text", "count"), [("a peak of {85} m/s", 0), ("{1} km", 1), ("{10} m", 1)])

@@ -8,11 +8,12 @@ for each number. Two spaces or a line break in a page are one space in a phrase.
 from __future__ import annotations
 
 import ast
+import math
 import re
 import shlex
 import tomllib
 from bisect import bisect_right
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
@@ -54,6 +55,16 @@ class Number:
             return found <= self.value if self.bound == "at most" else found >= self.value
         return abs(found - self.value) <= 0.5 * self.step * (1.0 + ROUND_OFF) + ROUND_OFF * abs(self.value)
 
+    def written(self, found: float) -> str:
+        """Return a value found as the page writes this number; the number itself for a bound or a power of ten."""
+        if self.bound or "e" in self.text or not math.isfinite(found):
+            return self.text
+        step = Decimal(repr(self.step))
+        rounded = (Decimal(found) / step).to_integral_value() * step
+        decimals = len(self.text.partition(".")[2])
+        text = f"{rounded:{'+' if self.text.startswith('+') else ''},.{decimals}f}"
+        return text.replace("-", "−") if "−" in self.text else text
+
     def shown(self, found: float) -> str:
         """Return a value found with one digit more than the page has."""
         if self.bound or not self.step:
@@ -71,8 +82,41 @@ class Number:
 class Phrase:
     """Words of a page with numbers in them; without numbers, words whose numbers come from no run."""
 
-    text: str
+    declared: str  # with the numbers in braces
     numbers: tuple[Number, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """The words as the page has them, with one space for every white space."""
+        return " ".join(_MARKED.sub(r"\1", self.declared).split())
+
+    @property
+    def places(self) -> list[int]:
+        """Where each number begins in the text."""
+        marks = _MARKED.finditer(" ".join(self.declared.split()))
+        return [found.start() - 2 * place for place, found in enumerate(marks)]
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A number of a page that its run does not give, or that has no value (nan; why says so)."""
+
+    file: str
+    line: int
+    phrase: Phrase
+    place: int  # of the number within the phrase
+    found: float
+    why: str = ""
+
+    def __str__(self) -> str:
+        number = self.phrase.numbers[self.place]
+        if self.why:
+            return f"{self.file}:{self.line}: '{number.expression}' has no value: {self.why}"
+        says = f"{number.bound} {number.text}".strip()
+        return (
+            f"{self.file}:{self.line}: says {says}, the run gives {number.shown(self.found)} "
+            f"('{self.phrase.text}': {number.expression})"
+        )
 
 
 @dataclass(frozen=True)
@@ -121,7 +165,7 @@ def phrase_of(declared: list[str]) -> Phrase:
             f"'{text}': the numbers in braces and the expressions do not match "
             f"(found {len(marked)} and {len(expressions)}). Give one expression for each number."
         )
-    return Phrase(_MARKED.sub(r"\1", text), tuple(map(number_of, marked, expressions)))
+    return Phrase(text, tuple(map(number_of, marked, expressions)))
 
 
 def read_declarations(path: Path) -> Declarations:
@@ -146,6 +190,7 @@ class PageText:
         words = list(re.finditer(r"\S+", text))
         self.flat = " ".join(word[0] for word in words)
         self._starts: list[int] = []  # of words in the flat text
+        self._origins = [word.start() for word in words]  # in the text itself
         self._lines: list[int] = []
         start = 0
         for word in words:
@@ -157,10 +202,14 @@ class PageText:
         """Return the line of a place in the flat text."""
         return self._lines[bisect_right(self._starts, place) - 1]
 
+    def origin(self, place: int) -> int:
+        """Return the place in the text itself of a place in the flat text."""
+        word = bisect_right(self._starts, place) - 1
+        return self._origins[word] + place - self._starts[word]
+
     def places(self, phrase: Phrase) -> list[tuple[int, int]]:
         """Return where a phrase stands in the flat text, from and to."""
-        flat = " ".join(phrase.text.split())
-        return [found.span() for found in re.finditer(re.escape(flat), self.flat)]
+        return [found.span() for found in re.finditer(re.escape(phrase.text), self.flat)]
 
 
 def section_places(text: PageText, source: str) -> Iterator[tuple[int, int, str]]:
@@ -214,25 +263,42 @@ def evaluate(number: Number, names: Mapping[str, Any]) -> float:
     return float(eval(number.expression, {"__builtins__": {}, **names}))  # the repository's own declarations
 
 
-def differences(page: Page, source: str, names: Mapping[str, Any]) -> tuple[list[str], int]:
-    """Return a line for each number of a page that differs from its run, and how many were compared."""
+def differences(page: Page, source: str, names: Mapping[str, Any]) -> tuple[list[Difference], int]:
+    """Return the numbers of a page that differ from their runs, and how many were compared."""
     text = PageText(source)
     wrong, compared = [], 0
     for phrase in page.checked:
-        place = text.places(phrase)[0][0]
-        for number in phrase.numbers:
+        line = text.line(text.places(phrase)[0][0])
+        for place, number in enumerate(phrase.numbers):
             if not number.names <= names.keys():
                 continue
-            where = f"{page.file}:{text.line(place)}"
             compared += 1
             try:
                 found = evaluate(number, names)
             except (LookupError, ReportError) as error:
-                wrong.append(f"{where}: '{number.expression}' has no value: {error}")
+                wrong.append(Difference(page.file, line, phrase, place, math.nan, str(error)))
                 continue
             if not number.agrees(found):
-                says = f"{number.bound} {number.text}".strip()
-                wrong.append(
-                    f"{where}: says {says}, the run gives {number.shown(found)} ('{phrase.text}': {number.expression})"
-                )
+                wrong.append(Difference(page.file, line, phrase, place, found))
     return wrong, compared
+
+
+def corrected(source: str, declarations: str, wrong: Sequence[Difference]) -> tuple[str, str]:
+    """Return a page and the declarations with the values found in the place of the numbers that differ."""
+    text = PageText(source)
+    changes = []
+    for each in wrong:
+        number, start = each.phrase.numbers[each.place], text.places(each.phrase)[0][0]
+        place = text.origin(start + each.phrase.places[each.place])
+        changes.append((place, place + len(number.text), number.written(each.found)))
+    for start, end, new in sorted(changes, reverse=True):
+        source = source[:start] + new + source[end:]
+    for phrase in dict.fromkeys(each.phrase for each in wrong):
+        new_texts = [number.text for number in phrase.numbers]
+        for each in wrong:
+            if each.phrase == phrase:
+                new_texts[each.place] = phrase.numbers[each.place].written(each.found)
+        parts = _MARKED.split(phrase.declared)[::2]
+        marked = "".join(f"{words}{{{new}}}" for words, new in zip(parts, new_texts, strict=False)) + parts[-1]
+        declarations = declarations.replace(phrase.declared, marked)
+    return source, declarations
