@@ -99,8 +99,11 @@ def test_bound_that_is_passed_is_named() -> None:
     ]
 
 
-def test_number_of_a_run_that_is_not_there_is_not_compared() -> None:
-    assert differences(page_of(PEAK), SOURCE, {"peak": 84.4}) == ([], 1)
+def test_number_of_an_absent_run_is_not_compared_and_one_of_an_unknown_name_is_named() -> None:
+    assert differences(page_of(PEAK), SOURCE, {"peak": 84.4}, {"rise"}) == ([], 1)
+    wrong, compared = differences(page_of(PEAK), SOURCE, {"peak": 84.4})
+    assert compared == 2
+    assert [str(each) for each in wrong] == ["page.md:3: 'rise' has no value: name 'rise' is not defined"]
 
 
 def test_expression_without_a_value_is_named() -> None:

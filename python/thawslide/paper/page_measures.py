@@ -184,8 +184,9 @@ class Measured(Curve):
         """Return the length [m] of the slide in a snapshot, from its last particle to its first."""
         return float(np.ptp(self.run.snapshot(place, fields=["volume"]).points[:, 0]))
 
+    @property
     def hottest_particle(self) -> float:
-        """Return the highest temperature [C] of a particle in any snapshot."""
+        """The highest temperature [C] of a particle in any snapshot."""
         return max(
             float(np.max(self.run.snapshot(place, fields=["temperature"])["temperature"]))
             for place in range(self.run.times.size)
