@@ -8,10 +8,12 @@ from pathlib import Path
 import numpy as np
 from grounds import ALR, PLANE, Variant, write_ground
 from jobs import Job, processor_time
+from thawslide.maps import read_map
 from thawslide.run import Run
 
 HERE = Path(__file__).resolve().parent
-PLANE_CELLS = (20.0, 10.0, 5.0)  # m
+PLANE_CELLS = (40.0, 20.0, 10.0, 5.0, 10.0 / 3.0)  # m
+PLANE_THICKNESS = 40.0  # m, of the release, along the normal
 ALR_CELLS = (10.0, 6.6, 5.0, 3.3)  # m
 STUDIED = 6.6  # m: the cell of the runs that isolate causes
 FILTERED = Variant("alr", "default filter")
@@ -42,6 +44,19 @@ class Found:
     processor: float  # [s]
 
 
+@dataclass(frozen=True)
+class Deposit:
+    """The numbers of a run's deposit that maps show."""
+
+    cell: float  # [m]
+    covered: float  # area at the end [m2]
+    affected: float  # area that was covered at any time [m2]
+    thickness: float  # largest on the map [m]
+    width: float  # standard deviation of the mass across the slope [m]
+    dilation: float  # share by which the volume has grown
+    map_cell: float  # [m]
+
+
 def alr_domain(cell: float) -> tuple[str, str]:
     """Return the changes of the domain of AlR to a whole number of cells: inside the DEM, and high enough."""
     counts = [math.floor(ALR_SIZE[axis] / cell + 1e-9) for axis in (0, 1)] + [math.ceil(ALR_SIZE[2] / cell - 1e-9)]
@@ -51,7 +66,7 @@ def alr_domain(cell: float) -> tuple[str, str]:
 
 def cells_of(cell: float) -> tuple[str, str]:
     """Return the changes of the cell and the step."""
-    return f"grid.cell={cell:g}", f"time.step={STEP_PER_CELL * cell:g}"
+    return f"grid.cell={cell:.12g}", f"time.step={STEP_PER_CELL * cell:g}"
 
 
 def plane_job(cell: float, runs: Path, extra: tuple[str, ...] = ()) -> Job:
@@ -101,6 +116,23 @@ def read_found(job: Job) -> Found:
         left=float(history["left_mass_kg"][-1] / history["mass_kg"][0]),
         particles=int(run.facts["particles"]),
         processor=processor_time(job.log.with_suffix(".json")),
+    )
+
+
+def read_deposit(job: Job) -> Deposit:
+    """Read what the maps of a run on the plane, which falls along x, show of its deposit."""
+    run = Run(job.output)
+    thickness = read_map(job.output / "maps" / "final_thickness.tif")
+    last = run.snapshot(-1, fields=["mass"])
+    y, mass = last.points[:, 1], last["mass"]
+    return Deposit(
+        cell=float(run.section("grid")["cell"]),
+        covered=float(run.facts["covered_area_m2"]),
+        affected=float(run.facts["affected_area_m2"]),
+        thickness=float(np.nanmax(thickness.values)),
+        width=math.sqrt(np.average((y - np.average(y, weights=mass)) ** 2, weights=mass)),
+        dilation=float(run.facts["dilation_share"]),
+        map_cell=float(thickness.grid.cell_x),
     )
 
 

@@ -7,7 +7,22 @@ import numpy as np
 from grounds import ALR, Variant
 from jobs import Job
 from matplotlib.figure import Figure
-from refinement import CAUSES, FILTERED, HERE, ROUGH, STUDIED, WIDE, Found, limit, order, read_found, spread
+from refinement import (
+    CAUSES,
+    FILTERED,
+    HERE,
+    PLANE_THICKNESS,
+    ROUGH,
+    STUDIED,
+    WIDE,
+    Deposit,
+    Found,
+    limit,
+    order,
+    read_deposit,
+    read_found,
+    spread,
+)
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, ORANGE, RED, styled
 from thawslide.maps import Map, read_map
 from thawslide.run import Run
@@ -16,6 +31,7 @@ from wedge import Interval, intervals
 LENGTH = 10.0  # s, of the intervals of apparent friction
 SLOWEST = 2.0  # m/s: mean speed from which on an interval is compared
 COLOURS = (BLUE, ORANGE, GREEN, RED)
+HALVING = (20.0, 10.0, 5.0)  # m: the cells of the plane that orders and limits follow from
 
 ROWS = {
     "travel distance (m)": lambda found: f"{found.travel:,.0f}",
@@ -47,19 +63,53 @@ def table(heads: list[str], found: list[Found], more: dict[str, list[str]] | Non
 
 def cells_table(found: list[Found], more: dict[str, list[str]] | None = None) -> str:
     """Return the numbers of runs that differ by their cell."""
-    return table(["cell (m)", *(f"{each.cell:g}" for each in found)], found, more)
+    return table(["cell (m)", *(f"{each.cell:.3g}" for each in found)], found, more)
+
+
+def order_and_limit(values: list[float], digits: int) -> tuple[str, str]:
+    """Return the observed order of a value on three cells that halve, and its limit, as texts."""
+    coarse, middle, fine = values
+    observed = order(coarse, middle, fine)
+    return (
+        "not monotonic" if math.isnan(observed) else f"{observed:.1f}",
+        "" if not observed > 0.0 else f"{limit(middle, fine, observed):,.{digits}f}",
+    )
+
+
+def halving(found: list[Found] | list[Deposit], name: str) -> list[float]:
+    """Return a value on the three cells that halve."""
+    return [getattr(each, name) for each in found if each.cell in HALVING]
 
 
 def convergence(found: list[Found]) -> dict[str, list[str]]:
-    """Return the columns of the observed order and of the limit, for three cells that halve."""
-    orders, limits = [], []
-    for name, digits in (("travel", 0), ("reach_angle", 2), ("centre", 0), ("speed", 1)):
-        coarse, middle, fine = (getattr(each, name) for each in found)
-        observed = order(coarse, middle, fine)
-        orders.append("not monotonic" if math.isnan(observed) else f"{observed:.1f}")
-        limits.append("" if not observed > 0.0 else f"{limit(middle, fine, observed):,.{digits}f}")
-    empty = [""] * (len(ROWS) - len(orders))
-    return {"observed order": orders + empty, "extrapolated": limits + empty}
+    """Return the columns of the observed order and of the limit."""
+    names = (("travel", 0), ("reach_angle", 2), ("centre", 0), ("speed", 1))
+    pairs = [order_and_limit(halving(found, name), digits) for name, digits in names]
+    empty = [""] * (len(ROWS) - len(pairs))
+    return {
+        "observed order": [each for each, _ in pairs] + empty,
+        "extrapolated": [each for _, each in pairs] + empty,
+    }
+
+
+def deposit_table(found: list[Deposit]) -> str:
+    """Return the numbers of maps on several cells, with observed order and limit."""
+    names = {
+        "deposit area (m2)": ("covered", 0),
+        "affected area (m2)": ("affected", 0),
+        "maximum thickness of the deposit (m)": ("thickness", 1),
+        "standard deviation of the deposit across the slope (m)": ("width", 0),
+    }
+    lines = [
+        ["cell (m)", *(f"{each.cell:.3g}" for each in found), "observed order", "extrapolated"],
+        ["cells across the release", *(f"{PLANE_THICKNESS / each.cell:.3g}" for each in found), "", ""],
+    ]
+    for words, (name, digits) in names.items():
+        values = [f"{getattr(each, name):,.{digits}f}" for each in found]
+        lines.append([words, *values, *order_and_limit(halving(found, name), digits)])
+    lines.append(["volume gained by dilation", *(f"{100.0 * each.dilation:.0f} %" for each in found), "", ""])
+    lines.append(["cell of the maps (m)", *(f"{each.map_cell:g}" for each in found), "", ""])
+    return markdown(lines)
 
 
 def spread_words(found: list[Found]) -> str:
@@ -134,7 +184,10 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
         runs = {each.cell: done[f"{start}-{each.cell:g}"] for each in found(start)}
         return {cell: friction_rows(job, read_map(job.output / "maps" / "terrain.tif")) for cell, job in runs.items()}
 
+    deposits = [read_deposit(job) for name, job in done.items() if name.rpartition("-")[0] == "plane"]
+    deposits.sort(key=lambda one: -one.cell)
     plane, alr, wide, rough = (found(start) for start in ("plane", FILTERED.name, WIDE.name, ROUGH.name))
+    has_halving = {each.cell for each in plane} >= set(HALVING)
     causes = {each: done.get(f"{each.name}-{STUDIED:g}") for each in (FILTERED, ROUGH, *CAUSES)}
     causes = {each: job for each, job in causes.items() if job}
     studied = {each.words: friction(each.name)[STUDIED] for each in causes}
@@ -144,8 +197,10 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
     )
     parts = [
         (HERE / "refinement.md").read_text().strip(),
-        cells_table(plane, convergence(plane) if len(plane) == 3 else None),
+        cells_table(plane, convergence(plane) if has_halving else None),
         (HERE / "refinement-plane.md").read_text().strip(),
+        deposit_table(deposits) if has_halving else "",
+        (HERE / "refinement-deposit.md").read_text().strip(),
         (HERE / "refinement-slope.md").read_text().strip(),
         "The DEM filtered by 10 m on every cell (`terrain.smooth = 10`):",
         cells_table(wide),

@@ -16,6 +16,7 @@
 #include "config/case_proposal.hpp"
 #include "config/input_files.hpp"
 #include "config/read_case.hpp"
+#include "config/resolution.hpp"
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/site.hpp"
@@ -229,9 +230,7 @@ int make_new_case(const NewOptions& options) {
 
   fmt::print("{}: a release of {:.4g} m3, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
              (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
-  if (const std::string note =
-          config::resolution_note(body_name, proposal.median_thickness, proposal.cell, proposal.particles_per_axis);
-      !note.empty()) {
+  if (const std::string note = config::resolution_note(config::release_on_cells(proposal), "--cell"); !note.empty()) {
     fmt::print("note: {}\n", note);
   }
   if (const std::string warning = config::edge_warning(proposal); !warning.empty()) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "config/fitting_cell.hpp"
+#include "config/resolution.hpp"
 #include "config/rule.hpp"
 #include "config/values.hpp"
 
@@ -19,7 +20,6 @@ namespace thawslide::config {
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
-constexpr double particles_across = 6.0, fewest_across = 4.0;
 constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
 constexpr double block_cells = 4.0;  // the domain is a multiple of, so that the cell may be doubled twice
@@ -165,19 +165,6 @@ double median_thickness(const Raster& thickness) {
   return median_of(std::move(known));
 }
 
-std::string resolution_note(const std::string& body, double thickness, double cell, int particles_per_axis,
-                            const std::vector<double>& lengths) {
-  const double across = thickness * particles_per_axis / cell;
-  if (across >= fewest_across * (1.0 - 1e-9)) {
-    return "";
-  }
-  return fmt::format(
-      "the body {} has {:.2g} particles across its median thickness of {:.3g} m; fewer than {:g} do not tell how it "
-      "shears and thins. A cell of {:.9g} m has {:g} and more",
-      body, across, thickness, fewest_across,
-      fitting_cell(thickness * particles_per_axis / particles_across, cell, lengths), particles_across);
-}
-
 std::string edge_warning(const Proposal& proposal) {
   if (proposal.edge_distance >= proposal.length) {
     return "";
@@ -186,6 +173,14 @@ std::string edge_warning(const Proposal& proposal) {
       "--dem: the release is close to the edge of the known terrain (found {:.3g} m; needed its own length, {:.3g} m, "
       "or more). Particles that pass the edge are removed, and the results lack them. Use a larger terrain model",
       proposal.edge_distance, proposal.length);
+}
+
+BodyOnCells release_on_cells(const Proposal& proposal) {
+  return {.name = "slide",
+          .thickness = proposal.median_thickness,
+          .cell = proposal.cell,
+          .particles_per_axis = proposal.particles_per_axis,
+          .has_maps = true};
 }
 
 Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell) {
@@ -226,7 +221,7 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle,
 }
 
 void propose_cell(Proposal& proposal, int dimension, double cell) {
-  proposal.cell = cell > 0.0 ? cell : round_down(proposal.thickness * proposal.particles_per_axis / particles_across);
+  proposal.cell = cell > 0.0 ? cell : round_down(proposal.thickness * proposal.particles_per_axis / proposed_particles);
   proposal.particles = proposal.volume / std::pow(proposal.cell / proposal.particles_per_axis, dimension);
 }
 
@@ -282,7 +277,7 @@ dimension = 3  # x is east, y is north, z is up
 # nothing, as only cells near the slide take memory and time.
 [grid]
 cell = {cell}  # m; {across}
-min = {min}
+{maps}min = {min}
 max = {max}
 leaving = "remove"  # what leaves the domain or the DEM is removed, and its mass reported; "stop": it ends the run
 
@@ -304,7 +299,7 @@ arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
 )",
       fmt::arg("title", quoted(input.title)), fmt::arg("time", time_text(proposal)),
       fmt::arg("angle", input.reach_angle), fmt::arg("cell", number_text(proposal.cell)),
-      fmt::arg("across", cell_comment(proposal)),
+      fmt::arg("across", cell_comment(proposal)), fmt::arg("maps", maps_comment(release_on_cells(proposal))),
       fmt::arg("confirmed", input.largest_volume > 0.0
                                 ? fmt::format("largest_volume = {}  # m3\n", number_text(input.largest_volume))
                                 : std::string()),

@@ -6,6 +6,7 @@
 
 #include "base/raster.hpp"
 #include "config/case.hpp"
+#include "config/resolution.hpp"
 #include "config/taper_proposal.hpp"
 
 namespace thawslide::config {
@@ -61,11 +62,8 @@ void propose_times(Proposal& proposal, double farthest);
 // Of a raster of thickness [m] on points of one area each: half of the area is where it is thinner.
 [[nodiscard]] double median_thickness(const Raster& thickness);
 
-// What the user should know of cells that put too few particles across the median thickness of a body [m]; empty where
-// they are enough. The cell that it names fits a domain of these `lengths` [m], a whole number of cells each; empty:
-// any does, as the domain follows from it.
-[[nodiscard]] std::string resolution_note(const std::string& body, double thickness, double cell,
-                                          int particles_per_axis, const std::vector<double>& lengths = {});
+// The release of a 3D case, which has maps.
+[[nodiscard]] BodyOnCells release_on_cells(const Proposal& proposal);
 
 // A warning for a release that is nearer to the edge of the DEM, or to points without data, than its own length: an
 // avalanche spreads and travels by more than that. Empty where it is not.

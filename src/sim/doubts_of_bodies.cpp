@@ -8,9 +8,9 @@
 #include "base/linear.hpp"
 #include "base/rounding.hpp"
 #include "config/basal_laws.hpp"
-#include "config/case_proposal.hpp"
 #include "config/fitting_cell.hpp"
 #include "config/plausibility.hpp"
+#include "config/resolution.hpp"
 #include "physics/softening.hpp"
 
 namespace thawslide::sim {
@@ -182,6 +182,21 @@ std::string doubt_of_warmth(const config::Case& parameters, const BodyFigures& b
       config::place_of(parameters, key), key, body.warmest, digits_of_places, temperature.source);
 }
 
+// Too few particles across its median thickness, or too few cells for maps.
+std::string doubt_of_resolution(const config::Case& parameters, const BodyFigures& body) {
+  if (!parameters.mechanics.enabled) {
+    return "";
+  }
+  const config::BodyOnCells on_cells{.name = body.name,
+                                     .thickness = body.median_thickness,
+                                     .cell = parameters.grid.cell,
+                                     .particles_per_axis = parameters.bodies.at(body.name).particles_per_axis,
+                                     .dimension = parameters.general.dimension,
+                                     .has_maps = config::asks_for_maps(parameters)};
+  const std::string note = config::resolution_note(on_cells, "grid.cell", config::lengths_of_domain(parameters));
+  return note.empty() ? "" : config::place_of(parameters, "grid.cell") + ": " + note;
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_of_bodies(const config::Case& parameters, const std::vector<BodyFigures>& bodies) {
@@ -199,12 +214,7 @@ std::vector<std::string> doubts_of_bodies(const config::Case& parameters, const 
     add(doubt_of_strength(parameters, body));
     add(doubt_of_softening(parameters, body));
     add(doubt_of_warmth(parameters, body));
-    if (parameters.mechanics.enabled) {
-      const std::string note = config::resolution_note(body.name, body.median_thickness, parameters.grid.cell,
-                                                       parameters.bodies.at(body.name).particles_per_axis,
-                                                       config::lengths_of_domain(parameters));
-      add(note.empty() ? "" : config::place_of(parameters, "grid.cell") + ": " + note);
-    }
+    add(doubt_of_resolution(parameters, body));
   }
   return found;
 }

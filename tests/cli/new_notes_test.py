@@ -25,16 +25,14 @@ from slope_files import (
     write_release,
 )
 
-ACROSS = (
-    "the body slide has 1.6 particles across its median thickness of 24 m; fewer than 4 do not tell how it shears and "
-    "thins. A cell of "
-)
+ACROSS = "across the median thickness of body slide, 24 m, there are "
+MAPS = "too few cells for maps of thickness and area"
 
 
 def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     """`check` tells them; where the user's cell makes them too few, `new` and `check` say so."""
     outcome = made(thawslide, tmp_path / "fine", slope(), release, "--thickness", THICKNESS)
-    assert outcome.returncode == 0 and "note:" not in outcome.stdout, outcome.stderr
+    assert outcome.returncode == 0 and "too few particles" not in outcome.stdout, outcome.stderr
     checked = thawslide("check", tmp_path / "fine")
     assert (
         "  body        slide: 2.88e+05 m3 and 5.94e+08 kg, over 1.2e+04 m2; 24 m thick in the mean, 24 m in the "
@@ -52,13 +50,57 @@ def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slop
         "--cell",
         30,
     )
-    assert f"note: {ACROSS}8 m has 6 and more\n" in coarse.stdout, coarse.stderr
+    problem = (
+        f"{ACROSS}too few particles to resolve shear and thinning (found 1.6; needed 4), and {MAPS} (found 0.8; "
+        "needed 8)"
+    )
+    assert (
+        f"note: --cell: {problem}. Set --cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about "
+        "10,000 times the run time.\n"
+    ) in coarse.stdout, coarse.stderr
     told = thawslide("check", tmp_path / "coarse").stdout
     assert "; 1.6 across in the median and 1.6 at most; " in told
-    fitting = re.search(rf"/coarse/case\.toml:\d+:\d+: {re.escape(ACROSS)}(\S+) m has 6 and more\n", told)
+    fitting = re.search(
+        rf"/coarse/case\.toml:\d+:\d+: grid\.cell: {re.escape(problem)}\. Set grid\.cell to (\S+) m, at about \S+ "
+        r"times the run time, or for maps to (\S+) m, at about \S+ times the run time\.\n",
+        told,
+    )
     assert fitting and 4.0 < float(fitting[1]) <= 8.0, told
+    assert 2.0 <= float(fitting[2]) <= 3.0, told
     finer = thawslide("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[1]}")
-    assert finer.returncode == 0 and ACROSS[-20:] not in finer.stdout, finer.stderr
+    assert finer.returncode == 0 and "too few particles" not in finer.stdout, finer.stderr
+    finest = thawslide("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[2]}")
+    assert finest.returncode == 0 and MAPS not in finest.stdout, finest.stderr
+
+
+def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """`new` proposes cells for travel distance. It names those for maps, and so do the case, `check` and `run`."""
+    folder = tmp_path / "slide"
+    outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
+    problem = f"{ACROSS}{MAPS} (found 3; needed 8)"
+    fewer = "Travel distance and speed need 2 to 4 cells.\n"
+    assert f"note: --cell: {problem}. Set --cell to 3 m, at about 51 times the run time. {fewer}" in outcome.stdout
+    text = (folder / "case.toml").read_text()
+    assert (
+        "cell = 8.0  # m; two particles a cell and axis make 6.0 across a thickness of 24 m\n"
+        "# Travel distance and speed need 2 to 4 cells across the thickness of the release. Maps of thickness and area "
+        "need\n# 8: cells of 3 m (`thawslide new --cell 3`), at about 51 times the run time.\n"
+    ) in text
+    place = f"{folder / 'case.toml'}:{text.splitlines().index('[grid]') + 2}:8"
+    checked = thawslide("check", folder, "--json")
+    (note,) = json.loads(checked.stdout)["notes"]
+    assert note.startswith(f"{place}: grid.cell: {problem}. Set grid.cell to ") and note.endswith(fewer.strip())
+    run = thawslide("run", folder, "--output", tmp_path / "run", *sets(time__end=0.01))
+    assert f"note: {note}\n" in run.stdout, run.stderr
+    assert f"{problem}. Set grid.cell to " in thawslide("check", tmp_path / "run").stdout
+
+    fine = made(thawslide, tmp_path / "fine", slope(), release, "--thickness", THICKNESS, "--cell", 3)
+    assert fine.returncode == 0 and "note: " not in fine.stdout, fine.stderr
+    assert "need 2 to 4 cells" not in (tmp_path / "fine" / "case.toml").read_text()
+    assert json.loads(thawslide("check", tmp_path / "fine", "--json").stdout)["notes"] == []
+
+    (folder / "case.toml").write_text(text.partition("# Maps are gathered")[0])
+    assert json.loads(thawslide("check", folder, "--json").stdout)["notes"] == [], "no key of maps is given"
 
 
 def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

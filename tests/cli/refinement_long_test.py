@@ -37,6 +37,9 @@ def test_a_plane_that_runs_out(tmp_path: Path) -> None:
     assert refinement.spread([each.centre for each in found]) < 0.01
     assert refinement.spread([each.travel for each in found]) < 0.02
     assert refinement.spread([each.reach_angle for each in found]) < 0.015
+    # Deposits are too narrow on coarse cells (docs/theory/contact.md).
+    widths = [refinement.read_deposit(refinement.plane_job(cell, tmp_path)).width for cell in (20.0, 10.0)]
+    assert widths == pytest.approx([101.0, 116.0], rel=0.02)
     # A point mass on this ground goes 1,007 m (docs/comparison.md).
     assert found[-1].centre == pytest.approx(1007.0, rel=0.01)
 

@@ -1,0 +1,82 @@
+#include "config/resolution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rounding.hpp"
+#include "config/fitting_cell.hpp"
+
+namespace thawslide::config {
+
+namespace {
+
+bool are_enough(double found, double needed) { return found >= needed * (1.0 - 1e-9); }
+
+// Rounded down, so that a number that is too small does not read as enough.
+std::string found_words(double found) { return fmt::format("{:.2g}", rounded_down(found, 2)); }
+
+// Two significant digits, with commas between thousands.
+std::string times_words(double factor) {
+  if (factor < 10.0) {
+    return fmt::format("{:.2g}", factor);
+  }
+  const double digit = last_digit(factor, 2);
+  std::string text = fmt::format("{:.0f}", std::round(factor / digit) * digit);
+  for (std::size_t place = text.size(); place > 3;) {
+    place -= 3;
+    text.insert(place, ",");
+  }
+  return text;
+}
+
+}  // namespace
+
+bool asks_for_maps(const Case& parameters) {
+  return parameters.general.dimension == 3 &&
+         (was_given(parameters, "maps.cell") || was_given(parameters, "maps.arrival_thickness"));
+}
+
+double run_time_factor(double cell, double finer, int dimension) { return std::pow(cell / finer, dimension + 1); }
+
+std::string resolution_note(const BodyOnCells& body, const std::string& key, const std::vector<double>& lengths) {
+  const double cells = body.thickness / body.cell, particles = cells * body.particles_per_axis;
+  const bool lacks_particles = !are_enough(particles, fewest_particles);
+  const bool lacks_cells = body.has_maps && !are_enough(cells, cells_for_maps);
+  if (!lacks_particles && !lacks_cells) {
+    return "";
+  }
+  const auto cell_for = [&](double needed) { return fitting_cell(body.thickness / needed, body.cell, lengths); };
+  const auto times = [&](double finer) { return times_words(run_time_factor(body.cell, finer, body.dimension)); };
+  const double moving = cell_for(proposed_particles / body.particles_per_axis), mapped = cell_for(cells_for_maps);
+  std::string problem, remedy;
+  if (lacks_particles) {
+    problem = fmt::format("too few particles to resolve shear and thinning (found {}; needed {:g})",
+                          found_words(particles), fewest_particles);
+    remedy = fmt::format("{:.9g} m, at about {} times the run time", moving, times(moving));
+  }
+  if (lacks_cells) {
+    problem += fmt::format("{}too few cells for maps of thickness and area (found {}; needed {:g})",
+                           lacks_particles ? ", and " : "", found_words(cells), cells_for_maps);
+    remedy += fmt::format("{}{:.9g} m, at about {} times the run time", lacks_particles ? ", or for maps to " : "",
+                          mapped, times(mapped));
+  }
+  return fmt::format("{}: across the median thickness of body {}, {:.3g} m, there are {}. Set {} to {}.{}", key,
+                     body.name, body.thickness, problem, key, remedy,
+                     lacks_cells && !lacks_particles ? " Travel distance and speed need 2 to 4 cells." : "");
+}
+
+std::string maps_comment(const BodyOnCells& body) {
+  if (are_enough(body.thickness / body.cell, cells_for_maps)) {
+    return "";
+  }
+  const double finer = fitting_cell(body.thickness / cells_for_maps, body.cell, {});
+  return fmt::format(
+      "# Travel distance and speed need 2 to 4 cells across the thickness of the release. Maps of thickness and area "
+      "need\n"
+      "# {:g}: cells of {:.9g} m (`thawslide new --cell {:.9g}`), at about {} times the run time.\n",
+      cells_for_maps, finer, finer, times_words(run_time_factor(body.cell, finer, body.dimension)));
+}
+
+}  // namespace thawslide::config

@@ -1,0 +1,167 @@
+// What is said of bodies with too few particles or cells across their thickness, and what finer cells cost.
+#include "config/resolution.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+#include "../support/case_from_text.hpp"
+#include "config/case_proposal.hpp"
+
+namespace thawslide::config {
+namespace {
+
+BodyOnCells body_on(double thickness, double cell, int particles_per_axis, bool has_maps, int dimension = 3) {
+  return {.name = "slide",
+          .thickness = thickness,
+          .cell = cell,
+          .particles_per_axis = particles_per_axis,
+          .dimension = dimension,
+          .has_maps = has_maps};
+}
+
+// All numbers that follow a text, as "to" of a note: the cells that it names.
+std::vector<double> cells_named(const std::string& note) {
+  std::vector<double> cells;
+  const std::regex named(R"( to ([0-9.]+) m, at about)");
+  for (std::sregex_iterator each(note.begin(), note.end(), named), end; each != end; ++each) {
+    cells.push_back(std::stod((*each)[1]));
+  }
+  return cells;
+}
+
+TEST(Resolution, ANoteComesWithTooFewParticlesAndIfMapsAreAskedForWithTooFewCells) {
+  for (const double thickness : {3.0, 24.0, 90.0}) {
+    for (const int particles : {1, 2, 4}) {
+      for (int tenths = 2; tenths <= 120; ++tenths) {
+        const double cell = 10.0 * thickness / tenths;
+        const bool lacks_particles = tenths * particles < 40, lacks_cells = tenths < 80;
+        const std::string plain = resolution_note(body_on(thickness, cell, particles, false), "grid.cell");
+        const std::string maps = resolution_note(body_on(thickness, cell, particles, true), "grid.cell");
+        EXPECT_EQ(plain.empty(), !lacks_particles) << plain;
+        EXPECT_EQ(maps.empty(), !lacks_particles && !lacks_cells) << maps;
+        EXPECT_EQ(maps.find("too few particles") != std::string::npos, lacks_particles) << maps;
+        EXPECT_EQ(maps.find("too few cells") != std::string::npos, lacks_cells) << maps;
+      }
+    }
+  }
+}
+
+TEST(Resolution, ACellThatIsNamedIsFineEnough) {
+  const std::vector<std::vector<double>> domains{{}, {960.0, 480.0, 240.0}, {96.0, 144.0, 48.0}};
+  for (const auto& lengths : domains) {
+    for (const double cell : {24.0, 12.0, 8.0, 6.0, 4.0}) {
+      for (const double thickness : {5.0, 23.9, 24.0, 31.0}) {
+        const std::string note = resolution_note(body_on(thickness, cell, 2, true), "grid.cell", lengths);
+        const std::vector<double> cells = cells_named(note);
+        ASSERT_EQ(cells.empty(), note.empty()) << note;
+        if (!cells.empty()) {
+          EXPECT_EQ(resolution_note(body_on(thickness, cells.back(), 2, true), "grid.cell", lengths), "") << note;
+          EXPECT_EQ(resolution_note(body_on(thickness, cells.front(), 2, false), "grid.cell", lengths), "") << note;
+        }
+        for (const double length : lengths) {
+          for (const double named : cells) {
+            EXPECT_NEAR(length / named, std::round(length / named), 1e-6) << note;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Resolution, NotesNameWhatIsFoundWhatIsNeededAndWhatItCosts) {
+  EXPECT_EQ(
+      resolution_note(body_on(24.0, 8.0, 2, true), "--cell"),
+      "--cell: across the median thickness of body slide, 24 m, there are too few cells for maps of thickness and "
+      "area (found 3; needed 8). Set --cell to 3 m, at about 51 times the run time. Travel distance and speed need "
+      "2 to 4 cells.");
+  EXPECT_EQ(
+      resolution_note(body_on(24.0, 30.0, 2, true), "grid.cell"),
+      "grid.cell: across the median thickness of body slide, 24 m, there are too few particles to resolve shear "
+      "and thinning (found 1.6; needed 4), and too few cells for maps of thickness and area (found 0.8; needed 8). "
+      "Set grid.cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about 10,000 times the run "
+      "time.");
+  EXPECT_EQ(resolution_note(body_on(1.5, 1.0, 2, false, 2), "grid.cell", {20.0, 10.0}),
+            "grid.cell: across the median thickness of body slide, 1.5 m, there are too few particles to resolve shear "
+            "and thinning (found 3; needed 4). Set grid.cell to 0.5 m, at about 8 times the run time.");
+}
+
+TEST(Resolution, ANumberThatIsTooSmallDoesNotReadAsEnough) {
+  EXPECT_NE(resolution_note(body_on(7.99, 1.0, 2, true), "grid.cell").find("(found 7.9; needed 8)"), std::string::npos);
+  EXPECT_NE(resolution_note(body_on(3.99, 1.0, 1, false), "grid.cell").find("(found 3.9; needed 4)"),
+            std::string::npos);
+  EXPECT_EQ(resolution_note(body_on(8.0 * (1.0 - 1e-12), 1.0, 2, true), "grid.cell"), "") << "round-off";
+}
+
+TEST(Resolution, RunTimeGoesWithTheCellsAndTheSteps) {
+  EXPECT_EQ(run_time_factor(8.0, 4.0, 3), 16.0);
+  EXPECT_EQ(run_time_factor(8.0, 4.0, 2), 8.0);
+  EXPECT_EQ(run_time_factor(5.0, 5.0, 3), 1.0);
+}
+
+const std::string text = R"([case]
+dimension = {}
+[time]
+end = 1.0
+step = 0.001
+[grid]
+cell = 1.0
+min = [0.0, 0.0{}]
+max = [20.0, 20.0{}]
+[terrain]
+type = "flat"
+elevation = 1.0
+[material.rock]
+law = "elastic"
+youngs_modulus = 1e8
+poisson_ratio = 0.2
+[body.block]
+material = "rock"
+min = [5.0, 1.0{}]
+max = [10.0, 5.0{}]
+[basal]
+friction_angle = 30.0
+)";
+
+TEST(Resolution, MapsAreAskedForByTheirCellOrByTheThicknessThatCounts) {
+  const std::string space = fmt::format(fmt::runtime(text), 3, ", 0.0", ", 20.0", ", 1.0", ", 5.0");
+  const std::string plane = fmt::format(fmt::runtime(text), 2, "", "", "", "");
+  const auto asks = [](const std::string& file, const std::vector<std::string>& sets = {}) {
+    return asks_for_maps(testing_support::case_from_text(file, sets));
+  };
+  EXPECT_FALSE(asks(plane));
+  EXPECT_FALSE(asks(space));
+  EXPECT_FALSE(asks(space + "[maps]\n"));
+  EXPECT_TRUE(asks(space + "[maps]\narrival_thickness = 0.1\n")) << "at its default, and given";
+  EXPECT_FALSE(asks(space + "[maps]\narrival_thickness = 0.1  # not given\n")) << "the case of a run";
+  EXPECT_TRUE(asks(space, {"maps.cell=2.0"}));
+}
+
+// The comment in a case of `thawslide new` names the cell and the cost that its note names.
+TEST(Resolution, TheCommentOfACaseSaysTheSame) {
+  for (const double cell : {30.0, 8.0, 4.0, 3.1}) {
+    const BodyOnCells body = body_on(24.0, cell, 2, true);
+    const std::string comment = maps_comment(body), note = resolution_note(body, "--cell");
+    EXPECT_NE(comment.find("cells of 3 m (`thawslide new --cell 3`), at about"), std::string::npos) << comment;
+    const std::string cost = comment.substr(comment.find("at about"));
+    EXPECT_NE(note.find(cost.substr(0, cost.find('.', cost.find("times")))), std::string::npos) << note;
+  }
+  EXPECT_EQ(maps_comment(body_on(24.0, 3.0, 2, true)), "");
+}
+
+TEST(Resolution, AProposedCaseHasTheComment) {
+  Proposal proposal;
+  proposal.thickness = proposal.median_thickness = 24.0;
+  proposal.cell = 8.0;
+  const std::string made = case_text(ProposalInput(), proposal);
+  EXPECT_NE(made.find("cell = 8.0  # m; two particles a cell and axis make 6.0 across a thickness of 24 m\n" +
+                      maps_comment(release_on_cells(proposal)) + "min = "),
+            std::string::npos)
+      << made;
+  EXPECT_NE(maps_comment(release_on_cells(proposal)), "");
+}
+
+}  // namespace
+}  // namespace thawslide::config
