@@ -71,7 +71,7 @@ TEST(GranularColumn, RunsOutAsExperimentsDo) {
                 "less height than sand: their fall has no other loss here than friction.",
                 "runout over width 1.2 a, above a = 1.8 1.9 a^(2/3); height over width a, above a = 1.15 a^0.4",
                 "fits to experiments, Lube et al. 2005");
-  Curve curve{"aspect ratio", "runout over width", {}, {}, {}};
+  Curve curve{"aspect ratio", "runout over width", {}, {}, {}, "fit to experiments"};
   for (const double aspect : {0.5, 1.0, 1.5, 3.0, 6.0}) {
     const Deposit deposit = collapse(aspect);
     curve.x.push_back(aspect);
