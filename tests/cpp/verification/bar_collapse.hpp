@@ -174,9 +174,20 @@ struct Allowed {
   double surface, largest, toe, failure;
 };
 
+inline Allowed allowed_on(double cell, const std::string& transfer) {
+  if (transfer == "flip") {
+    return cell > 0.007   ? Allowed{3.0, 9.0, 50.0, 7.0}
+           : cell > 0.004 ? Allowed{3.2, 8.0, 30.0, 8.0}
+                          : Allowed{4.5, 9.0, 50.0, 9.5};
+  }
+  return cell > 0.007   ? Allowed{4.5, 13.0, 100.0, 6.0}
+         : cell > 0.004 ? Allowed{2.0, 5.0, 40.0, 6.0}
+                        : Allowed{3.2, 6.5, 30.0, 8.0};
+}
+
 // Returns the computed surface at the measured places.
-inline std::vector<double> expect_measured(Record& record, double cell, const std::string& transfer,
-                                           const Allowed& allowed, bool drawn) {
+inline std::vector<double> expect_measured(Record& record, double cell, const std::string& transfer, bool drawn) {
+  const Allowed allowed = allowed_on(cell, transfer);
   const Line surface = measured("surface"), failure = measured("failure");
   const Collapse collapse(cell, transfer);
   const std::vector<double> top = surface_of(collapse, surface.x), limit = failure_of(collapse, failure.x);
