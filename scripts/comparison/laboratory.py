@@ -39,7 +39,6 @@ BAR_CAUSES: dict[str, tuple[str, ...]] = {
     ),
     "friction angle of the floor 19.8 degrees": ("basal.friction_angle=19.8",),
     "friction angle 21.1 degrees: planes of sliding bear tan(19.8 degrees)": (BAR_FRICTION,),
-    "dilation angle 2 degrees": ("material.bars.dilation_angle=2",),
     "gaps do not close first": ("material.bars.gaps_close_first=false",),
     "tension cut-off 0": ("material.bars.tension_cutoff=0",),
     "viscosity 0.05 ms": ("material.bars.viscosity_time=5e-5",),

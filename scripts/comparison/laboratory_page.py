@@ -2,6 +2,7 @@
 
 from pathlib import Path
 from string import Template
+from textwrap import fill
 
 import numpy as np
 from jobs import Job
@@ -95,11 +96,6 @@ def bar_table(found: dict[tuple[str, float], Bars]) -> str:
     return markdown(rows)
 
 
-def volume_words(dilation: float) -> str:
-    """Return the increase of volume; particles that dilate without end have no number worth printing."""
-    return f"{100.0 * dilation:+.1f} %" if dilation < 10.0 else "without limit"
-
-
 def bar_cause_table(runs: dict[str, Bars]) -> str:
     """Return the numbers of runs that differ in one thing, a row each."""
     rows = [
@@ -117,7 +113,7 @@ def bar_cause_table(runs: dict[str, Bars]) -> str:
         numbers += [
             f"{rms(one.failure_error(1.0)):.1f}",
             f"{one.slope():.1f}",
-            volume_words(one.dilation),
+            f"{100.0 * one.dilation:+.1f} %",
         ]
         rows.append([words, *numbers])
     return markdown(rows)
@@ -148,6 +144,7 @@ def column_table(found: dict[tuple[str, str, int], Column]) -> str:
                 ]
             )
             rows.append([f"{name}: edge", *(f"{one.edge:.2f}" for one in runs), f"{law:.2f}"])
+            rows.append([f"{name}: energy made (%)", *(f"{100.0 * one.gained:+.1f}" for one in runs), ""])
     return markdown(rows)
 
 
@@ -318,6 +315,31 @@ def numbers(bars: dict[tuple[str, float], Bars], columns: dict[tuple[str, str, i
     return named
 
 
+def filled(text: str) -> str:
+    """Return a page whose paragraphs and lists are broken into lines of at most 118 characters."""
+    blocks = []
+    for block in text.split("\n\n"):
+        if block.startswith(("|", "#", "!")):
+            blocks.append(block.strip())
+            continue
+        for number, item in enumerate(block.strip().split("\n- ")):
+            bullet = block.startswith("- ")
+            words = " ".join(item.removeprefix("- ").split())
+            wrapped = fill(
+                words,
+                118,
+                initial_indent="- " if bullet else "",
+                subsequent_indent="  " if bullet else "",
+                break_long_words=False,
+                break_on_hyphens=False,
+            )
+            if number > 0:
+                blocks[-1] += "\n" + wrapped
+            else:
+                blocks.append(wrapped)
+    return "\n\n".join(blocks) + "\n"
+
+
 def write(jobs: list[Job], folder: Path) -> None:
     """Write laboratory.md and its figures into a folder."""
     named = {job.output.name: job for job in jobs}
@@ -370,4 +392,4 @@ def write(jobs: list[Job], folder: Path) -> None:
     pictures.mkdir(exist_ok=True)
     bar_figure(bars).savefig(pictures / "bars.png", dpi=150)
     column_figure(columns).savefig(pictures / "cylinder.png", dpi=150)
-    (folder / "laboratory.md").write_text(text)
+    (folder / "laboratory.md").write_text(filled(text))

@@ -108,5 +108,11 @@ def test_table_of_bars_has_the_offsets() -> None:
     assert rows[3][1:] == ["+2.0", "-3.0 |"]
     assert rows[4][1:] == ["+2", "-3 |"]
     assert rows[5][1:] == ["", "5.0 |"]
-    assert laboratory_page.volume_words(0.02) == "+2.0 %"
-    assert laboratory_page.volume_words(1e9) == "without limit"
+
+
+def test_filled_page_keeps_tables_and_lists() -> None:
+    page = "# Title\n\n- one\n  two\n- " + "word " * 40 + "\n\n| a |\n| --- |\n\nlast"
+    lines = laboratory_page.filled(page).splitlines()
+    assert lines[:4] == ["# Title", "", "- one two", "- " + "word " * 22 + "word"]
+    assert lines[4] == "  " + "word " * 16 + "word"
+    assert lines[5:] == ["", "| a |", "| --- |", "", "last"]
