@@ -176,12 +176,12 @@ struct Allowed {
 
 inline Allowed allowed_on(double cell, const std::string& transfer) {
   if (transfer == "flip") {
-    return cell > 0.007   ? Allowed{3.0, 9.0, 50.0, 7.0}
+    return cell > 0.007   ? Allowed{4.0, 12.0, 50.0, 7.0}
            : cell > 0.004 ? Allowed{3.2, 8.0, 30.0, 8.0}
                           : Allowed{4.5, 9.0, 50.0, 9.5};
   }
   return cell > 0.007   ? Allowed{4.5, 13.0, 100.0, 6.0}
-         : cell > 0.004 ? Allowed{2.0, 5.0, 40.0, 6.0}
+         : cell > 0.004 ? Allowed{2.5, 5.0, 60.0, 6.0}
                         : Allowed{3.2, 6.5, 30.0, 8.0};
 }
 
