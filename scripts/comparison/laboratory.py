@@ -29,6 +29,7 @@ OTHER_ASPECTS = (0.5, 2.0)  # on cells no finer than those
 EDGE = 0.01 * RADIUS  # m: thickness at the edge of the deposit
 EDGE_WINDOW = 0.05 * RADIUS  # m
 TRANSFERS = ("flip", "apic")
+FILTERED = ("mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.1")  # FLIP for columns of sand
 
 # What differs from the run on the studied cell, with APIC, by the words of the table.
 BAR_CAUSES: dict[str, tuple[str, ...]] = {
@@ -178,6 +179,9 @@ def jobs(runs: Path) -> list[Job]:
                         (f"mechanics.transfer={transfer}",),
                     )
                 )
+    for across in ACROSS:
+        name = column_name("cylinder", 1.0, across, "fmpm")
+        all_jobs.append(column(runs, name, "cylinder", 1.0, across, FILTERED))
     name = column_name("cylinder", 1.0, ACROSS_FINEST, "apic")
     all_jobs.append(column(runs, name, "cylinder", 1.0, ACROSS_FINEST, ("mechanics.transfer=apic",)))
     return all_jobs

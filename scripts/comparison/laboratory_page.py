@@ -42,7 +42,7 @@ from thawslide.figures.style import (
     styled,
 )
 
-NAMES = {"flip": "FLIP", "apic": "APIC"}
+NAMES = {"flip": "FLIP", "apic": "APIC", "fmpm": "FLIP filtered every 0.1 s (FMPM)"}
 
 
 def rms(values: np.ndarray) -> float:
@@ -132,7 +132,7 @@ def column_table(found: dict[tuple[str, str, int], Column]) -> str:
         ("cylinder", "cylinder", lube_cylinder(1.0)),
         ("plane", "column in the plane", lube_plane(1.0)),
     ):
-        for transfer in TRANSFERS:
+        for transfer in TRANSFERS if shape == "plane" else NAMES:
             runs = [found[shape, transfer, across] for across in ACROSS]
             name = f"{words}, {NAMES[transfer]}"
             rows.append([f"{name}: 95 % of the mass", *(f"{one.bulk:.2f}" for one in runs), ""])
@@ -355,7 +355,7 @@ def write(jobs: list[Job], folder: Path) -> None:
     columns = {
         (shape, transfer, across): read_column(named[column_name(shape, 1.0, across, transfer)], shape, 1.0, across)
         for shape in ("cylinder", "plane")
-        for transfer in TRANSFERS
+        for transfer in (TRANSFERS if shape == "plane" else NAMES)
         for across in ACROSS
     }
     aspects = {
