@@ -64,7 +64,8 @@ void Record::draw(const Curve& curve) {
                                  {"y_label", curve.y_label},
                                  {"x", curve.x},
                                  {"computed", curve.computed},
-                                 {"exact", curve.exact}});
+                                 {"exact", curve.exact},
+                                 {"reference", curve.reference}});
 }
 
 double Record::note_order(const std::string& resolution, const std::vector<double>& resolutions,

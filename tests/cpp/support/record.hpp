@@ -10,10 +10,11 @@
 
 namespace thawslide::verification {
 
-// Numbers of ours over exact ones, to draw.
+// Computed numbers and those to compare with, to draw; `reference` names the latter in the legend.
 struct Curve {
   std::string x_label, y_label;
   std::vector<double> x, computed, exact;
+  std::string reference = "exact";
 };
 
 class Record {

@@ -1,0 +1,395 @@
+"""The page of laboratory experiments: tables of bars and sand, and a figure of each."""
+
+from pathlib import Path
+from string import Template
+from textwrap import fill
+
+import numpy as np
+from jobs import Job
+from laboratory import (
+    ACROSS,
+    ACROSS_FINEST,
+    ACROSS_STUDIED,
+    BAR_CAUSES,
+    BAR_CELLS,
+    BAR_STUDIED,
+    COLUMN_CAUSES,
+    HERE,
+    MEASURED,
+    MOVED,
+    OTHER_ASPECTS,
+    TRANSFERS,
+    Bars,
+    Column,
+    bar_name,
+    column_name,
+    inclination,
+    lube_cylinder,
+    lube_plane,
+    read_bars,
+    read_column,
+    read_points,
+)
+from matplotlib.figure import Figure
+from refinement_page import markdown
+from thawslide.figures.style import (
+    BLACK,
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    ORANGE,
+    RED,
+    styled,
+)
+
+NAMES = {"flip": "FLIP", "apic": "APIC", "fmpm": "FLIP filtered every 0.1 s (FMPM)"}
+
+
+def rms(values: np.ndarray) -> float:
+    """Return the root mean square."""
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def largest(values: np.ndarray) -> float:
+    """Return the value of the largest size."""
+    return float(values[np.abs(values).argmax()])
+
+
+def bar_table(found: dict[tuple[str, float], Bars]) -> str:
+    """Return the numbers of the runs on several cells, a column each."""
+    rows = [["", *(f"{NAMES[transfer]}, {cell:g} mm" for transfer, cell in found)]]
+    each = list(found.values())
+    rows.append(
+        [
+            "surface less measured, rms (mm)",
+            *(f"{rms(one.surface_error):.1f}" for one in each),
+        ]
+    )
+    rows.append(
+        [
+            "the same, maximum (mm)",
+            *(f"{largest(one.surface_error):+.1f}" for one in each),
+        ]
+    )
+    rows.append(["toe less measured (mm)", *(f"{1e3 * one.toe - 442.0:+.0f}" for one in each)])
+    changes = ["change of the surface from the cell before, rms (mm)"]
+    for transfer, cell in found:
+        before = found.get((transfer, 2.0 * cell))
+        changes.append(f"{1e3 * rms(found[transfer, cell].surface - before.surface):.1f}" if before else "")
+    rows.append(changes)
+    for moved in MOVED:
+        words = f"failure line less measured, moved by {moved:g} mm, rms (mm)"
+        rows.append([words, *(f"{rms(one.failure_error(moved)):.1f}" for one in each)])
+    rows.append(
+        [
+            "mean of the same, moved by 1 mm (mm)",
+            *(f"{one.failure_error(1.0).mean():+.1f}" for one in each),
+        ]
+    )
+    rows.append(
+        [
+            "inclination of the failure line (degrees)",
+            *(f"{one.slope():.1f}" for one in each),
+        ]
+    )
+    rows.append(["increase of volume", *(f"{100.0 * one.dilation:.1f} %" for one in each)])
+    return markdown(rows)
+
+
+def bar_cause_table(runs: dict[str, Bars]) -> str:
+    """Return the numbers of runs that differ in one thing, a row each."""
+    rows = [
+        [
+            "changed",
+            "surface, rms (mm)",
+            "toe (mm)",
+            "failure line, rms (mm)",
+            "its inclination",
+            "volume",
+        ]
+    ]
+    for words, one in runs.items():
+        numbers = [f"{rms(one.surface_error):.1f}", f"{1e3 * one.toe - 442.0:+.0f}"]
+        numbers += [
+            f"{rms(one.failure_error(1.0)):.1f}",
+            f"{one.slope():.1f}",
+            f"{100.0 * one.dilation:+.1f} %",
+        ]
+        rows.append([words, *numbers])
+    return markdown(rows)
+
+
+def column_table(found: dict[tuple[str, str, int], Column]) -> str:
+    """Return the runouts of columns of aspect ratio 1."""
+    rows = [
+        [
+            "cells across the radius or width",
+            *(str(across) for across in ACROSS),
+            "experiments",
+        ]
+    ]
+    for shape, words, law in (
+        ("cylinder", "cylinder", lube_cylinder(1.0)),
+        ("plane", "column in the plane", lube_plane(1.0)),
+    ):
+        for transfer in TRANSFERS if shape == "plane" else NAMES:
+            runs = [found[shape, transfer, across] for across in ACROSS]
+            name = f"{words}, {NAMES[transfer]}"
+            rows.append([f"{name}: 95 % of the mass", *(f"{one.bulk:.2f}" for one in runs), ""])
+            rows.append(
+                [
+                    f"{name}: 99.5 % of the mass",
+                    *(f"{one.runout:.2f}" for one in runs),
+                    f"{law:.2f}",
+                ]
+            )
+            rows.append([f"{name}: edge", *(f"{one.edge:.2f}" for one in runs), f"{law:.2f}"])
+            rows.append([f"{name}: energy made (%)", *(f"{100.0 * one.gained:+.1f}" for one in runs), ""])
+    return markdown(rows)
+
+
+def aspect_table(found: dict[tuple[float, str, int], Column]) -> str:
+    """Return the runouts of cylinders of other aspect ratios."""
+    rows = [
+        [
+            "aspect ratio, cells across the radius",
+            *(str(across) for across in ACROSS[:-1]),
+            "experiments",
+        ]
+    ]
+    for aspect in OTHER_ASPECTS:
+        for transfer in TRANSFERS:
+            runs = [found[aspect, transfer, across] for across in ACROSS[:-1]]
+            name = f"{aspect:g}, {NAMES[transfer]}"
+            law = f"{lube_cylinder(aspect):.2f}"
+            rows.append([f"{name}: edge", *(f"{one.edge:.2f}" for one in runs), law])
+    return markdown(rows)
+
+
+def column_cause_table(runs: dict[str, Column]) -> str:
+    """Return the runouts of cylinders that differ in one thing."""
+    base = next(iter(runs.values()))
+    rows = [
+        [
+            "changed",
+            "runout, 99.5 % of the mass",
+            "change",
+            "runout, edge",
+            "energy made (%)",
+        ]
+    ]
+    for words, one in runs.items():
+        change = f"{100.0 * (one.runout / base.runout - 1.0):+.0f} %" if one is not base else ""
+        rows.append(
+            [
+                words,
+                f"{one.runout:.2f}",
+                change,
+                f"{one.edge:.2f}",
+                f"{100.0 * one.gained:+.1f}",
+            ]
+        )
+    return markdown(rows)
+
+
+@styled
+def bar_figure(found: dict[tuple[str, float], Bars]) -> Figure:
+    """Return surface and failure line next to the measured ones, a panel for each transfer."""
+    figure = Figure(figsize=(COLUMN_WIDTH, 4.4), layout="constrained")
+    panels = figure.subplots(2, 1, sharex=True, sharey=True)
+    surface, failure = (
+        read_points(MEASURED / "surface.csv"),
+        read_points(MEASURED / "failure.csv"),
+    )
+    source = "measured (MaterialPointSolver.jl; Bui et al. 2008)"
+    for panel, transfer, letter in zip(panels, TRANSFERS, "ab", strict=True):
+        panel.plot(
+            [0.0, 0.2, 0.2],
+            [0.1, 0.1, 0.0],
+            color=BLACK,
+            lw=0.8,
+            ls=":",
+            label="before the collapse",
+        )
+        for colour, cell in zip((ORANGE, GREEN, BLUE), BAR_CELLS[1:], strict=True):
+            one = found[transfer, cell]
+            x, height = one.profile
+            panel.plot(x, height, color=colour, lw=1.3, label=f"surface, cells of {cell:g} mm")
+            x, height = one.failure_profile
+            panel.plot(
+                x,
+                height,
+                color=colour,
+                lw=1.3,
+                ls="--",
+                label=f"failure line, cells of {cell:g} mm",
+            )
+        panel.plot(*surface, "o", color=BLACK, mfc="white", ms=4, label=f"surface, {source}")
+        panel.plot(*failure, "s", color=RED, mfc="white", ms=4, label=f"failure line, {source}")
+        panel.set_title(f"({letter}) {NAMES[transfer]}", loc="left")
+        panel.set_ylabel("height (m)")
+        panel.set_xlim(0.0, 0.5)
+        panel.set_ylim(0.0, 0.115)
+        panel.set_yticks([0.0, 0.05, 0.1])
+        panel.set_aspect("equal")
+        panel.grid(True)
+    panels[1].set_xlabel("distance from the wall (m)")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure
+
+
+@styled
+def column_figure(found: dict[tuple[str, str, int], Column]) -> Figure:
+    """Return profiles of the cylinder, and runouts over the cell."""
+    figure = Figure(figsize=(COLUMN_WIDTH, 3.2), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    for colour, across in zip((ORANGE, GREEN, BLUE, BLACK), ACROSS, strict=True):
+        x, height = found["cylinder", "apic", across].profile
+        left.plot(
+            x / 10.0,
+            height / 10.0,
+            color=colour,
+            lw=1.3,
+            label=f"{across} cells across the radius",
+        )
+    left.axvline(
+        1.0 + lube_cylinder(1.0),
+        color=RED,
+        ls="--",
+        lw=1.2,
+        label="edge, Lube et al. (2004)",
+    )
+    left.set_xlim(0.0, 2.6)
+    left.set_ylim(0.0, 1.0)
+    left.set_xlabel("distance from the axis / initial radius")
+    left.set_ylabel("thickness / initial radius")
+    left.set_title("(a) deposit of the cylinder, APIC", loc="left")
+    left.legend()
+    for colour, transfer in zip((BLUE, ORANGE), TRANSFERS, strict=True):
+        runs = [found["cylinder", transfer, across] for across in ACROSS]
+        size = [1.0 / across for across in ACROSS]
+        mass = [one.runout for one in runs]
+        right.plot(
+            size,
+            mass,
+            "o-",
+            color=colour,
+            ms=4,
+            label=f"{NAMES[transfer]}, 99.5 % of the mass",
+        )
+        right.plot(
+            size,
+            [one.edge for one in runs],
+            "s:",
+            color=colour,
+            ms=4,
+            label=f"{NAMES[transfer]}, edge",
+        )
+    right.axhline(lube_cylinder(1.0), color=RED, ls="--", lw=1.2, label="Lube et al. (2004)")
+    right.set_xlim(0.0, 0.13)
+    right.set_ylim(0.6, 1.45)
+    right.set_xlabel("cell / initial radius")
+    right.set_ylabel("runout / initial radius")
+    right.set_title("(b) convergence", loc="left")
+    right.legend(loc="lower left")
+    for panel in (left, right):
+        panel.grid(True)
+    return figure
+
+
+def numbers(bars: dict[tuple[str, float], Bars], columns: dict[tuple[str, str, int], Column]) -> dict[str, str]:
+    """Return numbers for the text by name, such as bars_flip_5_rms or cylinder_apic_64_edge."""
+    named = {}
+    for (transfer, cell), bar in bars.items():
+        start = f"bars_{transfer}_{cell:g}".replace(".", "_")
+        named[f"{start}_rms"] = f"{rms(bar.surface_error):.1f}"
+        named[f"{start}_toe"] = f"{1e3 * bar.toe - 442.0:+.0f}"
+        named[f"{start}_failure"] = f"{rms(bar.failure_error(1.0)):.1f}"
+        named[f"{start}_slope"] = f"{bar.slope():.1f}"
+    for (shape, transfer, across), one in columns.items():
+        start = f"{shape}_{transfer}_{across}"
+        named[f"{start}_bulk"] = f"{one.bulk:.2f}"
+        named[f"{start}_mass"] = f"{one.runout:.2f}"
+        named[f"{start}_made"] = f"{100.0 * one.gained:+.1f}"
+        named[f"{start}_edge"] = f"{one.edge:.2f}"
+    return named
+
+
+def filled(text: str) -> str:
+    """Return a page whose paragraphs and lists are broken into lines of at most 118 characters."""
+    blocks = []
+    for block in text.split("\n\n"):
+        if block.startswith(("|", "#", "!")):
+            blocks.append(block.strip())
+            continue
+        for number, item in enumerate(block.strip().split("\n- ")):
+            bullet = block.startswith("- ")
+            words = " ".join(item.removeprefix("- ").split())
+            wrapped = fill(
+                words,
+                118,
+                initial_indent="- " if bullet else "",
+                subsequent_indent="  " if bullet else "",
+                break_long_words=False,
+                break_on_hyphens=False,
+            )
+            if number > 0:
+                blocks[-1] += "\n" + wrapped
+            else:
+                blocks.append(wrapped)
+    return "\n\n".join(blocks) + "\n"
+
+
+def write(jobs: list[Job], folder: Path) -> None:
+    """Write laboratory.md and its figures into a folder."""
+    named = {job.output.name: job for job in jobs}
+    bars = {
+        (transfer, cell): read_bars(named[bar_name(cell, transfer)], cell)
+        for transfer in TRANSFERS
+        for cell in BAR_CELLS
+    }
+    bar_causes = {"nothing: APIC, cells of 5 mm": bars["apic", BAR_STUDIED]}
+    for place, (words, changes) in enumerate(BAR_CAUSES.items()):
+        particles = 3 if any("particles_per_axis=3" in change for change in changes) else 2
+        bar_causes[words] = read_bars(named[f"bars-cause-{place}"], BAR_STUDIED, particles)
+    columns = {
+        (shape, transfer, across): read_column(named[column_name(shape, 1.0, across, transfer)], shape, 1.0, across)
+        for shape in ("cylinder", "plane")
+        for transfer in (TRANSFERS if shape == "plane" else NAMES)
+        for across in ACROSS
+    }
+    aspects = {
+        (aspect, transfer, across): read_column(
+            named[column_name("cylinder", aspect, across, transfer)],
+            "cylinder",
+            aspect,
+            across,
+        )
+        for aspect in OTHER_ASPECTS
+        for transfer in TRANSFERS
+        for across in ACROSS[:-1]
+    }
+    name = column_name("cylinder", 1.0, ACROSS_FINEST, "apic")
+    finest = {("cylinder", "apic", ACROSS_FINEST): read_column(named[name], "cylinder", 1.0, ACROSS_FINEST)}
+    base = columns["cylinder", "apic", ACROSS_STUDIED]
+    causes = {f"nothing: APIC, {ACROSS_STUDIED} cells across the radius": base}
+    for place, words in enumerate(COLUMN_CAUSES):
+        causes[words] = read_column(named[f"cylinder-cause-{place}"], "cylinder", 1.0, ACROSS_STUDIED)
+    fine = read_bars(named["bars-21-2.5"], BAR_CELLS[-1])
+    bar_causes[f"friction angle 21.1 degrees, cells of {BAR_CELLS[-1]:g} mm"] = fine
+    text = Template((HERE / "laboratory.md").read_text()).substitute(
+        bars=bar_table(bars),
+        bar_causes=bar_cause_table(bar_causes),
+        columns=column_table(columns),
+        aspects=aspect_table(aspects),
+        column_causes=column_cause_table(causes),
+        measured_slope=f"{inclination(*read_points(MEASURED / 'failure.csv')):.1f}",
+        measured_area=f"{np.trapezoid(*read_points(MEASURED / 'surface.csv')[::-1]):.4f}",
+        beyond=f"{100.0 * columns['cylinder', 'flip', ACROSS[-1]].beyond:.0f}",
+        **numbers(bars | {("strong", BAR_CELLS[-1]): fine}, columns | finest),
+    )
+    pictures = folder / "laboratory"
+    pictures.mkdir(exist_ok=True)
+    bar_figure(bars).savefig(pictures / "bars.png", dpi=150)
+    column_figure(columns).savefig(pictures / "cylinder.png", dpi=150)
+    (folder / "laboratory.md").write_text(filled(text))

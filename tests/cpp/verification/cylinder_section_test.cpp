@@ -1,0 +1,19 @@
+// A cylindrical granular column falls apart on finer and finer cells.
+#include "cylinder_section.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace cylinder_column;
+
+// The front is thinner than a cell: the shortfall from Lube's law is that of the cell, and is the same in space and in
+// a section (docs/laboratory.md).
+TEST(CylinderSection, ApproachesTheExperimentsOnFinerCells) {
+  Record record = make_section_record("Collapse of a cylindrical granular column on finer cells");
+  expect_approach(record, {8, 16, 32}, {0.55, 0.40, 0.15});
+  record.expect_near("section less column in space, 8 cells",
+                     runout_of_section(8, "apic") - collapse(1.0, radius / 8, "apic"), 0.0, 0.06);
+}
+
+}  // namespace
+}  // namespace thawslide::verification

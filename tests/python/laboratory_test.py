@@ -1,0 +1,118 @@
+"""The laboratory experiments: lines measured in particles, and plotted numbers that are those of the data."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
+
+import laboratory
+import laboratory_page
+
+
+def test_windows_hold_all_of_the_volume() -> None:
+    rng = np.random.default_rng(3)
+    x, volume = rng.uniform(0.1, 2.0, 200), rng.uniform(0.0, 1.0, 200)
+    window = 0.125
+    at = np.arange(0.5 * window, 3.0, window)
+    found = laboratory.thickness(x, volume, at, window, 0.07)
+    assert float(found.sum() * window) == pytest.approx(float(volume.sum()), rel=1e-12)
+    assert np.all(found[at > 2.2] == 0.0)
+
+
+def test_window_at_the_wall_is_half_as_wide() -> None:
+    x, volume = np.arange(0.005, 1.0, 0.01), np.full(100, 0.01 * 3.0)
+    assert laboratory.thickness(x, volume, np.array([0.0, 0.5]), 0.2, 0.01) == pytest.approx([3.0, 3.0])
+
+
+@pytest.mark.parametrize("slope", [-0.5, 0.0, 0.25])
+def test_failure_line_of_a_linear_field_is_exact(slope: float) -> None:
+    # Displacement 0.1 (y - line(x)) above the line and below it (negative, which is not moved), in rows 1 mm apart.
+    spacing = 0.001
+    grid = (np.arange(100) + 0.5) * spacing
+    x, y = (each.ravel() for each in np.meshgrid(grid, grid))
+    line = 0.05 + slope * (x - 0.05)
+    places = np.array([0.03, 0.05, 0.06])
+    found = laboratory.failure_line(np.column_stack((x, y)), 0.1 * (y - line), places, 0.001, spacing)
+    assert found == pytest.approx(0.05 + slope * (places - 0.05) + 0.01, abs=1e-4)
+
+
+def test_failure_line_of_material_at_rest_is_its_top() -> None:
+    start = np.array([[0.05, 0.01], [0.05, 0.03], [0.05, 0.05]])
+    assert laboratory.failure_line(start, np.zeros(3), np.array([0.05]), 0.001, 0.02) == [laboratory.BAR_HEIGHT]
+
+
+def test_measured_lines_are_whole() -> None:
+    x, height = laboratory.read_points(laboratory.MEASURED / "surface.csv")
+    assert (len(x), x[-1], height[-1]) == (23, 0.442348498, 0.001519511)
+    x, height = laboratory.read_points(laboratory.MEASURED / "failure.csv")
+    assert (len(x), x[0], height[0]) == (9, 0.021159264, 0.098901077)
+
+
+def test_runs_differ_in_name_and_repeat_no_key() -> None:
+    jobs = laboratory.jobs(Path("runs"))
+    assert len({job.output for job in jobs}) == len(jobs) > 60
+    for job in jobs:
+        keys = [change.split("=")[0] for change in job.changes]
+        assert len(set(keys)) == len(keys)
+
+
+def bars(cell: float, offset: float) -> laboratory.Bars:
+    """Return bars whose lines lie above the measured ones by an offset [m]."""
+    surface = laboratory.read_points(laboratory.MEASURED / "surface.csv")
+    failure = laboratory.read_points(laboratory.MEASURED / "failure.csv")
+    lifted = failure[1] + offset
+    return laboratory.Bars(
+        cell,
+        surface[1] + offset,
+        (surface[0], surface[1] + offset),
+        dict.fromkeys(laboratory.MOVED, lifted),
+        (failure[0], lifted),
+        0.442 + offset,
+        0.02,
+    )
+
+
+def test_figure_of_bars_plots_the_numbers_of_runs_and_of_measurements() -> None:
+    found = {
+        (transfer, cell): bars(cell, 1e-4 * cell + (0.001 if transfer == "apic" else 0.0))
+        for transfer in laboratory.TRANSFERS
+        for cell in laboratory.BAR_CELLS
+    }
+    figure = laboratory_page.bar_figure(found)
+    for panel, transfer in zip(figure.axes, laboratory.TRANSFERS, strict=True):
+        lines = {str(line.get_label()): line for line in panel.lines}
+        for cell in laboratory.BAR_CELLS[1:]:
+            for words, profile in (
+                ("surface", found[transfer, cell].profile),
+                ("failure line", found[transfer, cell].failure_profile),
+            ):
+                line = lines[f"{words}, cells of {cell:g} mm"]
+                assert np.array_equal(line.get_xdata(), profile[0])
+                assert np.array_equal(line.get_ydata(), profile[1])
+        for words, name in (("surface", "surface"), ("failure line", "failure")):
+            x, height = laboratory.read_points(laboratory.MEASURED / f"{name}.csv")
+            line = lines[f"{words}, measured (MaterialPointSolver.jl; Bui et al. 2008)"]
+            assert np.array_equal(line.get_xdata(), x)
+            assert np.array_equal(line.get_ydata(), height)
+
+
+def test_table_of_bars_has_the_offsets() -> None:
+    found = {("flip", 10.0): bars(10.0, 0.002), ("flip", 5.0): bars(5.0, -0.003)}
+    rows = [line.split(" | ") for line in laboratory_page.bar_table(found).splitlines()]
+    assert rows[2][1:] == ["2.0", "3.0 |"]
+    assert rows[3][1:] == ["+2.0", "-3.0 |"]
+    assert rows[4][1:] == ["+2", "-3 |"]
+    assert rows[5][1:] == ["", "5.0 |"]
+
+
+def test_filled_page_keeps_tables_and_lists() -> None:
+    page = "# Title\n\n- one\n  two\n- " + "word " * 40 + "\n\n| a |\n| --- |\n\nlast"
+    lines = laboratory_page.filled(page).splitlines()
+    assert lines[:4] == ["# Title", "", "- one two", "- " + "word " * 22 + "word"]
+    assert lines[4] == "  " + "word " * 16 + "word"
+    assert lines[5:] == ["", "| a |", "| --- |", "", "last"]
