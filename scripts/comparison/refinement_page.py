@@ -76,7 +76,7 @@ def order_and_limit(values: list[float], digits: int) -> tuple[str, str]:
     )
 
 
-def halving(found: list[Found] | list[Deposit], name: str) -> list[float]:
+def halving(found: list[Found], name: str) -> list[float]:
     """Return a value on the three cells that halve."""
     return [getattr(each, name) for each in found if each.cell in HALVING]
 
@@ -93,22 +93,24 @@ def convergence(found: list[Found]) -> dict[str, list[str]]:
 
 
 def deposit_table(found: list[Deposit]) -> str:
-    """Return the numbers of maps on several cells, with observed order and limit."""
+    """Return the numbers of maps on several cells, with the limit of areas and widths from the two finest ones."""
     names = {
-        "deposit area (m2)": ("covered", 0),
-        "affected area (m2)": ("affected", 0),
-        "maximum thickness of the deposit (m)": ("thickness", 1),
-        "standard deviation of the deposit across the slope (m)": ("width", 0),
+        "deposit area (m2)": ("covered", 0, True),
+        "affected area (m2)": ("affected", 0, True),
+        "standard deviation of the deposit across the slope (m)": ("width", 0, True),
+        "maximum thickness of the deposit (m)": ("thickness", 1, False),
     }
     lines = [
-        ["cell (m)", *(f"{each.cell:.3g}" for each in found), "observed order", "extrapolated"],
-        ["cells across the release", *(f"{PLANE_THICKNESS / each.cell:.3g}" for each in found), "", ""],
+        ["cell (m)", *(f"{each.cell:.3g}" for each in found), "extrapolated, first order"],
+        ["cells across the release", *(f"{PLANE_THICKNESS / each.cell:.3g}" for each in found), ""],
     ]
-    for words, (name, digits) in names.items():
+    *_, coarse, fine = found
+    for words, (name, digits, has_limit) in names.items():
         values = [f"{getattr(each, name):,.{digits}f}" for each in found]
-        lines.append([words, *values, *order_and_limit(halving(found, name), digits)])
-    lines.append(["volume gained by dilation", *(f"{100.0 * each.dilation:.0f} %" for each in found), "", ""])
-    lines.append(["cell of the maps (m)", *(f"{each.map_cell:g}" for each in found), "", ""])
+        at_zero = limit(getattr(coarse, name), getattr(fine, name), 1.0, coarse.cell / fine.cell)
+        lines.append([words, *values, f"{at_zero:,.{digits}f}" if has_limit else ""])
+    lines.append(["volume gained by dilation", *(f"{100.0 * each.dilation:.0f} %" for each in found), ""])
+    lines.append(["cell of the maps (m)", *(f"{each.map_cell:g}" for each in found), ""])
     return markdown(lines)
 
 
@@ -199,8 +201,9 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
         (HERE / "refinement.md").read_text().strip(),
         cells_table(plane, convergence(plane) if has_halving else None),
         (HERE / "refinement-plane.md").read_text().strip(),
-        deposit_table(deposits) if has_halving else "",
         (HERE / "refinement-deposit.md").read_text().strip(),
+        deposit_table(deposits) if len(deposits) > 1 else "",
+        (HERE / "refinement-deposit-cells.md").read_text().strip(),
         (HERE / "refinement-slope.md").read_text().strip(),
         "The DEM filtered by 10 m on every cell (`terrain.smooth = 10`):",
         cells_table(wide),

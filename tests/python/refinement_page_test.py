@@ -1,4 +1,4 @@
-"""The tables of docs/refinement.md: observed orders and limits follow from the cells that halve."""
+"""The tables of docs/refinement.md: observed orders and limits."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import pytest
 sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
 
 import refinement_page
-from refinement import PLANE_CELLS, Deposit
+from refinement import PLANE_CELLS, PLANE_THICKNESS, Deposit
 
 
-def deposit(cell: float, order: float) -> Deposit:
-    """Return a deposit whose errors have an order: 1,000 m2, 3,000 m2, 8 m and 100 m on cells of no size."""
-    error = (cell / 40.0) ** order
+def deposit(cell: float) -> Deposit:
+    """Return a deposit with errors of first order: 1,000 m2, 3,000 m2, 8 m and 100 m on cells of no size."""
+    error = cell / 40.0
     return Deposit(
         cell=cell,
         covered=1_000.0 - 400.0 * error,
@@ -27,20 +27,21 @@ def deposit(cell: float, order: float) -> Deposit:
     )
 
 
+@pytest.mark.parametrize("cells", [PLANE_CELLS, PLANE_CELLS[:-1], PLANE_CELLS[:2]])
+def test_limits_of_deposits_are_of_first_order(cells: tuple[float, ...]) -> None:
+    table = refinement_page.deposit_table([deposit(cell) for cell in cells])
+    rows = {line.split("|")[1].strip(): [text.strip() for text in line.split("|")[2:-1]] for line in table.splitlines()}
+    assert rows["cells across the release"] == [*(f"{PLANE_THICKNESS / cell:.3g}" for cell in cells), ""]
+    assert rows["deposit area (m2)"][-1] == "1,000"
+    assert rows["affected area (m2)"][-1] == "3,000"
+    assert rows["standard deviation of the deposit across the slope (m)"][-1] == "100"
+    assert rows["maximum thickness of the deposit (m)"] == [*(f"{8.0 + 0.15 * cell:.1f}" for cell in cells), ""]
+
+
 @pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
 def test_orders_and_limits_are_those_of_the_cells_that_halve(order: float) -> None:
-    cells = sorted({*PLANE_CELLS, *refinement_page.HALVING}, reverse=True)
-    table = refinement_page.deposit_table([deposit(cell, order) for cell in cells])
-    rows = {line.split("|")[1].strip(): [text.strip() for text in line.split("|")[2:-1]] for line in table.splitlines()}
-    assert rows["cells across the release"][: len(cells)] == [f"{40.0 / cell:.3g}" for cell in cells]
-    assert rows["cells across the release"][len(cells) :] == ["", ""]
-    for words, limit in (
-        ("deposit area (m2)", "1,000"),
-        ("affected area (m2)", "3,000"),
-        ("maximum thickness of the deposit (m)", "8.0"),
-        ("standard deviation of the deposit across the slope (m)", "100"),
-    ):
-        assert rows[words][len(cells) :] == [f"{order:.1f}", limit], words
+    values = [100.0 - 30.0 * (cell / 40.0) ** order for cell in refinement_page.HALVING]
+    assert refinement_page.order_and_limit(values, 0) == (f"{order:.1f}", "100")
 
 
 def test_a_value_that_does_not_converge_evenly_has_no_order() -> None:
