@@ -11,6 +11,7 @@ from thawslide.paper.one_at_a_time import Row
 
 THICKNESSES = (0.21, 0.30, 0.40)  # m, of the band at the start
 CELLS = (20.0, 10.0, 5.0)  # m, the coarsest first
+CELL = 10.0  # m, of the case
 STEP_PER_CELL = 1e-3  # s/m, as in the case
 DOMAIN = (-200.0, 14000.0, 200.0, 2400.0)  # m, x and y
 QUANTITY_NAMES = ("displacement", "runout", "peak")
@@ -34,7 +35,26 @@ def cell_rows() -> list[Row]:
     ]
 
 
-def _shifted(share: float, cell: float = 10.0) -> tuple[str, ...]:
+def variant_cell_key(key: str, cell: float) -> str:
+    """Return the folder of a variant on cells that are not those of the case."""
+    return f"{key}-on-{cell:g}"
+
+
+def variant_cell_rows(variants: Sequence[Row]) -> list[Row]:
+    """Return the runs of variants on the cells that are not those of the case."""
+    return [
+        Row(
+            variant_cell_key(row.key, cell),
+            f"{row.words}, cells of {cell:g} m",
+            (*row.sets, f"grid.cell={cell:g}", f"time.step={STEP_PER_CELL * cell:g}"),
+        )
+        for cell in reversed(CELLS)  # the long runs first
+        if cell != CELL
+        for row in variants
+    ]
+
+
+def _shifted(share: float, cell: float = CELL) -> tuple[str, ...]:
     """Return the changes that move the grid by a share of a cell, down and to the left."""
     by = share * cell
     left, right, low, high = (edge - by for edge in DOMAIN)
