@@ -1,0 +1,95 @@
+// A slope of cohesive rock that fails along shear bands in its interior, on finer and finer cells.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::verification {
+namespace {
+
+using namespace testing_support;
+using sim::Simulation;
+
+const std::string slope = R"(
+[case]
+dimension = 2
+[time]
+end = 50.0
+step = 0.012
+[grid]
+cell = 20.0
+min = [0.0, -80.0]
+max = [2000.0, 400.0]
+[grid.boundary]
+x_min = "roller"
+[terrain]
+type = "flat"
+elevation = 0.0
+[body.slope]
+material = "rock"
+shape = "polygon"
+vertices = [[0.0, 0.0], [800.0, 0.0], [600.0, 200.0], [0.0, 200.0]]
+temperature = -5.0
+porosity = 0.3
+[material.rock]
+law = "mohr_coulomb"
+youngs_modulus = 1.0e9
+poisson_ratio = 0.2
+friction_angle = 20.0
+cohesion = 1.6e5
+residual_cohesion = 2.0e4
+viscosity_time = 0.0035
+[mechanics]
+initial_stress = "geostatic"
+[basal]
+friction = "constant"
+friction_angle = 20.0
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+struct Failure {
+  double displacement, front, dissipated;  // [m], [m], [J]
+};
+
+Failure fail(double cell, const std::string& softening) {
+  Simulation<2, double> simulation(
+      case_from_text(slope, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 6e-4 * cell), softening}));
+  run_until(simulation, 50.0);
+  const auto row = history_row(simulation);
+  EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.1) << "the slope has come to rest";
+  return {value_of(row, "mean_displacement_m"), value_of(row, "front_position_m"),
+          value_of(row, "plastic_J") + value_of(row, "viscous_J") + value_of(row, "friction_work_J")};
+}
+
+TEST(SofteningSlope, DissipatesTheSameOnFinerCells) {
+  Record record(
+      "Slope that softens over a slip",
+      "A slope of 45 degrees, 200 m high, of rock that loses its cohesion from 160 to 20 kPa over a slip of 4 m "
+      "fails along shear bands a cell wide. Dissipated: plastic, viscous and basal friction work.",
+      "the same on cells of 20, 10 and 5 m", "refinement of the cell");
+  const std::string per_slip = "material.rock.softening_slip=4.0";
+  const Failure coarse = fail(20.0, per_slip), middle = fail(10.0, per_slip), fine = fail(5.0, per_slip);
+  record.expect_near("mean displacement, cells of 20 m over 10 m", coarse.displacement / middle.displacement, 1.0,
+                     0.05);
+  record.expect_near("mean displacement, cells of 5 m over 10 m", fine.displacement / middle.displacement, 1.0, 0.05);
+  record.expect_near("front, cells of 20 m over 10 m", coarse.front / middle.front, 1.0, 0.05);
+  record.expect_near("front, cells of 5 m over 10 m", fine.front / middle.front, 1.0, 0.05);
+  record.expect_near("dissipated, cells of 20 m over 10 m", coarse.dissipated / middle.dissipated, 1.0, 0.065);
+  record.expect_near("dissipated, cells of 5 m over 10 m", fine.dissipated / middle.dissipated, 1.0, 0.05);
+  // The strain that belongs to this slip on cells of 20 m.
+  const std::string per_strain = "material.rock.softening_strain=0.11547";
+  const double of_strain = fail(10.0, per_strain).dissipated / coarse.dissipated;
+  EXPECT_GT(of_strain, 1.08) << "half of the slip breaks cells of half the size";
+}
+
+}  // namespace
+}  // namespace thawslide::verification
