@@ -5,7 +5,17 @@ from __future__ import annotations
 import dataclasses
 
 from thawslide.paper.members import Observed
-from thawslide.paper.numerics import CELLS, cell_key, cell_rows, cells_table, numerics_rows, numerics_table
+from thawslide.paper.numerics import (
+    CELLS,
+    cell_key,
+    cell_rows,
+    cells_table,
+    numerics_rows,
+    numerics_table,
+    variant_cell_rows,
+    variant_cells_table,
+)
+from thawslide.paper.one_at_a_time import Row
 
 
 def test_rows_scale_the_step_and_keep_the_domain() -> None:
@@ -41,3 +51,16 @@ def test_table_of_numerics_gives_differences_from_the_case() -> None:
     assert lines[0] == "| run | runout [km] | peak [m/s] | mean displacement [km] | set |"
     assert lines[2] == "| half the time step | 9.3 (+3.0 %) | 80.0 (+0.0 %) | 4.90 (−2.0 %) | `time.step=0.005` |"
     assert lines[3] == "| half of Young's modulus | broke off at 3 s | | | |"
+
+
+def test_variants_run_on_the_cells_that_the_case_does_not_have() -> None:
+    thin, thick = Row("thin", "a thin band", ("band.thickness=0.15",)), Row("thick", "a thick band")
+    rows = {row.key: row.sets for row in variant_cell_rows([thin, thick])}
+    assert list(rows) == ["thin-on-5", "thick-on-5", "thin-on-20", "thick-on-20"], "the long runs first"
+    assert rows["thin-on-20"] == ("band.thickness=0.15", "grid.cell=20", "time.step=0.02")
+    found = {key: Observed(displacement=5.5, runout=8.1) for key in rows}
+    found |= {each.key: Observed(displacement=5.0, runout=9.0) for each in (thin, thick)}
+    found["thick-on-5"] = Observed(failure="not run")
+    lines = variant_cells_table([thin, thick], found).splitlines()
+    assert lines[2] == "| a thin band | 5.50 | 5.00 | 5.50 | 8.1 | 9.0 | 8.1 | 10.0 %, 10.0 % |"
+    assert lines[3] == "| a thick band | 5.50 | 5.00 | none | 8.1 | 9.0 | none | none, none |"

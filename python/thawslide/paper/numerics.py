@@ -94,6 +94,25 @@ def cells_table(found: Mapping[str, Observed]) -> str:
     return "\n".join(lines)
 
 
+def variant_cells_table(variants: Sequence[Row], found: Mapping[str, Observed]) -> str:
+    """Return one line a variant: displacement and runout on each cell, and what those of the finer two differ by."""
+    by_name = {each.name: each for each in QUANTITIES}
+    quantities = [by_name["displacement"], by_name["runout"]]
+    heads = [f"{each.head} [{each.unit}], {cell:g} m" for each in quantities for cell in CELLS]
+    lines = ["| run | " + " | ".join(heads) + " | finer two differ by |"]
+    lines.append("|---" * (len(heads) + 2) + "|")
+    for row in variants:
+        on_cells = [found[row.key if cell == CELL else variant_cell_key(row.key, cell)] for cell in CELLS]
+        numbers, differences = [], []
+        for quantity in quantities:
+            values = [getattr(each, quantity.name) for each in on_cells]
+            numbers += [quantity.text(value) for value in values]
+            difference = abs(values[-1] - values[-2]) / values[-2]
+            differences.append(f"{100.0 * difference:.1f} %" if np.isfinite(difference) else "none")
+        lines.append(f"| {row.words} | {' | '.join(numbers)} | {', '.join(differences)} |")
+    return "\n".join(lines)
+
+
 def numerics_table(rows: Sequence[Row], base: Observed, found: Mapping[str, Observed]) -> str:
     """Return one line a run: displacement, runout and peak, and by how much each differs from the case."""
     quantities = [each for each in QUANTITIES if each.name in QUANTITY_NAMES]
