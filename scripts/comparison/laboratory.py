@@ -1,4 +1,4 @@
-"""Two laboratory experiments: the runs of scripts/laboratory, and what is measured in them."""
+"""Runs of the two laboratory experiments of scripts/laboratory, and their measured quantities."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,7 +31,7 @@ EDGE_WINDOW = 0.05 * RADIUS  # m
 TRANSFERS = ("flip", "apic")
 FILTERED = ("mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.1")  # FLIP for columns of sand
 
-# What differs from the run on the studied cell, with APIC, by the words of the table.
+# Changes to the run on the studied cell, with APIC, by the label of the table.
 BAR_CAUSES: dict[str, tuple[str, ...]] = {
     "FLIP (the default)": ("mechanics.transfer=flip",),
     "FLIP, filtered every 0.02 s (FMPM)": (
@@ -39,7 +39,7 @@ BAR_CAUSES: dict[str, tuple[str, ...]] = {
         "mechanics.fmpm_interval=0.02",
     ),
     "friction angle of the floor 19.8 degrees": ("basal.friction_angle=19.8",),
-    "friction angle 21.1 degrees: planes of sliding bear tan(19.8 degrees)": (BAR_FRICTION,),
+    "friction angle 21.1 degrees: stress ratio tan(19.8 degrees) on slip planes": (BAR_FRICTION,),
     "gaps do not close first": ("material.bars.gaps_close_first=false",),
     "tension cut-off 0": ("material.bars.tension_cutoff=0",),
     "viscosity 0.05 ms": ("material.bars.viscosity_time=5e-5",),
@@ -194,7 +194,7 @@ def read_points(file: Path) -> tuple[Numbers, Numbers]:
 
 
 def thickness(x: Numbers, share: Numbers, at: Numbers, window: float, size: float) -> Numbers:
-    """Return volumes within windows about places, over their widths: particles `size` wide, walls at x = 0."""
+    """Return volume per width of windows about places: particles are `size` wide, the wall is at x = 0."""
     start, end = (
         np.maximum(at - 0.5 * window, 0.0)[:, None],
         (at + 0.5 * window)[:, None],
@@ -205,7 +205,7 @@ def thickness(x: Numbers, share: Numbers, at: Numbers, window: float, size: floa
 
 @dataclass(frozen=True)
 class Bars:
-    """The bars after their collapse, next to what was measured: lengths in m."""
+    """The bars after their collapse at the measured places; lengths in m."""
 
     cell: float
     surface: Numbers  # at the measured places
@@ -217,11 +217,11 @@ class Bars:
 
     @property
     def surface_error(self) -> Numbers:
-        """Surface less the measured one [mm]."""
+        """Computed minus measured surface [mm]."""
         return np.asarray(1e3 * (self.surface - read_points(MEASURED / "surface.csv")[1]))
 
     def failure_error(self, moved: float) -> Numbers:
-        """Failure line less the measured one [mm]."""
+        """Computed minus measured failure line [mm]."""
         return np.asarray(1e3 * (self.failure[moved] - read_points(MEASURED / "failure.csv")[1]))
 
     def slope(self) -> float:
@@ -230,12 +230,12 @@ class Bars:
 
 
 def inclination(x: Numbers, height: Numbers) -> float:
-    """Return the inclination [degrees] of the line of least squares."""
+    """Return the inclination [degrees] of the least-squares line."""
     return float(np.degrees(np.arctan(-np.polyfit(x, height, 1)[0])))
 
 
 def failure_line(start: Numbers, moved: Numbers, at: Numbers, threshold: float, spacing: float) -> Numbers:
-    """Return the height at places from which on rows of particles have moved by more than a threshold [m]."""
+    """Return the height [m] at places above which rows of particles have moved by more than a threshold [m]."""
     heights = []
     for place in at:
         here = np.abs(start[:, 0] - place) <= 0.5 * BAR_WINDOW
@@ -254,7 +254,7 @@ def failure_line(start: Numbers, moved: Numbers, at: Numbers, threshold: float, 
 
 
 def read_bars(job: Job, cell: float, particles: int = 2) -> Bars:
-    """Return what a run of bars has come to; cell in mm, particles per axis."""
+    """Read the result of a run of bars; cell in mm, particles per axis."""
     shot = Snapshot(Run(job.output).snapshot_files[-1])
     size = cell * 1e-3 / particles
     volume = shot["mass"] / 2650.0
@@ -286,12 +286,12 @@ class Column:
     runout: float  # of 99.5 %
     edge: float  # to where the deposit is EDGE thick
     profile: tuple[Numbers, Numbers]
-    beyond: float  # share of the mass where the deposit is thinner than a 16th of the radius
-    gained: float  # energy that transfers and steps have made, over the potential energy released
+    beyond: float  # fraction of the mass where the deposit is thinner than a 16th of the radius
+    gained: float  # energy added by transfers and steps, over the potential energy released
 
 
 def read_column(job: Job, shape: str, aspect: float, across: int) -> Column:
-    """Return what a run of sand has come to."""
+    """Read the result of a run of sand."""
     run = Run(job.output)
     made, released = (
         run.history["numerical_J"] + run.history["mechanical_residual_J"],

@@ -1,4 +1,4 @@
-"""The page of laboratory experiments: tables of bars and sand, and a figure of each."""
+"""Tables and figures of docs/laboratory.md: collapses of bars and of sand."""
 
 from pathlib import Path
 from string import Template
@@ -51,38 +51,38 @@ def rms(values: np.ndarray) -> float:
 
 
 def largest(values: np.ndarray) -> float:
-    """Return the value of the largest size."""
+    """Return the value with the largest magnitude."""
     return float(values[np.abs(values).argmax()])
 
 
 def bar_table(found: dict[tuple[str, float], Bars]) -> str:
-    """Return the numbers of the runs on several cells, a column each."""
+    """Return the table of runs on several cells, one column for each run."""
     rows = [["", *(f"{NAMES[transfer]}, {cell:g} mm" for transfer, cell in found)]]
     each = list(found.values())
     rows.append(
         [
-            "surface less measured, rms (mm)",
+            "deviation of the surface, rms (mm)",
             *(f"{rms(one.surface_error):.1f}" for one in each),
         ]
     )
     rows.append(
         [
-            "the same, maximum (mm)",
+            "deviation of the surface, maximum (mm)",
             *(f"{largest(one.surface_error):+.1f}" for one in each),
         ]
     )
-    rows.append(["toe less measured (mm)", *(f"{1e3 * one.toe - 442.0:+.0f}" for one in each)])
-    changes = ["change of the surface from the cell before, rms (mm)"]
+    rows.append(["deviation of the toe (mm)", *(f"{1e3 * one.toe - 442.0:+.0f}" for one in each)])
+    changes = ["change of the surface from the next coarser cell, rms (mm)"]
     for transfer, cell in found:
         before = found.get((transfer, 2.0 * cell))
         changes.append(f"{1e3 * rms(found[transfer, cell].surface - before.surface):.1f}" if before else "")
     rows.append(changes)
     for moved in MOVED:
-        words = f"failure line less measured, moved by {moved:g} mm, rms (mm)"
+        words = f"deviation of the failure line, threshold {moved:g} mm, rms (mm)"
         rows.append([words, *(f"{rms(one.failure_error(moved)):.1f}" for one in each)])
     rows.append(
         [
-            "mean of the same, moved by 1 mm (mm)",
+            "deviation of the failure line, threshold 1 mm, mean (mm)",
             *(f"{one.failure_error(1.0).mean():+.1f}" for one in each),
         ]
     )
@@ -97,15 +97,15 @@ def bar_table(found: dict[tuple[str, float], Bars]) -> str:
 
 
 def bar_cause_table(runs: dict[str, Bars]) -> str:
-    """Return the numbers of runs that differ in one thing, a row each."""
+    """Return the table of runs that change one parameter, one row for each run."""
     rows = [
         [
-            "changed",
+            "variant",
             "surface, rms (mm)",
             "toe (mm)",
             "failure line, rms (mm)",
-            "its inclination",
-            "volume",
+            "inclination (degrees)",
+            "increase of volume",
         ]
     ]
     for words, one in runs.items():
@@ -120,7 +120,7 @@ def bar_cause_table(runs: dict[str, Bars]) -> str:
 
 
 def column_table(found: dict[tuple[str, str, int], Column]) -> str:
-    """Return the runouts of columns of aspect ratio 1."""
+    """Return the table of runouts of columns of aspect ratio 1."""
     rows = [
         [
             "cells across the radius or width",
@@ -144,12 +144,12 @@ def column_table(found: dict[tuple[str, str, int], Column]) -> str:
                 ]
             )
             rows.append([f"{name}: edge", *(f"{one.edge:.2f}" for one in runs), f"{law:.2f}"])
-            rows.append([f"{name}: energy made (%)", *(f"{100.0 * one.gained:+.1f}" for one in runs), ""])
+            rows.append([f"{name}: numerical energy gain (%)", *(f"{100.0 * one.gained:+.1f}" for one in runs), ""])
     return markdown(rows)
 
 
 def aspect_table(found: dict[tuple[float, str, int], Column]) -> str:
-    """Return the runouts of cylinders of other aspect ratios."""
+    """Return the table of runouts of cylinders of other aspect ratios."""
     rows = [
         [
             "aspect ratio, cells across the radius",
@@ -167,15 +167,15 @@ def aspect_table(found: dict[tuple[float, str, int], Column]) -> str:
 
 
 def column_cause_table(runs: dict[str, Column]) -> str:
-    """Return the runouts of cylinders that differ in one thing."""
+    """Return the table of runouts of cylinders that change one parameter."""
     base = next(iter(runs.values()))
     rows = [
         [
-            "changed",
+            "variant",
             "runout, 99.5 % of the mass",
             "change",
             "runout, edge",
-            "energy made (%)",
+            "numerical energy gain (%)",
         ]
     ]
     for words, one in runs.items():
@@ -194,7 +194,7 @@ def column_cause_table(runs: dict[str, Column]) -> str:
 
 @styled
 def bar_figure(found: dict[tuple[str, float], Bars]) -> Figure:
-    """Return surface and failure line next to the measured ones, a panel for each transfer."""
+    """Plot computed and measured surface and failure line, one panel for each transfer."""
     figure = Figure(figsize=(COLUMN_WIDTH, 4.4), layout="constrained")
     panels = figure.subplots(2, 1, sharex=True, sharey=True)
     surface, failure = (
@@ -240,7 +240,7 @@ def bar_figure(found: dict[tuple[str, float], Bars]) -> Figure:
 
 @styled
 def column_figure(found: dict[tuple[str, str, int], Column]) -> Figure:
-    """Return profiles of the cylinder, and runouts over the cell."""
+    """Plot profiles of the cylinder, and runouts as functions of the cell."""
     figure = Figure(figsize=(COLUMN_WIDTH, 3.2), layout="constrained")
     left, right = figure.subplots(1, 2)
     for colour, across in zip((ORANGE, GREEN, BLUE, BLACK), ACROSS, strict=True):
@@ -348,7 +348,7 @@ def write(jobs: list[Job], folder: Path) -> None:
         for transfer in TRANSFERS
         for cell in BAR_CELLS
     }
-    bar_causes = {"nothing: APIC, cells of 5 mm": bars["apic", BAR_STUDIED]}
+    bar_causes = {"reference: APIC, cells of 5 mm": bars["apic", BAR_STUDIED]}
     for place, (words, changes) in enumerate(BAR_CAUSES.items()):
         particles = 3 if any("particles_per_axis=3" in change for change in changes) else 2
         bar_causes[words] = read_bars(named[f"bars-cause-{place}"], BAR_STUDIED, particles)
@@ -372,7 +372,7 @@ def write(jobs: list[Job], folder: Path) -> None:
     name = column_name("cylinder", 1.0, ACROSS_FINEST, "apic")
     finest = {("cylinder", "apic", ACROSS_FINEST): read_column(named[name], "cylinder", 1.0, ACROSS_FINEST)}
     base = columns["cylinder", "apic", ACROSS_STUDIED]
-    causes = {f"nothing: APIC, {ACROSS_STUDIED} cells across the radius": base}
+    causes = {f"reference: APIC, {ACROSS_STUDIED} cells across the radius": base}
     for place, words in enumerate(COLUMN_CAUSES):
         causes[words] = read_column(named[f"cylinder-cause-{place}"], "cylinder", 1.0, ACROSS_STUDIED)
     fine = read_bars(named["bars-21-2.5"], BAR_CELLS[-1])
