@@ -109,7 +109,7 @@ def deposit_table(found: list[Deposit]) -> str:
         values = [f"{getattr(each, name):,.{digits}f}" for each in found]
         at_zero = limit(getattr(coarse, name), getattr(fine, name), 1.0, coarse.cell / fine.cell)
         lines.append([words, *values, f"{at_zero:,.{digits}f}" if has_limit else ""])
-    lines.append(["volume gained by dilation", *(f"{100.0 * each.dilation:.0f} %" for each in found), ""])
+    lines.append(["increase of volume by dilation", *(f"{100.0 * each.dilation:.0f} %" for each in found), ""])
     lines.append(["cell of the maps (m)", *(f"{each.map_cell:g}" for each in found), ""])
     return markdown(lines)
 
