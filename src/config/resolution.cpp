@@ -14,7 +14,7 @@ namespace {
 
 bool are_enough(double found, double needed) { return found >= needed * (1.0 - 1e-9); }
 
-// Rounded down, so that a number that is too small does not read as enough.
+// Rounded down: a number that is too small must not appear to be enough.
 std::string found_words(double found) { return fmt::format("{:.2g}", rounded_down(found, 2)); }
 
 // Two significant digits, with commas between thousands.

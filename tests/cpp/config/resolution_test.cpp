@@ -1,4 +1,4 @@
-// What is said of bodies with too few particles or cells across their thickness, and what finer cells cost.
+// Warnings about bodies with too few particles or cells across their thickness, and the cost of finer cells.
 #include "config/resolution.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ BodyOnCells body_on(double thickness, double cell, int particles_per_axis, bool 
           .has_maps = has_maps};
 }
 
-// All numbers that follow a text, as "to" of a note: the cells that it names.
+// The cells that a note proposes: all numbers between "to" and "m, at about".
 std::vector<double> cells_named(const std::string& note) {
   std::vector<double> cells;
   const std::regex named(R"( to ([0-9.]+) m, at about)");
@@ -139,7 +139,7 @@ TEST(Resolution, MapsAreAskedForByTheirCellOrByTheThicknessThatCounts) {
   EXPECT_TRUE(asks(space, {"maps.cell=2.0"}));
 }
 
-// The comment in a case of `thawslide new` names the cell and the cost that its note names.
+// The comment in a case of `thawslide new` gives the same cell and cost as the note.
 TEST(Resolution, TheCommentOfACaseSaysTheSame) {
   for (const double cell : {30.0, 8.0, 4.0, 3.1}) {
     const BodyOnCells body = body_on(24.0, cell, 2, true);

@@ -1,4 +1,4 @@
-// A column of aluminium bars collapses on finer and finer cells.
+// Convergence of the collapse of a column of aluminium bars as cells become smaller.
 #include "../verification/bar_collapse.hpp"
 
 namespace thawslide::verification {

@@ -1,4 +1,4 @@
-// A cylindrical granular column falls apart on cells of a 64th of its radius.
+// Collapse of a cylindrical granular column on up to 64 cells across its radius.
 #include "../verification/cylinder_section.hpp"
 
 namespace thawslide::verification {

@@ -1,4 +1,4 @@
-// A slope of cohesive rock that fails along shear bands in its interior, on finer and finer cells.
+// Failure of a slope of cohesive rock along internal shear bands, on cells of 20, 10 and 5 m.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -85,7 +85,7 @@ TEST(SofteningSlope, DissipatesTheSameOnFinerCells) {
   record.expect_near("front, cells of 5 m over 10 m", fine.front / middle.front, 1.0, 0.05);
   record.expect_near("dissipated, cells of 20 m over 10 m", coarse.dissipated / middle.dissipated, 1.0, 0.065);
   record.expect_near("dissipated, cells of 5 m over 10 m", fine.dissipated / middle.dissipated, 1.0, 0.05);
-  // The strain that belongs to this slip on cells of 20 m.
+  // Softening strain equivalent to this slip on cells of 20 m.
   const std::string per_strain = "material.rock.softening_strain=0.11547";
   const double of_strain = fail(10.0, per_strain).dissipated / coarse.dissipated;
   EXPECT_GT(of_strain, 1.08) << "half of the slip breaks cells of half the size";

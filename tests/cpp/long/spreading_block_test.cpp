@@ -68,8 +68,8 @@ double spread(double cell, double above) {
   return std::sqrt(second / mass - first / mass * first / mass);
 }
 
-// A known limitation (docs/theory/contact.md): contact also holds the node above ground that lies between nodes.
-// Without it the deficits vanish, and this test and that page have to change.
+// A known limitation (docs/theory/contact.md): the contact condition also applies to the node above ground that lies
+// between nodes. If this is fixed, the deficits vanish: change this test and that page.
 TEST(SpreadingBlock, SpreadsLessWhereTheGroundCutsCells) {
   Record record(
       "Loose block that spreads over level ground",

@@ -1,4 +1,4 @@
-// Collapse of a column of aluminium bars against a wall, next to what was measured.
+// Collapse of a column of aluminium bars next to a wall, compared with measurements.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ namespace thawslide::verification::bar_collapse {
 using namespace testing_support;
 using Simulation = sim::Simulation<2, double>;
 
-// The numbers that came with the measurements; E = 3 K (1 - 2 nu) with K = 0.7 MPa. The rough floor holds what touches
-// it: its friction angle is far above that of the bars.
+// Parameters published with the measurements; E = 3 K (1 - 2 nu) with K = 0.7 MPa. Material in contact with the rough
+// floor does not slide: the friction angle of the floor is far above that of the bars.
 inline const std::string column = R"(
 [time]
 end = 1.0
@@ -53,7 +53,7 @@ struct Line {
   std::vector<double> x, height;  // [m]
 };
 
-// "surface": after the collapse; "failure": limit between moved and unmoved material.
+// Measured line by name: "surface" after the collapse, or "failure", the limit between moved and unmoved material.
 inline Line measured(const std::string& name) {
   std::ifstream file(THAWSLIDE_SOURCE_DIR "/tests/cpp/verification/bar_collapse/" + name + ".csv");
   Line line;
@@ -68,7 +68,7 @@ inline Line measured(const std::string& name) {
   return line;
 }
 
-inline constexpr double window = 0.01;           // over which the computed lines are averaged along x [m]
+inline constexpr double window = 0.01;           // averaging length of the computed lines along x [m]
 inline constexpr double toe_thickness = 0.0015;  // of the measured surface at its last point, x = 0.442 m [m]
 inline constexpr double moved = 0.001;           // displacement of moved material [m]
 
@@ -105,8 +105,8 @@ class Collapse {
     return x;
   }
 
-  // Height at x [m] from which on material has moved: between rows of particles, whose displacements are averaged over
-  // the window, the line is straight.
+  // Height at x [m] above which material has moved. Displacements of rows of particles are averaged over the window
+  // and interpolated linearly between rows.
   [[nodiscard]] double failure(double x) const {
     const auto& particles = simulation_.particles();
     const double spacing = 0.5 * cell_;
@@ -155,7 +155,7 @@ inline std::vector<double> failure_of(const Collapse& collapse, const std::vecto
   return found;
 }
 
-// Found less expected [mm].
+// Found minus expected [mm].
 inline std::vector<double> differences(const std::vector<double>& found, const std::vector<double>& expected) {
   std::vector<double> all;
   for (std::size_t k = 0; k < found.size(); ++k) {

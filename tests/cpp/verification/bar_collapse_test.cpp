@@ -1,4 +1,4 @@
-// A column of aluminium bars collapses: surface and failure line as measured.
+// Surface and failure line of a collapsed column of aluminium bars, compared with measurements.
 #include "bar_collapse.hpp"
 
 namespace thawslide::verification {

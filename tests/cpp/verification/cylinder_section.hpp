@@ -1,4 +1,4 @@
-// Collapse of a cylindrical granular column in a section b = x, the equations of which are those of axial symmetry
+// Collapse of a cylindrical granular column in a section of width b = x. Its equations are those of axial symmetry
 // (docs/theory/width.md).
 #pragma once
 
@@ -53,7 +53,7 @@ inline Record make_section_record(const std::string& title) {
                 "runout over radius 1.24 a", "fit to experiments, Lube et al. 2004");
 }
 
-// Runouts with some numbers of cells across the radius, and how far each may be from the experiments.
+// Compares runouts with the experiments, for numbers of cells across the radius and an allowed deviation for each.
 inline void expect_approach(Record& record, const std::vector<int>& cells, const std::vector<double>& allowed) {
   Curve curve{"cells across the radius", "runout over radius", {}, {}, {}, "fit to experiments"};
   for (std::size_t k = 0; k < cells.size(); ++k) {
