@@ -1,4 +1,4 @@
-"""The declarations of numbers in hand-written pages: they hold for the pages as they are, and leave no number out."""
+"""Declarations of numbers in hand-written pages agree with the pages and are complete."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What expressions about the numbers of pages may ask a run, the run of a rigid block, and a generated page for."""
+"""Quantities that expressions in scripts/page_numbers.toml read from a run, a rigid-block run and a generated page."""
 
 from __future__ import annotations
 

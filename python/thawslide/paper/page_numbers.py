@@ -1,8 +1,9 @@
-"""Numbers of hand-written pages that come from runs: where each is stated, and whether it agrees with its run.
+"""Numbers in hand-written pages: their places, and comparison with the results of runs.
 
-A file of declarations lists the runs by name, and for each page phrases with their numbers in braces and one expression
-for each number. Two spaces or a line break in a page are one space in a phrase. An expression names runs; it ends with
-"to STEP" if the page rounds to multiples of STEP, and with "at most" or "at least" if the page states a bound.
+A file of declarations lists the runs by name. For each page it lists phrases, with numbers in braces and one expression
+for each number. A sequence of spaces or a line break in a page corresponds to one space in a phrase. An expression
+refers to runs by name. It ends with "to STEP" if the page rounds to multiples of STEP, and with "at most" or "at least"
+if the page states a bound.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from thawslide.errors import ReportError
 _NUMBER = r"[-+−]?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e[-+−]?\d+)?"
 _MARKED = re.compile(r"\{(" + _NUMBER + r")\}")
 _RULE = re.compile(r"(?s)^(.*?)\s+(?:(to)\s+(\S+)|(at most|at least))$")
-# What a result has as its unit. Of a length in metres and a time in seconds a page states many that are no results.
+# Units of results. Many lengths in metres and times in seconds in a page are not results.
 _UNITS = r"(?:m/s2?|km2?|m2|m3|TN|GN|[TGP]J|[MGk]?Pa|kg|t|C|K|%|s|m|min|degrees)(?![\w/])"
 _WITH_UNIT = re.compile(r"(?<![\w.,/-])" + _NUMBER + r"(?: to " + _NUMBER + r")? " + _UNITS)
 _CODE = re.compile(r"(?s)```.*?```|`[^`]*`|\]\([^)]*\)")
@@ -32,31 +33,31 @@ ROUND_OFF = 1e-9
 
 
 class DeclarationError(Exception):
-    """A declaration that cannot be used; the text names it and the remedy."""
+    """Error in a declaration; the message identifies it and gives the remedy."""
 
 
 @dataclass(frozen=True)
 class Number:
-    """A number that a page states, and how it follows from runs."""
+    """A number in a page, and the expression that computes it from runs."""
 
     text: str
     expression: str
-    step: float  # the page rounds to multiples of it; 0 for a bound
+    step: float  # multiple to which the page rounds; 0 for a bound
     bound: str = ""  # "", "at most" or "at least"
 
     @property
     def value(self) -> float:
-        """The number as the page states it."""
+        """The value in the page."""
         return float(_plain(self.text))
 
     def agrees(self, found: float) -> bool:
-        """Return whether a value found is rounded to this number, or keeps the bound."""
+        """Return whether a computed value rounds to this number, or satisfies the bound."""
         if self.bound:
             return found <= self.value if self.bound == "at most" else found >= self.value
         return abs(found - self.value) <= 0.5 * self.step * (1.0 + ROUND_OFF) + ROUND_OFF * abs(self.value)
 
     def written(self, found: float) -> str:
-        """Return a value found as the page writes this number; the number itself for a bound or a power of ten."""
+        """Return a computed value in the format of this number; the number itself for a bound or a power of ten."""
         if self.bound or "e" in self.text or not math.isfinite(found):
             return self.text
         step = Decimal(repr(self.step))
@@ -66,7 +67,7 @@ class Number:
         return text.replace("-", "−") if "−" in self.text else text
 
     def shown(self, found: float) -> str:
-        """Return a value found with one digit more than the page has."""
+        """Return a computed value with one digit more than in the page."""
         if self.bound or not self.step:
             return f"{found:.4g}"
         decimals = max(0, 1 - Decimal(f"{self.step:g}").adjusted())
@@ -80,26 +81,26 @@ class Number:
 
 @dataclass(frozen=True)
 class Phrase:
-    """Words of a page with numbers in them; without numbers, words whose numbers come from no run."""
+    """A phrase of a page with numbers to compare; without them, its numbers come from no run."""
 
     declared: str  # with the numbers in braces
     numbers: tuple[Number, ...] = ()
 
     @property
     def text(self) -> str:
-        """The words as the page has them, with one space for every white space."""
+        """The phrase as in the page, with one space for each white space."""
         return " ".join(_MARKED.sub(r"\1", self.declared).split())
 
     @property
     def places(self) -> list[int]:
-        """Where each number begins in the text."""
+        """The start of each number in the text."""
         marks = _MARKED.finditer(" ".join(self.declared.split()))
         return [found.start() - 2 * place for place, found in enumerate(marks)]
 
 
 @dataclass(frozen=True)
 class Difference:
-    """A number of a page that its run does not give, or that has no value (nan; why says so)."""
+    """A number that differs from its run, or that has no value (found is nan, and why gives the reason)."""
 
     file: str
     line: int
@@ -130,7 +131,7 @@ class Page:
 
 @dataclass(frozen=True)
 class Declarations:
-    """Texts that expressions name, runs by name as the words of a command after `thawslide`, and pages."""
+    """Texts by name, runs by name as arguments of `thawslide`, and pages."""
 
     texts: dict[str, str]
     runs: dict[str, tuple[str, ...]]
@@ -142,7 +143,7 @@ def _plain(text: str) -> str:
 
 
 def shown_step(text: str) -> float:
-    """Return the unit of the last digit that a number shows: 1 for 1,220, 0.01 for 0.25, 1e-7 for 3e-7."""
+    """Return the unit of the last digit of a number: 1 for 1,220, 0.01 for 0.25, 1e-7 for 3e-7."""
     exponent = Decimal(_plain(text)).as_tuple().exponent
     assert isinstance(exponent, int)
     return float(Decimal(1).scaleb(exponent))
@@ -184,7 +185,7 @@ def read_declarations(path: Path) -> Declarations:
 
 
 class PageText:
-    """The text of a page with every white space as one space, which knows the line of each place."""
+    """The text of a page with one space for each white space, and the line number of each place."""
 
     def __init__(self, text: str) -> None:
         words = list(re.finditer(r"\S+", text))
@@ -208,12 +209,12 @@ class PageText:
         return self._origins[word] + place - self._starts[word]
 
     def places(self, phrase: Phrase) -> list[tuple[int, int]]:
-        """Return where a phrase stands in the flat text, from and to."""
+        """Return the start and end of each occurrence of a phrase in the flat text."""
         return [found.span() for found in re.finditer(re.escape(phrase.text), self.flat)]
 
 
 def section_places(text: PageText, source: str) -> Iterator[tuple[int, int, str]]:
-    """Yield from where to where each section below a heading goes in the flat text, with its heading."""
+    """Yield the start and end of each section in the flat text, with its heading."""
     headings = re.findall(r"(?m)^#+ .+$", re.sub(r"(?s)```.*?```", "", source))
     starts: list[int] = []
     for heading in headings:
@@ -224,7 +225,7 @@ def section_places(text: PageText, source: str) -> Iterator[tuple[int, int, str]
 
 
 def misplaced(page: Page, source: str) -> list[str]:
-    """Return what is wrong with the phrases of a page: a checked one stands there once, any other at least once."""
+    """Return errors in the phrases of a page: a checked one must occur once, any other at least once."""
     text = PageText(source)
     wrong = []
     for phrase in (*page.checked, *page.given):
@@ -239,7 +240,7 @@ def misplaced(page: Page, source: str) -> list[str]:
 
 
 def undeclared(page: Page, source: str) -> list[str]:
-    """Return the numbers with a unit that stand in no declared phrase and no section declared as given, by line."""
+    """Return the numbers with a unit, by line, that are in no declared phrase and no section declared as given."""
     text = PageText(source)
     covered = [place for phrase in (*page.checked, *page.given) for place in text.places(phrase)]
     sections = {phrase.text for phrase in page.given if phrase.text.startswith("#")}
@@ -259,16 +260,16 @@ def needed_runs(declared: Declarations, pages: Mapping[str, Page]) -> set[str]:
 
 
 def evaluate(number: Number, names: Mapping[str, Any]) -> float:
-    """Return what the runs give for a number."""
+    """Return the value of a number that the runs give."""
     return float(eval(number.expression, dict(names)))  # the repository's own declarations
 
 
 def differences(
     page: Page, source: str, names: Mapping[str, Any], absent: Set[str] = frozenset()
 ) -> tuple[list[Difference], int]:
-    """Return the numbers of a page that differ from their runs, and how many were compared.
+    """Return the numbers of a page that differ from their runs, and the count of compared numbers.
 
-    Numbers of runs that are absent are not.
+    Numbers of absent runs are not compared.
     """
     text = PageText(source)
     wrong, compared = [], 0
@@ -289,7 +290,7 @@ def differences(
 
 
 def corrected(source: str, declarations: str, wrong: Sequence[Difference]) -> tuple[str, str]:
-    """Return a page and the declarations with the values found in the place of the numbers that differ."""
+    """Return a page and the declarations in which computed values replace the numbers that differ."""
     text = PageText(source)
     changes = []
     for each in wrong:
