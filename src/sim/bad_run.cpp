@@ -216,7 +216,8 @@ std::string Simulation<Dim, Real>::cause_in_material(std::size_t p) const {
   }
   return fmt::format(
       "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
-      "is torn apart; try half of {}, or a viscosity_time in the material.",
+      "is torn apart; try half of {}, a viscosity_time in the material, or mechanics.transfer = \"blend\" with "
+      "mechanics.pic_share = 0.02.",
       step_to_halve());
 }
 

@@ -75,7 +75,8 @@ def test_load_beyond_the_step(thawslide: Program, small_case: Path, tmp_path: Pa
         r"\S+ % of all so far, where guards\.energy_growth allows 25 %\. The fastest particle, \d+ of body 'block' at "
         r"\(\S+, \S+\) m, moves at \S+ m/s, the slide at \S+ m/s in the mean\. Likely cause: the step is too long for "
         r"what the material does, or the material is softer than its load, or it is torn apart; try half of "
-        r"time\.step, or a viscosity_time in the material\.\n",
+        r"time\.step, a viscosity_time in the material, or mechanics\.transfer = \"blend\" with "
+        r"mechanics\.pic_share = 0\.02\.\n",
         outcome.stderr,
     ), outcome.stderr
     told = went_bad(thawslide, small_case, tmp_path / "run", *fall, *sets(guards__energy_growth="inf"))

@@ -89,8 +89,8 @@ TEST(EnergyGuard, AStepThatIsTooLongIsToldSoWhileAllIsFinite) {
                "without a cause, [0-9.e+]+ % of all so far, where guards.energy_growth allows 25 %\\. The fastest "
                "particle, [0-9]+ of body 'block' at \\([0-9.]+, -?[0-9.]+\\) m, moves at [0-9.e+]+ m/s, the slide at "
                "[0-9.e+]+ m/s in the mean\\. Likely cause: the step is too long for what the material does, or the "
-               "material is softer than its load, or it is torn apart; try half of time.step, or a viscosity_time "
-               "in the material\\.");
+               "material is softer than its load, or it is torn apart; try half of time.step, a viscosity_time in "
+               "the material, or mechanics.transfer = \"blend\" with mechanics.pic_share = 0.02\\.");
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     ASSERT_TRUE(std::isfinite(simulation.particles().velocity(p, 0) + simulation.particles().stress(p, 0)));
   }
