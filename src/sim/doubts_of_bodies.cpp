@@ -163,7 +163,7 @@ std::string doubt_of_softening(const config::Case& parameters, const BodyFigures
   const std::string key = "material." + name + ".softening_slip";
   return fmt::format(
       "{}: {} is {} m: in a cell of {:g} m the strength falls faster than the elastic strain can follow, and breaking "
-      "depends on grid.cell. Allowed with it are cells of at most {:.2g} m; with this cell, {} of at least {:.2g} m.",
+      "depends on grid.cell. Set grid.cell to at most {:.2g} m, or {} to at least {:.2g} m.",
       config::place_of(parameters, key), key, material.softening_slip, parameters.grid.cell, widest, key,
       material.softening_slip * parameters.grid.cell / widest);
 }

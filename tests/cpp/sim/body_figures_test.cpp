@@ -134,8 +134,8 @@ TEST(BodyFigures, ACellTooWideForSofteningCausesAWarning) {
   ASSERT_EQ(doubts.size(), 1U);
   EXPECT_NE(
       doubts.front().find("material.rock.softening_slip is 0.001 m: in a cell of 1 m the strength falls faster "
-                          "than the elastic strain can follow, and breaking depends on grid.cell. Allowed with it "
-                          "are cells of at most "),
+                          "than the elastic strain can follow, and breaking depends on grid.cell. Set grid.cell to at "
+                          "most "),
       std::string::npos)
       << doubts.front();
 }
