@@ -48,7 +48,8 @@ def members_over_time(runs: Sequence[Run]) -> Figure:
     speed.set_ylabel("mean velocity (m/s)")
     way.set_ylabel("mean displacement (km)")
     _draw_wanted(speed)
-    for axes, place in ((speed, "upper right"), (way, "lower right")):
+    way.set_ylim(top=1.6 * way.get_ylim()[1])  # room for the legend above the curves
+    for axes, place in ((speed, "upper right"), (way, "upper left")):
         axes.legend(loc=place, frameon=True, framealpha=1.0, edgecolor="none")
     letters((speed, way), ("mean velocity", "mean displacement"))
     return figure
