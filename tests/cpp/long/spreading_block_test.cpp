@@ -1,11 +1,11 @@
 // A loose block that spreads over level ground, on a grid line and between two.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "../support/case_from_text.hpp"
+#include "../support/mass_spread.hpp"
 #include "../support/record.hpp"
 #include "sim/simulation.hpp"
 
@@ -57,15 +57,7 @@ double spread(double cell, double above) {
               fmt::format("terrain.elevation={}", ground),
               fmt::format("body.block.vertices=[[-100.0,{0}],[100.0,{0}],[100.0,{1}],[-100.0,{1}]]", ground, top)}));
   testing_support::run_until(simulation, 16.0);
-  const auto& particles = simulation.particles();
-  double mass = 0.0, first = 0.0, second = 0.0;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double x = particles.position(p, 0);
-    mass += particles.mass(p);
-    first += particles.mass(p) * x;
-    second += particles.mass(p) * x * x;
-  }
-  return std::sqrt(second / mass - first / mass * first / mass);
+  return testing_support::mass_spread(simulation);
 }
 
 // A known limitation (docs/theory/contact.md): the contact condition also applies to the node above ground that lies

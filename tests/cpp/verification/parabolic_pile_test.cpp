@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "../support/case_from_text.hpp"
+#include "../support/mass_spread.hpp"
 #include "../support/record.hpp"
 #include "sim/simulation.hpp"
 
@@ -64,19 +65,6 @@ double exact_half_length(double time) {
   return length;
 }
 
-// Standard deviation of the mass along x [m]: g/sqrt(5) of a parabolic cap.
-double spread(const Simulation<2, double>& simulation) {
-  const auto& particles = simulation.particles();
-  double mass = 0.0, first = 0.0, second = 0.0;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double x = particles.position(p, 0);
-    mass += particles.mass(p);
-    first += particles.mass(p) * x;
-    second += particles.mass(p) * x * x;
-  }
-  return std::sqrt(second / mass - first / mass * first / mass);
-}
-
 std::string parabola() {
   std::string vertices;
   for (int k = 80; k >= 0; --k) {
@@ -99,7 +87,8 @@ TEST(ParabolicPile, SpreadsAsSavageAndHutterSay) {
     for (const double time : {10.0, 20.0}) {
       testing_support::run_until(simulation, time);
       record.expect_near(fmt::format("spread over exact, cells of {} m, after {} s", cell, time),
-                         spread(simulation) * std::sqrt(5.0) / exact_half_length(time), 1.0, 0.02);
+                         testing_support::mass_spread(simulation) * std::sqrt(5.0) / exact_half_length(time), 1.0,
+                         0.02);
     }
   }
 }
