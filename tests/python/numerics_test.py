@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+import tomllib
+from pathlib import Path
 
 from thawslide.paper.members import Observed
 from thawslide.paper.numerics import (
+    CELL,
     CELLS,
+    DOMAIN,
+    STEP_PER_CELL,
     cell_key,
     cell_rows,
     cells_table,
@@ -67,3 +72,22 @@ def test_variants_run_on_the_cells_that_the_case_does_not_have() -> None:
     assert of_thin[:3] == ["| a thin band", "5.50 / 5.00 / 5.50", "8.1 / 8.1 / 8.1"]
     assert of_thick[:2] == ["| a thick band", "5.50 / 5.00 / none"]
     assert len(of_thin) == len(of_thick) == 7
+
+
+def test_rows_have_the_multiples_of_the_case_that_they_name() -> None:
+    path = Path(__file__).resolve().parents[2] / "cases" / "lamplugh-columns" / "case.toml"
+    case = tomllib.loads(path.read_text(encoding="utf-8"))
+    rock = case["material"]["rock_ice"]
+    assert (case["grid"]["cell"], case["time"]["step"]) == (CELL, STEP_PER_CELL * CELL)
+    assert (*case["grid"]["min"], *case["grid"]["max"]) == (DOMAIN[0], DOMAIN[2], DOMAIN[1], DOMAIN[3])
+    rows = {row.key: dict(each.split("=") for each in row.sets) for row in numerics_rows()}
+    factors = {
+        "half-modulus": (0.5, 1.0, 1.0), "twice-modulus": (2.0, 1.0, 1.0), "soft": (0.5, 2.0, 1.0),
+        "softest": (0.25, 4.0, 1.0), "stiff": (2.0, 0.5, 1.0), "half-viscosity": (1.0, 0.5, 1.0),
+        "twice-viscosity": (1.0, 2.0, 1.0), "half-slip": (1.0, 1.0, 0.5), "twice-slip": (1.0, 1.0, 2.0),
+        "fine-half-viscosity": (1.0, 0.5, 1.0),
+    }  # fmt: skip
+    for key, of_row in factors.items():
+        for name, factor in zip(("youngs_modulus", "viscosity_time", "softening_slip"), of_row, strict=True):
+            value = float(rows[key].get(f"material.rock_ice.{name}", rock[name]))
+            assert abs(value / rock[name] - factor) < 1e-9, (key, name)
