@@ -58,15 +58,15 @@ def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slop
         f"note: --cell: {problem}. Set --cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about "
         "10,000 times the run time.\n"
     ) in coarse.stdout, coarse.stderr
-    told = thawslide("check", tmp_path / "coarse").stdout
-    assert "; 1.6 across in the median and 1.6 at most; " in told
+    checked = thawslide("check", tmp_path / "coarse").stdout
+    assert "; 1.6 across in the median and 1.6 at most; " in checked
     fitting = re.search(
         rf"/coarse/case\.toml:\d+:\d+: grid\.cell: {re.escape(problem)}\. Set grid\.cell to (\S+) m, at about \S+ "
         r"times the run time, or for maps to (\S+) m, at about \S+ times the run time\.\n",
-        told,
+        checked,
     )
-    assert fitting and 4.0 < float(fitting[1]) <= 8.0, told
-    assert 2.0 <= float(fitting[2]) <= 3.0, told
+    assert fitting and 4.0 < float(fitting[1]) <= 8.0, checked
+    assert 2.0 <= float(fitting[2]) <= 3.0, checked
     finer = thawslide("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[1]}")
     assert finer.returncode == 0 and "too few particles" not in finer.stdout, finer.stderr
     finest = thawslide("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[2]}")

@@ -32,11 +32,11 @@ class Curve:
         """Return the last value."""
         return float(self.history[column][-1])
 
-    def most(self, column: str) -> float:
+    def maximum(self, column: str) -> float:
         """Return the largest value."""
         return float(np.nanmax(self.history[column]))
 
-    def time_of_most(self, column: str) -> float:
+    def time_of_maximum(self, column: str) -> float:
         """Return the time [s] of the largest value."""
         return float(self.history["time_s"][int(np.nanargmax(self.history[column]))])
 
@@ -65,12 +65,12 @@ class Measured(Curve):
     @cached_property
     def peak(self) -> float:
         """The peak of the mean velocity [m/s]."""
-        return self.most("mean_velocity_m_s")
+        return self.maximum("mean_velocity_m_s")
 
     @cached_property
     def peak_time(self) -> float:
         """The time [s] of that peak."""
-        return self.time_of_most("mean_velocity_m_s")
+        return self.time_of_maximum("mean_velocity_m_s")
 
     @cached_property
     def front(self) -> float:
@@ -167,7 +167,7 @@ class Measured(Curve):
         return float(np.sum(shot["mass"] * shot["in_band"]) / np.sum(shot["mass"]))
 
     @property
-    def hum(self) -> float:
+    def velocity_noise(self) -> float:
         """The root mean square velocity [m/s] of particles at the end of a run in 2D less the mean of their cell.
 
         A mean over few particles follows each of them: one particle a cell does not count.
