@@ -76,9 +76,9 @@ double slip_of_block(double density, double above) {
 double slip_over_exact(double cell, const std::string& softening) {
   Simulation<2, double> simulation(testing_support::case_from_text(
       slab, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 6e-4 * cell), softening}));
-  const auto& particles = simulation.particles();
-  const double density = particles.mass(0) / particles.volume(0);  // at the start
+  const double density = simulation.particles().mass(0) / simulation.particles().volume(0);  // at the start
   testing_support::run_until(simulation, end);
+  const auto& particles = simulation.particles();
   const Vector<double, 2> origin = simulation.model().origin;
   double mass = 0.0, moment = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
