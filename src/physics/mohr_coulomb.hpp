@@ -223,21 +223,21 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return (Real(1) + sine) / (Real(1) - sine);
   }
 
-  [[nodiscard]] THAWSLIDE_HD static Vector<Real, 3> normal(int plane, Real ratio) {
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD static Vector<Value, 3> normal(int plane, Value ratio) {
     switch (plane) {
       case 0:
-        return {ratio, Real(0), Real(-1)};
+        return {ratio, Value(0), Value(-1)};
       case 1:
-        return {ratio, Real(-1), Real(0)};
+        return {ratio, Value(-1), Value(0)};
       case 2:
-        return {Real(0), ratio, Real(-1)};
+        return {Value(0), ratio, Value(-1)};
       default:
-        return Vector<Real, 3>::Unit(plane - 3);
+        return {Value(plane == 3 ? 1 : 0), Value(plane == 4 ? 1 : 0), Value(plane == 5 ? 1 : 0)};
     }
   }
 
-  // Principal stresses on the yield surface for those that yielded; torn: 1 at the apex or on the cut-off, else 0. Most
-  // return to the face; the others one by one.
+  // Principal stresses on the yield surface for those that yielded; torn: 1 at the apex or on the cut-off, else 0.
   template <class Value, class Condition>
   [[nodiscard]] THAWSLIDE_HD Vector<Value, 3> returned(const Vector<Value, 3>& trial, const Surface<Value>& surface,
                                                        Value tolerance, const Condition& yielded, Value& torn) const {
@@ -252,67 +252,86 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
                           (ratio * values[1] - values[2] <= shear_limit + tolerance);
     const auto below_cutoff = (values[0] <= tension_cutoff_ + tolerance) & (values[1] <= tension_cutoff_ + tolerance) &
                               (values[2] <= tension_cutoff_ + tolerance);
-    const auto elsewhere = yielded & !((multiplier >= Value(0)) & in_order & below_cutoff);
-    for_each_lane(elsewhere, [&](std::size_t lane) {
-      bool torn_here = false;
-      const Vector<Real, 3> one(in_lane(trial[0], lane), in_lane(trial[1], lane), in_lane(trial[2], lane));
-      const Vector<Real, 3> found =
-          returned_one(one, in_lane(ratio, lane), in_lane(shear_limit, lane), in_lane(tolerance, lane), torn_here);
-      for (int k = 0; k < 3; ++k) {
-        set_lane(values[k], lane, found[k]);
-      }
-      set_lane(torn, lane, torn_here ? Real(1) : Real(0));
-    });
+    const Condition elsewhere = yielded & !((multiplier >= Value(0)) & in_order & below_cutoff);
+    if (any(elsewhere)) {
+      return_beside_the_face(trial, surface, tolerance, elsewhere, values, torn);
+    }
     return values;
   }
 
-  // Of one, by all sets of active planes.
-  [[nodiscard]] THAWSLIDE_HD Vector<Real, 3> returned_one(const Vector<Real, 3>& trial, Real ratio, Real shear_limit,
-                                                          Real tolerance, bool& torn) const {
-    Vector<Real, planes> limits;
-    limits << Vector<Real, 3>::Constant(shear_limit), Vector<Real, 3>::Constant(tension_cutoff_);
-    const int with_cutoff = std::isfinite(tension_cutoff_) ? planes : 3;
-    for (int s = 0; s < set_count; ++s) {
+  // To edges, the cut-off and corners, set by set, until all have one; to the apex where no set answers.
+  template <class Value, class Condition>
+  THAWSLIDE_HD void return_beside_the_face(const Vector<Value, 3>& trial, const Surface<Value>& surface,
+                                           Value tolerance, Condition left, Vector<Value, 3>& values,
+                                           Value& torn) const {
+    const int planes_here = std::isfinite(tension_cutoff_) ? planes : 3;
+    for (int s = 1; s < set_count && any(left); ++s) {
       const ActiveSet& set = active_set(s);
-      Vector<Real, 3> values = trial;
-      if (set.plane[set.count - 1] < with_cutoff && relax(s, ratio, limits, values) &&
-          admissible(values, ratio, limits, tolerance)) {
-        torn = set.plane[set.count - 1] >= 3 || set.plane[0] >= 3;
-        return values;
+      const int last = set.plane[set.count - 1];
+      if (last >= planes_here) {
+        continue;
       }
+      Vector<Value, 3> found = trial;
+      const auto flows = relax(s, surface, found);
+      const Condition here = left & flows & is_admissible(found, surface, planes_here, tolerance);
+      for (int k = 0; k < 3; ++k) {
+        values[k] = select(here, found[k], values[k]);
+      }
+      torn = select(here, Value(last >= 3 ? 1 : 0), torn);
+      left = left & !here;
     }
-    torn = true;
-    // k s - s = limit on the hydrostatic axis.
-    const Real apex = ratio > Real(1) ? limits[0] / (ratio - Real(1)) : trial.mean();
-    return Vector<Real, 3>::Constant(apex < tension_cutoff_ ? apex : tension_cutoff_);
+    if (any(left)) {
+      // k s - s = limit on the hydrostatic axis.
+      const Value ratio = surface.ratio, mean = (trial[0] + trial[1] + trial[2]) / Value(3);
+      const Value apex =
+          min(select(ratio > Value(1), surface.shear_limit / (ratio - Value(1)), mean), Value(tension_cutoff_));
+      for (int k = 0; k < 3; ++k) {
+        values[k] = select(left, apex, values[k]);
+      }
+      torn = select(left, Value(1), torn);
+    }
   }
 
-  [[nodiscard]] THAWSLIDE_HD bool admissible(const Vector<Real, 3>& values, Real ratio,
-                                             const Vector<Real, planes>& limits, Real tolerance) const {
-    for (int i = 0; i < planes; ++i) {
-      if (normal_at(i, ratio).dot(values) - limits[i] > tolerance) {
-        return false;
-      }
-    }
-    return true;
+  // How far a stress is beyond a plane [Pa].
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value beyond(int plane, const Vector<Value, 3>& values,
+                                                                  const Surface<Value>& surface) const {
+    const auto& normal = normal_at(plane, surface.ratio);
+    const Value limit = plane < 3 ? surface.shear_limit : Value(tension_cutoff_);
+    return normal[0] * values[0] + normal[1] * values[1] + normal[2] * values[2] - limit;
   }
 
-  // Takes the plastic strain of an active set of planes off the trial stress; false if a multiplier is negative.
-  [[nodiscard]] THAWSLIDE_HD bool relax(int number, Real ratio, const Vector<Real, planes>& limits,
-                                        Vector<Real, 3>& values) const {
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD auto is_admissible(const Vector<Value, 3>& values, const Surface<Value>& surface,
+                                                int planes_here, Value tolerance) const {
+    auto admissible = beyond(0, values, surface) <= tolerance;
+    for (int i = 1; i < planes_here; ++i) {
+      admissible = admissible & (beyond(i, values, surface) <= tolerance);
+    }
+    return admissible;
+  }
+
+  // Takes the plastic strain of an active set of planes off the trial stress; no where a multiplier is negative.
+  template <class Value>
+  [[nodiscard]] THAWSLIDE_HD auto relax(int number, const Surface<Value>& surface, Vector<Value, 3>& values) const {
     const ActiveSet& set = active_set(number);
-    Vector<Real, 3> excess = Vector<Real, 3>::Zero();
-    for (int a = 0; a < 3 && a < set.count; ++a) {
-      excess[a] = normal_at(set.plane[a], ratio).dot(values) - limits[set.plane[a]];
+    Value excess[3];
+    for (int a = 0; a < set.count; ++a) {
+      excess[a] = beyond(set.plane[a], values, surface);
     }
-    const Vector<Real, 3> multipliers = inverse_coupling(number, ratio) * excess;
-    for (int a = 0; a < 3 && a < set.count; ++a) {
-      if (!(multipliers[a] >= Real(0))) {
-        return false;
+    const auto& inverse = inverse_coupling(number, surface.ratio);
+    auto flows = excess[0] == excess[0];
+    for (int a = 0; a < set.count; ++a) {
+      Value multiplier = inverse(a, 0) * excess[0];
+      for (int b = 1; b < set.count; ++b) {
+        multiplier += inverse(a, b) * excess[b];
       }
-      values -= multipliers[a] * relaxation_[set.plane[a]];
+      flows = flows & (multiplier >= Value(0));
+      for (int k = 0; k < 3; ++k) {
+        values[k] -= multiplier * relaxation_[set.plane[a]][k];
+      }
     }
-    return true;
+    return flows;
   }
 
   // The elastic strain of a principal stress.
@@ -325,12 +344,15 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   }
 
   // Of the planes of a set: normal . relaxation; 1 on the diagonal of what is no plane.
-  [[nodiscard]] THAWSLIDE_HD Matrix<Real, 3> coupling(int number, Real ratio) const {
+  template <class Ratio>
+  [[nodiscard]] THAWSLIDE_HD Matrix<Ratio, 3> coupling(int number, Ratio ratio) const {
     const ActiveSet& set = active_set(number);
-    Matrix<Real, 3> coupling = Matrix<Real, 3>::Identity();
+    Matrix<Ratio, 3> coupling = Matrix<Ratio, 3>::Identity();
     for (int a = 0; a < 3 && a < set.count; ++a) {
+      const auto& normal = normal_at(set.plane[a], ratio);
       for (int b = 0; b < 3 && b < set.count; ++b) {
-        coupling(a, b) = normal_at(set.plane[a], ratio).dot(relaxation_[set.plane[b]]);
+        const Vector<Real, 3>& relaxation = relaxation_[set.plane[b]];
+        coupling(a, b) = normal[0] * relaxation[0] + normal[1] * relaxation[1] + normal[2] * relaxation[2];
       }
     }
     return coupling;
@@ -346,7 +368,8 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     }
   }
 
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE decltype(auto) normal_at(int plane, Real ratio) const {
+  template <class Ratio>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE decltype(auto) normal_at(int plane, Ratio ratio) const {
     if constexpr (friction_falls) {
       return normal(plane, ratio);
     } else {
@@ -354,9 +377,10 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     }
   }
 
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE decltype(auto) inverse_coupling(int number, Real ratio) const {
+  template <class Ratio>
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE decltype(auto) inverse_coupling(int number, Ratio ratio) const {
     if constexpr (friction_falls) {
-      return Matrix<Real, 3>(coupling(number, ratio).inverse());
+      return Matrix<Ratio, 3>(coupling(number, ratio).inverse());
     } else {
       return (of_angle_.inverse_coupling[number]);
     }
