@@ -18,47 +18,77 @@ constexpr double joining_reach = 0.5;   // distance of two that join along each 
 
 }  // namespace
 
+// Each block's pieces in order of their numbers.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
-  nodes.base_state.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.near_ground.holds(b); });
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    if (nodes.base_state.holds(b)) {
-      std::fill_n(nodes.base_state.of_block(b), nodes.base_state.nodes,
-                  typename mpm::RecordsOf<BaseState, Dim, Real>::Record{});
-    }
+void BaseColumns<Dim, Real>::list_pieces_by_block(std::size_t blocks) {
+  first_of_block_.assign(blocks + 1, 0);
+  for (const Stencil& stencil : stencils_) {
+    stencil.for_each_block([&](std::size_t b, int /*corner*/) { ++first_of_block_[b]; });
   }
-  std::vector<physics::BandMeans<Real>> means_at(pieces_.size());
-  parallel_for(pieces_.size(), [&](std::size_t p) { means_at[p] = means_of(pieces_[p]); });
-  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+  std::uint32_t end = 0;
+  for (std::uint32_t& number : first_of_block_) {
+    end += number;
+    number = end;  // where the block's pieces end, for now
+  }
+  by_block_.resize(end);
+  for (std::size_t p = stencils_.size(); p-- > 0;) {
+    stencils_[p].for_each_block([&](std::size_t b, int corner) {
+      by_block_[--first_of_block_[b]] = {static_cast<std::uint32_t>(p), corner};
+    });
+  }
+}
+
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) {
+  struct Shared {
+    Real temperature, pressure_ratio, saturation, solid_fraction;
+  };
+  std::vector<Shared> shared(pieces_.size());
+  stencils_.resize(pieces_.size());
+  parallel_for(pieces_.size(), [&](std::size_t p) {
     const Piece& piece = pieces_[p];
-    const physics::BandMeans<Real>& means = means_at[p];
-    const Stencil stencil(grid, piece.position);
-    const Real ratio = pressure_ratio(means, piece);
-    for (std::size_t k = 0; k < stencil.count; ++k) {
-      if (nodes.base_state.holds(stencil.block[k])) {
-        auto& record = nodes.base_state.of_block(stencil.block[k])[stencil.node[k]];
-        const Real share = stencil.weight[k] * piece.area;
-        record[BaseState::area] += share;
-        record[BaseState::temperature] += share * means.temperature;
-        record[BaseState::pressure_ratio] += share * ratio;
-        record[BaseState::saturation] += share * means.saturation;
-        record[BaseState::solid_fraction] += share * means.solid_fraction;
-        record[BaseState::slip] += share * piece.slip;
-      }
+    physics::BandMeans<Real> means = piece.means;
+    means.pore_pressure = physics::band_pressure(piece.load, piece.column);
+    shared[p] = {means.temperature, pressure_ratio(means, piece), means.saturation, means.solid_fraction};
+    stencils_[p] = Stencil(grid, piece.position);
+  });
+  list_pieces_by_block(grid.blocks().size());
+  nodes.base_state.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.near_ground.holds(b); });
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    if (!nodes.base_state.holds(b)) {
+      return;
     }
-  }
+    auto* records = nodes.base_state.of_block(b);
+    std::fill_n(records, nodes.base_state.nodes, typename mpm::RecordsOf<BaseState, Dim, Real>::Record{});
+    for (std::size_t n = first_of_block_[b]; n < first_of_block_[b + 1]; ++n) {
+      const std::size_t p = by_block_[n].piece;
+      const Shared& of_piece = shared[p];
+      stencils_[p].for_each_in(by_block_[n].corner, [&](std::size_t node, Real weight) {
+        auto& record = records[node];
+        const Real share = weight * pieces_[p].area;
+        record[BaseState::area] += share;
+        record[BaseState::temperature] += share * of_piece.temperature;
+        record[BaseState::pressure_ratio] += share * of_piece.pressure_ratio;
+        record[BaseState::saturation] += share * of_piece.saturation;
+        record[BaseState::solid_fraction] += share * of_piece.solid_fraction;
+        record[BaseState::slip] += share * pieces_[p].slip;
+      });
+    }
+  });
 }
 
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::take(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
                                   const NodeGroundOf& node_ground, Real thickness, Real dt,
                                   mpm::Nodes<Dim, Real>& nodes) {
+  THAWSLIDE_ASSERT(stencils_.size() == pieces_.size(), "{} pieces take from nodes, of which {} have given to them",
+                   pieces_.size(), stencils_.size());
   if (look_for_gaps_ || some_node_is_bare(grid, nodes)) {
     lay_pieces(grid, ground, node_ground, thickness, nodes);
     look_for_gaps_ = false;
   }
   parallel_for(pieces_.size(), [&](std::size_t p) {
-    take_from_nodes(grid, dt, nodes, pieces_[p]);
+    take_from_nodes(stencils_[p], dt, nodes, pieces_[p]);
     pieces_[p].position += dt * pieces_[p].velocity;
   });
 }
@@ -69,7 +99,7 @@ void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, cons
                                     const mpm::Nodes<Dim, Real>& nodes) {
   std::vector<std::uint8_t> alone(pieces_.size());
   parallel_for(pieces_.size(), [&](std::size_t p) {
-    const Nearby slide = slide_near(grid, node_ground, nodes, pieces_[p]);
+    const Nearby slide = slide_near(grid, Stencil(grid, pieces_[p].position), node_ground, nodes, pieces_[p]);
     alone[p] = slide.is_there ? 0 : 1;
     if (slide.is_there) {
       stretch_with(slide, ground, duration, pieces_[p]);
@@ -94,6 +124,7 @@ void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, cons
 // the ground stretches nothing.
 template <int Dim, class Real>
 typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                           const Stencil& stencil,
                                                                            const NodeGroundOf& node_ground,
                                                                            const mpm::Nodes<Dim, Real>& nodes,
                                                                            const Piece& piece) const {
@@ -101,16 +132,16 @@ typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const
   const auto along_ground = [&](const Vector<Real, Dim>& v) -> Vector<Real, Dim> {
     return v - v.dot(piece.normal) * piece.normal;
   };
-  const Stencil stencil(grid, piece.position);
+  std::size_t count = 0;
   std::array<Real, Stencil::most> mass;
   std::array<Vector<Real, Dim>, Stencil::most> place, velocity;
   Real all = 0;
   Vector<Real, Dim> mean_place = Vector<Real, Dim>::Zero(), mean_velocity = Vector<Real, Dim>::Zero();
-  for (std::size_t k = 0; k < stencil.count; ++k) {
-    const std::size_t b = stencil.block[k], node = stencil.node[k];
-    mass[k] = stencil.weight[k] * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
+  stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
+    const std::size_t k = count;
+    mass[k] = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
     if (!(mass[k] > Real(0))) {
-      continue;
+      return;
     }
     const auto of_node = mpm::vector_at<Dim, Real>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
     const Vector<Real, Dim>* normal = node_ground(b, node).normal;
@@ -119,7 +150,8 @@ typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const
     all += mass[k];
     mean_place += mass[k] * place[k];
     mean_velocity += mass[k] * velocity[k];
-  }
+    ++count;
+  });
   Nearby result;
   if (!(all > Real(0))) {
     return result;
@@ -128,12 +160,10 @@ typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const
   mean_velocity /= all;
   Matrix<Real, Dim> spread = all * smallest_spread * grid.cell() * grid.cell() * Matrix<Real, Dim>::Identity();
   Matrix<Real, Dim> together = Matrix<Real, Dim>::Zero();
-  for (std::size_t k = 0; k < stencil.count; ++k) {
-    if (mass[k] > Real(0)) {
-      const Vector<Real, Dim> from_mean = place[k] - mean_place;
-      spread += mass[k] * from_mean * from_mean.transpose();
-      together += mass[k] * (velocity[k] - mean_velocity) * from_mean.transpose();
-    }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector<Real, Dim> from_mean = place[k] - mean_place;
+    spread += mass[k] * from_mean * from_mean.transpose();
+    together += mass[k] * (velocity[k] - mean_velocity) * from_mean.transpose();
   }
   result.gradient = together * spread.inverse();
   result.velocity = mean_velocity - result.gradient * mean_place;
@@ -142,21 +172,20 @@ typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const
 }
 
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::take_from_nodes(const mpm::SparseGrid<Dim, Real>& grid, Real dt,
-                                             const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const {
-  const Stencil stencil(grid, piece.position);
+void BaseColumns<Dim, Real>::take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes,
+                                             Piece& piece) const {
   Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: of the normal force, per area of the piece [Pa]
-  for (std::size_t k = 0; k < stencil.count; ++k) {
-    const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
+  stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
+    const auto& contact = nodes.contact(b, node);
     if (contact[Contact::touching] > Real(0)) {
-      force += stencil.weight[k] * contact[Contact::normal_force];
-      area += stencil.weight[k] * contact[Contact::area];
-      slip += stencil.weight[k] * contact[Contact::area] * contact[Contact::slip_speed];
-      const Real seen = nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
-      heat += stencil.weight[k] * contact[Contact::friction_heat] / seen;
-      borne += stencil.weight[k] * contact[Contact::normal_force] / seen;
+      force += weight * contact[Contact::normal_force];
+      area += weight * contact[Contact::area];
+      slip += weight * contact[Contact::area] * contact[Contact::slip_speed];
+      const Real seen = nodes.base_state(b, node)[BaseState::area];
+      heat += weight * contact[Contact::friction_heat] / seen;
+      borne += weight * contact[Contact::normal_force] / seen;
     }
-  }
+  });
   if (piece.touched || area > Real(0)) {
     take_load(area > Real(0) ? force / area : Real(0), borne, dt, piece);
   }
@@ -265,6 +294,7 @@ void BaseColumns<Dim, Real>::join(const Piece& other, const Ground& ground, Piec
   piece.sides = sides_on<Dim, Real>(piece.normal, Vector<Real, Dim - 1>::Ones());
   piece.sides *=
       std::pow(piece.area / ground.area_of(piece.position, piece.sides), Real(1) / static_cast<Real>(Dim - 1));
+  piece.means = means_of(piece);
 }
 
 template <int Dim, class Real>
@@ -277,8 +307,10 @@ void BaseColumns<Dim, Real>::take_up(const Piece& piece) {
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::step(Real thickness, Real duration) {
   std::vector<physics::ColumnAccount<Real>> accounts(pieces_.size());
-  parallel_for(pieces_.size(),
-               [&](std::size_t p) { accounts[p] = step_piece(model_, thickness, duration, pieces_[p]); });
+  parallel_for(pieces_.size(), [&](std::size_t p) {
+    accounts[p] = step_piece(model_, thickness, duration, pieces_[p]);
+    pieces_[p].means = means_of(pieces_[p]);
+  });
   for (const auto& account : accounts) {
     add_to_ledger(account);
   }

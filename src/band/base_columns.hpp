@@ -70,7 +70,7 @@ class BaseColumns {
       : model_(std::move(model)), gravity_(gravity) {}
 
   // Fills nodes.base_state of the blocks that hold contact.
-  void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
+  void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes);
 
   // After contact, at the positions that to_nodes has seen: what contact does in dt to all pieces (load, heat, slip),
   // new ones first where the slide touches ground that none covers. Then they move on by dt.
@@ -124,14 +124,14 @@ class BaseColumns {
                                        const mpm::Nodes<Dim, Real>& nodes) const;
   void lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
                   Real thickness, mpm::Nodes<Dim, Real>& nodes);
-  void add_area(const mpm::SparseGrid<Dim, Real>& grid, const Piece& piece, mpm::Nodes<Dim, Real>& nodes,
-                Real share = 1) const;
+  void list_pieces_by_block(std::size_t blocks);
+  void add_area(const Stencil& stencil, const Piece& piece, mpm::Nodes<Dim, Real>& nodes, Real share = 1) const;
   struct InContact {
     Real area = 0, normal_force = 0;  // [m2], [N]
   };
-  void begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const InContact& contact,
-                   Real thickness, mpm::Nodes<Dim, Real>& nodes, Piece& piece);
-  [[nodiscard]] InContact in_contact(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes,
+  void begin_piece(const Stencil& stencil, const Ground& ground, const InContact& contact, Real thickness,
+                   mpm::Nodes<Dim, Real>& nodes, Piece& piece);
+  [[nodiscard]] InContact in_contact(const Stencil& stencil, const mpm::Nodes<Dim, Real>& nodes,
                                      const Piece& piece) const;
   [[nodiscard]] Piece new_piece(const Vector<Real, Dim - 1>& middle, const Vector<Real, Dim - 1>& size,
                                 const Ground& ground);
@@ -141,10 +141,10 @@ class BaseColumns {
     Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();  // along the ground [m/s]
     bool is_there = false;
   };
-  [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim, Real>& grid, const NodeGroundOf& node_ground,
-                                  const mpm::Nodes<Dim, Real>& nodes, const Piece& piece) const;
-  void take_from_nodes(const mpm::SparseGrid<Dim, Real>& grid, Real dt, const mpm::Nodes<Dim, Real>& nodes,
-                       Piece& piece) const;
+  [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim, Real>& grid, const Stencil& stencil,
+                                  const NodeGroundOf& node_ground, const mpm::Nodes<Dim, Real>& nodes,
+                                  const Piece& piece) const;
+  void take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const;
   void stretch_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const;
   void part_long_pieces(Real most, const Ground& ground);
   void join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground);
@@ -157,6 +157,14 @@ class BaseColumns {
   ColumnsModel<Real> model_;
   Vector<Real, Dim> gravity_;
   std::vector<Piece> pieces_;
+  // What each piece sees in this step, and the pieces that see a block: those of block b from first_of_block_[b] on.
+  std::vector<Stencil> stencils_;
+  struct Seen {
+    std::uint32_t piece;
+    int corner;  // of the piece's stencil
+  };
+  std::vector<std::uint32_t> first_of_block_;
+  std::vector<Seen> by_block_;
   ColumnLedger<Real> ledger_;
   std::int64_t next_id_ = 0;
   bool look_for_gaps_ = true;

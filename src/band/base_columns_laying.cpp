@@ -139,64 +139,62 @@ void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, 
         middle[axis] = static_cast<Real>(cell[a]) * grid.cell() + (static_cast<Real>(part[a]) + Real(0.5)) * size[axis];
       }
       pieces_.push_back(new_piece(middle, size, ground));
-      add_area(grid, pieces_.back(), nodes);
+      stencils_.emplace_back(grid, pieces_.back().position);
+      add_area(stencils_.back(), pieces_.back(), nodes);
     }
   }
   std::vector<InContact> contacts;
   for (std::size_t p = known; p < pieces_.size(); ++p) {
-    contacts.push_back(in_contact(grid, nodes, pieces_[p]));
+    contacts.push_back(in_contact(stencils_[p], nodes, pieces_[p]));
   }
   for (std::size_t p = known; p < pieces_.size(); ++p) {
-    begin_piece(grid, ground, contacts[p - known], thickness, nodes, pieces_[p]);
-    pieces_[p].velocity = slide_near(grid, node_ground, nodes, pieces_[p]).velocity;
+    begin_piece(stencils_[p], ground, contacts[p - known], thickness, nodes, pieces_[p]);
+    pieces_[p].velocity = slide_near(grid, stencils_[p], node_ground, nodes, pieces_[p]).velocity;
   }
 }
 
 // At the edge of the slide a piece is smaller than its part of the lattice.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::begin_piece(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                         const InContact& contact, Real thickness, mpm::Nodes<Dim, Real>& nodes,
-                                         Piece& piece) {
+void BaseColumns<Dim, Real>::begin_piece(const Stencil& stencil, const Ground& ground, const InContact& contact,
+                                         Real thickness, mpm::Nodes<Dim, Real>& nodes, Piece& piece) {
   const Real share = std::clamp(contact.area / piece.area, Real(0.1), Real(1));
-  add_area(grid, piece, nodes, share - Real(1));
+  add_area(stencil, piece, nodes, share - Real(1));
   piece.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
   piece.area = piece.area_of_column = ground.area_of(piece.position, piece.sides);
   take_load(contact.area > Real(0) ? contact.normal_force / contact.area : Real(0), contact.normal_force / piece.area,
             Real(0), piece);
   start_column_of(model_, thickness, piece);
+  piece.means = means_of(piece);
   ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
   ledger_.laid_water += piece.area * physics::water_of(piece.column);
 }
 
 // Adds a share of a piece's area to what nodes see.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::add_area(const mpm::SparseGrid<Dim, Real>& grid, const Piece& piece,
-                                      mpm::Nodes<Dim, Real>& nodes, Real share) const {
-  const Stencil stencil(grid, piece.position);
-  for (std::size_t k = 0; k < stencil.count; ++k) {
-    if (nodes.base_state.holds(stencil.block[k])) {
-      nodes.base_state.of_block(stencil.block[k])[stencil.node[k]][BaseState::area] +=
-          share * stencil.weight[k] * piece.area;
+void BaseColumns<Dim, Real>::add_area(const Stencil& stencil, const Piece& piece, mpm::Nodes<Dim, Real>& nodes,
+                                      Real share) const {
+  stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
+    if (nodes.base_state.holds(b)) {
+      nodes.base_state.of_block(b)[node][BaseState::area] += share * weight * piece.area;
     }
-  }
+  });
 }
 
 // What of contact falls to a piece, as nodes share it out among those that they see.
 template <int Dim, class Real>
-typename BaseColumns<Dim, Real>::InContact BaseColumns<Dim, Real>::in_contact(const mpm::SparseGrid<Dim, Real>& grid,
+typename BaseColumns<Dim, Real>::InContact BaseColumns<Dim, Real>::in_contact(const Stencil& stencil,
                                                                               const mpm::Nodes<Dim, Real>& nodes,
                                                                               const Piece& piece) const {
-  const Stencil stencil(grid, piece.position);
   InContact result;
-  for (std::size_t k = 0; k < stencil.count; ++k) {
-    const Real seen = nodes.base_state(stencil.block[k], stencil.node[k])[BaseState::area];
+  stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
+    const Real seen = nodes.base_state(b, node)[BaseState::area];
     if (seen > Real(0)) {
-      const auto& contact = nodes.contact(stencil.block[k], stencil.node[k]);
-      const Real share = stencil.weight[k] * piece.area / seen;
+      const auto& contact = nodes.contact(b, node);
+      const Real share = weight * piece.area / seen;
       result.area += share * contact[Contact::area];
       result.normal_force += share * contact[Contact::normal_force];
     }
-  }
+  });
   return result;
 }
 

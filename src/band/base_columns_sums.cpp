@@ -139,6 +139,7 @@ void BaseColumns<Dim, Real>::restore(const std::vector<double>& numbers) {
     piece.id = state.whole(next_id_);
     piece.touched = state.next() != 0.0;
     for_each_number(piece, set);
+    piece.means = means_of(piece);
   }
   state.expect_end();
 }

@@ -9,7 +9,7 @@
 
 #include "base/linear.hpp"
 #include "mpm/sparse_grid.hpp"
-#include "physics/band_column.hpp"
+#include "physics/band_column_step.hpp"
 
 namespace thawslide::band {
 
@@ -33,6 +33,7 @@ struct BasePiece {
   Real heat = 0;            // friction heat of its whole area since the column's last step [J]
   bool touched = false;     // has ever carried load
   physics::BandColumn<Real> column;
+  physics::BandMeans<Real> means{};  // of the column, kept between its steps; the pore pressure under the load of then
 };
 
 template <int Dim, class Real>
@@ -65,44 +66,100 @@ Vector<Real, Dim> turned(const Vector<Real, Dim>& v, const Vector<Real, Dim>& fr
 
 // The nodes that a piece of base sees, with the weights of cubic B-splines: they reach two cells along each axis. Nodes
 // that feel the slide lie within 1.25 cells of the ground, and their feet within half a cell of where a piece is laid.
+// Valid until the blocks of the grid change.
 template <int Dim, class Real>
-struct BaseStencil {
+class BaseStencil {
+ public:
   using T = mpm::Tile<Dim>;
   static constexpr int width = 4;
   static constexpr std::size_t most = static_cast<std::size_t>(mpm::power(width, Dim));
 
-  std::size_t count = 0;
-  std::array<std::size_t, most> block, node;
-  std::array<Real, most> weight;
-
+  BaseStencil() = default;  // sees nothing
   BaseStencil(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& position) {
     typename T::Index below, tile;
-    std::array<std::array<Real, width>, Dim> along;
     for (std::size_t a = 0; a < Dim; ++a) {
       const Real place = position[static_cast<int>(a)] * grid.inverse_cell();
       below[a] = static_cast<int>(std::floor(place));
-      along[a] = cubic_weights(place - std::floor(place));
+      weight_[a] = cubic_weights(place - std::floor(place));
     }
-    int local = 0;
-    T::split(below, tile, local);
+    T::split(below, tile, local_);
     const auto found = std::lower_bound(grid.blocks().begin(), grid.blocks().end(), T::key(tile));
     if (found == grid.blocks().end() || *found != T::key(tile)) {
       return;  // no slide is near
     }
-    const std::int32_t* about = grid.blocks_about_block(static_cast<std::size_t>(found - grid.blocks().begin()));
-    for (int k = 0; k < static_cast<int>(most); ++k) {
-      int direction = T::stencil / 2, in_tile = local;
-      Real product = 1;
-      for (int a = 0, rest = k; a < Dim; ++a, rest /= width) {
-        const typename T::Beside beside = T::beside(in_tile, a, rest % width - 1);
-        direction += beside.direction - T::stencil / 2;
-        in_tile = beside.local;
-        product *= along[static_cast<std::size_t>(a)][static_cast<std::size_t>(rest % width)];
+    about_ = grid.blocks_about_block(static_cast<std::size_t>(found - grid.blocks().begin()));
+    for (int a = 0; a < Dim; ++a) {
+      for (int k = 0; k < width; ++k) {
+        const typename T::Beside beside = T::beside(local_, a, k - 1);
+        direction_[a][k] = beside.direction - T::stencil / 2;
+        shift_[a][k] = beside.local - local_;
+        of_first_[a] += direction_[a][k] == direction_[a][0] ? 1 : 0;
       }
-      if (about[direction] != KeyIndex::absent && product > Real(0)) {
-        block[count] = static_cast<std::size_t>(about[direction]);
-        node[count] = static_cast<std::size_t>(in_tile);
-        weight[count++] = product;
+    }
+  }
+
+  // Calls visit(block, node, weight) for each of its nodes, x fastest.
+  template <class Visit>
+  THAWSLIDE_ALWAYS_INLINE void for_each(const Visit& visit) const {
+    for (int row = 0; about_ != nullptr && row < mpm::power(width, Dim - 1); ++row) {
+      int direction = T::stencil / 2, first = local_;
+      Real weights[Dim];
+      for (int a = 1, rest = row; a < Dim; ++a, rest /= width) {
+        direction += direction_[a][rest % width];
+        first += shift_[a][rest % width];
+        weights[a] = weight_[static_cast<std::size_t>(a)][static_cast<std::size_t>(rest % width)];
+      }
+      for (int x = 0; x < width; ++x) {
+        const std::int32_t block = about_[direction + direction_[0][x]];
+        Real weight = weight_[0][static_cast<std::size_t>(x)];
+        for (int a = 1; a < Dim; ++a) {
+          weight *= weights[a];
+        }
+        if (block != KeyIndex::absent && weight > Real(0)) {
+          visit(static_cast<std::size_t>(block), static_cast<std::size_t>(first + shift_[0][x]), weight);
+        }
+      }
+    }
+  }
+  // Its nodes lie in one or two blocks along each axis. Calls visit(block, corner) for each of those that are there;
+  // the bits of a corner tell for each axis whether it is the second.
+  template <class Visit>
+  void for_each_block(const Visit& visit) const {
+    for (int corner = 0; about_ != nullptr && corner < mpm::power(2, Dim); ++corner) {
+      int direction = T::stencil / 2;
+      bool is_there = true;
+      for (int a = 0; a < Dim; ++a) {
+        const bool second = (corner >> a & 1) != 0;
+        direction += direction_[a][second ? width - 1 : 0];
+        is_there = is_there && !(second && of_first_[a] == width);
+      }
+      if (is_there && about_[direction] != KeyIndex::absent) {
+        visit(static_cast<std::size_t>(about_[direction]), corner);
+      }
+    }
+  }
+  // Calls visit(node, weight) for each of its nodes in the block of a corner.
+  template <class Visit>
+  THAWSLIDE_ALWAYS_INLINE void for_each_in(int corner, const Visit& visit) const {
+    int first[3] = {0, 0, 0}, end[3] = {1, 1, 1};
+    for (int a = 0; a < Dim; ++a) {
+      const bool second = (corner >> a & 1) != 0;
+      first[a] = second ? of_first_[a] : 0;
+      end[a] = second ? width : of_first_[a];
+    }
+    for (int z = first[2]; z < end[2]; ++z) {
+      for (int y = first[1]; y < end[1]; ++y) {
+        for (int x = first[0]; x < end[0]; ++x) {
+          Real weight = weight_[0][static_cast<std::size_t>(x)] * weight_[1][static_cast<std::size_t>(y)];
+          int node = local_ + shift_[0][x] + shift_[1][y];
+          if constexpr (Dim == 3) {
+            weight *= weight_[2][static_cast<std::size_t>(z)];
+            node += shift_[2][z];
+          }
+          if (weight > Real(0)) {
+            visit(static_cast<std::size_t>(node), weight);
+          }
+        }
       }
     }
   }
@@ -114,6 +171,12 @@ struct BaseStencil {
     return {sixth * s * s * s, sixth * (Real(4) - Real(3) * t * t * (Real(2) - t)),
             sixth * (Real(4) - Real(3) * s * s * (Real(2) - s)), sixth * t * t * t};
   }
+
+  const std::int32_t* about_ = nullptr;  // blocks about that of the node below the piece
+  int local_ = 0;                        // that node, in its tile
+  std::array<std::array<Real, width>, Dim> weight_;
+  int direction_[Dim][width], shift_[Dim][width];  // along each axis: to its block, and from the node below
+  int of_first_[Dim] = {};                         // nodes along each axis in the first block
 };
 
 }  // namespace thawslide::band

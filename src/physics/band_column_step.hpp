@@ -116,6 +116,16 @@ THAWSLIDE_HD Real body_enthalpy(const ColumnModel<Real, Curve>& model, Real temp
                   temperature);
 }
 
+// Mean pore pressure [Pa] of the band under a load N [Pa], above which none rises.
+template <class Real>
+THAWSLIDE_HD Real band_pressure(Real normal_pressure, const BandColumn<Real>& column) {
+  Real mean = 0;
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
+    mean += Real(1) / ColumnCells::band * min(column.pressure[k], normal_pressure);
+  }
+  return mean;
+}
+
 template <class Real, class Curve>
 THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, Real normal_pressure,
                                         const BandColumn<Real>& column) {
@@ -125,10 +135,10 @@ THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, R
     const Real temperature = column.temperature[ColumnCells::ground + k];
     const Real saturation = model.curve.saturation(temperature);
     means.temperature += share * temperature;
-    means.pore_pressure += share * min(column.pressure[k], normal_pressure);
     means.saturation += share * saturation;
     means.solid_fraction += share * effective_solid_fraction(model.phases, model.porosity, saturation);
   }
+  means.pore_pressure = band_pressure(normal_pressure, column);
   return means;
 }
 

@@ -36,7 +36,7 @@ void take_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_t>
 }
 
 template <int Dim, class Real>
-void list_states(const band::BaseColumns<Dim, Real>& columns, GridOfDevice<Dim, Real>& base) {
+void list_states(band::BaseColumns<Dim, Real>& columns, GridOfDevice<Dim, Real>& base) {
   columns.to_nodes(base.grid, base.nodes);
   base.states.clear();
   for (std::size_t b = 0; b < base.grid.blocks().size(); ++b) {

@@ -125,7 +125,7 @@ void Simulation<Dim, Real>::average_band_on_grid() {
   if (model_.band.rescaling_mixes) {
     rescale_band();  // which changes temperatures
   }
-  if (model_.ground || model_.band.heat || model_.band.pressure) {
+  if (!band_columns_ && (model_.ground || model_.band.heat || model_.band.pressure)) {
     band::average_on_grid(grid_, model_.band, particles_, nodes_);
   }
 }
@@ -135,16 +135,32 @@ void Simulation<Dim, Real>::momentum_to_grid() {
   force_of_walls_ = mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
 }
 
+// Nodes that see band columns take the state of the base from them, and that of the particles has no use.
+template <int Dim, class Real>
+void Simulation<Dim, Real>::press_on_ground() {
+  if (!model_.ground) {
+    return;
+  }
+  if (band_columns_) {
+    terrain::clearance_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
+    band_columns_to_nodes();
+  } else {
+    terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
+  }
+  terrain::press_on_ground(grid_, ground_, model_.constraints, model_.contact, static_cast<Real>(time_), dt_, nodes_);
+  if (band_columns_ && terrain::loads_bare_ground(grid_, nodes_)) {
+    band::average_on_grid(grid_, model_.band, particles_, nodes_);
+    terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
+  }
+}
+
 template <int Dim, class Real>
 void Simulation<Dim, Real>::resolve_contact() {
   if (body_contact_) {
     body_contact_->add_forces(grid_, particles_, model_.between_bodies, model_.motion.sizes,
                               model_.contact.mass_damping, dt_, nodes_);
   }
-  if (model_.ground) {
-    terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
-  }
-  band_columns_to_nodes();
+  press_on_ground();
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
                                       dt_, nodes_, bed_to_meet());
   contact_.force[0] -= force_of_walls_;  // the walls are part of the ground

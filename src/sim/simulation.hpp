@@ -188,6 +188,7 @@ class Simulation {
   void update_ground() const;
   void momentum_to_grid();
   void average_band_on_grid();
+  void press_on_ground();
   void resolve_contact();
   void move_particles();
   void update_stress_and_porosity();

@@ -32,8 +32,11 @@ template <int Dim, class Real>
 void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
                       const ContactModel<Dim, Real>& model, const GroundAtNode<Dim, Real>& ground,
                       const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
-  auto known = contact_node_of(nodes.state(b, k), nodes.averages(b, k)[Averages::volume], nodes.near_ground(b, k),
-                               pressure, model.pore_pressure, ground.normal, state);
+  const bool on_columns = model.band_columns && nodes.base_state(b, k)[mpm::BaseState::area] > Real(0);
+  auto known = on_columns
+                   ? loaded_node<Dim, Real>(pressure, ground.normal, state)
+                   : contact_node_of(nodes.state(b, k), nodes.averages(b, k)[Averages::volume], nodes.near_ground(b, k),
+                                     pressure, model.pore_pressure, ground.normal, state);
   if (model.band_columns) {
     take_columns_state(nodes.base_state(b, k), model.pore_pressure, known);
   }
@@ -81,8 +84,28 @@ Real covered_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid
   });
 }
 
-// Fills nodes.base of the blocks that have candidate nodes: how every candidate node presses on the ground, and the
-// area it covers.
+// No node of a block is in contact; `known`: its nodes' ground.
+template <int Dim, class Real>
+void start_block(const typename GroundOnGrid<Dim, Real>::Block& known, std::size_t b, mpm::Nodes<Dim, Real>& nodes) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+    nodes.contact.of_block(b)[k] = {known[k].candidate ? Real(1) : Real(0)};
+  }
+}
+
+// What the nodes of a block know of the ground; null where none is a candidate.
+template <int Dim, class Real>
+const typename GroundOnGrid<Dim, Real>::Block* candidates_of(const GroundOnGrid<Dim, Real>* ground, std::size_t b) {
+  return ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
+}
+
+template <int Dim, class Real>
+void hold_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                  mpm::Nodes<Dim, Real>& nodes) {
+  nodes.contact.hold(grid.blocks().size(), [&](std::size_t b) { return candidates_of(ground, b) != nullptr; });
+}
+
+}  // namespace
+
 template <int Dim, class Real>
 void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                      const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
@@ -114,28 +137,6 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
   });
 }
 
-// No node of a block is in contact; `known`: its nodes' ground.
-template <int Dim, class Real>
-void start_block(const typename GroundOnGrid<Dim, Real>::Block& known, std::size_t b, mpm::Nodes<Dim, Real>& nodes) {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
-    nodes.contact.of_block(b)[k] = {known[k].candidate ? Real(1) : Real(0)};
-  }
-}
-
-// What the nodes of a block know of the ground; null where none is a candidate.
-template <int Dim, class Real>
-const typename GroundOnGrid<Dim, Real>::Block* candidates_of(const GroundOnGrid<Dim, Real>* ground, std::size_t b) {
-  return ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
-}
-
-template <int Dim, class Real>
-void hold_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                  mpm::Nodes<Dim, Real>& nodes) {
-  nodes.contact.hold(grid.blocks().size(), [&](std::size_t b) { return candidates_of(ground, b) != nullptr; });
-}
-
-}  // namespace
-
 template <int Dim, class Real>
 void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                    mpm::Nodes<Dim, Real>& nodes) {
@@ -148,6 +149,18 @@ void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Di
 }
 
 template <int Dim, class Real>
+bool loads_bare_ground(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes) {
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    for (std::size_t k = 0; nodes.base.holds(b) && k < nodes.base.nodes; ++k) {
+      if (nodes.base(b, k)[BaseLayout::load] > Real(0) && !(nodes.base_state(b, k)[mpm::BaseState::area] > Real(0))) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+template <int Dim, class Real>
 ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                                        const mpm::Constraints<Dim, Real>& constraints,
                                        const ContactModel<Dim, Real>& model, Real time, Real dt,
@@ -156,9 +169,6 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
   nodes.motion.resize(grid.blocks().size());
   hold_contact(grid, ground, nodes);
   const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
-  if (ground != nullptr) {
-    press_on_ground(grid, *ground, constraints, model, time, dt, nodes);
-  }
   if (bed != nullptr) {
     bed->share_out(grid, nodes);
   }
@@ -208,11 +218,15 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
-  template void start_contact<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,  \
-                                         mpm::Nodes<Dim, Real>&);                                            \
-  template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                \
-      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&, \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                             \
+  template void start_contact<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,          \
+                                         mpm::Nodes<Dim, Real>&);                                                    \
+  template void press_on_ground<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,        \
+                                           const mpm::Constraints<Dim, Real>&, const ContactModel<Dim, Real>&, Real, \
+                                           Real, mpm::Nodes<Dim, Real>&);                                            \
+  template bool loads_bare_ground<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const mpm::Nodes<Dim, Real>&);       \
+  template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                        \
+      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&,         \
       const ContactModel<Dim, Real>&, Real, Real, mpm::Nodes<Dim, Real>&, const Bed<Dim, Real>*);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -24,9 +24,20 @@ struct ContactModel {
   bool distance_check = false;    // a node may close its clearance before contact acts
 };
 
-// From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null.
-// nodes.averages, nodes.state and, with ground, nodes.near_ground must hold what this step made. What nodes take of the
-// bed stands in nodes.bed; null: there is none.
+// Fills nodes.base of the blocks that have candidate nodes: how every candidate node presses on the ground, and the
+// area it covers. The clearance in nodes.near_ground must be that of this step.
+template <int Dim, class Real>
+void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                     const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
+                     Real dt, mpm::Nodes<Dim, Real>& nodes);
+
+// Whether a node that presses on the ground sees no band column (nodes.base_state).
+template <int Dim, class Real>
+bool loads_bare_ground(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes);
+
+// From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null; with
+// ground, press_on_ground comes before. nodes.averages, nodes.state and nodes.near_ground must hold what this step
+// made, but for nodes that see band columns. What nodes take of the bed stands in nodes.bed; null: there is none.
 template <int Dim, class Real>
 ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                                        const mpm::Constraints<Dim, Real>& constraints,

@@ -102,6 +102,16 @@ THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Re
   return load / (dt * max(covered, smallest_area));
 }
 
+// A contact node with its normal pressure [Pa] and the speed of its slip, and no more.
+template <int Dim, class Real>
+THAWSLIDE_HD physics::basal::ContactNode<Real> loaded_node(Real pressure, const Vector<Real, Dim>& into_ground,
+                                                           const NodeState<Dim, Real>& state) {
+  physics::basal::ContactNode<Real> node{};
+  node.normal_pressure = pressure;
+  node.speed = (state.momentum - state.momentum.dot(into_ground) * into_ground).norm() / state.mass;
+  return node;
+}
+
 // What the laws of the base may ask of a node. state: its record of NodalState; volume: sum S V of the linear shape
 // functions; near_ground: its record of NearGround; pore_pressure: whether there is any.
 template <int Dim, class Real, class StateRecord, class NearGroundRecord>
@@ -114,14 +124,12 @@ THAWSLIDE_HD physics::basal::ContactNode<Real> contact_node_of(const StateRecord
   const auto average = [&](Real by_linear, std::size_t by_mass) {
     return volume > Real(0) ? by_linear : near_ground[by_mass] / state.mass;
   };
-  physics::basal::ContactNode<Real> node;
-  node.normal_pressure = pressure;
+  auto node = loaded_node<Dim, Real>(pressure, into_ground, state);
   node.pore_pressure = pore_pressure ? average(known[NodalState::pore_pressure], NearGround::pore_pressure) : Real(0);
   node.saturation = average(near_ground[NearGround::saturation_by_linear] / volume, NearGround::saturation);
   node.solid_fraction = average(near_ground[NearGround::solid_fraction_by_linear] / volume, NearGround::solid_fraction);
   node.temperature = average(known[NodalState::temperature], NearGround::temperature);
   node.slip = near_ground[NearGround::slip] / state.mass;
-  node.speed = (state.momentum - state.momentum.dot(into_ground) * into_ground).norm() / state.mass;
   return node;
 }
 

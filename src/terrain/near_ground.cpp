@@ -71,30 +71,51 @@ void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
   });
 }
 
-template <int Dim, class Real>
-void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                         const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
-                         mpm::Nodes<Dim, Real>& nodes) {
+namespace {
+
+// Lets particles add to the candidate nodes, and sums the named parts of their records.
+template <class... Parts, int Dim, class Real, class Kernel>
+void to_candidates(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                   const mpm::MotionModel<Dim, Real>& model, const Kernel& kernel, mpm::Particles<Dim, Real>& particles,
+                   mpm::Nodes<Dim, Real>& nodes) {
   const SeesCandidates<Dim, Real> sees_candidates{ground};
   NodesOnGround<Dim, Real> records{nodes, ground};
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     const mpm::MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
-    mpm::particle_pass(grid, weights, particles, records, sees_candidates,
-                       AddNearGround<Dim, Real>{model.phases, model.lubrication});
+    mpm::particle_pass(grid, weights, particles, records, sees_candidates, kernel);
   });
   nodes.near_ground.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (ground.any_candidate(b)) {
-      mpm::sum_block<mpm::NearGround>(grid, b, nodes, sees_candidates);
-      mpm::sum_block<mpm::Clearance>(grid, b, nodes, sees_candidates);
+      (mpm::sum_block<Parts>(grid, b, nodes, sees_candidates), ...);
     }
   });
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                         const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
+                         mpm::Nodes<Dim, Real>& nodes) {
+  to_candidates<mpm::NearGround, mpm::Clearance>(
+      grid, ground, model, AddNearGround<Dim, Real>{model.phases, model.lubrication}, particles, nodes);
+}
+
+template <int Dim, class Real>
+void clearance_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
+                       const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
+                       mpm::Nodes<Dim, Real>& nodes) {
+  to_candidates<mpm::Clearance>(grid, ground, model, LowerClearance<Dim, Real>{}, particles, nodes);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                          \
   template void set_contact_offset<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,  \
                                               const mpm::MotionModel<Dim, Real>&, mpm::Particles<Dim, Real>&,     \
                                               std::size_t);                                                       \
+  template void clearance_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,   \
+                                             const mpm::MotionModel<Dim, Real>&, mpm::Particles<Dim, Real>&,      \
+                                             mpm::Nodes<Dim, Real>&);                                             \
   template void near_ground_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, \
                                                const mpm::MotionModel<Dim, Real>&, mpm::Particles<Dim, Real>&,    \
                                                mpm::Nodes<Dim, Real>&);

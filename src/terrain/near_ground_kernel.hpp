@@ -18,6 +18,24 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(con
   return physics::effective_solid_fraction(phases, porosity.load(at), saturation.load(at));
 }
 
+// Lowers the clearance of the nodes near the ground.
+template <int Dim, class Real>
+struct LowerClearance {
+  using Reads = mpm::RecordList<mpm::Planes>;
+  using Adds = mpm::RecordList<mpm::Clearance>;
+  using Account = mpm::NoAccount;
+
+  template <class Particles, class At, class Seen, class Added>
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
+                                                       Added& added, Account& /*account*/) const {
+    auto& gaps = added.template of<mpm::Clearance>();
+    unrolled<static_cast<std::size_t>(Dim)>(
+        [&](auto a) THAWSLIDE_INLINE_LAMBDA { gaps.place[a] = particles.position.load(at, static_cast<int>(a())); });
+    gaps.reach = particles.contact_offset.load(at);
+    gaps.planes = seen.template planes<mpm::Planes>();
+  }
+};
+
 // State and slip to the nodes near the ground, by mass with the momentum shape functions and by volume with the linear
 // ones; lowers their clearance.
 template <int Dim, class Real>
@@ -31,7 +49,7 @@ struct AddNearGround {
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Added& added, Account& account) const {
     using mpm::NearGround, mpm::NearGroundByLinear;
     using Value = typename At::Value;
     const Value mass = particles.mass.load(at), volume = particles.volume.load(at);
@@ -47,11 +65,7 @@ struct AddNearGround {
     constexpr std::size_t first = mpm::first_in_register<NearGroundByLinear, Dim>;
     by_linear.value[NearGround::saturation_by_linear - first] = volume * saturation;
     by_linear.value[NearGround::solid_fraction_by_linear - first] = volume * solid_fraction;
-    auto& gaps = added.template of<mpm::Clearance>();
-    unrolled<static_cast<std::size_t>(Dim)>(
-        [&](auto a) THAWSLIDE_INLINE_LAMBDA { gaps.place[a] = particles.position.load(at, static_cast<int>(a())); });
-    gaps.reach = particles.contact_offset.load(at);
-    gaps.planes = seen.template planes<mpm::Planes>();
+    LowerClearance<Dim, Real>{}(particles, at, seen, added, account);
   }
 };
 
