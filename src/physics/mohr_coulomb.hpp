@@ -13,7 +13,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "base/portability.hpp"
@@ -241,20 +240,16 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   template <class Value, class Condition>
   [[nodiscard]] THAWSLIDE_HD Vector<Value, 3> returned(const Vector<Value, 3>& trial, const Surface<Value>& surface,
                                                        Value tolerance, const Condition& yielded, Value& torn) const {
-    const auto ratio = surface.ratio;
-    const Value shear_limit = surface.shear_limit;
-    const Value multiplier = inverse_coupling_of_face(ratio) * (ratio * trial[0] - trial[2] - shear_limit);
+    const int planes_here = std::isfinite(tension_cutoff_) ? planes : 3;
+    const Value multiplier = inverse_coupling_of_face(surface.ratio) * beyond(0, trial, surface);
     Vector<Value, 3> values;
     for (int k = 0; k < 3; ++k) {
       values[k] = trial[k] - multiplier * relaxation_[0][k];
     }
-    const auto in_order = (ratio * values[0] - values[1] <= shear_limit + tolerance) &
-                          (ratio * values[1] - values[2] <= shear_limit + tolerance);
-    const auto below_cutoff = (values[0] <= tension_cutoff_ + tolerance) & (values[1] <= tension_cutoff_ + tolerance) &
-                              (values[2] <= tension_cutoff_ + tolerance);
-    const Condition elsewhere = yielded & !((multiplier >= Value(0)) & in_order & below_cutoff);
+    const Condition elsewhere =
+        yielded & !((multiplier >= Value(0)) & is_admissible(values, surface, planes_here, tolerance));
     if (any(elsewhere)) {
-      return_beside_the_face(trial, surface, tolerance, elsewhere, values, torn);
+      return_beside_the_face(trial, surface, planes_here, tolerance, elsewhere, values, torn);
     }
     return values;
   }
@@ -262,9 +257,8 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   // To edges, the cut-off and corners, set by set, until all have one; to the apex where no set answers.
   template <class Value, class Condition>
   THAWSLIDE_HD void return_beside_the_face(const Vector<Value, 3>& trial, const Surface<Value>& surface,
-                                           Value tolerance, Condition left, Vector<Value, 3>& values,
+                                           int planes_here, Value tolerance, Condition left, Vector<Value, 3>& values,
                                            Value& torn) const {
-    const int planes_here = std::isfinite(tension_cutoff_) ? planes : 3;
     for (int s = 1; s < set_count && any(left); ++s) {
       const ActiveSet& set = active_set(s);
       const int last = set.plane[set.count - 1];
@@ -272,24 +266,21 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
         continue;
       }
       Vector<Value, 3> found = trial;
-      const auto flows = relax(s, surface, found);
-      const Condition here = left & flows & is_admissible(found, surface, planes_here, tolerance);
+      Condition here = left & relax(s, surface, found);
+      here = here & is_admissible(found, surface, planes_here, tolerance);
       for (int k = 0; k < 3; ++k) {
         values[k] = select(here, found[k], values[k]);
       }
       torn = select(here, Value(last >= 3 ? 1 : 0), torn);
       left = left & !here;
     }
-    if (any(left)) {
-      // k s - s = limit on the hydrostatic axis.
-      const Value ratio = surface.ratio, mean = (trial[0] + trial[1] + trial[2]) / Value(3);
-      const Value apex =
-          min(select(ratio > Value(1), surface.shear_limit / (ratio - Value(1)), mean), Value(tension_cutoff_));
-      for (int k = 0; k < 3; ++k) {
-        values[k] = select(left, apex, values[k]);
-      }
-      torn = select(left, Value(1), torn);
+    // k s - s = limit on the hydrostatic axis.
+    const Value ratio = surface.ratio, mean = (trial[0] + trial[1] + trial[2]) / Value(3);
+    const Value apex = select(ratio > Value(1), surface.shear_limit / (ratio - Value(1)), mean);
+    for (int k = 0; k < 3; ++k) {
+      values[k] = select(left, min(apex, Value(tension_cutoff_)), values[k]);
     }
+    torn = select(left, Value(1), torn);
   }
 
   // How far a stress is beyond a plane [Pa].
@@ -304,28 +295,25 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD auto is_admissible(const Vector<Value, 3>& values, const Surface<Value>& surface,
                                                 int planes_here, Value tolerance) const {
-    auto admissible = beyond(0, values, surface) <= tolerance;
+    Value furthest = beyond(0, values, surface);
     for (int i = 1; i < planes_here; ++i) {
-      admissible = admissible & (beyond(i, values, surface) <= tolerance);
+      furthest = max(furthest, beyond(i, values, surface));
     }
-    return admissible;
+    return furthest <= tolerance;
   }
 
   // Takes the plastic strain of an active set of planes off the trial stress; no where a multiplier is negative.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD auto relax(int number, const Surface<Value>& surface, Vector<Value, 3>& values) const {
     const ActiveSet& set = active_set(number);
-    Value excess[3];
-    for (int a = 0; a < set.count; ++a) {
+    Vector<Value, 3> excess = Vector<Value, 3>::Constant(Value(0));
+    for (int a = 0; a < 3 && a < set.count; ++a) {
       excess[a] = beyond(set.plane[a], values, surface);
     }
     const auto& inverse = inverse_coupling(number, surface.ratio);
     auto flows = excess[0] == excess[0];
-    for (int a = 0; a < set.count; ++a) {
-      Value multiplier = inverse(a, 0) * excess[0];
-      for (int b = 1; b < set.count; ++b) {
-        multiplier += inverse(a, b) * excess[b];
-      }
+    for (int a = 0; a < 3 && a < set.count; ++a) {
+      const Value multiplier = inverse(a, 0) * excess[0] + inverse(a, 1) * excess[1] + inverse(a, 2) * excess[2];
       flows = flows & (multiplier >= Value(0));
       for (int k = 0; k < 3; ++k) {
         values[k] -= multiplier * relaxation_[set.plane[a]][k];
