@@ -22,6 +22,7 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
+    give_title,
     letters,
     prefixed,
     say,
@@ -51,7 +52,7 @@ def band(run: Run) -> Figure:
 def _of_particles(run: Run) -> Figure:
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 5.1), layout="constrained")
-    figure.suptitle(run.titled("the shear band"), x=0.01, ha="left", size=10)
+    give_title(figure, run.titled("the shear band"))
     panels: list[Axes] = list(figure.subplots(2, 2, sharex=True).flat)
     for axes, (column, words, unit, colour, quantities) in zip(panels, _PANELS, strict=True):
         axes.set_ylabel(words)
@@ -84,7 +85,7 @@ def _of_particles(run: Run) -> Figure:
 
 def _of_columns(run: Run) -> Figure:
     figure = Figure(figsize=(COLUMN_WIDTH, 6.9), layout="constrained")
-    figure.suptitle(run.titled("the band along the base"), x=0.01, ha="left", size=10)
+    give_title(figure, run.titled("the band along the base"))
     panels: list[Axes] = list(figure.subplots(3, 2, sharex=True).flat)
     pressure, heat, saturation, thickness, ratio, friction = panels
     _draw_stresses(pressure, run)

@@ -13,7 +13,20 @@ from thawslide.figures.colours import TEMPERATURE, Painting
 from thawslide.figures.moments import LETTERS, chosen_snapshots
 from thawslide.figures.slide_on_map import cell_of, draw_on_map
 from thawslide.figures.snapshots import time_text
-from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, RED, SKY, prefixed, styled, warn
+from thawslide.figures.style import (
+    BLACK,
+    BLUE,
+    COLUMN_WIDTH,
+    GREEN,
+    NOTE,
+    ORANGE,
+    RED,
+    SKY,
+    give_title,
+    prefixed,
+    styled,
+    warn,
+)
 from thawslide.run import Run, Snapshot
 from thawslide.unphysical import too_hot, too_much_pressure
 
@@ -34,7 +47,7 @@ def base_along(run: Run) -> Figure:
     loads = [shot.base["normal_pressure_Pa"] for shot in shots]
     divisor, unit = prefixed(np.concatenate(loads), "Pa")
     figure = Figure(figsize=(COLUMN_WIDTH, 0.9 + _ROW * len(shots)), layout="constrained")
-    figure.suptitle(run.titled("along the base"), x=0.01, ha="left", size=10)
+    give_title(figure, run.titled("along the base"))
     rows = figure.subplots(len(shots), 2, squeeze=False)
     for number, (row, shot) in enumerate(zip(rows, shots, strict=True)):
         _draw_row(row[0], row[1], shot, divisor)

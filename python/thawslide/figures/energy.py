@@ -18,6 +18,7 @@ from thawslide.figures.style import (
     RED,
     SKY,
     YELLOW,
+    give_title,
     letters,
     prefixed,
     say,
@@ -84,7 +85,7 @@ def energy(run: Run) -> Figure:
         raise NotInRunError("history.csv has no columns of the energy ledger")
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
-    figure.suptitle(run.titled("energy ledger"), x=0.01, ha="left", size=10)
+    give_title(figure, run.titled("energy ledger"))
     mechanical, thermal, residual = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 0.8))
     _draw_accounts(mechanical, run, MECHANICAL)
     _draw_accounts(thermal, run, THERMAL | COLUMNS)

@@ -14,6 +14,7 @@ from thawslide.figures.style import (
     GREEN,
     ORANGE,
     RED,
+    give_title,
     letters,
     prefixed,
     say,
@@ -50,7 +51,7 @@ def entrainment(run: Run) -> Figure:
         raise NotInRunError("the case has no bed: history.csv has no account of what was taken up")
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 6.4), layout="constrained")
-    figure.suptitle(run.titled("entrained bed material"), x=0.01, ha="left", size=10)
+    give_title(figure, run.titled("entrained bed material"))
     mass, work, depth = figure.subplots(3, 1)
     per = "/m of width" if run.per_metre else ""
     divisor, unit = scaled(float(np.nanmax(run.history["mass_kg"])), MASSES)

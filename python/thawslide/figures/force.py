@@ -17,6 +17,7 @@ from thawslide.figures.style import (
     ORANGE,
     PURPLE,
     RED,
+    give_title,
     letters,
     prefixed,
     styled,
@@ -76,7 +77,7 @@ def force(run: Run) -> Figure:
     unit += "/m of width" if run.per_metre else ""
 
     figure = Figure(figsize=(COLUMN_WIDTH, 6.1), layout="constrained")
-    figure.suptitle(run.titled("seismic force and internal deformation"), x=0.01, ha="left", size=10)
+    give_title(figure, run.titled("seismic force and internal deformation"))
     size, components, strain = panels = list(figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1.2, 1.0)))
     time_line(size, time, magnitude / divisor, color=BLACK, linewidth=1.1, label="run")
     bands = reported_bands(run)

@@ -12,7 +12,7 @@ from thawslide.arrays import Numbers
 from thawslide.band_pass import SAMPLES, band_passed, even_times
 from thawslide.errors import NotInRunError
 from thawslide.figures.force import force_in_band, reported_forces, seismic_force
-from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, NOTE, letters, prefixed, styled, time_axis
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, NOTE, give_title, letters, prefixed, styled, time_axis
 from thawslide.force_record import (
     PARTS,
     ForceRecord,
@@ -195,7 +195,7 @@ def force_record(run: Run) -> Figure:
     divisor, unit = prefixed(np.concatenate(both), "N")
     clock = f"clock moved by {_signed(found.shift)} s" if found.aligned else "clocks not aligned"
     figure = Figure(figsize=(COLUMN_WIDTH, 5.1), layout="constrained")
-    figure.suptitle(run.titled("force and its seismic inversion"), x=0.01, ha="left", size=10)  # fmt: skip
+    give_title(figure, run.titled("force and its seismic inversion"))
     panels = list(figure.subplots(2, 1, sharex=True))
     for axes, name in zip(panels, ("up", "along"), strict=True):
         axes.axhline(0.0, color=NOTE, linewidth=0.6)

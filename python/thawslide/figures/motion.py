@@ -13,6 +13,7 @@ from thawslide.figures.style import (
     GREEN,
     NOTE,
     RED,
+    give_title,
     letters,
     prefixed,
     styled,
@@ -69,7 +70,7 @@ def motion(run: Run) -> Figure:
     history = run.history
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 4.3), layout="constrained")
-    figure.suptitle(run.titled("motion of the slide"), x=0.01, ha="left", size=10)
+    give_title(figure, run.titled("motion of the slide"))
     speed, distance = figure.subplots(1, 2)
 
     if "max_velocity_m_s" in history:

@@ -17,6 +17,7 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
+    give_title,
     letters,
     styled,
     time_axis,
@@ -69,7 +70,7 @@ def probes(run: Run) -> Figure:
     rows = -(-len(found) // 2)
     across = min(len(found), 2)
     figure = Figure(figsize=(COLUMN_WIDTH if across == 2 else 4.5, 0.9 + 2.2 * rows), layout="constrained")
-    figure.suptitle(run.titled("probes"), x=0.01, ha="left", size=10)
+    give_title(figure, run.titled("probes"))
     panels = list(figure.subplots(rows, across, squeeze=False, sharex=True).flat)
     for axes, (quantity, lines) in zip(panels, found.items(), strict=False):
         for name, values in lines.items():

@@ -16,6 +16,7 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
+    give_title,
     letters,
     say,
     styled,
@@ -69,7 +70,7 @@ def water(run: Run) -> Figure:
         raise NotInRunError("the band is not of columns: history.csv has no account of its water")
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
-    figure.suptitle(run.titled("water of the band"), x=0.01, ha="left", size=10)
+    give_title(figure, run.titled("water of the band"))
     held, lost, spaces, residual = panels = list(figure.subplots(4, 1, sharex=True, height_ratios=(1.2, 1.0, 1.0, 0.7)))
     _draw(held, run, HELD, "mass", MASSES)
     _draw(lost, run, LOST, "mass", MASSES)
