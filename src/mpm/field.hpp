@@ -51,9 +51,8 @@ class FieldBase {
   virtual void set_size(std::size_t particles) = 0;
   // The particle at `to` becomes the one at `from`.
   virtual void copy(std::size_t from, std::size_t to) = 0;
-  // Particle k becomes the one that stood at order[k], for as many as `order` has. done: room for the work, kept
-  // between calls.
-  virtual void reorder(const std::vector<std::uint32_t>& order, std::vector<std::uint8_t>& done) = 0;
+  // Particle k becomes the one that stood at order[k], for as many as `order` has.
+  virtual void reorder(const std::vector<std::uint32_t>& order) = 0;
   [[nodiscard]] virtual std::vector<std::byte> bytes() const = 0;
   virtual void set_bytes(const std::vector<std::byte>& bytes) = 0;
 
@@ -218,12 +217,11 @@ class Field final : public FieldBase {
     }
   }
 
-  void reorder(const std::vector<std::uint32_t>& order, std::vector<std::uint8_t>& done) override {
-    if (kept_) {
-      using Values = Vector<T, Components>;
-      reorder_in_place(
-          order, done, [&](std::size_t k) { return get<Values>(k); },
-          [&](std::size_t k, const Values& values) { set(k, values); });
+  void reorder(const std::vector<std::uint32_t>& order) override {
+    for (int c = 0; kept_ && c < Components; ++c) {
+      thawslide::reorder<T>(
+          order, [&](std::size_t k) { return (*this)(k, c); },
+          [&](std::size_t k, T number) { (*this)(k, c) = number; });
     }
   }
 

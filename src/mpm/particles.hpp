@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/linear.hpp"
+#include "base/parallel.hpp"
 #include "mpm/field.hpp"
 
 namespace thawslide::mpm {
@@ -112,9 +113,7 @@ class Particles {
   }
 
   void reorder(const std::vector<std::uint32_t>& order) {
-    for (FieldBase* field : fields.all()) {
-      field->reorder(order, reordered_);
-    }
+    parallel_for(fields.all().size(), 1, [&](std::size_t f) { fields.all()[f]->reorder(order); });
   }
 
  private:
@@ -126,7 +125,6 @@ class Particles {
   }
 
   std::size_t size_ = 0;
-  std::vector<std::uint8_t> reordered_;
 };
 
 // A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.

@@ -40,12 +40,20 @@ THAWSLIDE_HD bool is_melted(const ColumnModel<Real, Curve>& model, const BandCol
   return column.temperature[ColumnCells::ground + cell] >= model.curve.reference_temperature;
 }
 
+// The temperature [C] at which a cell has this enthalpy [J/m2], from a guess near it. In the ground nothing freezes.
+template <class Real, class Curve>
+THAWSLIDE_HD Real cell_temperature(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
+                                   const BandColumn<Real>& column, int cell, Real heat, Real guess) {
+  const auto of = cell_coefficients(model, grid, column, cell);
+  return cell < ColumnCells::ground ? model.curve.reference_temperature + heat / of.frozen
+                                    : temperature_of_enthalpy(model.curve, of, heat, guess);
+}
+
 template <class Real, class Curve>
 THAWSLIDE_HD void temperatures_from_heat(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
                                          BandColumn<Real>& column) {
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) {
-    column.temperature[k] = temperature_of_enthalpy(model.curve, cell_coefficients(model, grid, column, k),
-                                                    column.heat[k], column.temperature[k]);
+    column.temperature[k] = cell_temperature(model, grid, column, k, column.heat[k], column.temperature[k]);
   }
 }
 
@@ -87,14 +95,15 @@ struct ColumnConductance {
 // neighbours.
 template <int Count, class Real>
 THAWSLIDE_HD void solve_tridiagonal(const Real* below, Real* diagonal, const Real* above, Real* right) {
+  diagonal[0] = Real(1) / diagonal[0];  // inverse from here on
   THAWSLIDE_ROLLED for (int k = 1; k < Count; ++k) {
-    const Real factor = below[k] / diagonal[k - 1];
-    diagonal[k] -= factor * above[k - 1];
+    const Real factor = below[k] * diagonal[k - 1];
+    diagonal[k] = Real(1) / (diagonal[k] - factor * above[k - 1]);
     right[k] -= factor * right[k - 1];
   }
-  right[Count - 1] /= diagonal[Count - 1];
+  right[Count - 1] *= diagonal[Count - 1];
   THAWSLIDE_ROLLED for (int k = Count - 2; k >= 0; --k) {
-    right[k] = (right[k] - above[k] * right[k + 1]) / diagonal[k];
+    right[k] = (right[k] - above[k] * right[k + 1]) * diagonal[k];
   }
 }
 
@@ -128,8 +137,7 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Real, Curve>& model, const
     THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
       guess[k] += capacity[k] * change[k];
       largest = max(largest, std::abs(change[k]));
-      column.temperature[k] = temperature_of_enthalpy(model.curve, cell_coefficients(model, grid, column, k), guess[k],
-                                                      column.temperature[k]);
+      column.temperature[k] = cell_temperature(model, grid, column, k, guess[k], column.temperature[k]);
     }
     if (largest < close) {
       break;

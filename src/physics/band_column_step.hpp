@@ -56,7 +56,9 @@ THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& mod
   temperatures_from_heat(model, grid, column);
   if (model.steam) {
     boil(model, grid, drive.normal_pressure, column, account);
-    temperatures_from_heat(model, grid, column);
+    if (account.steam > Real(0)) {
+      temperatures_from_heat(model, grid, column);
+    }
   }
   fill_pores(model, grid, drive.normal_pressure, was_melted, column);
   if (model.seepage && model.pressurization && model.hydraulic_conductivity > Real(0)) {

@@ -74,15 +74,21 @@ class GroundOnGrid {
     parallel_for(keys_.size() - known_before, [&](std::size_t k) {
       learn(surface, substrates, static_cast<double>(grid.cell()), known_before + k);
     });
-    near_.resize(grid.tiles().size());
-    any_near_.resize(grid.tiles().size());
-    parallel_for(grid.tiles().size(), [&](std::size_t t) { find_near(grid, t); });
+    near_.resize(keys_.size());
+    tile_.resize(grid.tiles().size());
+    parallel_for(grid.tiles().size(), [&](std::size_t t) {
+      tile_[t] = number_[static_cast<std::size_t>(grid.blocks_about_tile(t)[T::stencil / 2])];
+      Nearness& near = near_[static_cast<std::size_t>(tile_[t])];
+      if (!near.is_known) {
+        find_near(grid, t, near);
+      }
+    });
   }
 
   // Whether particles of tile t see a candidate node, with any shape functions.
-  [[nodiscard]] bool any_near(std::size_t t) const { return any_near_[t] != 0; }
+  [[nodiscard]] bool any_near(std::size_t t) const { return near_of(t).any; }
   // The same for one with the lowest node that it sees at a place of the tile's patch, and for those of a batch.
-  [[nodiscard]] bool any_near(std::size_t t, std::size_t lowest) const { return near_[t][lowest] != 0; }
+  [[nodiscard]] bool any_near(std::size_t t, std::size_t lowest) const { return near_of(t).from[lowest] != 0; }
   [[nodiscard]] bool any_near(std::size_t t, const mpm::BatchNodes<Real>& nodes) const {
     const auto is_near = [&](std::int32_t lowest) { return any_near(t, static_cast<std::size_t>(lowest)); };
     return nodes.runs == 1 ? is_near(nodes.first[0]) : std::any_of(nodes.first.begin(), nodes.first.end(), is_near);
@@ -101,8 +107,13 @@ class GroundOnGrid {
   [[nodiscard]] std::size_t held() const { return blocks_.size(); }
 
  private:
-  // By place in a tile's patch: whether a candidate is among the 3^Dim nodes from there on.
-  using Near = std::array<std::uint8_t, static_cast<std::size_t>(T::patch_nodes)>;
+  using Patch = std::array<std::uint8_t, static_cast<std::size_t>(T::patch_nodes)>;
+  // What the ground alone decides of a tile, found when the tile is first seen.
+  struct Nearness {
+    bool is_known = false, any = false;
+    Patch from{};  // by place in the tile's patch: whether a candidate is among the 3^Dim nodes from there on
+  };
+  [[nodiscard]] const Nearness& near_of(std::size_t t) const { return near_[static_cast<std::size_t>(tile_[t])]; }
 
   // Starts anew with the active blocks when most of those held are no longer active.
   void forget_left_blocks(const mpm::SparseGrid<Dim, Real>& grid) {
@@ -130,6 +141,7 @@ class GroundOnGrid {
     blocks_ = std::move(blocks);
     any_candidate_ = std::move(any_candidate);
     partly_unknown_ = std::move(partly_unknown);
+    near_.clear();
   }
 
   void learn(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
@@ -151,15 +163,14 @@ class GroundOnGrid {
     }
   }
 
-  void find_near(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) {
-    near_[t].fill(0);
-    any_near_[t] = 0;
+  void find_near(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, Nearness& found) const {
+    found.is_known = true;
     const std::int32_t* blocks = grid.blocks_about_tile(t);
     if (std::none_of(blocks, blocks + T::stencil,
                      [&](std::int32_t b) { return any_candidate(static_cast<std::size_t>(b)); })) {
       return;
     }
-    Near candidate{};
+    Patch candidate{};
     mpm::for_each_direction<Dim>([&](auto d) {
       const auto b = static_cast<std::size_t>(blocks[d]);
       if (any_candidate(b)) {
@@ -170,7 +181,7 @@ class GroundOnGrid {
     });
     for (int node = 0; node < T::nodes; ++node) {  // the nearest one
       const typename T::Index nearest = T::node({}, node);
-      std::uint8_t& near = near_[t][static_cast<std::size_t>(T::in_patch(below(nearest)))];
+      std::uint8_t& near = found.from[static_cast<std::size_t>(T::in_patch(below(nearest)))];
       for (int k = 0; k < T::stencil; ++k) {
         typename T::Index seen = nearest;
         for (int a = 0, rest = k; a < Dim; ++a, rest /= 3) {
@@ -179,7 +190,7 @@ class GroundOnGrid {
         near |= candidate[static_cast<std::size_t>(T::in_patch(seen))];
       }
     }
-    any_near_[t] = std::any_of(near_[t].begin(), near_[t].end(), [](std::uint8_t near) { return near != 0; }) ? 1 : 0;
+    found.any = std::any_of(found.from.begin(), found.from.end(), [](std::uint8_t near) { return near != 0; });
   }
   static typename T::Index below(typename T::Index node) {
     for (int& along : node) {
@@ -193,8 +204,8 @@ class GroundOnGrid {
   std::vector<Block> blocks_;
   std::vector<std::uint8_t> any_candidate_, partly_unknown_;
   std::vector<std::int32_t> number_;  // active block -> place in blocks_
-  std::vector<Near> near_;            // by tile
-  std::vector<std::uint8_t> any_near_;
+  std::vector<Nearness> near_;        // by place in keys_, of tiles
+  std::vector<std::int32_t> tile_;    // active tile -> place in near_
 };
 
 }  // namespace thawslide::terrain
