@@ -69,7 +69,7 @@ class BaseColumns {
   BaseColumns(ColumnsModel<Real> model, const Vector<Real, Dim>& gravity)
       : model_(std::move(model)), gravity_(gravity) {}
 
-  // Fills nodes.base_state of the blocks that hold contact.
+  // Fills nodes.base_state of the blocks that hold contact. Before each take, which needs what pieces saw.
   void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes);
 
   // After contact, at the positions that to_nodes has seen: what contact does in dt to all pieces (load, heat, slip),

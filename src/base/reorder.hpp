@@ -1,23 +1,34 @@
-// Items take another order in their own memory.
+// Items take another order, by way of a room that the caller keeps.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
+
+#include "base/aligned.hpp"
+#include "base/parallel.hpp"
 
 namespace thawslide {
 
+// A place for one item of up to eight bytes each.
+using ReorderRoom = std::vector<std::uint64_t>;
+
 // The item at k becomes the one that stood at order[k], a permutation; get(k) and set(k, item) reach them.
 template <class Item, class Get, class Set>
-void reorder(const std::vector<std::uint32_t>& order, const Get& get, const Set& set) {
-  thread_local std::vector<Item> room;  // kept: a step allocates nothing
-  room.resize(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    room[k] = get(static_cast<std::size_t>(order[k]));
-  }
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    set(k, room[k]);
-  }
+void reorder(const std::vector<std::uint32_t>& order, ReorderRoom& room, const Get& get, const Set& set) {
+  static_assert(sizeof(Item) <= sizeof(ReorderRoom::value_type));
+  constexpr std::size_t at_a_time = 4096;
+  resize_sparingly(room, order.size());
+  parallel_for(order.size(), at_a_time, [&](std::size_t k) {
+    const Item item = get(static_cast<std::size_t>(order[k]));
+    std::memcpy(&room[k], &item, sizeof item);
+  });
+  parallel_for(order.size(), at_a_time, [&](std::size_t k) {
+    Item item;
+    std::memcpy(&item, &room[k], sizeof item);
+    set(k, item);
+  });
 }
 
 }  // namespace thawslide

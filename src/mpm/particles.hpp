@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/linear.hpp"
-#include "base/parallel.hpp"
 #include "mpm/field.hpp"
 
 namespace thawslide::mpm {
@@ -113,7 +112,9 @@ class Particles {
   }
 
   void reorder(const std::vector<std::uint32_t>& order) {
-    parallel_for(fields.all().size(), 1, [&](std::size_t f) { fields.all()[f]->reorder(order); });
+    for (FieldBase* field : fields.all()) {
+      field->reorder(order, reorder_room_);
+    }
   }
 
  private:
@@ -125,6 +126,7 @@ class Particles {
   }
 
   std::size_t size_ = 0;
+  ReorderRoom reorder_room_;  // kept: a step allocates nothing
 };
 
 // A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.

@@ -247,7 +247,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
       values[k] = trial[k] - multiplier * relaxation_[0][k];
     }
     const Condition elsewhere =
-        yielded & !((multiplier >= Value(0)) & is_admissible(values, surface, planes_here, tolerance));
+        yielded & !((multiplier >= Value(0)) & is_admissible(values, surface, 1, planes_here, tolerance));
     if (any(elsewhere)) {
       return_beside_the_face(trial, surface, planes_here, tolerance, elsewhere, values, torn);
     }
@@ -267,7 +267,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
       }
       Vector<Value, 3> found = trial;
       Condition here = left & relax(s, surface, found);
-      here = here & is_admissible(found, surface, planes_here, tolerance);
+      here = here & is_admissible(found, surface, 0, planes_here, tolerance);
       for (int k = 0; k < 3; ++k) {
         values[k] = select(here, found[k], values[k]);
       }
@@ -292,17 +292,19 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return normal[0] * values[0] + normal[1] * values[1] + normal[2] * values[2] - limit;
   }
 
+  // Whether a stress is within the planes from `first` on.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD auto is_admissible(const Vector<Value, 3>& values, const Surface<Value>& surface,
-                                                int planes_here, Value tolerance) const {
-    Value furthest = beyond(0, values, surface);
-    for (int i = 1; i < planes_here; ++i) {
+                                                int first, int planes_here, Value tolerance) const {
+    Value furthest = beyond(first, values, surface);
+    for (int i = first + 1; i < planes_here; ++i) {
       furthest = max(furthest, beyond(i, values, surface));
     }
     return furthest <= tolerance;
   }
 
-  // Takes the plastic strain of an active set of planes off the trial stress; no where a multiplier is negative.
+  // Takes the plastic strain of an active set of planes off the trial stress. Returns where no multiplier is
+  // negative.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD auto relax(int number, const Surface<Value>& surface, Vector<Value, 3>& values) const {
     const ActiveSet& set = active_set(number);

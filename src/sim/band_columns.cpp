@@ -82,13 +82,6 @@ void Simulation<Dim, Real>::start_band_columns() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::band_columns_to_nodes() {
-  if (band_columns_) {
-    band_columns_->to_nodes(grid_, nodes_);
-  }
-}
-
-template <int Dim, class Real>
 void Simulation<Dim, Real>::band_columns_follow(const mpm::SparseGrid<Dim, Real>& grid,
                                                 const terrain::GroundOnGrid<Dim, Real>& ground_on_grid,
                                                 mpm::Nodes<Dim, Real>& nodes) {
@@ -125,7 +118,6 @@ void Simulation<Dim, Real>::band_columns_follow(const mpm::SparseGrid<Dim, Real>
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                 \
   template void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>&); \
   template void Simulation<Dim, Real>::start_band_columns();                             \
-  template void Simulation<Dim, Real>::band_columns_to_nodes();                          \
   template void Simulation<Dim, Real>::band_columns_follow(                              \
       const mpm::SparseGrid<Dim, Real>&, const terrain::GroundOnGrid<Dim, Real>&, mpm::Nodes<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

@@ -12,7 +12,7 @@ namespace thawslide::sim {
 // Heap in use over particles after a run of 100,000, with grid and nodes [bytes]; measured by benchmarks/speed
 // (docs/performance.md). Thin slides take more a particle, compact ones less.
 template <int Dim>
-inline constexpr double bytes_of_particle = Dim == 3 ? 640.0 : 616.0;
+inline constexpr double bytes_of_particle = Dim == 3 ? 655.0 : 631.0;
 
 // What a particle takes besides while a snapshot or a checkpoint of it is put together [bytes]: measured as the peak of
 // runs of 340,000 (2D) and 420,000 (3D), less the above.

@@ -24,7 +24,8 @@ namespace thawslide::sim {
 // The discrete step, Section 2.3 of the paper; all stages use the shape functions at the positions the step begins
 // with.
 //   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
-//   P_i, S_i, n_i: averages with the linear shape functions                                    Eq. 21
+//   P_i, S_i, n_i: averages with the linear shape functions; under band columns only where some node presses on ground
+//   without a column                                                                         Eq. 21
 //   f_i of bodies that do not share nodes: with what they exert on one another               mpm/body_contact.hpp
 //   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
 //   v_p += sum S a dt,  x_p += sum S (v_i + a_i dt/2) dt                                       Eqs. 13, 14
@@ -135,7 +136,7 @@ void Simulation<Dim, Real>::momentum_to_grid() {
   force_of_walls_ = mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
 }
 
-// Nodes that see band columns take the state of the base from them, and that of the particles has no use.
+// Nodes that see band columns take the state of the base from them. Only others need that of the particles.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::press_on_ground() {
   if (!model_.ground) {
@@ -143,7 +144,7 @@ void Simulation<Dim, Real>::press_on_ground() {
   }
   if (band_columns_) {
     terrain::clearance_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
-    band_columns_to_nodes();
+    band_columns_->to_nodes(grid_, nodes_);
   } else {
     terrain::near_ground_to_grid(grid_, ground_, model_.motion, particles_, nodes_);
   }

@@ -236,7 +236,6 @@ class Simulation {
   void update_normal_load(std::size_t first = 0);
   void rescale_band();
   void start_band_columns();
-  void band_columns_to_nodes();
   void band_columns_follow(const mpm::SparseGrid<Dim, Real>& grid, const terrain::GroundOnGrid<Dim, Real>& ground,
                            mpm::Nodes<Dim, Real>& nodes);
   // Where a device takes the steps (columns_of_device.cpp).

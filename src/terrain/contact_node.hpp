@@ -102,7 +102,7 @@ THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Re
   return load / (dt * max(covered, smallest_area));
 }
 
-// A contact node with its normal pressure [Pa] and the speed of its slip, and no more.
+// A contact node with its normal pressure [Pa] and the speed of its slip; all else is 0.
 template <int Dim, class Real>
 THAWSLIDE_HD physics::basal::ContactNode<Real> loaded_node(Real pressure, const Vector<Real, Dim>& into_ground,
                                                            const NodeState<Dim, Real>& state) {

@@ -199,7 +199,7 @@ class GroundOnGrid {
     return node;
   }
 
-  KeyIndex index_;  // block key -> place in keys_, blocks_ and the marks
+  KeyIndex index_;  // block key -> place in keys_, blocks_, near_ and the marks
   std::vector<std::uint64_t> keys_;
   std::vector<Block> blocks_;
   std::vector<std::uint8_t> any_candidate_, partly_unknown_;

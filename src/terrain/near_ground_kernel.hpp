@@ -1,4 +1,4 @@
-// What a particle does in near_ground_to_grid: a kernel (mpm/kernel.hpp).
+// What a particle does in near_ground_to_grid and clearance_to_grid: kernels (mpm/kernel.hpp).
 #pragma once
 
 #include "base/select.hpp"

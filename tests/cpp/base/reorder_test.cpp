@@ -12,7 +12,8 @@ namespace {
 
 TEST(Reorder, GivesWhatACopyGives) {
   std::mt19937 random(7);
-  for (const std::size_t count : {0u, 1u, 2u, 3u, 17u, 1000u}) {
+  ReorderRoom room;
+  for (const std::size_t count : {0u, 1u, 2u, 3u, 17u, 1000u, 10000u}) {
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
     for (int trial = 0; trial < 20; ++trial) {
@@ -24,7 +25,7 @@ TEST(Reorder, GivesWhatACopyGives) {
         expected[k] = items[order[k]];
       }
       reorder<double>(
-          order, [&](std::size_t k) { return items[k]; }, [&](std::size_t k, double item) { items[k] = item; });
+          order, room, [&](std::size_t k) { return items[k]; }, [&](std::size_t k, double item) { items[k] = item; });
       ASSERT_EQ(items, expected) << count << " items, trial " << trial;
     }
   }

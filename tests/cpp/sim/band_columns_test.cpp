@@ -265,6 +265,14 @@ TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
   Simulation<3, double> other(case_from_text(column_slab(3)));
   other.restore_band_columns(states[0]);
   EXPECT_EQ(other.band_columns()->state(), states[0]);
+  // What pieces keep of their columns besides is made anew.
+  const auto& columns = *other.band_columns();
+  ASSERT_FALSE(columns.pieces().empty());
+  for (const auto& piece : columns.pieces()) {
+    EXPECT_EQ(piece.means.saturation, columns.means_of(piece).saturation);
+    EXPECT_EQ(piece.means.temperature, columns.means_of(piece).temperature);
+    EXPECT_EQ(piece.means.solid_fraction, columns.means_of(piece).solid_fraction);
+  }
 }
 
 TEST(BandColumns, RefuseABandThickerThanTheSlideAndWhatMakesHeatOrWater) {
