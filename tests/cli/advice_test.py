@@ -93,6 +93,6 @@ def test_particles_are_blamed_for_what_they_take(binary: Path, plain_environment
     assert outcome.returncode == 2, outcome.stderr
     assert "terrain.file" not in outcome.stderr
     assert re.search(
-        r"(grid\.cell is 2 m, which makes 5\.19e\+07 particles: the run needs about 81\.7 GB|memory of this machine)",
+        r"(grid\.cell is 2 m, which makes 5\.19e\+07 particles: the run needs about 82\.5 GB|memory of this machine)",
         outcome.stderr,
     ), outcome.stderr

@@ -175,7 +175,7 @@ def test_json_holds_what_the_text_says(thawslide: Program, plain_case: Path) -> 
     assert body["clearance_m"] == pytest.approx(0.0, abs=1e-12) and body["standing_share"] == 1.0
     assert body["coldest_C"] == body["warmest_C"] == -10.0
     assert told["cells"] == 240 and told["steps"] == 200 and told["step_s"] == 0.001
-    assert told["memory"]["particles_bytes"] == 48 * 616 and told["memory"]["available_bytes"] > 1e6
+    assert told["memory"]["particles_bytes"] == 48 * 631 and told["memory"]["available_bytes"] > 1e6
     disk = told["disk"]
     assert disk["snapshots"] == 5 and disk["history_rows"] == 21 and disk["checkpoints"] == 3
     assert disk["need_bytes"] == pytest.approx(
@@ -222,7 +222,7 @@ def test_what_cannot_fit_into_memory_is_refused_at_once(
     assert refused.returncode == 2 and refused.stdout == "" and not (plain_case.parent / "run").exists()
     found = re.fullmatch(
         r"error: --set grid\.cell=0\.001: grid\.cell is 0\.001 m, which makes 4\.8e\+07 particles: the run needs about "
-        r"68 GB of memory \(particles 29\.6 GB, writing them 38\.4 GB\), and (\S+) GB are left by the bound of ulimit "
+        r"68\.7 GB of memory \(particles 30\.3 GB, writing them 38\.4 GB\), and (\S+) GB are left by the bound of ulimit "
         r"-v\. Make grid\.cell (\S+) m or more, or particles_per_axis smaller\.\n",
         refused.stderr,
     )
