@@ -103,9 +103,8 @@ def picture(
     change_painter = ScalarMappable(Normalize(-most, most), "RdBu_r")
     names = [outcome.program.split(", ")[-1] for outcome in outcomes]
     drawn = [(values, painter, name) for values, name in zip(shown, names, strict=True)]
-    drawn += [
-        (change, change_painter, f"{name} − {names[0]}") for change, name in zip(changes, names[1:], strict=True)
-    ]
+    # By letters: names of two would not fit above a narrow panel.
+    drawn += [(change, change_painter, f"{letter} − a") for change, letter in zip(changes, "bcdefg", strict=False)]
     panels = []
     for number, (values, colours, name) in enumerate(drawn):
         axes = page.panel(number, labels=False)
