@@ -144,7 +144,7 @@ def test_each_pair_of_maps_has_its_difference() -> None:
     for field, factor in (("thickness", 1.0), ("speed", 2.0)):
         figure = page.picture(grounds.PLANE, terrain, corners, found, field, "words")
         maps = [axes for axes in figure.axes if len(axes.images) > 1]
-        assert [axes.get_title(loc="left") for axes in maps] == ["(a) A 1", "(b) B 2", "(c) B 2 − A 1"]
+        assert [axes.get_title(loc="left") for axes in maps] == ["(a) A 1", "(b) B 2", "(c) b − a"]
         first, other, change = (axes.images[-1].get_array() for axes in maps)
         reached = (thickness[0] > 0.0) | (thickness[1] > 0.0)
         np.testing.assert_array_equal(~np.ma.getmaskarray(change), reached)
