@@ -256,9 +256,10 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
 
   // To edges, the cut-off and corners, set by set, until all have one; to the apex where no set answers.
   template <class Value, class Condition>
-  THAWSLIDE_HD void return_beside_the_face(const Vector<Value, 3>& trial, const Surface<Value>& surface,
-                                           int planes_here, Value tolerance, Condition left, Vector<Value, 3>& values,
-                                           Value& torn) const {
+  THAWSLIDE_HD [[gnu::noinline]] void return_beside_the_face(const Vector<Value, 3>& trial,
+                                                             const Surface<Value>& surface, int planes_here,
+                                                             Value tolerance, Condition left, Vector<Value, 3>& values,
+                                                             Value& torn) const {
     for (int s = 1; s < set_count && any(left); ++s) {
       const ActiveSet& set = active_set(s);
       const int last = set.plane[set.count - 1];
@@ -303,8 +304,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return furthest <= tolerance;
   }
 
-  // Takes the plastic strain of an active set of planes off the trial stress. Returns where no multiplier is
-  // negative.
+  // Takes an active set's plastic strain off the trial stress. Returns where no multiplier is negative.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD auto relax(int number, const Surface<Value>& surface, Vector<Value, 3>& values) const {
     const ActiveSet& set = active_set(number);

@@ -25,8 +25,8 @@ REGISTERS_OF_PHYSICS = {
     "strain_and_stress<LinearElastic<double>, 3>": 80,  # 72
     "strain_and_stress<MohrCoulomb<double, false>, 2>": 68,  # 60
     "strain_and_stress<MohrCoulomb<double, false>, 3>": 96,  # 84
-    "strain_and_stress<MohrCoulomb<double, true>, 2>": 86,  # 77
-    "strain_and_stress<MohrCoulomb<double, true>, 3>": 98,  # 88
+    "strain_and_stress<MohrCoulomb<double, true>, 2>": 106,  # 96
+    "strain_and_stress<MohrCoulomb<double, true>, 3>": 106,  # 96
     "yield_and_gap<2>": 50,  # 44
     "yield_and_gap<3>": 80,  # 72
     "rigid_motion<2>": 32,  # 24
@@ -55,6 +55,7 @@ REGISTERS_OF_STEP = {
     "momentum": (40, 40),  # 32, 32
     "affine_momentum": (40, 44),  # 32, 38
     "near_ground": (38, 40),  # 30, 32
+    "clearance": (20, 20),  # 17, 18
     "mark_band": (38, 50),  # 30, 42
     "leave_band": (16, 16),  # 8, 8
     "move": (48, 152),  # 42, 138
@@ -64,8 +65,8 @@ REGISTERS_OF_STEP = {
     "sweep_filter": (50, 182),  # 42, 166
     "take_filtered": (48, 158),  # 40, 144
     "deform, LinearElastic<double>": (74, 104),  # 66, 95
-    "deform, MohrCoulomb<double, false>": (140, 164),  # 128, 148
-    "deform, MohrCoulomb<double, true>": (124, 144),  # 112, 130
+    "deform, MohrCoulomb<double, false>": (106, 154),  # 96, 140
+    "deform, MohrCoulomb<double, true>": (139, 161),  # 126, 146
     "heat_flows, PowerLawCurve<double>": (66, 76),  # 59, 68
     "heat_flows, LinearCurve<double>": (62, 76),  # 56, 68
     "secant_capacity, PowerLawCurve<double>": (52, 54),  # 46, 48

@@ -132,6 +132,11 @@ __global__ void near_ground(TileOnDevice<Dim> tile, Results<Dim, terrain::AddNea
 }
 
 template <int Dim>
+__global__ void clearance(TileOnDevice<Dim> tile, Results<Dim, terrain::LowerClearance<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::LowerClearance<Dim, Real>{});
+}
+
+template <int Dim>
 __global__ void mark_band(TileOnDevice<Dim> tile, Results<Dim, terrain::MarkBand<Dim, Real>> to, Real dt) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::MarkBand<Dim, Real>{dt});
 }
@@ -307,6 +312,7 @@ void instantiate() {
   momentum<Dim><<<1, 128>>>(tile, {}, {});
   affine_momentum<Dim><<<1, 128>>>(tile, {});
   near_ground<Dim><<<1, 128>>>(tile, {}, {});
+  clearance<Dim><<<1, 128>>>(tile, {});
   mark_band<Dim><<<1, 128>>>(tile, {}, 0);
   leave_band<Dim><<<1, 128>>>(tile, {});
   take_position<Dim><<<1, 128>>>(tile, {}, {});
