@@ -222,8 +222,8 @@ def test_what_cannot_fit_into_memory_is_refused_at_once(
     assert refused.returncode == 2 and refused.stdout == "" and not (plain_case.parent / "run").exists()
     found = re.fullmatch(
         r"error: --set grid\.cell=0\.001: grid\.cell is 0\.001 m, which makes 4\.8e\+07 particles: the run needs about "
-        r"68\.7 GB of memory \(particles 30\.3 GB, writing them 38\.4 GB\), and (\S+) GB are left by the bound of ulimit "
-        r"-v\. Make grid\.cell (\S+) m or more, or particles_per_axis smaller\.\n",
+        r"68\.7 GB of memory \(particles 30\.3 GB, writing them 38\.4 GB\), and (\S+) GB are left by the bound of "
+        r"ulimit -v\. Make grid\.cell (\S+) m or more, or particles_per_axis smaller\.\n",
         refused.stderr,
     )
     assert found, refused.stderr
