@@ -85,7 +85,7 @@ def test_more_particles_than_memory(thawslide: Program, tmp_path: Path, slope: S
     assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
     assert re.fullmatch(
         r"error: --thickness: a release 0\.02 m thick asks for cells of 0\.006 m and 8\.89e\+09 particles; they need "
-        r"about 1\.4e\+04 GB of memory, and \S+ GB are [a-z -()]+\. Set --cell \S+ or more, which is coarser\. Is the "
+        r"about 1\.41e\+04 GB of memory, and \S+ GB are [a-z -()]+\. Set --cell \S+ or more, which is coarser\. Is the "
         r"thickness in metres\?\n",
         outcome.stderr,
     ), outcome.stderr
