@@ -27,7 +27,7 @@ _HOW = {
     Ending.KILLED: ("killed?", "stopped without a word"),
     Ending.UNTOLD: ("running or killed", "was running or killed"),
     Ending.STOPPED: ("stopped", "was stopped"),
-    Ending.FAILED: ("failed", "went bad"),
+    Ending.FAILED: ("failed", "failed"),
 }  # in brackets behind a time, and as a verb
 
 
@@ -205,6 +205,12 @@ class Run:
     def moves_at_end(self) -> bool:
         """Whether the slide was not at rest at the end of the run, as run.json has it."""
         return self.facts.get("at_rest") is False
+
+    @property
+    def rest_since(self) -> float:
+        """Time on the run's own clock since when the slide has been at rest [s]; inf if it is not."""
+        since = self.facts.get("rest_since_s")
+        return float(since) if self.facts.get("at_rest") is True and since is not None else float("inf")
 
     def titled(self, words: str) -> str:
         """Return the title of a figure of the whole run, which names the time if the slide is not at rest."""

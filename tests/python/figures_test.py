@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import h5py
@@ -187,19 +188,32 @@ def test_motion_against_reported_values(make_run: MakeRun) -> None:
     np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0, 6.0], [9.0, 11.0]])
     np.testing.assert_array_equal(line(distance, "mean path length (of mass)")[1], run.history["mean_displacement_m"])
     front = run.history["front_position_m"]
-    np.testing.assert_array_equal(line(distance, "way of the front itself")[1], front - front[0])
+    np.testing.assert_array_equal(line(distance, "travel distance of the front")[1], front - front[0])
     np.testing.assert_array_equal(line(distance, "reported mean: model"), [[10.0], [80.0]])
     np.testing.assert_array_equal(line(distance, "reported runout: field"), [[10.0], [160.0]])
     assert (speed.get_ylabel(), distance.get_ylabel()) == ("velocity (m/s)", "distance (m)")
     assert (speed.get_xlabel(), distance.get_xlabel()) == (OWN_CLOCK, OWN_CLOCK)
 
 
-def test_the_way_of_a_front_that_is_not_known_at_first(make_run: MakeRun) -> None:
+def test_the_fastest_particle_is_not_drawn_at_rest(make_run: MakeRun) -> None:
+    folder = make_run()
+    facts = json.loads((folder / "run.json").read_text())
+    moving = titled(FIGURES["motion"].draw(Run(folder)), "(a) velocity")
+    assert len(line(moving, "fastest particle")[0]) == len(Run(folder).history["time_s"])
+    (folder / "run.json").write_text(json.dumps(facts | {"at_rest": True, "rest_since_s": 6.0}))
+    run = Run(folder)
+    before = run.history["time_s"] <= 6.0
+    assert 0 < before.sum() < len(before)
+    drawn = line(titled(FIGURES["motion"].draw(run), "(a) velocity"), "fastest particle, until rest")
+    np.testing.assert_array_equal(drawn, [run.history["time_s"][before], run.history["max_velocity_m_s"][before]])
+
+
+def test_travel_of_a_front_that_is_unknown_at_first(make_run: MakeRun) -> None:
     folder = make_run()
     columns = history_columns(11, 2)
     columns["front_position_m"][:2] = columns["runout_m"][:2] = np.nan
     write_history(folder / "history.csv", columns)
-    drawn = line(titled(FIGURES["motion"].draw(Run(folder)), "(b) displacement"), "way of the front itself")[1]
+    drawn = line(titled(FIGURES["motion"].draw(Run(folder)), "(b) displacement"), "travel distance of the front")[1]
     np.testing.assert_allclose(drawn, [np.nan, np.nan, *(12.0 * np.arange(9.0))], atol=1e-12)
 
 

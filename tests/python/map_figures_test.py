@@ -42,7 +42,8 @@ ON_MAP = [
     ("name", "label", "value"),
     [
         (
-            "slide_speed", "speed, mean over the thickness (m/s), mean over 4 s about each time",
+            "slide_speed",
+            "speed, mean over the thickness (m/s), mean over 4 s about each time",
             SPEED * np.hypot(1.0, 0.4),
         ),
         ("slide_thickness", "thickness (m), square-root scale; blue: below 0.1 m", THICKNESS),

@@ -96,7 +96,7 @@ def test_sections_say_what_line_the_path_is(map_run: Path) -> None:
         notes(drawn("cross_sections", map_run)).replace("\n", " "),
     )
     assert said
-    # The map is known from WEST + 5 m on; between cell centres it is as thick as they are in the mean.
+    # The map is known from WEST + 5 m on; between cell centres it is as thick as they are on average.
     np.testing.assert_allclose([float(part) for part in said.groups()], [95.0, 195.0, 295.0, 395.0], atol=7.0)
 
 

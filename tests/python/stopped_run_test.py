@@ -40,7 +40,7 @@ def test_figures_of_a_stopped_run_say_when_it_stopped(map_run: Path) -> None:
     ("facts", "note", "state"),
     [
         ({"status": "done", "simulated_time_s": 10.0}, "", "10 s"),
-        ({"status": "failed", "simulated_time_s": 10.4087}, "The run went bad at 10.41 s. ", "10.41 s (failed)"),
+        ({"status": "failed", "simulated_time_s": 10.4087}, "The run failed at 10.41 s. ", "10.41 s (failed)"),
         (
             {"status": "running", "simulated_time_s": 0.0},
             "The run stopped without a word at 10 s. ",

@@ -1,6 +1,6 @@
 """Temperature, pore pressure, saturation and friction of the shear band over time (paper Fig. 20).
 
-Of a band of columns: what presses on the base and what resists there, how hot it is and how near to boiling.
+For a band of columns: basal stresses, how hot it is and how near to boiling.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ def _of_columns(run: Run) -> Figure:
     letters(
         panels,
         (
-            "what presses on the base and what resists",
+            "basal stresses",
             "temperature",
             "liquid saturation",
             "thickness",

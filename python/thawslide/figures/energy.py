@@ -1,4 +1,4 @@
-"""The energy ledger: every mechanical and thermal account since the start, and what does not add up."""
+"""The energy ledger: every mechanical and thermal account since the start, and the residuals."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def energy(run: Run) -> Figure:
         (
             "mechanical accounts, change since the start",
             "thermal accounts, change since the start",
-            "what does not add up, over the largest change of any account",
+            "residual, relative to the largest change of any account",
         ),
     )
     return figure

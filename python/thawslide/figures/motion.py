@@ -66,7 +66,10 @@ def draw_targets(
 
 @styled
 def motion(run: Run) -> Figure:
-    """Draw (a) mean and largest velocity, (b) mean displacement, runout and the way of the front."""
+    """Draw (a) mean and largest velocity, (b) mean displacement, runout and the travel distance of the front.
+
+    Particles of a slide at rest vibrate without moving on, therefore the largest velocity ends where rest begins.
+    """
     history = run.history
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 4.3), layout="constrained")
@@ -74,7 +77,15 @@ def motion(run: Run) -> Figure:
     speed, distance = figure.subplots(1, 2)
 
     if "max_velocity_m_s" in history:
-        time_line(speed, time, history["max_velocity_m_s"], color="#B5B5B5", linewidth=1.0, label="fastest particle")
+        moves = history["time_s"] <= run.rest_since
+        time_line(
+            speed,
+            time[moves],
+            history["max_velocity_m_s"][moves],
+            color="#B5B5B5",
+            linewidth=1.0,
+            label="fastest particle" if moves.all() else "fastest particle, until rest",
+        )
     time_line(speed, time, history["mean_velocity_m_s"], color=BLUE, label="mean (of mass)")
     draw_targets(speed, run, ("mean_velocity",), 1.0, BLUE)
     speed.set_ylabel("velocity (m/s)")
@@ -96,7 +107,7 @@ def motion(run: Run) -> Figure:
             front = history["front_position_m"]
             first = int(np.argmax(np.isfinite(front)))  # without maps.path there is none before the slide moves
             way = (history["runout_m"] - history["runout_m"][first]) / divisor  # in 2D slides go towards -x too
-            time_line(distance, time, way, color=RED, linestyle=":", label="way of the front itself")
+            time_line(distance, time, way, color=RED, linestyle=":", label="travel distance of the front")
         draw_targets(distance, run, ("front_distance",), divisor, RED, " runout")
     distance.set_ylabel(f"distance ({unit})")
 

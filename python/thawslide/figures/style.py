@@ -140,7 +140,7 @@ def say(axes: Axes, text: str) -> None:
 
 
 def give_title(figure: Figure, words: str) -> None:
-    """Put a title over a figure of constrained layout, in as many lines as its width asks for."""
+    """Set the title of a figure with constrained layout, wrapped to its width."""
     characters = int(figure.get_figwidth() / _TITLE_CHARACTER)
     figure.suptitle("\n".join(textwrap.wrap(words, characters)), x=0.01, ha="left", size=10)
 

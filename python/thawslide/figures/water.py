@@ -1,4 +1,4 @@
-"""The water balance of band columns: what they hold, took in and lost, and what does not add up."""
+"""The water balance of band columns: what they hold, took in and lost, and the residual."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def water(run: Run) -> Figure:
             "ice and water that columns hold, and what they took in",
             "what they lost",
             "openings along the base where P = N, and pores that water has left",
-            "what does not add up, over the largest account",
+            "residual, relative to the largest account",
         ),
     )
     return figure

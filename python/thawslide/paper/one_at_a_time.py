@@ -52,7 +52,7 @@ class Outcome:
     stop_time: float = float("nan")
     displacement: float = float("nan")
     runout: float = float("nan")  # front less the rear at the start
-    front: float = float("nan")  # way of the front: less the front at the start
+    front: float = float("nan")  # travel distance of the front
     length: float = float("nan")  # of the deposit: x between 0.5 % and 99.5 % of the volume
     temperature: float = float("nan")  # C, highest mean of the band
     end_time: float = float("nan")
@@ -234,7 +234,7 @@ def outcome(folder: Path) -> Outcome:
 
 HEADER = (
     "| run | peak [m/s] | at [s] | 8 m/s at [s] | stops at [s] | mean displacement [m] | runout [m] "
-    "| way of the front [m] | deposit [m] | band at most [C] | set |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
+    "| front travel [m] | deposit [m] | band at most [C] | set |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
 )
 
 
