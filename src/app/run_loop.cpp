@@ -60,7 +60,7 @@ class RemovalWatch {
   bool told_;
 };
 
-// Settles a case that asks for it; a body that goes bad on the way leaves its files as any other run does. Returns
+// Settles a case that asks for it; a body that fails on the way leaves its files as any other run does. Returns
 // whether a signal left it time to settle.
 template <int Dim>
 bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
@@ -126,7 +126,7 @@ class Loop {
     output_.start_clock();
   }
 
-  // Returns the exit code; throws RunError where the run went bad. What there is has been written in either case.
+  // Returns the exit code; throws RunError where the run failed. What there is has been written in either case.
   int run() {
     catch_signals();
     try {

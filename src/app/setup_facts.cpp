@@ -25,7 +25,7 @@ std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
                                     ? fmt::format(" per metre of the width at x = {:g} m", *facts.width_varies_from)
                                     : " per metre of width";
   return fmt::format(
-      "  body        {}: {:.4g} m3 and {:.4g} kg{}, {} {:.4g} {}; {:.3g} m thick in the mean, {:.3g} m in the median "
+      "  body        {}: {:.4g} m3 and {:.4g} kg{}, {} {:.4g} {}; {:.3g} m thick on average, {:.3g} m in the median "
       "and {:.3g} m at most (vertical)\n"
       "              {} particles {:.3g} m apart; {:.3g} across in the median and {:.3g} at most; {}\n",
       body.name, body.volume, body.mass, is_plane ? per_metre : "", is_plane ? "along" : "over", body.area,
@@ -181,7 +181,7 @@ Json list_of(const std::vector<Facts>& all) {
 
 std::string text_of(const SetupFacts& facts) {
   std::string text = fmt::format("{}: {}\n", facts.file,
-                                 facts.error.empty() ? "the case is sound" : "the run goes bad in its first steps");
+                                 facts.error.empty() ? "the case is sound" : "the run fails in its first steps");
   for (const sim::BodyFigures& body : facts.bodies) {
     text += text_of(body, facts);
   }

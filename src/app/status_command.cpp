@@ -171,7 +171,7 @@ std::string words_for(const RunStatus& status) {
         age_text(status.last_write_age.value_or(0.0)));
   }
   if (status.state == "failed") {
-    return status.message.empty() ? "the run went bad" : status.message;  // which begins with these words
+    return status.message.empty() ? "the run failed" : status.message;  // which begins with these words
   }
   return status.message.empty() ? status.state : status.state + ": " + status.message;
 }

@@ -69,7 +69,7 @@ class BaseColumns {
   BaseColumns(ColumnsModel<Real> model, const Vector<Real, Dim>& gravity)
       : model_(std::move(model)), gravity_(gravity) {}
 
-  // Fills nodes.base_state of the blocks that hold contact. Before each take, which needs what pieces saw.
+  // Fills nodes.base_state of the blocks with contact. To be called before each take, which uses the same stencils.
   void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes);
 
   // After contact, at the positions that to_nodes has seen: what contact does in dt to all pieces (load, heat, slip),
@@ -157,7 +157,8 @@ class BaseColumns {
   ColumnsModel<Real> model_;
   Vector<Real, Dim> gravity_;
   std::vector<Piece> pieces_;
-  // What each piece sees in this step, and the pieces that see a block: those of block b from first_of_block_[b] on.
+  // Stencils of this step, by piece, and the pieces whose stencils reach a block: those of b from first_of_block_[b]
+  // on.
   std::vector<Stencil> stencils_;
   struct Seen {
     std::uint32_t piece;

@@ -33,7 +33,7 @@ struct BasePiece {
   Real heat = 0;            // friction heat of its whole area since the column's last step [J]
   bool touched = false;     // has ever carried load
   physics::BandColumn<Real> column;
-  physics::BandMeans<Real> means{};  // of the column, kept between its steps; the pore pressure under the load of then
+  physics::BandMeans<Real> means{};  // of the column at its last step, under the load at that time
 };
 
 template <int Dim, class Real>
@@ -74,7 +74,7 @@ class BaseStencil {
   static constexpr int width = 4;
   static constexpr std::size_t most = static_cast<std::size_t>(mpm::power(width, Dim));
 
-  BaseStencil() = default;  // sees nothing
+  BaseStencil() = default;  // has no nodes
   BaseStencil(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& position) {
     typename T::Index below, tile;
     for (std::size_t a = 0; a < Dim; ++a) {
@@ -121,8 +121,8 @@ class BaseStencil {
       }
     }
   }
-  // Its nodes lie in one or two blocks along each axis. Calls visit(block, corner) for each of those that are there;
-  // the bits of a corner tell for each axis whether it is the second.
+  // Its nodes lie in one or two blocks along each axis. Calls visit(block, corner) for each active one of these; bit a
+  // of a corner is set for the second block along axis a.
   template <class Visit>
   void for_each_block(const Visit& visit) const {
     for (int corner = 0; about_ != nullptr && corner < mpm::power(2, Dim); ++corner) {

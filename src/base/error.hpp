@@ -43,7 +43,7 @@ class DeviceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A run that went bad (not finite, out of the domain, inverted): names particle, place, time and likely cause. Exit
+// A run that failed (not finite, out of the domain, inverted): names particle, place, time and likely cause. Exit
 // code 3.
 class RunError : public std::runtime_error {
  public:

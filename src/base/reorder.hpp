@@ -1,4 +1,4 @@
-// Items take another order, by way of a room that the caller keeps.
+// Permutation of items through a buffer that the caller keeps.
 #pragma once
 
 #include <cstddef>
@@ -11,22 +11,22 @@
 
 namespace thawslide {
 
-// A place for one item of up to eight bytes each.
-using ReorderRoom = std::vector<std::uint64_t>;
+// One entry per item, of up to eight bytes.
+using ReorderBuffer = std::vector<std::uint64_t>;
 
 // The item at k becomes the one that stood at order[k], a permutation; get(k) and set(k, item) reach them.
 template <class Item, class Get, class Set>
-void reorder(const std::vector<std::uint32_t>& order, ReorderRoom& room, const Get& get, const Set& set) {
-  static_assert(sizeof(Item) <= sizeof(ReorderRoom::value_type));
+void reorder(const std::vector<std::uint32_t>& order, ReorderBuffer& buffer, const Get& get, const Set& set) {
+  static_assert(sizeof(Item) <= sizeof(ReorderBuffer::value_type));
   constexpr std::size_t at_a_time = 4096;
-  resize_sparingly(room, order.size());
+  resize_sparingly(buffer, order.size());
   parallel_for(order.size(), at_a_time, [&](std::size_t k) {
     const Item item = get(static_cast<std::size_t>(order[k]));
-    std::memcpy(&room[k], &item, sizeof item);
+    std::memcpy(&buffer[k], &item, sizeof item);
   });
   parallel_for(order.size(), at_a_time, [&](std::size_t k) {
     Item item;
-    std::memcpy(&item, &room[k], sizeof item);
+    std::memcpy(&item, &buffer[k], sizeof item);
     set(k, item);
   });
 }

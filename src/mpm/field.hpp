@@ -52,7 +52,7 @@ class FieldBase {
   // The particle at `to` becomes the one at `from`.
   virtual void copy(std::size_t from, std::size_t to) = 0;
   // Particle k becomes the one that stood at order[k], for as many as `order` has.
-  virtual void reorder(const std::vector<std::uint32_t>& order, ReorderRoom& room) = 0;
+  virtual void reorder(const std::vector<std::uint32_t>& order, ReorderBuffer& buffer) = 0;
   [[nodiscard]] virtual std::vector<std::byte> bytes() const = 0;
   virtual void set_bytes(const std::vector<std::byte>& bytes) = 0;
 
@@ -217,10 +217,10 @@ class Field final : public FieldBase {
     }
   }
 
-  void reorder(const std::vector<std::uint32_t>& order, ReorderRoom& room) override {
+  void reorder(const std::vector<std::uint32_t>& order, ReorderBuffer& buffer) override {
     for (int c = 0; kept_ && c < Components; ++c) {
       thawslide::reorder<T>(
-          order, room, [&](std::size_t k) { return (*this)(k, c); },
+          order, buffer, [&](std::size_t k) { return (*this)(k, c); },
           [&](std::size_t k, T number) { (*this)(k, c) = number; });
     }
   }

@@ -113,7 +113,7 @@ class Particles {
 
   void reorder(const std::vector<std::uint32_t>& order) {
     for (FieldBase* field : fields.all()) {
-      field->reorder(order, reorder_room_);
+      field->reorder(order, reorder_buffer_);
     }
   }
 
@@ -126,7 +126,7 @@ class Particles {
   }
 
   std::size_t size_ = 0;
-  ReorderRoom reorder_room_;  // kept: a step allocates nothing
+  ReorderBuffer reorder_buffer_;  // kept: a step allocates nothing
 };
 
 // A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.

@@ -91,7 +91,7 @@ void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
   particles.reorder(order_);
   for (std::size_t a = 0; a < Dim; ++a) {
     thawslide::reorder<std::int32_t>(
-        order_, reorder_room_, [&](std::size_t k) { return nearest_[in_nearest(k, a)]; },
+        order_, reorder_buffer_, [&](std::size_t k) { return nearest_[in_nearest(k, a)]; },
         [&](std::size_t k, std::int32_t nearest) { nearest_[in_nearest(k, a)] = nearest; });
   }
   for (std::size_t k = 0; k < order_.size(); ++k) {

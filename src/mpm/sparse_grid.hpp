@@ -120,7 +120,7 @@ class SparseGrid {
   std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: the nearest node
   bool one_material_ = true;
   std::vector<std::uint8_t> moved_;
-  ReorderRoom reorder_room_;
+  ReorderBuffer reorder_buffer_;
   std::vector<std::vector<Mover>> task_movers_;
   std::vector<Mover> movers_;
   std::vector<std::uint32_t> order_, former_order_;

@@ -249,14 +249,14 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     const Condition elsewhere =
         yielded & !((multiplier >= Value(0)) & is_admissible(values, surface, 1, planes_here, tolerance));
     if (any(elsewhere)) {
-      return_beside_the_face(trial, surface, planes_here, tolerance, elsewhere, values, torn);
+      return_to_edge_or_apex(trial, surface, planes_here, tolerance, elsewhere, values, torn);
     }
     return values;
   }
 
-  // To edges, the cut-off and corners, set by set, until all have one; to the apex where no set answers.
+  // Tries the sets beyond the face in order for all lanes; lanes that no set fits return to the apex.
   template <class Value, class Condition>
-  THAWSLIDE_HD [[gnu::noinline]] void return_beside_the_face(const Vector<Value, 3>& trial,
+  THAWSLIDE_HD [[gnu::noinline]] void return_to_edge_or_apex(const Vector<Value, 3>& trial,
                                                              const Surface<Value>& surface, int planes_here,
                                                              Value tolerance, Condition left, Vector<Value, 3>& values,
                                                              Value& torn) const {

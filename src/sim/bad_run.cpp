@@ -1,4 +1,4 @@
-// What is said of a run that went bad: which particle, where, when, and what likely caused it.
+// What is said of a run that failed: which particle, where, when, and what likely caused it.
 #include <algorithm>
 #include <cmath>
 
@@ -248,7 +248,7 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   const BodySums<Dim, Real> sums = sum_over_body();
   const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
   const std::string speeds =
-      fmt::format("It moves at {:.4g} m/s{}, the slide at {:.4g} m/s in the mean. ", own, towards, mean);
+      fmt::format("It moves at {:.4g} m/s{}, the slide at {:.4g} m/s on average. ", own, towards, mean);
   if (own > runaway * mean) {
     return fmt::format(
         "{}Likely cause: it came loose from the slide; try half of {}, or viscosity_time in the material.", speeds,
@@ -272,7 +272,7 @@ void Simulation<Dim, Real>::stop_if_bad() {
     return;
   }
   const std::size_t p = place_in_memory(bad_.id);
-  throw RunError(fmt::format("the run went bad at t = {:.6g} s (step {}): {}: {}. {}", time_, step_number_,
+  throw RunError(fmt::format("the run failed at t = {:.6g} s (step {}): {}: {}. {}", time_, step_number_,
                              particle_text(p), fault_text(p), likely_cause(p)));
 }
 
@@ -287,9 +287,9 @@ void Simulation<Dim, Real>::stop_for_energy(double growth, double share) const {
           : "Likely cause: without basal.distance_check the ground is felt up to a cell early, and throws back what "
             "falls onto it with more energy than it had; set it to true.";
   throw RunError(fmt::format(
-      "the run went bad at t = {:.6g} s (step {}): {:.3g} J{} of energy have come without a cause, {:.3g} % of all so "
+      "the run failed at t = {:.6g} s (step {}): {:.3g} J{} of energy have come without a cause, {:.3g} % of all so "
       "far, where guards.energy_growth allows {:g} %. The fastest particle, {}, moves at {:.4g} m/s, the slide at "
-      "{:.4g} m/s in the mean. {}",
+      "{:.4g} m/s on average. {}",
       time_, step_number_, growth, Dim == 2 ? " per m of width" : "", 100.0 * share,
       100.0 * parameters_.guards.energy_growth, particle_text(fastest).substr(std::string("particle ").size()),
       static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(fastest).norm()),

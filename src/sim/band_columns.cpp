@@ -74,7 +74,7 @@ void Simulation<Dim, Real>::start_band_columns() {
       *std::max_element(parameters_.band.thickness.value.begin(), parameters_.band.thickness.value.end());
   if (thickest >= matter.depth) {
     throw UserError(fmt::format(
-        "{}: the band is up to {} m thick, and the slide above it {:.4g} m in the mean. Use a thinner band.",
+        "{}: the band is up to {} m thick, and the slide above it {:.4g} m on average. Use a thinner band.",
         config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
   }
   band_columns_.emplace(make_columns_model(parameters_, model_, matter), model_.motion.gravity);

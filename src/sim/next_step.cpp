@@ -88,7 +88,7 @@ void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
                         static_cast<double>(particles_.volume(p) / particles_.initial_volume(p)));
   }
   throw RunError(
-      fmt::format("the run went bad at t = {:.6g} s (step {}): the next step would be {:.3g} s, {}. It is set "
+      fmt::format("the run failed at t = {:.6g} s (step {}): the next step would be {:.3g} s, {}. It is set "
                   "by {}{}. {}",
                   time_, step_number_, dt, why, limit.what, where, advice_on(limit.kind)));
 }

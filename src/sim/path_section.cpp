@@ -39,7 +39,7 @@ struct ReleaseOnPath {
   double from = HUGE_VAL, to = -HUGE_VAL;  // distances along the path [m]
   double nearest = HUGE_VAL;               // of its points to the path [m]
   double middle = 0.0;                     // of its volume, along the path [m]
-  double width = 0.0, cross_area = 0.0;    // across the path, in the mean [m, m2]
+  double width = 0.0, cross_area = 0.0;    // across the path, on average [m, m2]
   Table thickness;                         // mean across the path [m], over the distance
 
   [[nodiscard]] double at(double along) const { return along < from || along > to ? 0.0 : thickness.at(along); }

@@ -171,7 +171,7 @@ void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
   }
   const std::size_t last = place_in_memory(bad_.id);
   throw RunError(
-      fmt::format("the run went bad at t = {:.6g} s (step {}): [guards] has removed {}, {:.3g} % of all mass, where "
+      fmt::format("the run failed at t = {:.6g} s (step {}): [guards] has removed {}, {:.3g} % of all mass, where "
                   "guards.removed_mass allows {:g} %; among the last: {}: {}. {}",
                   time_, step_number_, text_of(removed_), 100.0 * share, 100.0 * parameters_.guards.removed_mass,
                   particle_text(last), fault_text(last), likely_cause(last)));

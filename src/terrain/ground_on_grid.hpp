@@ -108,7 +108,7 @@ class GroundOnGrid {
 
  private:
   using Patch = std::array<std::uint8_t, static_cast<std::size_t>(T::patch_nodes)>;
-  // What the ground alone decides of a tile, found when the tile is first seen.
+  // Candidate nodes in the reach of a tile's particles. They depend on the ground alone and are found once per tile.
   struct Nearness {
     bool is_known = false, any = false;
     Patch from{};  // by place in the tile's patch: whether a candidate is among the 3^Dim nodes from there on

@@ -73,7 +73,7 @@ void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
 
 namespace {
 
-// Lets particles add to the candidate nodes, and sums the named parts of their records.
+// Adds particles to the candidate nodes by a kernel, and sums the named parts of their records over tiles.
 template <class... Parts, int Dim, class Real, class Kernel>
 void to_candidates(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                    const mpm::MotionModel<Dim, Real>& model, const Kernel& kernel, mpm::Particles<Dim, Real>& particles,

@@ -25,7 +25,7 @@ void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnG
                          const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
                          mpm::Nodes<Dim, Real>& nodes);
 
-// Fills the clearance alone; the sums in nodes.near_ground hold nothing meaningful then.
+// Fills the clearance alone; the sums in nodes.near_ground are then undefined.
 template <int Dim, class Real>
 void clearance_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                        const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,

@@ -31,7 +31,7 @@ def test_a_modulus_that_is_advised_is_enough(thawslide: Program, small_case: Pat
 
 def test_the_median_is_by_area_and_so_is_the_note(thawslide: Program, small_case: Path) -> None:
     said = thawslide("check", small_case, *HEAP_AND_BLANKET).stdout
-    assert "; 2.17 m thick in the mean, 1 m in the median and 8 m at most (vertical)\n" in said
+    assert "; 2.17 m thick on average, 1 m in the median and 8 m at most (vertical)\n" in said
     assert "; 2 across in the median and 16 at most; " in said
     assert "median thickness of body block, 1 m, there are too few particles to resolve shear and thinning (" in said
 

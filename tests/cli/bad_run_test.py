@@ -1,4 +1,4 @@
-"""Runs that go bad: exit code 3, the particle, the place, the time and the likely cause; the last state is kept."""
+"""Runs that fail: exit code 3, the particle, the place, the time and the likely cause; the last state is kept."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import pytest
 from conftest import LAMPLUGH, Program, history, run_facts, sets, snapshot_files
 
 PATTERN = (
-    r"error: the run went bad at t = (\S+) s \(step (\d+)\): particle (\d+) of body '(\w+)' at \((\S+), (\S+)\) m: "
-    r"(.*?)\. (?:It moves at \S+ m/s, the slide at \S+ m/s in the mean\. )?Likely cause: (.*)\n"
+    r"error: the run failed at t = (\S+) s \(step (\d+)\): particle (\d+) of body '(\w+)' at \((\S+), (\S+)\) m: "
+    r"(.*?)\. (?:It moves at \S+ m/s, the slide at \S+ m/s on average\. )?Likely cause: (.*)\n"
 )
 
 
 def went_bad(thawslide: Program, case: Path, run: Path, *words: str) -> re.Match[str]:
-    """Run a case that must go bad; check what is left of it; return the parts of the text."""
+    """Run a case that must fail; check what is left of it; return the parts of the text."""
     outcome = thawslide("run", case, "--output", run, *words)
     assert outcome.returncode == 3, outcome.stderr
     told = re.fullmatch(PATTERN, outcome.stderr)
@@ -71,9 +71,9 @@ def test_load_beyond_the_step(thawslide: Program, small_case: Path, tmp_path: Pa
     outcome = thawslide("run", small_case, "--output", tmp_path / "guarded", *fall)
     assert outcome.returncode == 3
     assert re.fullmatch(
-        r"error: the run went bad at t = \S+ s \(step \d+\): \S+ J per m of width of energy have come without a cause, "
+        r"error: the run failed at t = \S+ s \(step \d+\): \S+ J per m of width of energy have come without a cause, "
         r"\S+ % of all so far, where guards\.energy_growth allows 25 %\. The fastest particle, \d+ of body 'block' at "
-        r"\(\S+, \S+\) m, moves at \S+ m/s, the slide at \S+ m/s in the mean\. Likely cause: the step is too long for "
+        r"\(\S+, \S+\) m, moves at \S+ m/s, the slide at \S+ m/s on average\. Likely cause: the step is too long for "
         r"what the material does, or the material is softer than its load, or it is torn apart; try half of "
         r"time\.step, a viscosity_time in the material, or mechanics\.transfer = \"blend\" with "
         r"mechanics\.pic_share = 0\.02\.\n",

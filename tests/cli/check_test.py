@@ -129,10 +129,10 @@ def test_facts_are_told_of_a_case_that_goes_bad_in_its_first_steps(thawslide: Pr
     assert told.returncode == 3
     facts = json.loads(told.stdout)
     assert facts["particles"] == 64 and facts["wall_s"] is None and len(facts["notes"]) > 1 and facts["card"] is None
-    assert told.stderr == f"error: {facts['error']}\n" and "the run went bad at t = " in facts["error"]
+    assert told.stderr == f"error: {facts['error']}\n" and "the run failed at t = " in facts["error"]
     said = thawslide("check", small_case, *words)
     assert said.returncode == 3
-    assert "case.toml: the run goes bad in its first steps\n" in said.stdout and "  particles   64\n" in said.stdout
+    assert "case.toml: the run fails in its first steps\n" in said.stdout and "  particles   64\n" in said.stdout
     sound = json.loads(thawslide("check", small_case, "--json").stdout)
     assert sound["error"] is None and (sound["card"]["why_not"] is None) == (sound["card"]["wall_s"] is not None)
 

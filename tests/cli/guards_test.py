@@ -122,7 +122,7 @@ def test_what_guards_remove_is_counted(thawslide: Program, tmp_path: Path) -> No
     outcome = thawslide("run", LAMPLUGH, "--output", run, *words)
     assert outcome.returncode == 3
     told = re.fullmatch(
-        r"error: the run went bad at t = \S+ s \(step (\d+)\): \[guards\] has removed (\d+) particles: 0 not finite, "
+        r"error: the run failed at t = \S+ s \(step (\d+)\): \[guards\] has removed (\d+) particles: 0 not finite, "
         r"(\d+) by their volume, (\S+) % of all mass, where guards\.removed_mass allows 5 %; among the last: particle "
         r"\d+ of body 'slide' at \(\S+, \S+\) m: its volume is 0\.2\d+ of that at t = 0, where guards\.smallest_volume "
         r"allows 0\.25\. Likely cause: material 'rock_ice' is too soft \(youngs_modulus 0\.5 Pa\), and its own weight "

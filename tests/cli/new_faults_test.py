@@ -259,15 +259,15 @@ FURTHER = (
 )
 # What is said of a particle over ground that is not known.
 NO_GROUND = (
-    r"error: the run went bad at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: the "
+    r"error: the run failed at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: the "
     r"terrain below it is not known: the DEM ends or has a hole there\. It moves at (\S+) m/s towards the east\. "
     rf"{FURTHER}Give a DEM that reaches further there, and \[grid\] with it, or set grid\.leaving = \"remove\" to let "
     rf"such particles go\. {ANEW}\n"
 )
 # And of one that reaches the domain's side.
 LEFT_DOMAIN = (
-    r"error: the run went bad at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: "
-    r"it left the domain\. It moves at (\S+) m/s towards the east, the slide at \S+ m/s in the mean\. Likely cause: "
+    r"error: the run failed at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: "
+    r"it left the domain\. It moves at (\S+) m/s towards the east, the slide at \S+ m/s on average\. Likely cause: "
     rf"the slide ran further than \[grid\] min and max allow\. {FURTHER}"
 )
 DEM_ENDS = rf"The DEM ends (\d+) m ahead of it: it has to be larger, and \[grid\] with it\. {ANEW}\n"

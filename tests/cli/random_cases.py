@@ -22,7 +22,7 @@ from terrain_files import CRS_NAME, EAST, NORTH, place, write_geojson
 
 Generator = np.random.Generator
 Corners = list[tuple[float, float]]
-SOUND = {0, 2, 3}  # done, refused, and a run that went bad with a message
+SOUND = {0, 2, 3}  # done, refused, and a run that failed with a message
 LONGEST = 60.0  # s of one command, which is then ended
 CUT_OFF = -1
 FEW_THREADS = {"OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"}

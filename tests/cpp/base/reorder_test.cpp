@@ -12,7 +12,7 @@ namespace {
 
 TEST(Reorder, GivesWhatACopyGives) {
   std::mt19937 random(7);
-  ReorderRoom room;
+  ReorderBuffer buffer;
   for (const std::size_t count : {0u, 1u, 2u, 3u, 17u, 1000u, 10000u}) {
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
@@ -25,7 +25,7 @@ TEST(Reorder, GivesWhatACopyGives) {
         expected[k] = items[order[k]];
       }
       reorder<double>(
-          order, room, [&](std::size_t k) { return items[k]; }, [&](std::size_t k, double item) { items[k] = item; });
+          order, buffer, [&](std::size_t k) { return items[k]; }, [&](std::size_t k, double item) { items[k] = item; });
       ASSERT_EQ(items, expected) << count << " items, trial " << trial;
     }
   }

@@ -85,10 +85,10 @@ TEST(EnergyGuard, StableStepsPass) {
 TEST(EnergyGuard, AStepThatIsTooLongIsToldSoWhileAllIsFinite) {
   Simulation<2, double> simulation(paper_case(block));
   expect_match(failure_of(simulation, 2.1 * simulation.step_limit().step, 400),
-               "the run went bad at t = [0-9.]+ s \\(step [0-9]+\\): [0-9.e+]+ J per m of width of energy have come "
+               "the run failed at t = [0-9.]+ s \\(step [0-9]+\\): [0-9.e+]+ J per m of width of energy have come "
                "without a cause, [0-9.e+]+ % of all so far, where guards.energy_growth allows 25 %\\. The fastest "
                "particle, [0-9]+ of body 'block' at \\([0-9.]+, -?[0-9.]+\\) m, moves at [0-9.e+]+ m/s, the slide at "
-               "[0-9.e+]+ m/s in the mean\\. Likely cause: the step is too long for what the material does, or the "
+               "[0-9.e+]+ m/s on average\\. Likely cause: the step is too long for what the material does, or the "
                "material is softer than its load, or it is torn apart; try half of time.step, a viscosity_time in "
                "the material, or mechanics.transfer = \"blend\" with mechanics.pic_share = 0.02\\.");
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
@@ -100,7 +100,7 @@ TEST(EnergyGuard, CanBeLaidOff) {
   Simulation<2, double> simulation(paper_case(block, {"guards.energy_growth=inf"}));
   const std::string failure = failure_of(simulation, 2.1 * simulation.step_limit().step, 400);
   EXPECT_EQ(failure.find("cause, "), std::string::npos) << failure;
-  EXPECT_NE(failure.find("the run went bad at t = "), std::string::npos) << failure;
+  EXPECT_NE(failure.find("the run failed at t = "), std::string::npos) << failure;
 }
 
 TEST(EnergyGuard, NamesTheShareOfAdaptiveSteps) {
@@ -116,7 +116,7 @@ TEST(VolumeGuard, EndsTheRunOutsideTheRange) {
     Simulation<2, double> simulation(paper_case(block, {"guards.largest_volume=2"}));
     simulation.particles().volume(place_of(simulation, 17)) *= std::stod(ratio);
     expect_match(failure_of(simulation, 0.005, 20),
-                 "the run went bad at t = 0\\.05 s \\(step 10\\): particle 17 of body 'block' at \\(.*\\) m: " +
+                 "the run failed at t = 0\\.05 s \\(step 10\\): particle 17 of body 'block' at \\(.*\\) m: " +
                      std::string(what) + "\\. Likely cause: the step is too long .*");
   }
 }
@@ -168,7 +168,7 @@ TEST(FiniteGuard, EndsTheRunThatHasLostTooMuch) {
   simulation.step(0.005);
   simulation.particles().velocity(place_of(simulation, 17), 0) = no_number;
   expect_match(failure_of(simulation, 0.005, 20),
-               "the run went bad at t = 0\\.01 s \\(step 2\\): \\[guards\\] has removed [0-9]+ particles: [0-9]+ not "
+               "the run failed at t = 0\\.01 s \\(step 2\\): \\[guards\\] has removed [0-9]+ particles: [0-9]+ not "
                "finite, 0 by their volume, [0-9.]+ % of all mass, where guards.removed_mass allows 1 %; among the "
                "last: particle [0-9]+ of body 'block' at \\(.*\\) m: its .* is not a finite number\\. Likely cause: "
                ".*");
@@ -179,7 +179,7 @@ TEST(StepGuard, NamesTheLimitAndTheParticle) {
   simulation.particles().volume(place_of(simulation, 17)) *= 1e7;
   expect_match(
       failure_of_next(simulation),
-      "the run went bad at t = 0 s \\(step 0\\): the next step would be [0-9.e-]+ s, 0\\.000[0-9]+ of the first "
+      "the run failed at t = 0 s \\(step 0\\): the next step would be [0-9.e-]+ s, 0\\.000[0-9]+ of the first "
       "one, 0\\.01 s, where guards.smallest_step allows 0\\.001\\. It is set by the elastic wave of material "
       "'rock' \\([0-9.e+]+ m/s\\) on cells of 10 m, of particle 17 of body 'block' at \\(.*\\) m, whose "
       "volume is 1e\\+07 of that at t = 0\\. Waves are faster in lighter material: the particle is torn "

@@ -1,4 +1,4 @@
-// The Lamplugh case, shortened: ledgers, bits for any number of threads, and runs that go bad.
+// The Lamplugh case, shortened: ledgers, bits for any number of threads, and runs that fail.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -104,7 +104,7 @@ TEST(Fault, NotANumberNamesParticlePlaceAndTime) {
   simulation.step(0.01);
   simulation.particles().velocity(17, 0) = std::numeric_limits<double>::quiet_NaN();
   const std::string message = failure_of(simulation, 2);
-  EXPECT_NE(message.find("the run went bad at t = 0.02 s (step 2): particle "), std::string::npos) << message;
+  EXPECT_NE(message.find("the run failed at t = 0.02 s (step 2): particle "), std::string::npos) << message;
   EXPECT_NE(message.find("of body 'slide' at ("), std::string::npos) << message;
   EXPECT_NE(message.find("is not a finite number"), std::string::npos) << message;
   EXPECT_NE(message.find("Likely cause: "), std::string::npos) << message;

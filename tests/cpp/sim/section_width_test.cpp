@@ -101,7 +101,7 @@ TEST(SectionWidth, LeavesHydrostaticStressInEquilibrium) {
       fastest = std::max(fastest, std::abs(simulation.particles().velocity(p, 1)));
     }
   }
-  // K0 rho g (b'/b) h/2 over rho is 4.2 m/s2 in the mean at the narrow end: 0.8 m/s after 0.2 s without the walls.
+  // K0 rho g (b'/b) h/2 over rho is 4.2 m/s2 on average at the narrow end: 0.8 m/s after 0.2 s without the walls.
   EXPECT_LT(along, 1e-9);
   EXPECT_LT(fastest, 0.01);
   const HistoryRow row = history_row(simulation);

@@ -133,7 +133,7 @@ Place expect_error(Simulation<3, double> simulation) {
     text = error.what();
   }
   const std::regex expected(
-      "the run went bad at t = ([0-9.]+) s \\(step [0-9]+\\): particle [0-9]+ of body 'slide' at \\((-?[0-9.]+), "
+      "the run failed at t = ([0-9.]+) s \\(step [0-9]+\\): particle [0-9]+ of body 'slide' at \\((-?[0-9.]+), "
       "(-?[0-9.]+), (-?[0-9.]+)\\) m: the terrain below it is not known: the DEM ends or has a hole there\\. .*Give a "
       "DEM "
       "that .*, or set grid\\.leaving = \"remove\" to let such particles go\\. `thawslide new` crops the DEM to the "

@@ -144,7 +144,7 @@ class ManufacturedVibration {
                                    time_, dt, nodes_);
     mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, bad);
     mpm::take_new_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent, bad);
-    THAWSLIDE_ASSERT(bad.id < 0, "particle {} went bad at {} s", bad.id, time_);
+    THAWSLIDE_ASSERT(bad.id < 0, "particle {} failed at {} s", bad.id, time_);
     time_ += dt;
   }
 
