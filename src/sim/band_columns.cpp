@@ -73,9 +73,9 @@ void Simulation<Dim, Real>::start_band_columns() {
   const double thickest =
       *std::max_element(parameters_.band.thickness.value.begin(), parameters_.band.thickness.value.end());
   if (thickest >= matter.depth) {
-    throw UserError(fmt::format(
-        "{}: the band is up to {} m thick, and the slide above it {:.4g} m on average. Use a thinner band.",
-        config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
+    throw UserError(
+        fmt::format("{}: the band is up to {} m thick, and the slide above it {:.4g} m on average. Use a thinner band.",
+                    config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
   }
   band_columns_.emplace(make_columns_model(parameters_, model_, matter), model_.motion.gravity);
   column_time_ = 0.0;
