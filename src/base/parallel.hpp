@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -61,6 +62,18 @@ void parallel_for(std::size_t count, std::size_t at_a_time, const Body& body) {
 template <class Body>
 void parallel_for(std::size_t count, const Body& body) {
   parallel_for(count, calls_at_a_time(count), body);
+}
+
+// Whether any of the calls body(k), k = 0 .. count-1, returns true; calls that had not begun by then may be left out.
+template <class Body>
+[[nodiscard]] bool parallel_any(std::size_t count, const Body& body) {
+  std::atomic<bool> found{false};
+  parallel_for(count, [&](std::size_t k) {
+    if (!found.load(std::memory_order_relaxed) && body(k)) {
+      found.store(true, std::memory_order_relaxed);
+    }
+  });
+  return found.load();
 }
 
 // What body(k, sum) adds up for k = 0 .. count-1, each once and from zero, on any thread; then call after call, in runs

@@ -94,9 +94,7 @@ void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
         order_, reorder_buffer_, [&](std::size_t k) { return nearest_[in_nearest(k, a)]; },
         [&](std::size_t k, std::int32_t nearest) { nearest_[in_nearest(k, a)] = nearest; });
   }
-  for (std::size_t k = 0; k < order_.size(); ++k) {
-    keys_[k] = key_of(particles, k);
-  }
+  parallel_for(order_.size(), keys_per_task, [&](std::size_t k) { keys_[k] = key_of(particles, k); });
   std::iota(order_.begin(), order_.end(), 0u);
   std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
 }

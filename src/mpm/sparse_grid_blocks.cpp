@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "base/instances.hpp"
+#include "base/parallel.hpp"
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::mpm {
@@ -25,11 +26,11 @@ void find_about(std::size_t count, const KeyOf& key_of, const KeyIndex& others, 
   using T = Tile<Dim>;
   constexpr auto stencil = static_cast<std::size_t>(T::stencil);
   about.resize(count * stencil);
-  for (std::size_t k = 0; k < count; ++k) {
+  parallel_for(count, [&](std::size_t k) {
     for (int d = 0; d < T::stencil; ++d) {
       about[k * stencil + static_cast<std::size_t>(d)] = others.find(neighbour<Dim>(key_of(k), d));
     }
-  }
+  });
 }
 
 }  // namespace

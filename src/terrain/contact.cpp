@@ -150,14 +150,14 @@ void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Di
 
 template <int Dim, class Real>
 bool loads_bare_ground(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes) {
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+  return parallel_any(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; nodes.base.holds(b) && k < nodes.base.nodes; ++k) {
       if (nodes.base(b, k)[BaseLayout::load] > Real(0) && !(nodes.base_state(b, k)[mpm::BaseState::area] > Real(0))) {
         return true;
       }
     }
-  }
-  return false;
+    return false;
+  });
 }
 
 template <int Dim, class Real>
