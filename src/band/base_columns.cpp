@@ -1,6 +1,7 @@
 #include "band/base_columns.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
@@ -40,16 +41,19 @@ void BaseColumns<Dim, Real>::list_pieces_by_block(std::size_t blocks) {
 
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) {
-  struct Shared {
-    Real temperature, pressure_ratio, saturation, solid_fraction;
-  };
-  std::vector<Shared> shared(pieces_.size());
+  using Record = typename mpm::RecordsOf<BaseState, Dim, Real>::Record;
+  std::vector<Record> shared(pieces_.size());  // per area of a piece
   stencils_.resize(pieces_.size());
   parallel_for(pieces_.size(), [&](std::size_t p) {
     const Piece& piece = pieces_[p];
-    physics::BandMeans<Real> means = piece.means;
-    means.pore_pressure = physics::band_pressure(piece.load, piece.column);
-    shared[p] = {means.temperature, pressure_ratio(means, piece), means.saturation, means.solid_fraction};
+    const physics::BandMeans<Real> means = means_now(piece);
+    shared[p] = {};
+    shared[p][BaseState::area] = Real(1);
+    shared[p][BaseState::temperature] = means.temperature;
+    shared[p][BaseState::pressure_ratio] = pressure_ratio(means, piece);
+    shared[p][BaseState::saturation] = means.saturation;
+    shared[p][BaseState::solid_fraction] = means.solid_fraction;
+    shared[p][BaseState::slip] = piece.slip;
     stencils_[p] = Stencil(grid, piece.position);
   });
   list_pieces_by_block(grid.blocks().size());
@@ -58,20 +62,18 @@ void BaseColumns<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mp
     if (!nodes.base_state.holds(b)) {
       return;
     }
-    auto* records = nodes.base_state.of_block(b);
-    std::fill_n(records, nodes.base_state.nodes, typename mpm::RecordsOf<BaseState, Dim, Real>::Record{});
+    Record* records = nodes.base_state.of_block(b);
+    std::fill_n(records, nodes.base_state.nodes, Record{});
     for (std::size_t n = first_of_block_[b]; n < first_of_block_[b + 1]; ++n) {
       const std::size_t p = by_block_[n].piece;
-      const Shared& of_piece = shared[p];
+      const Record& of_piece = shared[p];
+      const Real area = pieces_[p].area;
       stencils_[p].for_each_in(by_block_[n].corner, [&](std::size_t node, Real weight) {
-        auto& record = records[node];
-        const Real share = weight * pieces_[p].area;
-        record[BaseState::area] += share;
-        record[BaseState::temperature] += share * of_piece.temperature;
-        record[BaseState::pressure_ratio] += share * of_piece.pressure_ratio;
-        record[BaseState::saturation] += share * of_piece.saturation;
-        record[BaseState::solid_fraction] += share * of_piece.solid_fraction;
-        record[BaseState::slip] += share * pieces_[p].slip;
+        Record& record = records[node];
+        const Real share = weight * area;
+        for (std::size_t c = 0; c < record.size(); ++c) {
+          record[c] += share * of_piece[c];
+        }
       });
     }
   });
@@ -105,15 +107,12 @@ void BaseColumns<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, cons
       stretch_with(slide, ground, duration, pieces_[p]);
     }
   });
-  std::size_t kept = 0;
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     if (alone[p] != 0) {
       take_up(pieces_[p]);
-    } else {
-      pieces_[kept++] = pieces_[p];
     }
   }
-  pieces_.resize(kept);
+  keep_only(alone);
   part_long_pieces(Real(longest) * grid.cell(), ground);
   join_small_pieces(grid, ground);
   look_for_gaps_ = true;
@@ -132,40 +131,33 @@ typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const
   const auto along_ground = [&](const Vector<Real, Dim>& v) -> Vector<Real, Dim> {
     return v - v.dot(piece.normal) * piece.normal;
   };
-  std::size_t count = 0;
-  std::array<Real, Stencil::most> mass;
-  std::array<Vector<Real, Dim>, Stencil::most> place, velocity;
-  Real all = 0;
-  Vector<Real, Dim> mean_place = Vector<Real, Dim>::Zero(), mean_velocity = Vector<Real, Dim>::Zero();
-  stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
-    const std::size_t k = count;
-    mass[k] = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
-    if (!(mass[k] > Real(0))) {
+  Real mass = 0;
+  Vector<Real, Dim> places = Vector<Real, Dim>::Zero(), velocities = Vector<Real, Dim>::Zero();  // by mass
+  Matrix<Real, Dim> squares = Matrix<Real, Dim>::Zero(), together = Matrix<Real, Dim>::Zero();
+  stencil.for_each_with_place([&](std::size_t b, std::size_t node, Real weight, const Vector<Real, Dim>& from_piece) {
+    const Real of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
+    if (!(of_node > Real(0))) {
       return;
     }
-    const auto of_node = mpm::vector_at<Dim, Real>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
+    auto velocity = mpm::vector_at<Dim, Real>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
     const Vector<Real, Dim>* normal = node_ground(b, node).normal;
-    velocity[k] = along_ground(normal != nullptr ? turned<Dim, Real>(of_node, *normal, piece.normal) : of_node);
-    place[k] = along_ground(mpm::node_position(grid, b, node) - piece.position);
-    all += mass[k];
-    mean_place += mass[k] * place[k];
-    mean_velocity += mass[k] * velocity[k];
-    ++count;
+    velocity = along_ground(normal != nullptr ? turned<Dim, Real>(velocity, *normal, piece.normal) : velocity);
+    const Vector<Real, Dim> place = along_ground(from_piece);
+    const Vector<Real, Dim> weighted = of_node * place;
+    mass += of_node;
+    places += weighted;
+    velocities += of_node * velocity;
+    squares += place * weighted.transpose();
+    together += velocity * weighted.transpose();
   });
   Nearby result;
-  if (!(all > Real(0))) {
+  if (!(mass > Real(0))) {
     return result;
   }
-  mean_place /= all;
-  mean_velocity /= all;
-  Matrix<Real, Dim> spread = all * smallest_spread * grid.cell() * grid.cell() * Matrix<Real, Dim>::Identity();
-  Matrix<Real, Dim> together = Matrix<Real, Dim>::Zero();
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vector<Real, Dim> from_mean = place[k] - mean_place;
-    spread += mass[k] * from_mean * from_mean.transpose();
-    together += mass[k] * (velocity[k] - mean_velocity) * from_mean.transpose();
-  }
-  result.gradient = together * spread.inverse();
+  const Vector<Real, Dim> mean_place = places / mass, mean_velocity = velocities / mass;
+  const Matrix<Real, Dim> spread = squares - places * mean_place.transpose() +
+                                   mass * smallest_spread * grid.cell() * grid.cell() * Matrix<Real, Dim>::Identity();
+  result.gradient = (together - velocities * mean_place.transpose()) * spread.inverse();
   result.velocity = mean_velocity - result.gradient * mean_place;
   result.is_there = true;
   return result;
@@ -175,16 +167,23 @@ template <int Dim, class Real>
 void BaseColumns<Dim, Real>::take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes,
                                              Piece& piece) const {
   Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: of the normal force, per area of the piece [Pa]
-  stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
-    const auto& contact = nodes.contact(b, node);
-    if (contact[Contact::touching] > Real(0)) {
-      force += weight * contact[Contact::normal_force];
-      area += weight * contact[Contact::area];
-      slip += weight * contact[Contact::area] * contact[Contact::slip_speed];
-      const Real seen = nodes.base_state(b, node)[BaseState::area];
-      heat += weight * contact[Contact::friction_heat] / seen;
-      borne += weight * contact[Contact::normal_force] / seen;
+  stencil.for_each_block([&](std::size_t b, int corner) {
+    if (!nodes.contact.holds(b)) {
+      return;
     }
+    const auto* contacts = &nodes.contact(b, 0);
+    const auto* states = &nodes.base_state(b, 0);
+    stencil.for_each_in(corner, [&](std::size_t node, Real weight) {
+      const auto& contact = contacts[node];
+      if (contact[Contact::touching] > Real(0)) {
+        const Real of_seen = weight / states[node][BaseState::area];
+        force += weight * contact[Contact::normal_force];
+        area += weight * contact[Contact::area];
+        slip += weight * contact[Contact::area] * contact[Contact::slip_speed];
+        heat += of_seen * contact[Contact::friction_heat];
+        borne += of_seen * contact[Contact::normal_force];
+      }
+    });
   });
   if (piece.touched || area > Real(0)) {
     take_load(area > Real(0) ? force / area : Real(0), borne, dt, piece);
@@ -251,35 +250,60 @@ void BaseColumns<Dim, Real>::part_long_pieces(Real most, const Ground& ground) {
 
 // Shear parts pieces without end, and where the slide comes together they crowd. Two in one part of the lattice, nearer
 // than half of its size along each axis, that together are no larger than a cell become one: a square, where the middle
-// of both was. Pieces that were laid beside each other and move along keep more distance.
+// of both was. Pieces that were laid beside each other and move along keep more distance. Of those in one part, each in
+// its turn joins the smallest before it.
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground) {
   const Real largest = static_cast<Real>(largest_joined * std::pow(grid.cell(), Dim - 1));
-  std::map<std::pair<Lattice, Lattice>, std::size_t> smallest_at;  // of those kept so far
-  std::size_t kept = 0;
-  for (std::size_t p = 0; p < pieces_.size(); ++p) {
-    const Lattice cell = lattice_cell(grid, pieces_[p].position);
-    const Lattice parts = parts_on(pieces_[p].normal);
-    const Lattice part = lattice_part(grid, pieces_[p].position, cell, parts);
-    const auto [found, is_first] = smallest_at.try_emplace({cell, part}, kept);
-    Piece& small = pieces_[found->second];
-    const auto is_near = [&](const Vector<Real, Dim>& other) {
+  struct Place {
+    LatticePart at;
+    std::size_t piece;
+  };
+  std::vector<Place> places(pieces_.size());
+  parallel_for(pieces_.size(), [&](std::size_t p) {
+    const Lattice cell = lattice_cell(grid, pieces_[p].position), parts = parts_on(pieces_[p].normal);
+    places[p] = {{cell, lattice_part(grid, pieces_[p].position, cell, parts), parts}, p};
+  });
+  const auto key = [](const Place& place) { return std::tie(place.at.cell, place.at.part); };
+  std::sort(places.begin(), places.end(),
+            [&](const Place& a, const Place& b) { return key(a) != key(b) ? key(a) < key(b) : a.piece < b.piece; });
+  std::vector<std::uint8_t> joined(pieces_.size(), 0);
+  std::size_t smallest = 0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Place& place = places[k];
+    Piece &piece = pieces_[place.piece], &small = pieces_[smallest];
+    const bool is_first = k == 0 || key(place) != key(places[k - 1]);
+    const auto is_near = [&] {
       Real furthest = 0;  // in sizes of the part
       for (std::size_t a = 0; a + 1 < Dim; ++a) {
         const auto axis = static_cast<int>(a);
-        furthest = std::max(furthest, std::abs(other[axis] - pieces_[p].position[axis]) * static_cast<Real>(parts[a]));
+        furthest = std::max(
+            furthest, std::abs(small.position[axis] - piece.position[axis]) * static_cast<Real>(place.at.parts[a]));
       }
       return furthest < Real(joining_reach) * grid.cell();
     };
-    const Real width = ground.width(small.position.template head<Dim - 1>());
-    if (!is_first && small.area + pieces_[p].area <= width * largest && is_near(small.position)) {
-      join(pieces_[p], ground, small);
-      continue;
+    if (!is_first && small.area + piece.area <= ground.width(small.position.template head<Dim - 1>()) * largest &&
+        is_near()) {
+      join(piece, ground, small);
+      joined[place.piece] = 1;
+    } else if (is_first || piece.area < small.area) {
+      smallest = place.piece;
     }
-    if (is_first || pieces_[p].area < small.area) {
-      found->second = kept;
+  }
+  keep_only(joined);
+}
+
+// The pieces that have not left, in their order.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::keep_only(const std::vector<std::uint8_t>& left) {
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    if (left[p] == 0) {
+      if (kept < p) {
+        pieces_[kept] = pieces_[p];
+      }
+      ++kept;
     }
-    pieces_[kept++] = pieces_[p];
   }
   pieces_.resize(kept);
 }
@@ -294,7 +318,7 @@ void BaseColumns<Dim, Real>::join(const Piece& other, const Ground& ground, Piec
   piece.sides = sides_on<Dim, Real>(piece.normal, Vector<Real, Dim - 1>::Ones());
   piece.sides *=
       std::pow(piece.area / ground.area_of(piece.position, piece.sides), Real(1) / static_cast<Real>(Dim - 1));
-  piece.means = means_of(piece);
+  keep_means(model_, piece);
 }
 
 template <int Dim, class Real>
@@ -309,7 +333,7 @@ void BaseColumns<Dim, Real>::step(Real thickness, Real duration) {
   std::vector<physics::ColumnAccount<Real>> accounts(pieces_.size());
   parallel_for(pieces_.size(), [&](std::size_t p) {
     accounts[p] = step_piece(model_, thickness, duration, pieces_[p]);
-    pieces_[p].means = means_of(pieces_[p]);
+    keep_means(model_, pieces_[p]);
   });
   for (const auto& account : accounts) {
     add_to_ledger(account);

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
-#include <set>
 #include <vector>
 
 #include "band/piece_step.hpp"
@@ -17,6 +15,16 @@ namespace thawslide::band {
 template <class Real>
 struct ColumnSums {
   Real area = 0, heat = 0, waiting_heat = 0, water = 0, opening = 0, gas_void = 0;
+
+  ColumnSums& operator+=(const ColumnSums& part) {
+    area += part.area;
+    heat += part.heat;
+    waiting_heat += part.waiting_heat;
+    water += part.water;
+    opening += part.opening;
+    gas_void += part.gas_void;
+    return *this;
+  }
 };
 
 // What columns got and gave since the start [J], [kg]. Laid: with pieces that were laid; left: with those taken up.
@@ -86,8 +94,11 @@ class BaseColumns {
   void step(Real thickness, Real duration);
 
   [[nodiscard]] const std::vector<BasePiece<Dim, Real>>& pieces() const { return pieces_; }
-  [[nodiscard]] physics::BandMeans<Real> means_of(const BasePiece<Dim, Real>& piece) const {
-    return band::means_of(model_, piece);
+  // Of its column since the last step, under the load of now.
+  [[nodiscard]] static physics::BandMeans<Real> means_now(const BasePiece<Dim, Real>& piece) {
+    physics::BandMeans<Real> means = piece.means;
+    means.pore_pressure = physics::band_pressure(piece.load, piece.column);
+    return means;
   }
   [[nodiscard]] physics::ColumnVolumes<Real> volumes_of(const BasePiece<Dim, Real>& piece) const {
     return band::volumes_of(model_, piece);
@@ -105,21 +116,28 @@ class BaseColumns {
   using Stencil = BaseStencil<Dim, Real>;
 
   using Lattice = std::array<int, Dim - 1>;  // a cell of the horizontal lattice on which pieces are laid
-  // Where a piece is wanted in a cell of the lattice. On steep ground the cell comes in parts along each axis, since a
-  // piece sees no further than its stencil.
-  struct BareCell {
-    Lattice parts;
-    std::set<Lattice> bare;
+  // A part of a cell of the lattice. On steep ground the cell comes in parts along each axis, since a piece sees no
+  // further than its stencil.
+  struct LatticePart {
+    Lattice cell, part, parts;  // parts: how many
+    auto operator<=>(const LatticePart&) const = default;
   };
-  using BareCells = std::map<Lattice, BareCell>;
+  // Of a node in contact: the point of the ground below it, its cell, and the parts on ground as steep.
+  struct Foot {
+    Lattice cell, parts;
+    Vector<Real, Dim> place;
+  };
   // Its number of parts along each axis, on ground with this normal.
   [[nodiscard]] static Lattice parts_on(const Vector<Real, Dim>& normal);
   [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place,
                                      const Lattice& cell, const Lattice& parts) const;
   [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const;
-  [[nodiscard]] BareCells feet_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                          const NodeGroundOf& node_ground, const mpm::Nodes<Dim, Real>& nodes) const;
-  void leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid, BareCells& cells) const;
+  [[nodiscard]] std::vector<Foot> feet_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                                  const NodeGroundOf& node_ground,
+                                                  const mpm::Nodes<Dim, Real>& nodes) const;
+  [[nodiscard]] std::vector<LatticePart> parts_below(const mpm::SparseGrid<Dim, Real>& grid,
+                                                     std::vector<Foot> feet) const;
+  void leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid, std::vector<LatticePart>& parts) const;
   [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
                                        const mpm::Nodes<Dim, Real>& nodes) const;
   void lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
@@ -149,6 +167,7 @@ class BaseColumns {
   void part_long_pieces(Real most, const Ground& ground);
   void join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground);
   void join(const Piece& other, const Ground& ground, Piece& piece);
+  void keep_only(const std::vector<std::uint8_t>& left);
   void add_to_ledger(const physics::ColumnAccount<Real>& account);
   void take_up(const Piece& piece);
   void place_on(const Ground& ground, Piece& piece) const;

@@ -1,8 +1,10 @@
 // Where pieces of base are laid as the slide comes to ground that none covers.
 #include <algorithm>
+#include <atomic>
 
 #include "band/base_columns.hpp"
 #include "base/instances.hpp"
+#include "base/parallel.hpp"
 
 namespace thawslide::band {
 
@@ -52,74 +54,108 @@ typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_part(co
 template <int Dim, class Real>
 bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
                                                const mpm::Nodes<Dim, Real>& nodes) const {
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+  return parallel_any(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
       if (nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0))) {
         return true;
       }
     }
-  }
-  return false;
+    return false;
+  });
 }
 
-// The cells of the lattice, and their parts, in which nodes in contact have their feet: of those that see no piece, and
-// of those with so much contact that a piece should lie there.
+// Where nodes in contact have their feet: of those that see no piece, and of those with so much contact that a piece
+// should lie there. In order of blocks and nodes.
 template <int Dim, class Real>
-typename BaseColumns<Dim, Real>::BareCells BaseColumns<Dim, Real>::feet_in_contact(
+std::vector<typename BaseColumns<Dim, Real>::Foot> BaseColumns<Dim, Real>::feet_in_contact(
     const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
     const mpm::Nodes<Dim, Real>& nodes) const {
+  constexpr std::size_t of_a_task = 32;  // blocks
   const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
-  BareCells cells;
-  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
-      const auto& contact = nodes.contact(b, k);
-      if (!(contact[Contact::touching] > Real(0))) {
-        continue;
+  const std::size_t blocks = grid.blocks().size();
+  std::vector<std::vector<Foot>> of_task((blocks + of_a_task - 1) / of_a_task);
+  parallel_for(of_task.size(), 1, [&](std::size_t task) {
+    for (std::size_t b = task * of_a_task; b < std::min(blocks, (task + 1) * of_a_task); ++b) {
+      for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
+        const auto& contact = nodes.contact(b, k);
+        if (!(contact[Contact::touching] > Real(0))) {
+          continue;
+        }
+        const NodeGround near = node_ground(b, k);
+        const Vector<Real, Dim> foot = mpm::node_position(grid, b, k) + near.distance * *near.normal;
+        const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
+        if (unseen || contact[Contact::area] > least_area * ground.width(foot.template head<Dim - 1>())) {
+          of_task[task].push_back({lattice_cell(grid, foot), parts_on(*near.normal), foot});
+        }
       }
-      const NodeGround near = node_ground(b, k);
-      const Vector<Real, Dim> foot = mpm::node_position(grid, b, k) + near.distance * *near.normal;
-      const bool unseen = !(nodes.base_state(b, k)[BaseState::area] > Real(0));
-      if (!unseen && !(contact[Contact::area] > least_area * ground.width(foot.template head<Dim - 1>()))) {
-        continue;
-      }
-      const Lattice cell = lattice_cell(grid, foot);
-      const auto [found, is_new] = cells.try_emplace(cell);
-      if (is_new) {
-        found->second.parts = parts_on(*near.normal);
-      }
-      found->second.bare.insert(lattice_part(grid, foot, cell, found->second.parts));
     }
+  });
+  std::vector<Foot> feet;
+  for (const std::vector<Foot>& some : of_task) {
+    feet.insert(feet.end(), some.begin(), some.end());
   }
-  return cells;
+  return feet;
 }
 
-// A piece covers the parts whose middle lies within three quarters of their size of its own along each axis.
+// The parts of lattice cells in which there are feet, in order and each once. The first foot in a cell says how many
+// parts it comes in.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid, BareCells& cells) const {
-  for (const Piece& piece : pieces_) {
-    const Lattice own = lattice_cell(grid, piece.position);
-    for (int k = 0; k < mpm::power(3, Dim - 1); ++k) {
-      Lattice cell = own;
-      for (std::size_t a = 0, rest = static_cast<std::size_t>(k); a + 1 < Dim; ++a, rest /= 3) {
-        cell[a] += static_cast<int>(rest % 3) - 1;
+std::vector<typename BaseColumns<Dim, Real>::LatticePart> BaseColumns<Dim, Real>::parts_below(
+    const mpm::SparseGrid<Dim, Real>& grid, std::vector<Foot> feet) const {
+  std::stable_sort(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) { return a.cell < b.cell; });
+  std::vector<LatticePart> result;
+  Lattice parts{};
+  for (std::size_t k = 0; k < feet.size(); ++k) {
+    const Lattice& cell = feet[k].cell;
+    parts = k > 0 && cell == feet[k - 1].cell ? parts : feet[k].parts;
+    result.push_back({cell, lattice_part(grid, feet[k].place, cell, parts), parts});
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+// Leaves those that no piece covers. A piece covers the parts whose middle lies within three quarters of their size of
+// its own along each axis.
+template <int Dim, class Real>
+void BaseColumns<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid,
+                                               std::vector<LatticePart>& parts) const {
+  constexpr auto last = static_cast<std::size_t>(Dim - 2);  // the axis along which cells follow one another in order
+  std::vector<std::uint8_t> covered(parts.size(), 0);
+  parallel_for(pieces_.size(), [&](std::size_t p) {
+    const Vector<Real, Dim>& position = pieces_[p].position;
+    const Lattice own = lattice_cell(grid, position);
+    for (int row = 0; row < mpm::power(3, Dim - 2); ++row) {
+      Lattice from = own;
+      if constexpr (Dim == 3) {
+        from[0] += row - 1;
       }
-      const auto found = cells.find(cell);
-      if (found == cells.end()) {
-        continue;
-      }
-      const Lattice& parts = found->second.parts;
-      std::erase_if(found->second.bare, [&](const Lattice& part) {
+      Lattice to = from;
+      --from[last];
+      ++to[last];
+      auto part = std::lower_bound(parts.begin(), parts.end(), from,
+                                   [](const LatticePart& a, const Lattice& cell) { return a.cell < cell; });
+      for (; part != parts.end() && part->cell <= to; ++part) {
         Real furthest = 0;  // in sizes of the part
         for (std::size_t a = 0; a + 1 < Dim; ++a) {
-          const auto count = static_cast<Real>(parts[a]);
-          const Real middle = static_cast<Real>(cell[a]) + (static_cast<Real>(part[a]) + Real(0.5)) / count;
-          const Real place = piece.position[static_cast<int>(a)] * grid.inverse_cell();
+          const auto count = static_cast<Real>(part->parts[a]);
+          const Real middle = static_cast<Real>(part->cell[a]) + (static_cast<Real>(part->part[a]) + Real(0.5)) / count;
+          const Real place = position[static_cast<int>(a)] * grid.inverse_cell();
           furthest = std::max(furthest, std::abs(place - middle) * count);
         }
-        return furthest < Real(0.75);
-      });
+        if (furthest < Real(0.75)) {
+          std::atomic_ref(covered[static_cast<std::size_t>(part - parts.begin())]).store(1, std::memory_order_relaxed);
+        }
+      }
+    }
+  });
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (covered[k] == 0) {
+      parts[kept++] = parts[k];
     }
   }
+  parts.resize(kept);
 }
 
 // Pieces are laid in the cells of a horizontal lattice, so that they do not depend on the order of nodes: where a node
@@ -127,21 +163,20 @@ void BaseColumns<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>&
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
                                         const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim, Real>& nodes) {
-  BareCells cells = feet_in_contact(grid, ground, node_ground, nodes);
-  leave_out_covered(grid, cells);
+  std::vector<LatticePart> bare = parts_below(grid, feet_in_contact(grid, ground, node_ground, nodes));
+  leave_out_covered(grid, bare);
   const std::size_t known = pieces_.size();
-  for (const auto& [cell, wanted] : cells) {
-    for (const Lattice& part : wanted.bare) {
-      Vector<Real, Dim - 1> middle, size;
-      for (std::size_t a = 0; a + 1 < Dim; ++a) {
-        const auto axis = static_cast<int>(a);
-        size[axis] = grid.cell() / static_cast<Real>(wanted.parts[a]);
-        middle[axis] = static_cast<Real>(cell[a]) * grid.cell() + (static_cast<Real>(part[a]) + Real(0.5)) * size[axis];
-      }
-      pieces_.push_back(new_piece(middle, size, ground));
-      stencils_.emplace_back(grid, pieces_.back().position);
-      add_area(stencils_.back(), pieces_.back(), nodes);
+  for (const LatticePart& one : bare) {
+    Vector<Real, Dim - 1> middle, size;
+    for (std::size_t a = 0; a + 1 < Dim; ++a) {
+      const auto axis = static_cast<int>(a);
+      size[axis] = grid.cell() / static_cast<Real>(one.parts[a]);
+      middle[axis] =
+          static_cast<Real>(one.cell[a]) * grid.cell() + (static_cast<Real>(one.part[a]) + Real(0.5)) * size[axis];
     }
+    pieces_.push_back(new_piece(middle, size, ground));
+    stencils_.emplace_back(grid, pieces_.back().position);
+    add_area(stencils_.back(), pieces_.back(), nodes);
   }
   std::vector<InContact> contacts;
   for (std::size_t p = known; p < pieces_.size(); ++p) {
@@ -164,7 +199,7 @@ void BaseColumns<Dim, Real>::begin_piece(const Stencil& stencil, const Ground& g
   take_load(contact.area > Real(0) ? contact.normal_force / contact.area : Real(0), contact.normal_force / piece.area,
             Real(0), piece);
   start_column_of(model_, thickness, piece);
-  piece.means = means_of(piece);
+  keep_means(model_, piece);
   ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
   ledger_.laid_water += piece.area * physics::water_of(piece.column);
 }

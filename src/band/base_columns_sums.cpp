@@ -4,6 +4,7 @@
 
 #include "band/base_columns.hpp"
 #include "base/instances.hpp"
+#include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
 
 namespace thawslide::band {
@@ -58,46 +59,63 @@ bool is_dry(const BasePiece<Dim, Real>& piece) {
 
 template <int Dim, class Real>
 ColumnSums<Real> BaseColumns<Dim, Real>::sums() const {
-  ColumnSums<Real> sums;
-  for (const Piece& piece : pieces_) {
+  std::vector<ColumnSums<Real>> of_piece(pieces_.size());
+  parallel_for(pieces_.size(), [&](std::size_t p) {
+    const Piece& piece = pieces_[p];
     const physics::ColumnVolumes<Real> volumes = volumes_of(piece);
-    sums.area += piece.area;
-    sums.heat += piece.area_of_column * physics::heat_of(piece.column) + piece.heat;
-    sums.waiting_heat += piece.heat;
-    sums.water += piece.area_of_column * physics::water_of(piece.column);
-    sums.opening += piece.area * volumes.opening;
-    sums.gas_void += piece.area * volumes.gas_void;
+    of_piece[p] = {piece.area,
+                   piece.area_of_column * physics::heat_of(piece.column) + piece.heat,
+                   piece.heat,
+                   piece.area_of_column * physics::water_of(piece.column),
+                   piece.area * volumes.opening,
+                   piece.area * volumes.gas_void};
+  });
+  ColumnSums<Real> sums;
+  for (const ColumnSums<Real>& one : of_piece) {
+    sums += one;
   }
   return sums;
 }
 
 template <int Dim, class Real>
 BaseMeans<Real> BaseColumns<Dim, Real>::means() const {
-  BaseMeans<Real> result;
   constexpr Real wet_share = static_cast<Real>(1e-3);  // of full pores; less has just seeped in, and boils next
   constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
   const Real full = water_of_full_pores(model_);
-  Real area = 0, dry_area = 0, hottest = -celsius_to_kelvin<Real>, hottest_wet = hottest;
-  for (const Piece& piece : pieces_) {
-    const physics::BandMeans<Real> means = means_of(piece);
-    area += piece.area;
-    dry_area += is_dry(piece) ? piece.area : Real(0);
+  struct Extremes {
+    Real hottest, hottest_wet, pressure_ratio;
+    bool dry;
+  };
+  std::vector<Extremes> extremes(pieces_.size());
+  parallel_for(pieces_.size(), [&](std::size_t p) {
+    const Piece& piece = pieces_[p];
     const auto grid = grid_of(model_, piece);
+    Extremes& found = extremes[p];
+    found = {-celsius_to_kelvin<Real>, -celsius_to_kelvin<Real>, Real(0), is_dry(piece)};
     for (int k = 0; k < physics::ColumnCells::slide; ++k) {
       const Real temperature = piece.column.temperature[physics::ColumnCells::ground + k];
-      hottest = std::max(hottest, temperature);
+      found.hottest = std::max(found.hottest, temperature);
       const bool is_wet = piece.column.water[k] > wet_share * full * grid.slide_height(k);
-      hottest_wet = is_wet ? std::max(hottest_wet, temperature) : hottest_wet;
+      found.hottest_wet = is_wet ? std::max(found.hottest_wet, temperature) : found.hottest_wet;
     }
+    const Real highest = *std::max_element(piece.column.pressure, piece.column.pressure + physics::ColumnCells::slide);
+    found.pressure_ratio = piece.load > Real(0) ? std::min(highest / piece.load, Real(1)) : Real(0);
+  });
+  BaseMeans<Real> result;
+  Real area = 0, dry_area = 0, hottest = -celsius_to_kelvin<Real>, hottest_wet = hottest;
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    const Piece& piece = pieces_[p];
+    const physics::BandMeans<Real> means = means_now(piece);
+    area += piece.area;
+    dry_area += extremes[p].dry ? piece.area : Real(0);
+    hottest = std::max(hottest, extremes[p].hottest);
+    hottest_wet = std::max(hottest_wet, extremes[p].hottest_wet);
     result.temperature += piece.area * means.temperature;
     result.saturation += piece.area * means.saturation;
     result.pore_pressure += piece.area * means.pore_pressure;
     result.load += piece.area * piece.load;
     result.thickness += piece.area * piece.column.thickness;
-    const Real highest = *std::max_element(piece.column.pressure, piece.column.pressure + physics::ColumnCells::slide);
-    if (piece.load > Real(0)) {
-      result.largest_pressure_ratio = std::max(result.largest_pressure_ratio, std::min(highest / piece.load, Real(1)));
-    }
+    result.largest_pressure_ratio = std::max(result.largest_pressure_ratio, extremes[p].pressure_ratio);
   }
   result.hottest = area > Real(0) ? hottest : nothing;
   result.hottest_wet = area > Real(0) ? hottest_wet : nothing;
@@ -139,7 +157,7 @@ void BaseColumns<Dim, Real>::restore(const std::vector<double>& numbers) {
     piece.id = state.whole(next_id_);
     piece.touched = state.next() != 0.0;
     for_each_number(piece, set);
-    piece.means = means_of(piece);
+    keep_means(model_, piece);
   }
   state.expect_end();
 }

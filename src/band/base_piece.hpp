@@ -34,6 +34,7 @@ struct BasePiece {
   bool touched = false;     // has ever carried load
   physics::BandColumn<Real> column;
   physics::BandMeans<Real> means{};  // of the column at its last step, under the load at that time
+  Real liquid = 0;                   // water in the column then, per area [m]
 };
 
 template <int Dim, class Real>
@@ -72,15 +73,15 @@ class BaseStencil {
  public:
   using T = mpm::Tile<Dim>;
   static constexpr int width = 4;
-  static constexpr std::size_t most = static_cast<std::size_t>(mpm::power(width, Dim));
 
   BaseStencil() = default;  // has no nodes
-  BaseStencil(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& position) {
+  BaseStencil(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& position) : cell_(grid.cell()) {
     typename T::Index below, tile;
     for (std::size_t a = 0; a < Dim; ++a) {
       const Real place = position[static_cast<int>(a)] * grid.inverse_cell();
       below[a] = static_cast<int>(std::floor(place));
       weight_[a] = cubic_weights(place - std::floor(place));
+      first_[a] = (std::floor(place) - Real(1) - place) * grid.cell();
     }
     T::split(below, tile, local_);
     const auto found = std::lower_bound(grid.blocks().begin(), grid.blocks().end(), T::key(tile));
@@ -98,28 +99,36 @@ class BaseStencil {
     }
   }
 
-  // Calls visit(block, node, weight) for each of its nodes, x fastest.
+  // Calls visit(block, node, weight, from_piece) for each of its nodes, x fastest. from_piece: its place seen from the
+  // piece [m].
   template <class Visit>
-  THAWSLIDE_ALWAYS_INLINE void for_each(const Visit& visit) const {
+  THAWSLIDE_ALWAYS_INLINE void for_each_with_place(const Visit& visit) const {
+    Vector<Real, Dim> from_piece;
     for (int row = 0; about_ != nullptr && row < mpm::power(width, Dim - 1); ++row) {
       int direction = T::stencil / 2, first = local_;
-      Real weights[Dim];
+      Real of_row = Real(1);
       for (int a = 1, rest = row; a < Dim; ++a, rest /= width) {
-        direction += direction_[a][rest % width];
-        first += shift_[a][rest % width];
-        weights[a] = weight_[static_cast<std::size_t>(a)][static_cast<std::size_t>(rest % width)];
+        const int k = rest % width;
+        direction += direction_[a][k];
+        first += shift_[a][k];
+        of_row *= weight_[static_cast<std::size_t>(a)][static_cast<std::size_t>(k)];
+        from_piece[a] = first_[static_cast<std::size_t>(a)] + static_cast<Real>(k) * cell_;
       }
       for (int x = 0; x < width; ++x) {
         const std::int32_t block = about_[direction + direction_[0][x]];
-        Real weight = weight_[0][static_cast<std::size_t>(x)];
-        for (int a = 1; a < Dim; ++a) {
-          weight *= weights[a];
-        }
+        const Real weight = weight_[0][static_cast<std::size_t>(x)] * of_row;
         if (block != KeyIndex::absent && weight > Real(0)) {
-          visit(static_cast<std::size_t>(block), static_cast<std::size_t>(first + shift_[0][x]), weight);
+          from_piece[0] = first_[0] + static_cast<Real>(x) * cell_;
+          visit(static_cast<std::size_t>(block), static_cast<std::size_t>(first + shift_[0][x]), weight, from_piece);
         }
       }
     }
+  }
+  template <class Visit>
+  THAWSLIDE_ALWAYS_INLINE void for_each(const Visit& visit) const {
+    for_each_with_place([&](std::size_t block, std::size_t node, Real weight, const Vector<Real, Dim>& /*from_piece*/) {
+      visit(block, node, weight);
+    });
   }
   // Its nodes lie in one or two blocks along each axis. Calls visit(block, corner) for each active one of these; bit a
   // of a corner is set for the second block along axis a.
@@ -174,6 +183,8 @@ class BaseStencil {
 
   const std::int32_t* about_ = nullptr;  // blocks about that of the node below the piece
   int local_ = 0;                        // that node, in its tile
+  Real cell_ = 0;                        // [m]
+  std::array<Real, Dim> first_;          // place of the first node along each axis, seen from the piece [m]
   std::array<std::array<Real, width>, Dim> weight_;
   int direction_[Dim][width], shift_[Dim][width];  // along each axis: to its block, and from the node below
   int of_first_[Dim] = {};                         // nodes along each axis in the first block

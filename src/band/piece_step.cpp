@@ -47,6 +47,13 @@ physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasePie
 }
 
 template <int Dim, class Real>
+void keep_means(const ColumnsModel<Real>& model, BasePiece<Dim, Real>& piece) {
+  piece.means = means_of(model, piece);
+  piece.liquid =
+      std::visit([&](const auto& column) { return physics::liquid_volume(column, piece.column); }, model.column);
+}
+
+template <int Dim, class Real>
 physics::ColumnVolumes<Real> volumes_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece) {
   return std::visit([&](const auto& column) { return physics::column_volumes(column, piece.load, piece.column); },
                     model.column);
@@ -141,6 +148,7 @@ physics::ColumnAccount<Real> take_over(const ColumnsModel<Real>& model, const Ba
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
   template physics::BandMeans<Real> means_of<Dim, Real>(const ColumnsModel<Real>&, const BasePiece<Dim, Real>&);       \
+  template void keep_means<Dim, Real>(const ColumnsModel<Real>&, BasePiece<Dim, Real>&);                               \
   template physics::ColumnVolumes<Real> volumes_of<Dim, Real>(const ColumnsModel<Real>&, const BasePiece<Dim, Real>&); \
   template physics::ColumnAccount<Real> take_over<Dim, Real>(const ColumnsModel<Real>&, const BasePiece<Dim, Real>&,   \
                                                              BasePiece<Dim, Real>&);                                   \

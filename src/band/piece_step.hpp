@@ -38,6 +38,10 @@ struct ColumnsModel {
 template <int Dim, class Real>
 physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece);
 
+// Keeps in the piece what others ask of its column between two steps.
+template <int Dim, class Real>
+void keep_means(const ColumnsModel<Real>& model, BasePiece<Dim, Real>& piece);
+
 template <int Dim, class Real>
 physics::ColumnVolumes<Real> volumes_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece);
 

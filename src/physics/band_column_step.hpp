@@ -13,10 +13,10 @@ struct BandMeans {
   Real temperature, pore_pressure, saturation, solid_fraction;  // [C], [Pa], S, n_e of Eq. 2
 };
 
-// Of a whole column, per area [m]: by how much water lifts the slide, and the volumes of voids and of liquid water.
+// Of a whole column, per area [m]: by how much water lifts the slide, and the volume of voids.
 template <class Real>
 struct ColumnVolumes {
-  Real opening, gas_void, liquid;
+  Real opening, gas_void;
 };
 
 // Shear mixes a share of the band: its cells, all of one height, come nearer to their mean.
@@ -156,10 +156,19 @@ THAWSLIDE_HD ColumnVolumes<Real> column_volumes(const ColumnModel<Real, Curve>& 
       volumes.opening += grid.slide_height(k) * filling.opening;
       volumes.gas_void += grid.slide_height(k) * filling.gas_void;
     }
-    const Real melted = model.curve.saturation(column.temperature[ColumnCells::ground + k]);
-    volumes.liquid += melted * column.water[k] / model.phases.water_density;
   }
   return volumes;
+}
+
+// Volume of liquid water in a whole column, per area [m].
+template <class Real, class Curve>
+THAWSLIDE_HD Real liquid_volume(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column) {
+  Real volume = 0;
+  THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
+    const Real melted = model.curve.saturation(column.temperature[ColumnCells::ground + k]);
+    volume += melted * column.water[k] / model.phases.water_density;
+  }
+  return volume;
 }
 
 // One column of two that hold `share` and the rest of its area, and whose cells grow by the same ratio: with their

@@ -15,7 +15,7 @@ NamedNumbers base_table(const Simulation<Dim, Real>& simulation) {
   }
   const auto add = [&](const char* name, Real number) { table[name].push_back(static_cast<double>(number)); };
   for (const band::BasePiece<Dim, Real>& piece : columns->pieces()) {
-    const physics::BandMeans<Real> means = columns->means_of(piece);
+    const physics::BandMeans<Real> means = columns->means_now(piece);
     const Real* slide = piece.column.temperature + physics::ColumnCells::ground;
     for (int a = 0; a < 3; ++a) {
       table["position_m"].push_back(

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
 #include "mpm/sum_over_particles.hpp"
 
@@ -48,13 +49,14 @@ std::vector<PieceBelow> pieces_below(const Simulation<3, double>& simulation) {
   if (columns == nullptr) {
     return pieces;
   }
-  pieces.reserve(columns->pieces().size());
-  for (const auto& piece : columns->pieces()) {
-    const auto means = columns->means_of(piece);
+  pieces.resize(columns->pieces().size());
+  parallel_for(pieces.size(), [&](std::size_t p) {
+    const auto& piece = columns->pieces()[p];
+    const auto means = columns->means_now(piece);
     const Vector<double, 3> half = 0.5 * piece.sides.cwiseAbs().rowwise().sum();
-    pieces.push_back({piece.position[0], piece.position[1], half[0], half[1], piece.area, means.temperature,
-                      means.pore_pressure, columns->volumes_of(piece).liquid});
-  }
+    pieces[p] = {piece.position[0], piece.position[1],   half[0],     half[1], piece.area,
+                 means.temperature, means.pore_pressure, piece.liquid};
+  });
   return pieces;
 }
 
