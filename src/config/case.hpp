@@ -276,7 +276,7 @@ struct Band {
   double growth_per_slip = 0;                                    // BandGrowth::slip
   double mixing_slip = std::numeric_limits<double>::infinity();  // m, over which shear mixes the band; infinity: not
   double load_time = 1.0;                                        // s, over which N is averaged
-  double column_step = 0.05;                                     // s, largest time between the steps of a column
+  double column_step = 0.1;                                      // s, largest time between the steps of a column
   double ground_temperature = std::numeric_limits<double>::quiet_NaN();  // C; not a number: that of the body's base
 };
 

@@ -17,13 +17,14 @@ namespace thawslide::config {
 namespace {
 
 // What the step reads anew each time and keeps no state for. A table ends with a dot: all of its keys.
-constexpr std::array<std::string_view, 13> changeable = {
+constexpr std::array<std::string_view, 14> changeable = {
     "time.",
     "checkpoint.",
     "guards.",
     "grid.leaving",
     "mechanics.mass_damping",
     "mechanics.pic_share",
+    "band.column_step",
     "basal.friction_angle",
     "basal.friction_coefficient",
     "basal.turbulent_friction",
