@@ -22,6 +22,7 @@ namespace {
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
+constexpr double rest_speed = 0.05;                         // m/s: what `run` calls at rest where a case does not say
 constexpr double block_cells = 4.0;  // the domain is a multiple of, so that the cell may be doubled twice
 constexpr double snapshots = 40.0;   // about as many
 
@@ -316,12 +317,13 @@ arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
 
 std::string time_text(const Proposal& proposal) {
   return fmt::format(R"([time]
-end = {}  # s; make it longer if the slide still moves
+end = {}  # s, at the latest; make it longer if the slide still moves
+stop_at_rest = {}  # m/s; the run ends once the slide has been slower for time.rest_time; 0: it runs to the end
 stepping = "adaptive"
 output_interval = {}  # s between snapshots of all particles
 history_interval = {}
 )",
-                     number_text(proposal.end), number_text(proposal.output_interval),
+                     number_text(proposal.end), number_text(rest_speed), number_text(proposal.output_interval),
                      number_text(proposal.output_interval / 5.0));
 }
 

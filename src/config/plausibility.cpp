@@ -203,6 +203,16 @@ void doubt_step(const Case& parameters, Doubts& doubts) {
   }
 }
 
+bool is_from_command_line(const Case& parameters, const std::string& key) {
+  return place_of(parameters, key).starts_with("--");
+}
+
+// A short trial of a case that stops at rest: the command line gives the end and says nothing of rest.
+bool is_shortened_trial(const Case& parameters) {
+  return is_from_command_line(parameters, "time.end") && !is_from_command_line(parameters, "time.stop_at_rest") &&
+         !is_from_command_line(parameters, "time.rest_time");
+}
+
 void doubt_output(const Case& parameters, Doubts& doubts) {
   const Time& time = parameters.time;
   const bool is_fixed = time.stepping == Stepping::fixed;
@@ -229,7 +239,7 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
                fmt::format("longer than the run of {} s, which leaves the checkpoints of checkpoint.wall_interval.",
                            time.end));
   }
-  if (time.stop_at_rest > 0.0 && time.rest_time > time.end) {
+  if (time.stop_at_rest > 0.0 && time.rest_time > time.end && !is_shortened_trial(parameters)) {
     doubts.add("time.rest_time", time.rest_time, " s",
                fmt::format("longer than the run of {} s, which then never stops at rest.", time.end));
   }

@@ -62,6 +62,31 @@ def test_two_commands_to_maps(thawslide: Program, tmp_path: Path, slope: Slope, 
     assert (run / "maps" / "results.gpkg").is_file()
 
 
+def test_a_run_ends_once_its_slide_has_come_to_rest(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    """Without the key it goes on to its end, with the same front and deposit."""
+    folder = tmp_path / "slide"
+    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS, "--cell", 12).returncode == 0
+    words = sets(time__end=40, time__rest_time=2, basal__friction="constant", basal__friction_angle=20)
+    facts = {}
+    for name, more in (("rest", []), ("whole", sets(time__stop_at_rest=0))):
+        run = tmp_path / name
+        done = thawslide("run", folder, "--output", run, *words, *more)
+        assert done.returncode == 0, done.stderr
+        facts[name] = run_facts(run)
+        assert facts[name]["at_rest"] is True and facts[name]["status"] == "done"
+    rest, whole = facts["rest"], facts["whole"]
+    assert whole["simulated_time_s"] == 40.0
+    assert 20.0 < rest["simulated_time_s"] < 35.0
+    assert rest["simulated_time_s"] == pytest.approx(rest["rest_since_s"] + 2.0, abs=0.5)
+    assert rest["message"].startswith("the slide is at rest: since t = ") and whole["message"] == ""
+    for key in ("travel_distance_m", "covered_area_m2", "affected_area_m2"):
+        assert rest[key] == pytest.approx(whole[key], rel=5e-3), key
+    ends = [history(tmp_path / name)["mean_displacement_m"][-1] for name in ("rest", "whole")]
+    assert ends[0] > 200.0 and ends[0] == pytest.approx(ends[1], abs=0.1)
+
+
 def test_release_by_a_raster_of_its_thickness_alone(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:

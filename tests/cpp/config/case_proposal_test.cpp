@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "config/section_proposal.hpp"
+#include "sim/watch.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -92,6 +93,14 @@ TEST(CaseProposal, NamesAreTextsOfToml) {
   const std::string section = section_text(name, name, Proposal());
   EXPECT_NE(section.find("\ntitle = " + escaped + "\n"), std::string::npos) << section;
   EXPECT_NE(section.find("\nfile = " + escaped + "\n"), std::string::npos) << section;
+}
+
+// With the speed by which a run without the key judges rest.
+TEST(CaseProposal, RunsEndOnceTheSlideHasComeToRest) {
+  const std::string line = fmt::format("\nstop_at_rest = {:g}  # m/s; ", sim::usual_rest_speed);
+  const Proposal proposal = propose(dem_points(), release_at(20, 15, 20.0), 20.0);
+  EXPECT_NE(case_text(ProposalInput(), proposal).find(line), std::string::npos);
+  EXPECT_NE(section_text("title", "profile.csv", proposal).find(line), std::string::npos);
 }
 
 TEST(CaseProposal, BeginsAtTheEdgeOfTheDemWhereAMultipleOfTheCellWouldCutTheRelease) {

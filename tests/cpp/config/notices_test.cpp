@@ -181,6 +181,17 @@ TEST(Notices, DoubtARestThatNeverCounts) {
                                      "never stops at rest."});
 }
 
+// A case that stops at rest is tried for a moment without a note; a file whose own end is too early gets one.
+TEST(Notices, LeaveAShortTrialOfACaseThatStopsAtRestAlone) {
+  const Change rests{"end = 2.0", "end = 2.0\nstop_at_rest = 0.1\nrest_time = 20.0"};
+  const std::string text = changed({with_columns[0], with_columns[1], rests});
+  const auto said = [&](const std::string& set) {
+    return notices(testing_support::case_from_text(text, {"pressure.frozen=none", set}));
+  };
+  EXPECT_EQ(said("time.end=5"), std::vector<std::string>{});
+  EXPECT_EQ(said("time.step=0.001").size(), 1U) << "the file's own end is too early";
+}
+
 // A default that is hardly ever meant; whoever writes 0 has thought of it.
 TEST(Notices, DoubtADefaultWithoutDrainage) {
   const std::string known = "pressure.frozen=none";

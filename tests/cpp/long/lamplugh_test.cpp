@@ -14,14 +14,21 @@ using namespace testing_support;
 
 TEST(WholeLamplugh, RunsOutAndStopsNearWhatWasReported) {
   Simulation<2, double> simulation(config::read_case(std::string(THAWSLIDE_SOURCE_DIR) + "/cases/lamplugh"));
-  double peak = 0.0;
+  double peak = 0.0, rests_at = 0.0, displacement_at_rest = 0.0;
   while (simulation.time() < 200.0 - 1e-9) {
     run_until(simulation, simulation.time() + 1.0);
     peak = std::max(peak, value_of(history_row(simulation), "mean_velocity_m_s"));
+    if (rests_at == 0.0 && simulation.ends_at_rest()) {
+      rests_at = simulation.time();
+      displacement_at_rest = value_of(history_row(simulation), "mean_displacement_m");
+    }
   }
   const auto row = history_row(simulation);
   EXPECT_NEAR(peak, 80.0, 4.0);
   EXPECT_NEAR(value_of(row, "mean_displacement_m"), 5770.0, 160.0);
+  // A run of the case would have ended here, with the results of the end.
+  EXPECT_GT(rests_at, 100.0);
+  EXPECT_NEAR(displacement_at_rest, value_of(row, "mean_displacement_m"), 0.05);
   EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.01);
   const double work = value_of(row, "friction_work_J");
   EXPECT_LT(std::abs(value_of(row, "mechanical_residual_J")), 2e-3 * work);
