@@ -28,13 +28,13 @@ constexpr double bytes_beside_points = 1e4;  // of a snapshot, and of a checkpoi
 constexpr double most_of_free = 0.9;         // what a run may take of the free disk without a word
 constexpr double gigabyte = 1e9;
 
-// Whole intervals until the end, and the start; where steps are fixed, no more than they are, and the last of them may
-// stop short of the end. Adaptive ones are cut to the intervals.
-double count_of(const config::Time& time, double interval, double steps) {
+// Whole intervals until the end, and the start; no more than there are steps, unless these are cut to the intervals.
+// The last fixed step may stop short of the end.
+double count_of(const config::Time& time, double interval, double steps, bool cuts_steps) {
   const bool is_fixed = time.stepping == config::Stepping::fixed;
   const double last = is_fixed ? std::min(time.end, steps * time.step) : time.end;
   const double intervals = std::ceil(last / interval * (1.0 - 1e-12));
-  return (is_fixed ? std::min(intervals, steps) : intervals) + 1.0;
+  return (cuts_steps ? intervals : std::min(intervals, steps)) + 1.0;
 }
 
 double bytes_of_files(const config::Case& parameters) {
@@ -87,10 +87,10 @@ DiskNeed disk_need(const sim::Simulation<Dim, double>& simulation, const sim::Fl
   const config::Time& time = parameters.time;
   const auto particles = static_cast<double>(simulation.particles().size());
   DiskNeed need;
-  need.snapshots = count_of(time, time.output_interval, steps);
+  need.snapshots = count_of(time, time.output_interval, steps, time.stepping == config::Stepping::adaptive);
   need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_beside_points;
   count_checkpoint(simulation, maps, need);
-  need.history_rows = time.history_interval > 0.0 ? count_of(time, time.history_interval, steps) : steps + 1.0;
+  need.history_rows = time.history_interval > 0.0 ? count_of(time, time.history_interval, steps, false) : steps + 1.0;
   const double columns = static_cast<double>(sim::history_row(simulation).size()) +
                          columns_of_probe * static_cast<double>(parameters.probes.size());
   need.history = need.history_rows * columns * bytes_of_number;

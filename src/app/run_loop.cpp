@@ -114,7 +114,7 @@ class Loop {
         folder_(folder),
         times_(simulation.parameters().time),
         first_step_(simulation.step_number()),
-        history_(schedule(times_.history_interval)),
+        history_(schedule(times_.history_interval, times_.stepping == config::Stepping::adaptive ? round_off : 0.5)),
         snapshots_(schedule(times_.output_interval)),
         checkpoints_(schedule(simulation.parameters().checkpoint.interval > 0.0
                                   ? simulation.parameters().checkpoint.interval
@@ -152,8 +152,12 @@ class Loop {
   }
 
  private:
-  [[nodiscard]] Schedule schedule(double interval) const {
-    return {interval, simulation_.time(), simulation_.last_step(), times_.end};
+  // A row follows the first adaptive step that reaches its moment, but for round-off: snapshots, on which steps are
+  // made to end, have their rows. Fixed steps are the nearest ones.
+  static constexpr double round_off = 1e-6;  // of a step
+
+  [[nodiscard]] Schedule schedule(double interval, double early = 0.5) const {
+    return {interval, simulation_.time(), simulation_.last_step(), times_.end, early};
   }
   [[nodiscard]] std::int64_t steps() const { return simulation_.step_number() - first_step_; }
   [[nodiscard]] bool goes_on() const {
@@ -162,11 +166,10 @@ class Loop {
   }
 
   void step() {
-    const double next_row = times_.history_interval > 0.0 ? history_.next() : times_.end;
     const double before = output_.wall_seconds();
     output_.before_step(simulation_);
-    // A checkpoint is taken after the first step that reaches its moment: what is written for safety changes no step.
-    simulation_.step(simulation_.next_step(std::min({snapshots_.next(), next_row, times_.end})));
+    // Rows and checkpoints follow a step near their moment: they change no step.
+    simulation_.step(simulation_.next_step(std::min(snapshots_.next(), times_.end)));
     seconds_in_steps_ += output_.wall_seconds() - before;
     set_thread_count(threads_.after_step(seconds_in_steps_));
     tell(removal_.note(simulation_));

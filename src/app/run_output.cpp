@@ -18,8 +18,8 @@ namespace thawslide::app {
 
 namespace fs = std::filesystem;
 
-Schedule::Schedule(double interval, double begin, double last_step, double end)
-    : interval_(interval), end_(end), next_(interval > 0.0 ? std::min(interval, end) : end) {
+Schedule::Schedule(double interval, double begin, double last_step, double end, double early)
+    : interval_(interval), end_(end), early_(early), next_(interval > 0.0 ? std::min(interval, end) : end) {
   pass(begin, last_step);
 }
 
@@ -29,7 +29,7 @@ void Schedule::pass(double time, double step) {
   }
   // The first multiple beyond the time, computed: to count up to it would take for ever where the interval is tiny. The
   // quotient is rounded, so that the floor may be two short.
-  const double beyond = time + 0.5 * step;
+  const double beyond = time + early_ * step;
   count_ = std::max(count_, std::floor(beyond / interval_));
   for (int k = 0; k < 2 && count_ * interval_ <= beyond; ++k) {
     ++count_;
@@ -38,7 +38,7 @@ void Schedule::pass(double time, double step) {
 }
 
 bool Schedule::reached(double time, double step) {
-  if (time < next_ - 0.5 * step) {
+  if (time < next_ - (next_ < end_ ? early_ : 0.5) * step) {
     return false;
   }
   pass(time, step);

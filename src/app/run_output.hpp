@@ -24,15 +24,16 @@ namespace thawslide::app {
 class Schedule {
  public:
   // Goes on from `begin`, reached by a step of `last_step` (0: nothing has run yet), as if it had run up to there.
-  Schedule(double interval, double begin, double last_step, double end);
+  // early: share of a step by which a step may end before a moment and reach it; the end is reached by half a step.
+  Schedule(double interval, double begin, double last_step, double end, double early = 0.5);
   [[nodiscard]] double next() const { return next_; }
-  // True if the time has come, within half a step; moves on to the next moment.
+  // True if the time has come; moves on to the next moment.
   bool reached(double time, double step);
 
  private:
   void pass(double time, double step);
 
-  double interval_, end_, next_;
+  double interval_, end_, early_, next_;
   double count_ = 1.0;  // of intervals up to the next moment
 };
 

@@ -7,6 +7,7 @@
 
 #include "band/physics.hpp"
 #include "mpm/one.hpp"
+#include "physics/free_gap.hpp"
 #include "physics/pressurization.hpp"
 
 namespace thawslide::band {
@@ -29,14 +30,16 @@ struct Extreme {
 };
 
 struct StepExtremes {
-  Extreme density{std::numeric_limits<double>::infinity()};  // smallest [kg/m3]
-  Extreme speed;                                             // largest [m/s]
-  Extreme diffusivity;                                       // largest, of heat [m2/s]
-  Extreme seepage;                                           // largest diffusivity of pore pressure [m2/s]
-  double pore_stiffness = 0.0;                               // largest [Pa]
+  Extreme density{std::numeric_limits<double>::infinity()};          // smallest [kg/m3]
+  Extreme elastic_density{std::numeric_limits<double>::infinity()};  // smallest at which elastic stiffness acts [kg/m3]
+  Extreme speed;                                                     // largest [m/s]
+  Extreme diffusivity;                                               // largest, of heat [m2/s]
+  Extreme seepage;                                                   // largest diffusivity of pore pressure [m2/s]
+  double pore_stiffness = 0.0;                                       // largest [Pa]
 
   THAWSLIDE_HD StepExtremes& operator+=(const StepExtremes& part) {
     density.lower(part.density);
+    elastic_density.lower(part.elastic_density);
     speed.raise(part.speed);
     diffusivity.raise(part.diffusivity);
     seepage.raise(part.seepage);
@@ -45,9 +48,25 @@ struct StepExtremes {
   }
 };
 
+// By material, whether gaps are free (physics/free_gap.hpp).
+template <class Real>
+struct FreeGaps {
+  const Real* of_material;  // 1: they are, 0: they bear stress
+
+  // The particle's density at which elastic stiffness acts [kg/m3].
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD Real elastic_density(const Particles& particles, std::uint32_t p) const {
+    const Real density = particles.mass(p) / particles.volume(p);
+    const bool is_free = of_material[static_cast<std::size_t>(particles.material(p))] > Real(0);
+    return is_free && particles.gap.is_kept() ? physics::density_with_gap_closed(density, Real(particles.gap(p)))
+                                              : density;
+  }
+};
+
 template <int Dim, class Real, class Particles>
 THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics<Real>& model,
-                                               const HydraulicConductivity<Real>& hydraulic, const Particles& particles,
+                                               const HydraulicConductivity<Real>& hydraulic,
+                                               const FreeGaps<Real>& free_gaps, const Particles& particles,
                                                std::uint32_t p) {
   using std::sqrt;
   const std::int64_t id = particles.id(p);
@@ -59,6 +78,7 @@ THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics<Real>& model,
   }
   StepExtremes found;
   found.density = {static_cast<double>(particles.mass(p) / particles.volume(p)), id};
+  found.elastic_density = {static_cast<double>(free_gaps.elastic_density(particles, p)), id};
   found.speed.raise({sqrt(speed2), id});
   found.diffusivity.raise({static_cast<double>(physics::conductivity(model.phases, porosity, saturation) /
                                                physics::heat_capacity(model.phases, porosity, saturation)),

@@ -56,7 +56,8 @@ std::vector<Parameter<Time>> time_parameters() {
                  .unit = "s",
                  .range = at_least(0),
                  .text = "simulated time between rows of history.csv, at least a billionth of time.end; 0: a row "
-                         "every step"}),
+                         "every step. Adaptive steps are not cut to it: a row follows the first step that reaches its "
+                         "time"}),
       parameter(&Time::stop_at_rest,
                 {.key = "stop_at_rest",
                  .unit = "m/s",

@@ -216,7 +216,7 @@ bool is_shortened_trial(const Case& parameters) {
 void doubt_output(const Case& parameters, Doubts& doubts) {
   const Time& time = parameters.time;
   const bool is_fixed = time.stepping == Stepping::fixed;
-  // Nothing is written more than once a step, and adaptive steps are cut to the moments of rows and snapshots.
+  // Nothing is written more than once a step, and adaptive steps are cut to the moments of snapshots.
   const double snapshots = std::min(time.end / time.output_interval, is_fixed ? time.end / time.step : infinity);
   if (time.output_interval > time.end) {
     doubts.add(

@@ -33,11 +33,12 @@ struct FindExtremes {
 
   band::BandPhysics<Real> physics;
   band::HydraulicConductivity<Real> hydraulic;
+  band::FreeGaps<Real> free_gaps;
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
                                Account& found) const {
-    found = band::extremes_of_particle<Dim>(physics, hydraulic, particles, at.particle[0]);
+    found = band::extremes_of_particle<Dim>(physics, hydraulic, free_gaps, particles, at.particle[0]);
   }
 };
 

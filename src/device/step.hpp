@@ -38,6 +38,7 @@ class Step {
         band_columns_(backend, ask.columns),
         bed_(backend, ask.bed) {
     sums_.set(std::vector<Sums>(1));
+    free_gaps_.set(model.free_gaps);
   }
 
   // To as many particles, in the order in which they came.
@@ -226,7 +227,7 @@ class Step {
   // And what the processor asks of the particles at their new places.
   void take_positions() {
     const mpm::TakePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
-    const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic()};
+    const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
     const CountStrays<Dim, Real> strays = strays_kernel();
     if (passes_.model.tells_extremes && passes_.model.tells_strays) {
       take_positions(take, extremes, strays);
@@ -258,6 +259,7 @@ class Step {
   Maps<Backend, Real> maps_;
   BandColumns<Backend, Dim, Real> band_columns_;
   ErodibleBed<Backend, Dim, Real> bed_;
+  Array<Real, Backend> free_gaps_{passes_.backend};
   Array<BaseOfNode<Real>, Backend> bases_{passes_.backend};
   Strays<Backend, Dim, Real> strays_{passes_.backend};
   Front<Backend, Dim, Real> front_{passes_.backend};

@@ -63,6 +63,7 @@ struct StepModel {
   band::HeatFaces<Dim, Real> heat_faces;
   band::BandPhysics<Real> band;
   std::vector<Real> hydraulic_conductivity;       // by material [m/s]
+  std::vector<Real> free_gaps;                    // as band::FreeGaps
   std::function<Real(Real time)> band_thickness;  // [m]; 0: there is no band, and xi = 1
   bool rescales_band = true;                      // off: its scaling rests
   bool scales_all = true;                         // and elsewhere too

@@ -51,6 +51,7 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   };
   device.mass_damping = model.contact.mass_damping;
   device.materials = model.motion.materials;
+  device.free_gaps = model.free_gaps;
   device.phases = model.motion.phases;
   device.effective_stress = model.motion.effective_stress;
   device.lubrication = model.motion.lubrication;

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/basal_laws.hpp"
+#include "physics/free_gap.hpp"
 #include "physics/softening.hpp"
 #include "sim/between_bodies.hpp"
 #include "sim/substrates.hpp"
@@ -41,6 +42,22 @@ physics::Phases<Real> make_phases(const config::Phases& p) {
 }
 
 template <class Real>
+physics::Strength<Real> strength_of(const config::Material& material, double cell) {
+  const double of_slip = physics::softening_strain_of_slip(material.softening_slip, cell);
+  const double softening_strain = material.softening_slip > 0.0 ? of_slip : material.softening_strain;
+  physics::Strength<Real> strength{.friction_angle = static_cast<Real>(material.friction_angle),
+                                   .dilation_angle = static_cast<Real>(material.dilation_angle),
+                                   .cohesion = static_cast<Real>(material.cohesion),
+                                   .residual_cohesion = static_cast<Real>(material.residual_cohesion),
+                                   .tension_cutoff = static_cast<Real>(material.tension_cutoff),
+                                   .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
+  if (softening_strain > 0.0) {  // else nothing softens
+    strength.softening_strain = static_cast<Real>(softening_strain);
+  }
+  return strength;
+}
+
+template <class Real>
 mpm::MaterialModel<Real> make_material(const config::Material& material, double cell, bool deformation) {
   mpm::MaterialModel<Real> model;
   model.elastic = physics::Elastic<Real>::from_young_poisson(static_cast<Real>(material.youngs_modulus),
@@ -49,17 +66,7 @@ mpm::MaterialModel<Real> make_material(const config::Material& material, double 
   model.viscosity_time = static_cast<Real>(material.viscosity_time);
   model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
   if (material.law == config::LawKind::mohr_coulomb && deformation) {
-    const double of_slip = physics::softening_strain_of_slip(material.softening_slip, cell);
-    const double softening_strain = material.softening_slip > 0.0 ? of_slip : material.softening_strain;
-    physics::Strength<Real> strength{.friction_angle = static_cast<Real>(material.friction_angle),
-                                     .dilation_angle = static_cast<Real>(material.dilation_angle),
-                                     .cohesion = static_cast<Real>(material.cohesion),
-                                     .residual_cohesion = static_cast<Real>(material.residual_cohesion),
-                                     .tension_cutoff = static_cast<Real>(material.tension_cutoff),
-                                     .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
-    if (softening_strain > 0.0) {  // else nothing softens
-      strength.softening_strain = static_cast<Real>(softening_strain);
-    }
+    const physics::Strength<Real> strength = strength_of<Real>(material, cell);
     if (strength.residual_friction_angle < strength.friction_angle) {
       model.law = physics::MohrCoulomb<Real, true>::make(model.elastic, strength);
     } else {
@@ -334,6 +341,9 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
     model.material_names.push_back(name);
     model.motion.materials.push_back(
         make_material<Real>(material, parameters.grid.cell, parameters.mechanisms.deformation));
+    const bool is_free =
+        material.gaps_close_first && physics::gap_is_free(strength_of<Real>(material, parameters.grid.cell));
+    model.free_gaps.push_back(is_free ? Real(1) : Real(0));
   }
   for (const auto& [name, body] : parameters.bodies) {
     model.body_names.push_back(name);

@@ -35,6 +35,7 @@ struct Model {
   std::function<Real(const Vector<Real, Dim - 1>&)> layer_thickness;
   std::function<double(const std::array<int, Dim - 1>&)> layer_at_middle;  // of a column of cells
   Real largest_layer = 0;
+  std::vector<Real> free_gaps;                          // by material: 1: its gaps are free, 0: they bear stress
   Real bed_density = 0;                                 // of the erodible bed [kg/m3]; 0: there is none
   std::vector<std::string> body_names, material_names;  // by number; the last body is what is taken up of the bed
 };

@@ -10,6 +10,8 @@ namespace thawslide::sim {
 
 namespace {
 
+constexpr double round_off = 1e-9;  // of times that add up, of a step
+
 // What to do about a limit that has become a small part of what it was.
 std::string advice_on(LimitKind kind) {
   switch (kind) {
@@ -56,12 +58,12 @@ template <int Dim, class Real>
 double Simulation<Dim, Real>::next_step(double until) const {
   if (parameters_.time.stepping == config::Stepping::fixed) {
     const double left = parameters_.time.end - time_;  // the last step may be shorter
-    return left > (1.0 - 1e-9) * parameters_.time.step ? parameters_.time.step : left;
+    return left > (1.0 - round_off) * parameters_.time.step ? parameters_.time.step : left;
   }
   const double dt = adaptive_step();
   stop_if_step_collapses(dt);
   const double left = until - time_;
-  const double steps = std::ceil(left / dt * (1.0 - 1e-12));
+  const double steps = std::ceil(left / dt * (1.0 - round_off));  // else what rounding leaves takes a step more
   return left / std::max(1.0, steps);
 }
 

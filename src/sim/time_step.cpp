@@ -16,30 +16,35 @@ constexpr double wave_share = 1.0;       // of cell / P-wave speed, with viscosi
 constexpr double particle_share = 0.5;   // of cell / particle speed: a particle may not pass a node unseen
 constexpr double diffusion_share = 1.0;  // of length^2 / (2 Dim diffusivity)
 
+// Wave speeds [m/s]: by the stiffness that acts, and of the material's viscosity, which acts on opened material too.
+struct WaveSpeeds {
+  double elastic, viscous;
+};
+
 // The step at which a wave of speed c is resolved on cells h. Kelvin-Voigt viscosity of time tau adds damping that an
-// explicit step must resolve too: dt^2 c^2/h^2 + dt tau c^2/h^2 <= 1, as measured (the textbook has twice the second
+// explicit step must resolve too: dt^2 c^2/h^2 + dt tau c_v^2/h^2 <= 1, as measured (the textbook has twice the second
 // term and would refuse steps that run without trouble).
-double wave_limit(double cell, double speed, double viscosity_time) {
-  const double frequency = speed / cell;
-  const double damping = viscosity_time * frequency;
+double wave_limit(double cell, const WaveSpeeds& speeds, double viscosity_time) {
+  const double frequency = speeds.elastic / cell;
+  const double damping = viscosity_time * (speeds.viscous / cell) * (speeds.viscous / speeds.elastic);
   return (std::sqrt(1.0 + damping * damping / 4.0) - damping / 2.0) / frequency;
 }
 
 // Whether that step is less than half of what it would be without viscosity.
-bool viscosity_rules(double cell, double speed, double viscosity_time) {
-  return wave_limit(cell, speed, viscosity_time) < 0.5 * wave_limit(cell, speed, 0.0);
+bool viscosity_rules(double cell, const WaveSpeeds& speeds, double viscosity_time) {
+  return wave_limit(cell, speeds, viscosity_time) < 0.5 * wave_limit(cell, speeds, 0.0);
 }
 
 // What sets the limit by a material's wave, in words.
-std::string wave_text(const std::string& material, double cell, double speed, double viscosity_time) {
-  if (viscosity_rules(cell, speed, viscosity_time)) {
+std::string wave_text(const std::string& material, double cell, const WaveSpeeds& speeds, double viscosity_time) {
+  if (viscosity_rules(cell, speeds, viscosity_time)) {
     return fmt::format(
         "the viscosity of material '{}' (viscosity_time {} s, at a wave speed of {:.4g} m/s) on cells of {} m",
-        material, viscosity_time, speed, cell);
+        material, viscosity_time, speeds.viscous, cell);
   }
   const std::string viscosity = viscosity_time > 0.0 ? fmt::format(", viscosity {} s", viscosity_time) : "";
-  return fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", material, speed, viscosity,
-                     cell);
+  return fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", material, speeds.elastic,
+                     viscosity, cell);
 }
 
 // Calls take(step [s], kind, id of the particle that sets it, text) for every limit; text() says what it is.
@@ -48,20 +53,24 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
                 const band::StepExtremes& found, const Take& take) {
   const double cell = parameters.grid.cell;
   if (parameters.mechanics.enabled) {
-    band::Extreme lightest = found.density;
-    if (model.bed_density > Real(0)) {
-      lightest.lower({static_cast<double>(model.bed_density)});  // what is taken up of it counts from the start
+    band::Extreme lightest = found.density, stiffest = found.elastic_density;
+    if (model.bed_density > Real(0)) {  // what is taken up of it counts from the start
+      lightest.lower({static_cast<double>(model.bed_density)});
+      stiffest.lower({static_cast<double>(model.bed_density)});
     }
+    // Pore pressure and viscosity act across open gaps, elastic stiffness does not.
     const bool pores_push_back = model.motion.effective_stress && model.band.volumetric_term;
-    const double pore_stiffness = pores_push_back ? found.pore_stiffness : 0.0;
+    const double of_pores = pores_push_back ? found.pore_stiffness / lightest.value : 0.0;
     for (std::size_t m = 0; m < model.motion.materials.size(); ++m) {
       const auto& material = model.motion.materials[m];
-      const double modulus = static_cast<double>(material.elastic.p_wave_modulus()) + pore_stiffness;
-      const double speed = std::sqrt(modulus / lightest.value);
+      const auto modulus = static_cast<double>(material.elastic.p_wave_modulus());
+      const double of_skeleton = modulus / stiffest.value;
+      const WaveSpeeds speeds{std::sqrt(of_skeleton + of_pores), std::sqrt(modulus / lightest.value + of_pores)};
       const auto viscosity_time = static_cast<double>(material.viscosity_time);
-      const bool is_viscous = viscosity_rules(cell, speed, viscosity_time);
-      take(wave_share * wave_limit(cell, speed, viscosity_time), is_viscous ? LimitKind::viscosity : LimitKind::wave,
-           lightest.particle, [&] { return wave_text(model.material_names[m], cell, speed, viscosity_time); });
+      const bool is_viscous = viscosity_rules(cell, speeds, viscosity_time);
+      const band::Extreme& what = is_viscous || of_pores > of_skeleton ? lightest : stiffest;
+      take(wave_share * wave_limit(cell, speeds, viscosity_time), is_viscous ? LimitKind::viscosity : LimitKind::wave,
+           what.particle, [&] { return wave_text(model.material_names[m], cell, speeds, viscosity_time); });
     }
     if (found.speed.value > 0.0) {
       take(particle_share * cell / found.speed.value, LimitKind::particle_speed, found.speed.particle,
@@ -92,10 +101,12 @@ band::StepExtremes extremes_of(const Model<Dim, Real>& model, const mpm::Particl
   constexpr std::size_t of_a_task = 1024;
   const std::vector<Real>& conductivity = model.band.hydraulic_conductivity;
   const band::HydraulicConductivity<Real> hydraulic{conductivity.data(), conductivity.size() == 1};
+  const band::FreeGaps<Real> free_gaps{model.free_gaps.data()};
   const std::size_t count = particles.size(), tasks = (count + of_a_task - 1) / of_a_task;
   return parallel_sum<band::StepExtremes>(tasks, [&](std::size_t task, band::StepExtremes& found) {
     for (std::size_t p = task * of_a_task; p < std::min(count, (task + 1) * of_a_task); ++p) {
-      found += band::extremes_of_particle<Dim, Real>(model.band, hydraulic, particles, static_cast<std::uint32_t>(p));
+      found += band::extremes_of_particle<Dim, Real>(model.band, hydraulic, free_gaps, particles,
+                                                     static_cast<std::uint32_t>(p));
     }
   });
 }

@@ -1,5 +1,7 @@
-// How the steps of a run end.
+// How long the steps of a run may be, and how they end.
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "../support/case_from_text.hpp"
 #include "sim/simulation.hpp"
@@ -39,6 +41,110 @@ TEST(TimeStep, TheLastFixedStepEndsWithTheRun) {
   }
   EXPECT_EQ(simulation.step_number(), 4);
   EXPECT_DOUBLE_EQ(simulation.time(), 0.01);
+}
+
+// Two blocks of the same stiffness and density, of materials that tension can tear apart.
+const std::string two_blocks = R"(
+[time]
+end = 1.0
+stepping = "adaptive"
+safety = 1.0
+[grid]
+cell = 10.0
+min = [-50.0, -150.0]
+max = [300.0, 150.0]
+[material.free]
+law = "mohr_coulomb"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+friction_angle = 30.0
+cohesion = 1e5
+gaps_close_first = true
+[material.loose]
+law = "mohr_coulomb"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+friction_angle = 30.0
+cohesion = 1e5
+gaps_close_first = false
+[body.first]
+material = "free"
+shape = "box"
+min = [0.0, 0.0]
+max = [50.0, 50.0]
+[body.second]
+material = "loose"
+shape = "box"
+min = [150.0, 0.0]
+max = [200.0, 50.0]
+[heat]
+enabled = false
+[pressure]
+enabled = false
+)";
+
+constexpr double opening = 3.0;  // volume over that of the closed gap
+
+// The limit once a particle of a material, 17 or 117, has been torn apart.
+StepLimit limit_with_gap(Simulation<2, double>& simulation, const std::string& material) {
+  auto& particles = simulation.particles();
+  const std::int64_t id = material == "free" ? 17 : 117;
+  std::size_t p = 0;
+  while (particles.id(p) != id) {
+    ++p;
+  }
+  EXPECT_EQ(simulation.model().material_names[static_cast<std::size_t>(particles.material(p))], material);
+  particles.volume(p) *= opening;
+  particles.gap(p) = material == "free" ? std::log(opening) : 0.0;
+  return simulation.step_limit();
+}
+
+TEST(TimeStep, AnOpenGapThatBearsNothingDoesNotShortenIt) {
+  Simulation<2, double> simulation(paper_case(two_blocks));
+  const double before = simulation.step_limit().step;
+  const StepLimit after = limit_with_gap(simulation, "free");
+  EXPECT_NEAR(after.step, before, 1e-12 * before);
+  EXPECT_NEAR(simulation.next_step(1e6 * before), before, 1e-5 * before);
+}
+
+TEST(TimeStep, GoesByTheVolumeOfMaterialThatBearsAtOnce) {
+  Simulation<2, double> simulation(paper_case(two_blocks));
+  const double before = simulation.step_limit().step;
+  const StepLimit after = limit_with_gap(simulation, "loose");
+  EXPECT_NEAR(after.step, before / std::sqrt(opening), 1e-12 * before);
+  EXPECT_EQ(after.particle, 117);
+}
+
+TEST(TimeStep, GoesByTheVolumeOfMaterialThatDilationOrACutoffLetsBear) {
+  for (const char* change : {"material.free.dilation_angle=5", "material.free.tension_cutoff=1e4"}) {
+    Simulation<2, double> simulation(paper_case(two_blocks, {change}));
+    const double before = simulation.step_limit().step;
+    const StepLimit after = limit_with_gap(simulation, "free");
+    EXPECT_NEAR(after.step, before / std::sqrt(opening), 1e-12 * before) << change;
+    EXPECT_EQ(after.particle, 17) << change;
+  }
+}
+
+TEST(TimeStep, ViscosityActsAcrossAnOpenGap) {
+  const double time = 0.1, modulus = 5e8 / 0.9;  // lambda + 2 G with nu = 0.2
+  Simulation<2, double> simulation(
+      paper_case(two_blocks, {"material.free.viscosity_time=0.1", "material.loose.viscosity_time=0.1"}));
+  const auto& particles = simulation.particles();
+  const double square = modulus / (particles.mass(0) / particles.volume(0)) / 100.0;  // (c/h)^2
+  const StepLimit after = limit_with_gap(simulation, "free");
+  EXPECT_NEAR(square * after.step * after.step + time * opening * square * after.step, 1.0, 1e-9);
+  EXPECT_EQ(after.kind, LimitKind::viscosity);
+  EXPECT_EQ(after.particle, 17);
+}
+
+TEST(TimeStep, PorePressureActsAcrossAnOpenGap) {
+  Simulation<2, double> simulation(paper_case(
+      two_blocks, {"mechanics.effective_stress=true", "pressure.enabled=true", "pressure.volumetric_term=true"}));
+  const double before = simulation.step_limit().step;
+  const StepLimit after = limit_with_gap(simulation, "free");
+  EXPECT_LT(after.step, 0.9 * before);
+  EXPECT_GT(after.step, before / std::sqrt(opening));
+  EXPECT_EQ(after.particle, 17);
 }
 
 }  // namespace

@@ -116,9 +116,16 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
   look.largest_volume = 10.0;
   const mpm::WatchedSums<Real> seen = steps.watch(look);
   const band::StepExtremes& extremes = sums.extremes;
-  std::vector<double> numbers{extremes.density.value, extremes.speed.value,    extremes.diffusivity.value,
-                              extremes.seepage.value, extremes.pore_stiffness, static_cast<double>(sums.strays),
-                              seen.kinetic,           seen.potential,          seen.mass,
+  std::vector<double> numbers{extremes.density.value,
+                              extremes.elastic_density.value,
+                              extremes.speed.value,
+                              extremes.diffusivity.value,
+                              extremes.seepage.value,
+                              extremes.pore_stiffness,
+                              static_cast<double>(sums.strays),
+                              seen.kinetic,
+                              seen.potential,
+                              seen.mass,
                               seen.fast_mass};
   const band::BodySums<Dim, Real> body = steps.sum_over_body(sums_of_particle<Dim>());
   numbers.insert(numbers.end(), {body.mass, body.kinetic, body.sensible, body.latent, body.water, body.gas,

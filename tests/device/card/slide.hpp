@@ -118,6 +118,7 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
     p.liquid_pressure(k) = p.pore_pressure(k) = melted ? 1e4 : 0.0;
     p.pore_void(k) = melted ? 0.0 : 1e-5;
     p.contact_offset(k) = 0.5 * spacing;
+    p.gap(k) = k % 2 == 0 ? 0.0 : 0.1;
     p.thermal_scaling(k) = 1.0;
   }
 }
@@ -141,6 +142,7 @@ device::StepModel<Dim, Real> model_of_slide() {
                                                                      .tension_cutoff = 1e3,
                                                                      .residual_friction_angle = friction_angle});
   model.materials = {material};
+  model.free_gaps = {1.0};
   model.phases = phases();
   model.heat = true;
   model.heat_content = heat_content();
