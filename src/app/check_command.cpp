@@ -1,5 +1,4 @@
 // thawslide check: what a run of the case will take, what is doubtful in it, and its picture before it starts.
-#include <chrono>
 #include <filesystem>
 #include <stdexcept>
 
@@ -12,6 +11,7 @@
 #include "app/setup_facts.hpp"
 #include "app/setup_json.hpp"
 #include "app/setup_picture.hpp"
+#include "app/time_estimate.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/read_case.hpp"
@@ -20,23 +20,6 @@
 namespace thawslide::app {
 
 namespace {
-
-constexpr double trial_seconds = 0.5;  // of wall time, to measure the step
-constexpr int trial_steps = 200;
-
-// Seconds one step takes now, measured on the first steps.
-template <int Dim>
-double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
-  const auto start = std::chrono::steady_clock::now();
-  double elapsed = 0.0;
-  int steps = 0;
-  while (steps < trial_steps && elapsed < trial_seconds && simulation.time() < simulation.parameters().time.end) {
-    simulation.step(simulation.next_step(simulation.parameters().time.end));
-    ++steps;
-    elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-  return elapsed / steps;
-}
 
 // What a card would make of the run, tried from where the trial on the processor has come to.
 template <int Dim>

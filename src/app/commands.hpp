@@ -65,7 +65,8 @@ struct NewOptions {
   std::string folder;
   MapOptions maps;
   double reach_angle = config::usual_reach_angle;  // degrees
-  double cell = 0.0;                               // m; 0: from the thickness
+  double cell = 0.0;                               // m; 0: that of the resolution
+  std::string resolution;                          // a name of config::resolutions; empty: quick
 };
 int make_new_case(const NewOptions& options);
 

@@ -174,10 +174,16 @@ int run_program(int count, char** arguments) {
                    "The domain holds all ground below a line that falls so much from the top of the release [degrees]")
       ->check(CLI::Range(1.0, 45.0))
       ->option_text("1 to 45, default 8");
+  CLI::Option* cell = make_new->add_option("--cell", new_options.cell, "Size of the grid's cells [m]")
+                          ->check(above_zero())
+                          ->option_text("default: that of --resolution");
   make_new
-      ->add_option("--cell", new_options.cell,
-                   "Size of the grid's cells [m] (default: six particles across the release's thickness)")
-      ->check(above_zero());
+      ->add_option(
+          "--resolution", new_options.resolution,
+          "quick: for travel distance and speed; standard: for thickness and area too; fine: half of its cells")
+      ->check(CLI::IsMember({"quick", "standard", "fine"}))
+      ->excludes(cell)
+      ->option_text("default quick");
   make_new
       ->add_option("--largest-volume", new_options.maps.largest_volume,
                    "Confirms a release above the usual limit of body.slide.largest_volume [m3]")

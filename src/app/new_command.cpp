@@ -3,13 +3,19 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
 #include "app/names_in_case.hpp"
+#include "app/notes_of_setup.hpp"
+#include "app/resolution_text.hpp"
+#include "app/run_loop.hpp"
+#include "app/time_estimate.hpp"
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 
@@ -68,39 +74,41 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
   }
 }
 
-std::string reason_for_cell(const config::Proposal& proposal, bool given) {
-  return given ? fmt::format("--cell: a release {:.4g} m thick with cells of {:g} m", proposal.thickness, proposal.cell)
-               : fmt::format("--thickness: a release {:.4g} m thick asks for cells of {:g} m", proposal.thickness,
-                             proposal.cell);
+std::string reason_for_cell(const config::Proposal& proposal, const NewOptions& options) {
+  if (options.cell > 0.0) {
+    return fmt::format("--cell: a release {:.4g} m thick with cells of {:g} m", proposal.thickness, proposal.cell);
+  }
+  return fmt::format("{}: a release {:.4g} m thick asks for cells of {:g} m",
+                     options.resolution.empty() ? "--thickness" : "--resolution " + options.resolution,
+                     proposal.thickness, proposal.cell);
 }
 
 // As many cells along each axis as a case may have.
-// given: by --cell, and not by the thickness.
-void require_resolvable(const config::Proposal& proposal, bool given) {
+void require_resolvable(const config::Proposal& proposal, const NewOptions& options) {
   constexpr double fewest = 2.0, most = 5e5;
   for (std::size_t a = 0; a < 3; ++a) {
     const double cells = (proposal.max[a] - proposal.min[a]) / proposal.cell;
     if (!(cells >= fewest && cells <= most)) {
       throw UserError(
           fmt::format("{}, and the terrain about it would have {:.4g} of them along {}; allowed: {:g} to {:g}. {}",
-                      reason_for_cell(proposal, given), std::max(0.0, std::round(cells)), "xyz"[a], fewest, most,
-                      given ? "Give another --cell." : "Is the thickness in metres?"));
+                      reason_for_cell(proposal, options), std::max(0.0, std::round(cells)), "xyz"[a], fewest, most,
+                      options.cell > 0.0 ? "Give another --cell." : "Is the thickness in metres?"));
     }
   }
 }
 
 // Before any file is written, in words for a user who has no case yet.
-void require_memory(const config::Proposal& proposal, bool given) {
+void require_memory(const config::Proposal& proposal, const NewOptions& options) {
   const sim::MemoryNeed need = sim::memory_of_particles<3>(proposal.particles);
   const AvailableMemory available = available_memory();
   if (need.total() > available.bytes) {
     throw UserError(
         fmt::format("{} and {:.3g} particles; they need about {:.3g} GB of memory, and {:.3g} GB {}. Set --cell {:g} "
-                    "or more, which "
-                    "is coarser.{}",
-                    reason_for_cell(proposal, given), proposal.particles, need.total() / 1e9, available.bytes / 1e9,
+                    "or more, which is coarser{}.{}",
+                    reason_for_cell(proposal, options), proposal.particles, need.total() / 1e9, available.bytes / 1e9,
                     available.bound, sim::smallest_cell<3>(need, proposal.cell, available.bytes),
-                    given ? "" : " Is the thickness in metres?"));
+                    options.resolution.empty() ? "" : ", instead of --resolution",
+                    options.cell > 0.0 ? "" : " Is the thickness in metres?"));
   }
 }
 
@@ -177,12 +185,18 @@ std::string without_places(std::string message, const std::string& file) {
   return message;
 }
 
-// Whatever would refuse the case before its first step.
-void require_runnable(const fs::path& folder) {
+// Tries the first steps of the case, and throws whatever would refuse it before them. Without a cost, the run fails in
+// its first steps.
+std::optional<RunCost> cost_of_run(const fs::path& folder) {
   try {
     const config::Case made = config::read_case(folder);
-    const sim::Simulation<3, double> simulation(made, gis::load_site(made).site);
-    const sim::RunRecords<3> records(simulation, simulation.site());
+    sim::Simulation<3, double> simulation(made, gis::load_site(made).site);
+    sim::RunRecords<3> records(simulation, simulation.site());
+    records.start(simulation);
+    const double steps = steps_to_end(simulation);
+    return RunCost{steps, measured_step_seconds(simulation) * steps, thread_count()};
+  } catch (const RunError&) {
+    return {};  // the case stands, and `check` and `run` give the reason
   } catch (const UserError& error) {
     throw UserError(fmt::format("no case was made, as it would not run: {}",
                                 without_places(error.what(), (folder / "case.toml").string())));
@@ -192,6 +206,7 @@ void require_runnable(const fs::path& folder) {
 }  // namespace
 
 int make_new_case(const NewOptions& options) {
+  use_threads(0);
   const std::string release_name = fs::path(options.maps.release).filename().string();
   require_utf8("the folder to make", title_of(options.folder));
   require_utf8("--release", release_name);
@@ -204,10 +219,12 @@ int make_new_case(const NewOptions& options) {
     input.taper = taper_edges(trial, site);
     site = look_again(trial);
   }
+  const std::string resolution = options.cell > 0.0 ? "" : options.resolution.empty() ? "quick" : options.resolution;
   const config::Proposal proposal =
-      config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle, options.cell);
-  require_resolvable(proposal, options.cell > 0.0);
-  require_memory(proposal, options.cell > 0.0);
+      config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle, options.cell,
+                      resolution.empty() ? config::Resolution::quick : config::resolution_named(resolution));
+  require_resolvable(proposal, options);
+  require_memory(proposal, options);
   input.title = title_of(options.folder);
   input.dem_file = release_name == "dem.tif" ? "terrain.tif" : "dem.tif";
   input.thickness = trial.bodies.at(body_name).thickness;
@@ -225,12 +242,20 @@ int make_new_case(const NewOptions& options) {
   write_cropped_dem(folder / input.dem_file, *site.ground, proposal);
   copy_release(folder, trial);
   io::write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
-  require_runnable(folder);
+  const std::optional<RunCost> cost = cost_of_run(folder);
   new_folder.keep();
 
   fmt::print("{}: a release of {:.4g} m3, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
              (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
-  if (const std::string note = config::resolution_note(config::release_on_cells(proposal), "--cell"); !note.empty()) {
+  if (cost) {
+    fmt::print("{}", resolution_text(proposal, resolution, *cost));
+  } else {
+    fmt::print("warning: {}: the run fails in its first steps. `thawslide check` gives the reason\n",
+               (folder / "case.toml").string());
+  }
+  config::BodyOnCells body = config::release_on_cells(proposal);
+  body.has_maps = resolution.empty() || !cost;  // else the text above names the cells for maps
+  if (const std::string note = config::resolution_note(body, "--cell"); !note.empty()) {
     fmt::print("note: {}\n", note);
   }
   if (const std::string warning = config::edge_warning(proposal); !warning.empty()) {

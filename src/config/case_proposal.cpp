@@ -184,7 +184,7 @@ BodyOnCells release_on_cells(const Proposal& proposal) {
           .has_maps = true};
 }
 
-Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell) {
+Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell, Resolution resolution) {
   const ReleaseExtent release = extent_of(dem, thickness);
   Proposal proposal;
   proposal.volume = release.volume;
@@ -192,7 +192,7 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle,
   proposal.median_thickness = release.median_thickness;
   proposal.length = std::max(release.east - release.west, release.north - release.south);
   proposal.edge_distance = distance_to_edge(dem, release, proposal.length);
-  propose_cell(proposal, 3, cell);
+  propose_cell(proposal, 3, cell, resolution);
 
   Stretch x{release.west, release.east}, y{release.south, release.north};
   double lowest = release.bottom, farthest = 0.0;
@@ -221,8 +221,10 @@ Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle,
   return proposal;
 }
 
-void propose_cell(Proposal& proposal, int dimension, double cell) {
-  proposal.cell = cell > 0.0 ? cell : round_down(proposal.thickness * proposal.particles_per_axis / proposed_particles);
+void propose_cell(Proposal& proposal, int dimension, double cell, Resolution resolution) {
+  proposal.cell = cell > 0.0
+                      ? cell
+                      : cell_of(resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
   proposal.particles = proposal.volume / std::pow(proposal.cell / proposal.particles_per_axis, dimension);
 }
 

@@ -7,6 +7,7 @@
 #include "base/raster.hpp"
 #include "config/case.hpp"
 #include "config/resolution.hpp"
+#include "config/resolution_preset.hpp"
 #include "config/taper_proposal.hpp"
 
 namespace thawslide::config {
@@ -41,17 +42,18 @@ struct Proposal {
 
 // The domain holds every point of the DEM that lies below a line that falls by the reach angle from the release's
 // highest point, and all of the release, which may reach a cell of the DEM beyond the points that have a thickness. The
-// cell gives at least six particles across the thickness. dem: NaN where there is no data; thickness: vertical
-// [m], on points of the same places. `cell`: of the grid [m], where the user gives it; 0: none.
-[[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell = 0.0);
+// cell is that of the resolution. dem: NaN where there is no data; thickness: vertical [m], on points of the same
+// places. `cell`: of the grid [m], where the user gives it; 0: none.
+[[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell = 0.0,
+                               Resolution resolution = Resolution::quick);
 
 // The commented case file.
 [[nodiscard]] std::string case_text(const ProposalInput& input, const Proposal& proposal);
 
 inline constexpr int margin_cells = 4;  // between the release and the sides of the domain
 
-// Sets the cell, to the given one unless that is 0, and the number of particles; needs thickness and volume.
-void propose_cell(Proposal& proposal, int dimension, double cell = 0.0);
+// Sets the cell, to the given one unless that is 0, and the number of particles; needs volume and thicknesses.
+void propose_cell(Proposal& proposal, int dimension, double cell = 0.0, Resolution resolution = Resolution::quick);
 
 // Sets the end and the interval between snapshots, for a slide that may go so far [m].
 void propose_times(Proposal& proposal, double farthest);

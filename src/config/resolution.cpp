@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "base/thousands.hpp"
 #include "config/fitting_cell.hpp"
 
 namespace thawslide::config {
@@ -19,16 +20,7 @@ std::string found_words(double found) { return fmt::format("{:.2g}", rounded_dow
 
 // Two significant digits, with commas between thousands.
 std::string times_words(double factor) {
-  if (factor < 10.0) {
-    return fmt::format("{:.2g}", factor);
-  }
-  const double digit = last_digit(factor, 2);
-  std::string text = fmt::format("{:.0f}", std::round(factor / digit) * digit);
-  for (std::size_t place = text.size(); place > 3;) {
-    place -= 3;
-    text.insert(place, ",");
-  }
-  return text;
+  return factor < 10.0 ? fmt::format("{:.2g}", factor) : with_commas(factor, 2);
 }
 
 }  // namespace
@@ -75,8 +67,8 @@ std::string maps_comment(const BodyOnCells& body) {
   return fmt::format(
       "# Travel distance and speed need 2 to 4 cells across the thickness of the release. Maps of thickness and area "
       "need\n"
-      "# {:g}: cells of {:.9g} m (`thawslide new --cell {:.9g}`), at about {} times the run time.\n",
-      cells_for_maps, finer, finer, times_words(run_time_factor(body.cell, finer, body.dimension)));
+      "# {:g}: cells of {:.9g} m (`thawslide new --resolution standard`), at about {} times the run time.\n",
+      cells_for_maps, finer, times_words(run_time_factor(body.cell, finer, body.dimension)));
 }
 
 }  // namespace thawslide::config

@@ -77,6 +77,15 @@ TEST(CaseProposal, TheCellFollowsTheVolumeAndTheMedianTheArea) {
   EXPECT_EQ(proposal.cell, 6.0) << "six particles across 20 m";
 }
 
+TEST(CaseProposal, TheCellIsThatOfTheResolutionUnlessTheUserGivesOne) {
+  const Raster release = release_at(20, 15, 20.0);
+  const Proposal standard = propose(dem_points(), release, 20.0, 0.0, Resolution::standard);
+  EXPECT_EQ(standard.cell, 2.5) << "eight cells across 20 m";
+  EXPECT_EQ(propose(dem_points(), release, 20.0, 0.0, Resolution::fine).cell, 1.25);
+  EXPECT_EQ(propose(dem_points(), release, 20.0, 4.0, Resolution::fine).cell, 4.0);
+  EXPECT_EQ(case_text(ProposalInput(), standard).find("Maps of thickness and area need"), std::string::npos);
+}
+
 // What a case says of a file's name, whatever letters it has.
 TEST(CaseProposal, NamesAreTextsOfToml) {
   const std::string name = "x\"\n[time]\nend = 5\n#\\.geojson";

@@ -144,7 +144,8 @@ TEST(Resolution, TheCommentOfACaseSaysTheSame) {
   for (const double cell : {30.0, 8.0, 4.0, 3.1}) {
     const BodyOnCells body = body_on(24.0, cell, 2, true);
     const std::string comment = maps_comment(body), note = resolution_note(body, "--cell");
-    EXPECT_NE(comment.find("cells of 3 m (`thawslide new --cell 3`), at about"), std::string::npos) << comment;
+    EXPECT_NE(comment.find("cells of 3 m (`thawslide new --resolution standard`), at about"), std::string::npos)
+        << comment;
     const std::string cost = comment.substr(comment.find("at about"));
     EXPECT_NE(note.find(cost.substr(0, cost.find('.', cost.find("times")))), std::string::npos) << note;
   }
