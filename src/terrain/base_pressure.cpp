@@ -14,6 +14,15 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
                                                                                 Real smallest_area) {
   using T = mpm::Tile<Dim>;
   using mpm::BaseLayout;
+  std::array<Real, static_cast<std::size_t>(T::nodes)> pressure{};
+  const auto is_loaded = [&](std::size_t k) { return nodes.base(b, k)[BaseLayout::load] > Real(0); };
+  std::size_t first_loaded = 0;
+  while (first_loaded < pressure.size() && !is_loaded(first_loaded)) {
+    ++first_loaded;
+  }
+  if (first_loaded == pressure.size()) {
+    return pressure;
+  }
   mpm::Patch<Dim, Real, BaseLayout::size> patch;
   patch.clear();
   const std::int32_t* blocks = grid.blocks_about_block(b);
@@ -24,9 +33,8 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
       });
     }
   });
-  std::array<Real, static_cast<std::size_t>(T::nodes)> pressure{};
-  for (int k = 0; k < T::nodes; ++k) {
-    if (!(nodes.base(b, static_cast<std::size_t>(k))[BaseLayout::load] > Real(0))) {
+  for (int k = static_cast<int>(first_loaded); k < T::nodes; ++k) {
+    if (!is_loaded(static_cast<std::size_t>(k))) {
       continue;
     }
     typename T::Index lowest = T::node({}, k);

@@ -1,7 +1,9 @@
 #include "terrain/contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "base/instances.hpp"
 #include "terrain/base_pressure.hpp"
@@ -110,29 +112,48 @@ template <int Dim, class Real>
 void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                      const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
                      Real dt, mpm::Nodes<Dim, Real>& nodes) {
+  constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+  thread_local std::vector<std::uint8_t> room;  // by block: whether some node is loaded; kept: a step allocates nothing
+  room.assign(grid.blocks().size(), 0);
+  auto& loaded = room;  // of this thread, for all of them
   nodes.base.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (!ground.any_candidate(b)) {
       return;
     }
     const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
+    for (std::size_t k = 0; k < block_nodes; ++k) {
       auto& base = nodes.base.of_block(b)[k];
       base.fill(Real(0));
-      if (!ground.block(b)[k].candidate) {
-        continue;
-      }
       const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
       const auto& record = nodes.momentum(b, k);
-      if (record[MomentumLayout<Dim>::mass] > Real(0)) {
+      if (known.candidate && record[MomentumLayout<Dim>::mass] > Real(0)) {
         const mpm::NodeConstraints<Dim, Real> walls{on_block, k};
         const auto state = trial_state<Dim>(walls, dt, model.mass_damping, record);
         base[BaseLayout::load] =
             known.bend * approach(model.distance_check, nodes.near_ground(b, k)[NearGround::clearance], dt, state.mass,
                                   Real(state.momentum.dot(known.normal)));
+        if (base[BaseLayout::load] > Real(0)) {
+          loaded[b] = 1;
+        }
       }
-      // A node that a hovering slide does not reach has its share of the ground below it all the same.
-      base[BaseLayout::covered] = known.area * covered_share_at(grid, ground, model.width, nodes, b, k);
+    }
+  });
+  // A node that a hovering slide does not reach has its share of the ground below it all the same. Only loaded nodes
+  // ask for those about them.
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    const std::int32_t* about = grid.blocks_about_block(b);
+    if (!ground.any_candidate(b) || std::none_of(about, about + mpm::Tile<Dim>::stencil, [&](std::int32_t other) {
+          return other != KeyIndex::absent && loaded[static_cast<std::size_t>(other)] != 0;
+        })) {
+      return;
+    }
+    for (std::size_t k = 0; k < block_nodes; ++k) {
+      const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
+      if (known.candidate) {
+        nodes.base.of_block(b)[k][BaseLayout::covered] =
+            known.area * covered_share_at(grid, ground, model.width, nodes, b, k);
+      }
     }
   });
 }
