@@ -17,7 +17,7 @@ void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim
   nodes.state.resize(grid.blocks().size());
   const SetNodalState<Dim, Real> set_state{grid, model};
   mpm::node_pass<mpm::NoAccount>(
-      grid, [&](std::size_t b) { mpm::sum_block<mpm::Averages>(grid, b, nodes); },
+      grid, [&](std::size_t b) { return mpm::sum_block<mpm::Averages>(grid, b, nodes); },
       [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) { set_state(nodes, at); });
 }
 
@@ -39,16 +39,9 @@ void average_seeping_water(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
       AddSeepingWater<Dim, Real>{model, hydraulic});
   nodes.seeping_water.hold(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
   mpm::node_pass<mpm::NoAccount>(
-      grid,
-      [&](std::size_t b) {
-        if (blocks[b] != 0) {
-          mpm::sum_block<mpm::SeepingWater>(grid, b, nodes);
-        }
-      },
+      grid, [&](std::size_t b) { return blocks[b] != 0 ? mpm::sum_block<mpm::SeepingWater>(grid, b, nodes) : 0; },
       [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) {
-        if (blocks[at.block] != 0) {
-          nodes.state(at)[mpm::NodalState::pore_pressure] = seeping_pressure<Real>(nodes.seeping_water(at));
-        }
+        nodes.state(at)[mpm::NodalState::pore_pressure] = seeping_pressure<Real>(nodes.seeping_water(at));
       });
 }
 

@@ -1,7 +1,9 @@
 #include "band/heat.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "band/heat_kernels.hpp"
 #include "band/heat_nodes.hpp"
@@ -22,7 +24,7 @@ NodalHeat<Real> solve_with_tangent(const mpm::SparseGrid<Dim, Real>& grid, const
   nodes.orphan_heat.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.contact.holds(b); });
   const SolveTemperatureRate<Dim, Real> solve{grid, model, dt, first_step};
   return mpm::node_pass<NodalHeat<Real>>(
-      grid, [&](std::size_t b) { mpm::sum_block<HeatRates>(grid, b, nodes); },
+      grid, [&](std::size_t b) { return mpm::sum_block<HeatRates>(grid, b, nodes); },
       [&](const NodeAt& at, NodalHeat<Real>& sum) {
         const auto& rates = nodes.heat_rates(at);
         solve(nodes, at, rates[HeatRates::capacity], rates[HeatRates::subgrid], sum);
@@ -30,26 +32,28 @@ NodalHeat<Real> solve_with_tangent(const mpm::SparseGrid<Dim, Real>& grid, const
 }
 
 // Where temperatures change, the sums of particles with their secant capacity stand in the patches; elsewhere those
-// with the tangent still do.
+// with the tangent still do, and with them the rates, but for what conditions at faces bring. Returns that heat [J].
 template <int Dim, class Real>
-NodalHeat<Real> solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                                  bool first_step, mpm::Nodes<Dim, Real>& nodes) {
+Real solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
+                       bool first_step, mpm::Nodes<Dim, Real>& nodes) {
   using mpm::HeatRates;
   const auto& changing = nodes.marks.changing_blocks;
   nodes.secant_rates.hold(grid.blocks().size(), [&](std::size_t b) { return changing[b] != 0; });
   const SolveTemperatureRate<Dim, Real> solve{grid, model, dt, first_step};
-  return mpm::node_pass<NodalHeat<Real>>(
+  const NodalHeat<Real> solved = mpm::node_pass<NodalHeat<Real>>(
       grid,
       [&](std::size_t b) {
-        if (changing[b] != 0) {
-          sum_patches_in_block(grid, b, nodes.heat_rates.patches(grid.tiles().size()), nodes.secant_rates.of_block(b),
-                               every_tile);
+        if (changing[b] == 0) {
+          return solve.has_faces ? mpm::rows_seen_in_block(grid, b) : 0;
         }
+        return sum_patches_in_block(grid, b, nodes.heat_rates.patches(grid.tiles().size()),
+                                    nodes.secant_rates.of_block(b), every_tile);
       },
       [&](const NodeAt& at, NodalHeat<Real>& sum) {
         const auto& rates = changing[at.block] != 0 ? nodes.secant_rates(at) : nodes.heat_rates(at);
         solve(nodes, at, rates[HeatRates::capacity], rates[HeatRates::subgrid], sum);
       });
+  return solved.gain.boundary;
 }
 
 // Marks the tiles in which some particle's temperature may change by more than is negligible, and the blocks about
@@ -58,35 +62,58 @@ template <int Dim, class Real, class Law>
 void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real dt,
                   const mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
   const auto half_negligible = [&](auto change) { return law.content.is_negligible(Real(2) * change); };
+  constexpr std::size_t own_block = static_cast<std::size_t>(mpm::Tile<Dim>::stencil) / 2;
   auto& marks = nodes.marks;
   marks.changing_tiles.resize(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
-    mpm::PatchOf<mpm::NodalState, Dim, Real> state;
-    load_patch(grid, t, nodes.state, state);
+    const auto warms = [&](const auto& node) { return !half_negligible(dt * node[mpm::NodalState::temperature_rate]); };
+    const auto any_seen_warms = [&] {
+      mpm::PatchOf<mpm::NodalState, Dim, Real> state;
+      load_patch(grid, t, nodes.state, state);
+      return state.rows_with(grid.rows_seen(t), warms) != 0;
+    };
+    const auto* own = nodes.state.of_block(static_cast<std::size_t>(grid.blocks_about_tile(t)[own_block]));
     const auto& batches = grid.batches(t);
-    const bool changes =
-        std::any_of(state.records.begin(), state.records.end(),
-                    [&](const auto& node) { return !half_negligible(dt * node[mpm::NodalState::temperature_rate]); }) ||
-        std::any_of(batches.begin(), batches.end(),
-                    [&](const auto& batch) { return any(!half_negligible(particles.conduction_in_cell.load(batch))); });
+    const bool changes = std::any_of(own, own + nodes.state.nodes, warms) ||
+                         std::any_of(batches.begin(), batches.end(),
+                                     [&](const auto& batch) {
+                                       return any(!half_negligible(particles.conduction_in_cell.load(batch)));
+                                     }) ||
+                         any_seen_warms();
     marks.changing_tiles[t] = changes ? 1 : 0;
   });
   grid.mark_blocks_about(marks.changing_tiles, marks.changing_blocks);
 }
 
+// The tiles, and of these the batches, that see nodes which hold friction heat without linear weight.
+template <int Dim, class Real>
+struct SeesOrphanHeat {
+  const mpm::SparseGrid<Dim, Real>& grid;
+  const mpm::SparseRecordsOf<mpm::OrphanHeat, Dim, Real>& orphan_heat;
+  std::vector<std::uint64_t>& rows;  // by tile, of its patch (Tile::rows_from): those that hold some
+
+  [[nodiscard]] bool operator()(std::size_t tile) const {
+    mpm::PatchOf<mpm::OrphanHeat, Dim, Real> heat;
+    load_patch(grid, tile, orphan_heat, heat);
+    rows[tile] = heat.rows_with(grid.rows_seen(tile), [](const auto& record) { return record[0] != Real(0); });
+    return rows[tile] != 0;
+  }
+  [[nodiscard]] bool operator()(std::size_t tile, const mpm::BatchNodes<Real>& nodes) const {
+    return std::any_of(nodes.first.begin(), nodes.first.end(),
+                       [&](std::int32_t lowest) { return (mpm::Tile<Dim>::rows_from(lowest) & rows[tile]) != 0; });
+  }
+};
+
 // What nodes without linear weight hold of friction heat, to the particles that see them.
 template <int Dim, class Real>
 void take_orphan_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                       mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
-  const auto holds_heat = [&](std::size_t t) {
-    mpm::PatchOf<mpm::OrphanHeat, Dim, Real> heat;
-    load_patch(grid, t, nodes.orphan_heat, heat);
-    return std::any_of(heat.records.begin(), heat.records.end(),
-                       [](const auto& record) { return record[0] != Real(0); });
-  };
+  thread_local std::vector<std::uint64_t> rows;  // kept: a step allocates nothing
+  rows.resize(grid.tiles().size());
+  const SeesOrphanHeat<Dim, Real> sees_heat{grid, nodes.orphan_heat, rows};
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     const mpm::MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
-    mpm::particle_pass(grid, weights, particles, nodes, holds_heat, TakeOrphanHeat<Dim, Real>{dt});
+    mpm::particle_pass(grid, weights, particles, nodes, sees_heat, TakeOrphanHeat<Dim, Real>{dt});
   });
 }
 
@@ -108,7 +135,7 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
       find_changes(grid, law, dt, particles, nodes);
       const auto changes = [&](std::size_t t) { return nodes.marks.changing_tiles[t] != 0; };
       pass(changes, SecantCapacity<Dim, Real, Law>{law, dt});
-      solved = solve_with_secant(grid, model, dt, first_step, nodes);
+      solved.gain.boundary = solve_with_secant(grid, model, dt, first_step, nodes);
     }
     HeatGain<Real> gain = solved.gain;
     if (solved.orphans > 0) {

@@ -23,12 +23,7 @@ Real seep(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& mo
       SeepageFlows<Dim, Real>{model, model.hydraulic(), dt, grid.inverse_cell()});
   nodes.seepage.hold(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
   const Real taken = mpm::node_pass<Real>(
-      grid,
-      [&](std::size_t b) {
-        if (blocks[b] != 0) {
-          mpm::sum_block<mpm::Seepage>(grid, b, nodes);
-        }
-      },
+      grid, [&](std::size_t b) { return blocks[b] != 0 ? mpm::sum_block<mpm::Seepage>(grid, b, nodes) : 0; },
       [&](const mpm::NodeAt& at, Real& sum) {
         const auto& sums = nodes.seepage(at);
         Real& change = nodes.state(at)[mpm::NodalState::pressure_change];

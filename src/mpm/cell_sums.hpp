@@ -35,7 +35,7 @@ class CellSums {
   static_assert(size % width == 0 && First % width == 0 && First + groups * width <= size);
 
  public:
-  explicit CellSums(Patch<Dim, Real, Components>& patch) : patch_(patch) {}
+  explicit CellSums(Patch<Dim, Real, Components>& patch, std::uint64_t /*rows*/ = 0) : patch_(patch) {}
   CellSums(const CellSums&) = delete;
   CellSums& operator=(const CellSums&) = delete;
 
@@ -132,7 +132,7 @@ class LinearCellSums {
   static_assert(Added::groups == 1 && First % width == 0 && First + width <= size);
 
  public:
-  explicit LinearCellSums(Patch<Dim, Real, Components>& patch) : patch_(patch) {}
+  explicit LinearCellSums(Patch<Dim, Real, Components>& patch, std::uint64_t /*rows*/ = 0) : patch_(patch) {}
   LinearCellSums(const LinearCellSums&) = delete;
   LinearCellSums& operator=(const LinearCellSums&) = delete;
 
@@ -224,10 +224,11 @@ class PatchMinima {
   static constexpr Real largest = std::numeric_limits<Real>::max();
 
  public:
-  explicit PatchMinima(Patch<Dim, Real, Components>& patch) : patch_(patch) {
-    for (auto& record : patch.records) {
-      record[Component] = largest;
-    }
+  // rows: that the particles see (Tile::rows_from).
+  PatchMinima(Patch<Dim, Real, Components>& patch, std::uint64_t rows) : patch_(patch) {
+    patch.for_rows(rows, [](auto* row) {
+      std::for_each_n(row, Tile<Dim>::patch_edge, [](auto& record) { record[Component] = largest; });
+    });
   }
   PatchMinima(const PatchMinima&) = delete;
   PatchMinima& operator=(const PatchMinima&) = delete;

@@ -5,32 +5,39 @@
 
 namespace thawslide::mpm {
 
-// The sums of a block's records, of what the particles of the tiles added that takes(t) names; for a name that is
-// lowered the smallest numbers, after the sums of its record.
+// The sums of a block's records, of what the particles of the tiles added that takes(t) names. Returns the rows of the
+// block that particles see, a bit each; what stands in the others is of no step.
 template <class Name, int Dim, class Real, class Takes>
-void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes, const Takes& takes) {
+std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
+                        const Takes& takes) {
   auto& records = nodes.template of<Name>();
-  const auto patches = records.patches(grid.tiles().size());
-  if constexpr (IsLowered<Name>) {
-    unrolled<part_of<Name, Dim>.count>([&](auto c) {
-      take_smallest_in_block<part_of<Name, Dim>.from + c>(grid, block, patches, records.of_block(block), takes);
-    });
-  } else {
-    sum_patches_in_block(grid, block, patches, records.of_block(block), takes);
-  }
+  return sum_patches_in_block(grid, block, records.patches(grid.tiles().size()), records.of_block(block), takes);
 }
 template <class Name, int Dim, class Real>
-void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes) {
-  sum_block<Name>(grid, block, nodes, every_tile);
+std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes) {
+  return sum_block<Name>(grid, block, nodes, every_tile);
+}
+// For a name that is lowered the smallest numbers, after the sums of its record.
+template <IsLowered Name, int Dim, class Real, class Takes>
+void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes, const Takes& takes) {
+  auto& records = nodes.template of<Name>();
+  unrolled<part_of<Name, Dim>.count>([&](auto c) {
+    take_smallest_in_block<part_of<Name, Dim>.from + c>(grid, block, records.patches(grid.tiles().size()),
+                                                        records.of_block(block), takes);
+  });
 }
 
-// Calls begin(block) and then of_node(node, account) for the nodes of each block; returns the sum of the accounts.
+// Calls begin(block), which tells the rows of nodes to visit, a bit each, and then of_node(node, account) for these, in
+// each block; returns the sum of the accounts.
 template <class Account, int Dim, class Real, class Begin, class OfNode>
 Account node_pass(const SparseGrid<Dim, Real>& grid, const Begin& begin, const OfNode& of_node) {
+  constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);
   return parallel_sum<Account>(grid.blocks().size(), [&](std::size_t b, Account& account) {
-    begin(b);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(Tile<Dim>::nodes); ++k) {
-      of_node(NodeAt{b, k}, account);
+    for (std::uint32_t rows = begin(b); rows != 0; rows &= rows - 1) {
+      const std::size_t first = static_cast<std::size_t>(std::countr_zero(rows)) * edge;
+      for (std::size_t k = first; k < first + edge; ++k) {
+        of_node(NodeAt{b, k}, account);
+      }
     }
   });
 }

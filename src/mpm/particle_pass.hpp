@@ -145,7 +145,7 @@ class TileWork<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
   template <class Records>
   TileWork([[maybe_unused]] const SparseGrid<Dim, Real>& grid, [[maybe_unused]] std::size_t tile,
            [[maybe_unused]] Records& records)
-      : sums_{{SumsOf<Adds, Dim, Real>(cleared<Adds>(records, grid, tile))}...} {
+      : sums_{{SumsOf<Adds, Dim, Real>(cleared<Adds>(records, grid, tile), grid.rows_seen(tile))}...} {
     (load_patch(grid, tile, records.template of<Reads>(), patches_.template of<Reads>()), ...);
   }
 
@@ -169,7 +169,7 @@ class TileWork<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
   static auto& cleared(Records& records, const SparseGrid<Dim, Real>& grid, std::size_t tile) {
     auto& patch = records.template of<Name>().patches(grid.tiles().size())[tile];
     if constexpr (!OfAnOwner<Name>) {
-      patch.clear();
+      patch.clear(grid.rows_seen(tile));
     }
     return patch;
   }

@@ -65,7 +65,7 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
     reorder(particles);
   }
   batches_.resize(tiles_.size());
-  broken_.resize(tiles_.size());
+  made_.resize(tiles_.size());
   make_stale_batches(particles);
   note_order(sorts);
 }
@@ -74,7 +74,9 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
 // since the last sorting.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::note_order(bool sorted) {
-  const std::size_t broken = std::accumulate(broken_.begin(), broken_.end(), std::size_t{0});
+  const std::size_t broken =
+      std::accumulate(made_.begin(), made_.end(), std::size_t{0},
+                      [](std::size_t sum, const MadeBatches& of_tile) { return sum + of_tile.broken; });
   if (sorted) {
     calls_ = 0;
     scattered_ = 0;
@@ -293,7 +295,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   batches.clear();
   const std::size_t contiguous = (tile.last - tile.first + most - 1) / most;
   batches.reserve(contiguous + contiguous / 8 + 2);  // some are broken
-  broken_[t] = 0;
+  made_[t] = {};
   for (std::uint32_t k = tile.first; k < tile.last;) {
     TileBatch<Dim, Real> batch;
     batch.contiguous = side_by_side(k);
@@ -324,7 +326,10 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
       batches.back().nodes.goes_on = before.nodes.first[before.count - 1] == batch.nodes.first[0];
     }
     batches.push_back(batch);
-    broken_[t] += batch.contiguous ? 0 : 1;
+    made_[t].broken += batch.contiguous ? 0 : 1;
+    for (const std::int32_t lowest : batch.nodes.first) {
+      made_[t].rows_seen |= T::rows_from(lowest);
+    }
   }
 }
 

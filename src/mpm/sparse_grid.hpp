@@ -49,6 +49,8 @@ class SparseGrid {
   [[nodiscard]] const std::vector<OccupiedTile>& tiles() const { return tiles_; }
   // The particles of tile t in batches, in canonical order.
   [[nodiscard]] const std::vector<TileBatch<Dim, Real>>& batches(std::size_t t) const { return batches_[t]; }
+  // The rows of tile t's patch (Tile::rows_from) in which its particles see nodes.
+  [[nodiscard]] std::uint64_t rows_seen(std::size_t t) const { return made_[t].rows_seen; }
   // Keys of the active blocks: occupied tiles and their neighbours, ascending.
   [[nodiscard]] const std::vector<std::uint64_t>& blocks() const { return blocks_; }
   // The number of the active block with a key, or KeyIndex::absent.
@@ -89,6 +91,12 @@ class SparseGrid {
   struct TileChange {
     std::size_t former, first_mover, last_mover;
     bool changed;  // some of its particles came, left or moved within
+  };
+
+  // What is known of a tile's batches.
+  struct MadeBatches {
+    std::uint64_t rows_seen;
+    std::uint32_t broken;  // batches that are not contiguous
   };
 
   void note_appended(const Particles<Dim, Real>& particles);
@@ -133,10 +141,10 @@ class SparseGrid {
   KeyIndex tile_number_, block_number_;
   std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;
   bool blocks_changed_ = true;
-  int calls_ = 0;                      // since particles were sorted in memory
-  std::vector<std::uint32_t> broken_;  // by tile: batches that are not contiguous
-  std::size_t fewest_broken_ = 0;      // right after the last sorting
-  double scattered_ = 0;               // what the order has cost since: see note_order
+  int calls_ = 0;                  // since particles were sorted in memory
+  std::vector<MadeBatches> made_;  // by tile
+  std::size_t fewest_broken_ = 0;  // right after the last sorting
+  double scattered_ = 0;           // what the order has cost since: see note_order
 };
 
 }  // namespace thawslide::mpm

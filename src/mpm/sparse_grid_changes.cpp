@@ -58,7 +58,7 @@ void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& no
     if (placed > first) {
       tiles_[tiles] = {tile.key, first, placed};
       batches_[tiles].swap(batches_[t]);
-      broken_[tiles] = broken_[t];
+      made_[tiles] = made_[t];
       stale_[tiles] = stale;
       ++tiles;
     }
@@ -66,7 +66,7 @@ void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& no
   blocks_changed_ = tiles < tiles_.size();
   tiles_.resize(tiles);
   batches_.resize(tiles);
-  broken_.resize(tiles);
+  made_.resize(tiles);
   stale_.resize(tiles);
   if (blocks_changed_) {
     list_blocks();

@@ -22,8 +22,11 @@ struct Tile {
   static constexpr int edge = 1 << edge_bits;
   static constexpr int node_bits = Dim * edge_bits;  // of a node's place in its tile
   static constexpr int nodes = power(edge, Dim);
+  static constexpr int rows = power(edge, Dim - 1);  // along the first axis
+  static constexpr std::uint32_t all_rows = (std::uint32_t{1} << rows) - 1;
   static constexpr int patch_edge = edge + 2;
   static constexpr int patch_nodes = power(patch_edge, Dim);
+  static constexpr int patch_rows = power(patch_edge, Dim - 1);
   static constexpr int stencil = power(3, Dim);  // nodes of a particle; also tiles in the neighbourhood of one
 
   using Index = std::array<int, Dim>;
@@ -85,6 +88,14 @@ struct Tile {
       local /= edge;
     }
     return n;
+  }
+  // Rows of a patch, along the first axis, a bit each: those of the nodes that a particle sees, by the lowest one's
+  // place in the patch.
+  static_assert(patch_rows <= 64);
+  static constexpr std::uint64_t rows_from(std::int32_t lowest) {
+    constexpr std::uint64_t three = 7;
+    constexpr std::uint64_t seen = Dim == 3 ? three | three << patch_edge | three << 2 * patch_edge : three;
+    return seen << lowest / patch_edge;
   }
   // Place in the patch of a node given relative to the tile's first node, each component in [-1, edge].
   THAWSLIDE_HD static int in_patch(const Index& relative) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -18,6 +19,7 @@
 #include "base/parallel.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
+#include "mpm/shared_rows.hpp"
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::mpm {
@@ -33,6 +35,27 @@ struct Patch {
   alignas(cache_line) std::array<Record, static_cast<std::size_t>(Tile<Dim>::patch_nodes)> records;
 
   void clear() { std::fill_n(records.front().data(), records.size() * records.front().size(), Real(0)); }
+  // Calls visit(record) for the first one of each row; rows: a bit each (Tile::rows_from).
+  template <class Visit>
+  THAWSLIDE_ALWAYS_INLINE void for_rows(std::uint64_t rows, const Visit& visit) {
+    for (; rows != 0; rows &= rows - 1) {
+      visit(&records[static_cast<std::size_t>(std::countr_zero(rows) * Tile<Dim>::patch_edge)]);
+    }
+  }
+  // Clears these rows alone.
+  void clear(std::uint64_t rows) {
+    for_rows(rows, [](Record* row) { std::fill_n(row->data(), Tile<Dim>::patch_edge * row->size(), Real(0)); });
+  }
+  // Those of these rows in which is(record) is true for some record.
+  template <class Is>
+  [[nodiscard]] std::uint64_t rows_with(std::uint64_t rows, const Is& is) {
+    std::uint64_t found = 0;
+    for_rows(rows, [&](const Record* row) {
+      const auto number = (row - records.data()) / Tile<Dim>::patch_edge;
+      found |= std::uint64_t{std::any_of(row, row + Tile<Dim>::patch_edge, is)} << number;
+    });
+    return found;
+  }
 };
 
 // Room for the patches of one stage at a time: what a stage has summed into its nodes, the next one overwrites.
@@ -126,109 +149,98 @@ class SparseRecords {
   std::vector<std::uint32_t> place_;            // by block
 };
 
-// Calls body(d) for the directions d = 0 .. 3^Dim-1 of a neighbourhood, each a constant.
-template <int Dim, class Body>
-THAWSLIDE_ALWAYS_INLINE void for_each_direction(const Body& body) {
-  unrolled<static_cast<std::size_t>(Tile<Dim>::stencil)>(body);
-}
-
-// A tile that lies in direction d from a block sees it in the opposite one.
-template <int Dim>
-constexpr std::size_t opposite(std::size_t direction) {
-  return static_cast<std::size_t>(Tile<Dim>::stencil) - 1 - direction;
-}
-
-// The nodes that a patch shares with the block in some direction from its tile: first and last in the block along each
-// axis, and the patch's number of the block's node 0.
-struct SharedNodeBox {
-  std::array<int, 3> first{}, last{1, 1, 1}, shift{};
-};
-
-template <int Dim>
-constexpr SharedNodeBox shared_node_box(std::size_t direction) {
-  constexpr int edge = Tile<Dim>::edge;
-  SharedNodeBox box;
-  for (std::size_t a = 0; a < Dim; ++a) {
-    const int d = static_cast<int>(direction % 3) - 1;
-    direction /= 3;
-    box.first[a] = d < 0 ? edge - 1 : 0;
-    box.last[a] = d > 0 ? 1 : edge;
-    box.shift[a] = d * edge + 1;
-  }
-  return box;
-}
-
-// Calls visit(block_place, patch_place, count) for each row of nodes that block and patch share.
-template <int Dim, std::size_t Direction, class Visit>
-THAWSLIDE_ALWAYS_INLINE void for_shared_rows(const Visit& visit) {
-  using T = Tile<Dim>;
-  constexpr SharedNodeBox box = shared_node_box<Dim>(Direction);
-  for (int k = box.first[2]; k < box.last[2]; ++k) {
-    for (int j = box.first[1]; j < box.last[1]; ++j) {
-      visit(static_cast<std::size_t>((k * T::edge + j) * T::edge + box.first[0]),
-            static_cast<std::size_t>(((k + box.shift[2]) * T::patch_edge + j + box.shift[1]) * T::patch_edge +
-                                     box.first[0] + box.shift[0]),
-            static_cast<std::size_t>(box.last[0] - box.first[0]));
-    }
-  }
-}
-
-// Calls visit(block_place, patch_place) for each node of these rows.
-template <int Dim, std::size_t Direction, class Visit>
-THAWSLIDE_ALWAYS_INLINE void for_shared_nodes(const Visit& visit) {
-  for_shared_rows<Dim, Direction>([&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      visit(in_block + i, in_patch + i);
-    }
-  });
-}
-
 inline constexpr auto every_tile = [](std::size_t /*tile*/) { return true; };
 
-// Sums at the nodes of one block of what the patches of the tiles that takes(t) names hold, always in the same order:
-// the block's own tile, then those about it.
-template <int Dim, class Real, int Components, class Takes>
-void sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
-                          std::span<Patch<Dim, Real, Components>> patches,
-                          typename Patch<Dim, Real, Components>::Record* records, const Takes& takes) {
-  using Record = typename Patch<Dim, Real, Components>::Record;
-  using Register = RecordRegister<Real, Components>;
-  constexpr std::size_t size = std::tuple_size_v<Record>;
-  constexpr std::size_t own = static_cast<std::size_t>(Tile<Dim>::stencil) / 2;
+// The rows of a block, a bit each, in which particles see nodes.
+template <int Dim, class Real>
+std::uint32_t rows_seen_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block) {
   const std::int32_t* tiles = grid.tiles_about_block(block);
-  const auto holds_some = [&](std::size_t d) {
-    return tiles[d] != KeyIndex::absent && takes(static_cast<std::size_t>(tiles[d]));
-  };
-  // Calls visit(sums, parts) for each register of the records that the block shares with the tile in direction d.
-  const auto for_registers = [&](auto d, const auto& visit) THAWSLIDE_INLINE_LAMBDA {
-    const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
-    for_shared_rows<Dim, opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
-      for (std::size_t c = 0; c < count * size; c += Register::count) {
-        visit(records[in_block].data() + c, patch.records[in_patch].data() + c);
-      }
-    });
-  };
-  if (!holds_some(own)) {
-    std::fill_n(records->data(), size * NodeRecords<Dim, Real, Components>::nodes, Real(0));
-  } else {
-    for_registers(std::integral_constant<std::size_t, own>(),
-                  [](Real* sums, const Real* parts) { Register::load(parts).store(sums); });
-  }
+  std::uint32_t seen = 0;
   for_each_direction<Dim>([&](auto d) {
-    if (d != own && holds_some(d)) {
-      for_registers(d,
-                    [](Real* sums, const Real* parts) { (Register::load(sums) + Register::load(parts)).store(sums); });
-    }
+    seen |=
+        tiles[d] == KeyIndex::absent ? 0 : rows_in_block<Dim, d>(grid.rows_seen(static_cast<std::size_t>(tiles[d])));
   });
+  return seen;
 }
 
-// The same at the nodes of all blocks; then(block) follows once a block has its sums.
+// Sums at the nodes of one block of what the patches of the tiles that takes(t) names hold, always in the same order:
+// the block's own tile, then those about it; of each patch the rows alone that its particles see. Returns the rows of
+// the block, a bit each, that particles of any tile see: the other records stay as they were.
+template <int Dim, class Real, int Components, class Takes>
+std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
+                                   std::span<Patch<Dim, Real, Components>> patches,
+                                   typename Patch<Dim, Real, Components>::Record* records, const Takes& takes) {
+  using Record = typename Patch<Dim, Real, Components>::Record;
+  using Register = RecordRegister<Real, Components>;
+  constexpr std::size_t size = std::tuple_size_v<Record>, edge = static_cast<std::size_t>(Tile<Dim>::edge);
+  constexpr std::size_t own = static_cast<std::size_t>(Tile<Dim>::stencil) / 2;
+  const std::int32_t* tiles = grid.tiles_about_block(block);
+  std::uint32_t seen = 0, begun = 0;  // rows of the block
+  const auto add_patch = [&](auto d) THAWSLIDE_INLINE_LAMBDA {
+    if (tiles[d] == KeyIndex::absent) {
+      return;
+    }
+    const auto tile = static_cast<std::size_t>(tiles[d]);
+    const std::uint64_t rows = grid.rows_seen(tile);
+    if ((rows & shared_rows<Dim, opposite<Dim>(d)>()) == 0) {
+      return;
+    }
+    if (!takes(tile)) {
+      seen |= rows_in_block<Dim, d>(rows);
+      return;
+    }
+    for_seen_rows<Dim, opposite<Dim>(d)>(
+        rows, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) THAWSLIDE_INLINE_LAMBDA {
+          const std::uint32_t row = std::uint32_t{1} << in_block / edge;
+          Real* sums = records[in_block].data();
+          const Real* parts = patches[tile].records[in_patch].data();
+          if ((begun & row) == 0) {
+            begun |= row;
+            if (count == edge) {
+              for (std::size_t c = 0; c < count * size; c += Register::count) {
+                Register::load(parts + c).store(sums + c);
+              }
+              return;
+            }
+            std::fill_n(records[in_block / edge * edge].data(), edge * size, Real(0));
+          }
+          for (std::size_t c = 0; c < count * size; c += Register::count) {
+            (Register::load(sums + c) + Register::load(parts + c)).store(sums + c);
+          }
+        });
+  };
+  add_patch(std::integral_constant<std::size_t, own>());
+  for_each_direction<Dim>([&](auto d) {
+    if constexpr (d != own) {
+      add_patch(d);
+    }
+  });
+  for (std::uint32_t rows = seen & ~begun; rows != 0; rows &= rows - 1) {
+    std::fill_n(records[static_cast<std::size_t>(std::countr_zero(rows)) * edge].data(), edge * size, Real(0));
+  }
+  seen |= begun;
+#ifndef NDEBUG
+  for (std::uint32_t rows = Tile<Dim>::all_rows & ~seen; rows != 0; rows &= rows - 1) {
+    std::fill_n(records[static_cast<std::size_t>(std::countr_zero(rows)) * edge].data(), edge * size,
+                std::numeric_limits<Real>::quiet_NaN());  // nobody reads them
+  }
+#endif
+  return seen;
+}
+
+// The same at the nodes of all blocks, 0 in rows that no particle sees; then(block) follows once a block has its sums.
 template <int Dim, class Real, int Components, class Then>
 void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes, const Then& then) {
+  constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);
   nodes.resize(grid.blocks().size());
   const auto patches = nodes.patches(grid.tiles().size());
   parallel_for(grid.blocks().size(), [&](std::size_t block) {
-    sum_patches_in_block(grid, block, patches, nodes.of_block(block), every_tile);
+    auto* records = nodes.of_block(block);
+    const std::uint32_t seen = sum_patches_in_block(grid, block, patches, records, every_tile);
+    for (std::uint32_t rows = Tile<Dim>::all_rows & ~seen; rows != 0; rows &= rows - 1) {
+      const std::size_t row = static_cast<std::size_t>(std::countr_zero(rows)) * edge;
+      std::fill_n(records[row].data(), edge * records->size(), Real(0));
+    }
     then(block);
   });
 }
@@ -250,24 +262,27 @@ void take_smallest_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block
   for_each_direction<Dim>([&](auto d) {
     if (tiles[d] != KeyIndex::absent && takes(static_cast<std::size_t>(tiles[d]))) {
       const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
-      for_shared_nodes<Dim, opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch) {
-        Real& known = records[in_block][Component];
-        known = std::min(known, patch.records[in_patch][Component]);
-      });
+      for_shared_nodes<Dim, opposite<Dim>(d)>(
+          [&](std::size_t in_block, std::size_t in_patch) {
+            Real& known = records[in_block][Component];
+            known = std::min(known, patch.records[in_patch][Component]);
+          },
+          grid.rows_seen(static_cast<std::size_t>(tiles[d])));
     }
   });
 }
 
-// Copies what the nodes about tile t hold into a patch.
+// Copies what the nodes about tile t hold into a patch, of those rows alone that its particles see.
 template <int Dim, class Real, template <int, class, int> class Records, int Components>
 void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const Records<Dim, Real, Components>& nodes,
                 Patch<Dim, Real, Components>& patch) {
   using Register = RecordRegister<Real, Components>;
   constexpr std::size_t size = record_size(Components);
   const std::int32_t* blocks = grid.blocks_about_tile(t);
+  const std::uint64_t rows = grid.rows_seen(t);
   for_each_direction<Dim>([&](auto d) {
     const auto block = static_cast<std::size_t>(blocks[d]);
-    for_shared_rows<Dim, d>([&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
+    for_seen_rows<Dim, d>(rows, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
       const Real* from = nodes(block, in_block).data();
       Real* to = patch.records[in_patch].data();
       for (std::size_t c = 0; c < count * size; c += Register::count) {

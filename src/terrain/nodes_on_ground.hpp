@@ -31,9 +31,11 @@ void load_patch(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, const Pla
   const std::int32_t* blocks = grid.blocks_about_tile(t);
   mpm::for_each_direction<Dim>([&](auto d) {
     const auto& block = records.ground.block(static_cast<std::size_t>(blocks[d]));
-    mpm::for_shared_nodes<Dim, d>([&](std::size_t in_block, std::size_t in_patch) {
-      patch.records[in_patch] = PlanesOfGround<Dim, Real>::record_of(block[in_block]);
-    });
+    mpm::for_shared_nodes<Dim, d>(
+        [&](std::size_t in_block, std::size_t in_patch) {
+          patch.records[in_patch] = PlanesOfGround<Dim, Real>::record_of(block[in_block]);
+        },
+        grid.rows_seen(t));
   });
 }
 

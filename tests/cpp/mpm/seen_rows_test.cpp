@@ -1,0 +1,171 @@
+// Rows of nodes that particles see: what lies outside them in a patch reaches no node, and inside them no number is
+// missing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "mpm/node_pass.hpp"
+
+namespace thawslide::mpm {
+namespace {
+
+constexpr double cell = 5.0;
+constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+
+// Few particles, so that most rows of most tiles are not seen.
+template <int Dim>
+struct Sprinkled {
+  Particles<Dim, double> particles;
+  SparseGrid<Dim, double> grid{cell};
+
+  Sprinkled() {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(10.0, 90.0);
+    particles.resize(40);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.id(p) = static_cast<std::int64_t>(p);
+      for (int a = 0; a < Dim; ++a) {
+        particles.position(p, a) = place(random);
+      }
+    }
+    grid.update(particles, 0);
+  }
+
+  // Whether a particle of tile t sees the node at a place of its patch.
+  [[nodiscard]] bool sees(std::size_t t, int place) const {
+    for (const auto& batch : grid.batches(t)) {
+      for (const std::int32_t lowest : batch.nodes.first) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(Tile<Dim>::stencil); ++k) {
+          if (lowest + static_cast<int>(place_of(k)) == place) {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+  static std::size_t place_of(std::size_t k) {
+    constexpr auto edge = static_cast<std::size_t>(Tile<Dim>::patch_edge);
+    return (k / 9 * edge + k / 3 % 3) * edge + k % 3;
+  }
+};
+
+template <int Dim>
+void expect_seen_rows_to_hold_all_nodes_that_are_seen() {
+  const Sprinkled<Dim> scene;
+  std::size_t unseen = 0;
+  for (std::size_t t = 0; t < scene.grid.tiles().size(); ++t) {
+    for (int row = 0; row < Tile<Dim>::patch_rows; ++row) {
+      bool any = false;
+      for (int i = 0; i < Tile<Dim>::patch_edge; ++i) {
+        any = any || scene.sees(t, row * Tile<Dim>::patch_edge + i);
+      }
+      EXPECT_EQ((scene.grid.rows_seen(t) >> row & 1) != 0, any) << "tile " << t << ", row " << row;
+      unseen += any ? 0 : 1;
+    }
+  }
+  EXPECT_GT(unseen, 0u);  // else nothing is left out
+}
+
+// Every node of every patch has a number of its own; outside the seen rows it is none.
+template <int Dim>
+void expect_sums_of_seen_rows(bool of_all_tiles) {
+  Sprinkled<Dim> scene;
+  const auto& grid = scene.grid;
+  const auto takes = [&](std::size_t t) { return of_all_tiles || t % 2 == 0; };
+  Nodes<Dim, double> nodes;
+  nodes.averages.resize(grid.blocks().size());
+  auto patches = nodes.averages.patches(grid.tiles().size());
+  for (std::size_t t = 0; t < patches.size(); ++t) {
+    for (std::size_t place = 0; place < patches[t].records.size(); ++place) {
+      const bool seen = (grid.rows_seen(t) >> place / static_cast<std::size_t>(Tile<Dim>::patch_edge) & 1) != 0;
+      const double number = seen ? std::ldexp(1.0, static_cast<int>(place % 7)) + static_cast<double>(t) : nowhere;
+      patches[t].records[place] = {number, -number, 2.0 * number, 0.0};
+    }
+  }
+  std::size_t left_out = 0;
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    std::fill_n(nodes.averages.of_block(b), nodes.averages.nodes, typename decltype(nodes.averages)::Record{99.0});
+    const std::uint32_t rows = sum_block<Averages>(grid, b, nodes, takes);
+    EXPECT_EQ(rows, rows_seen_in_block(grid, b));
+    std::array<double, static_cast<std::size_t>(Tile<Dim>::nodes)> sums{};
+    std::uint32_t seen_by_some = 0;
+    for_each_direction<Dim>([&](auto d) {
+      const std::int32_t tile = grid.tiles_about_block(b)[d];
+      if (tile == KeyIndex::absent) {
+        return;
+      }
+      const auto t = static_cast<std::size_t>(tile);
+      for_shared_nodes<Dim, opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch) {
+        if ((grid.rows_seen(t) >> in_patch / static_cast<std::size_t>(Tile<Dim>::patch_edge) & 1) != 0) {
+          seen_by_some |= std::uint32_t{1} << in_block / static_cast<std::size_t>(Tile<Dim>::edge);
+          sums[in_block] += takes(t) ? patches[t].records[in_patch][0] : 0.0;
+        }
+      });
+    });
+    EXPECT_EQ(rows, seen_by_some);
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      if ((rows >> k / static_cast<std::size_t>(Tile<Dim>::edge) & 1) != 0) {
+        EXPECT_EQ(nodes.averages(b, k)[0], sums[k]) << "block " << b << ", node " << k;
+        EXPECT_EQ(nodes.averages(b, k)[2], 2.0 * sums[k]);
+      } else {
+        ++left_out;
+      }
+    }
+  }
+  EXPECT_GT(left_out, 0u);
+}
+
+// What a patch without unseen rows would be: all that particles see is there, and sum_patches leaves no node out.
+template <int Dim>
+void expect_patches_of_seen_rows() {
+  Sprinkled<Dim> scene;
+  const auto& grid = scene.grid;
+  NodeRecords<Dim, double, 3> records(std::make_shared<PatchRoom>());
+  auto patches = records.patches(grid.tiles().size());
+  for (std::size_t t = 0; t < patches.size(); ++t) {
+    std::fill(patches[t].records.begin(), patches[t].records.end(), std::array<double, 4>{nowhere});
+    patches[t].clear(grid.rows_seen(t));
+    patches[t].for_rows(grid.rows_seen(t), [](auto* row) { row[1][0] = 1.0; });
+    EXPECT_EQ(patches[t].rows_with(grid.rows_seen(t), [](const auto& record) { return record[0] == 1.0; }),
+              grid.rows_seen(t));
+    EXPECT_EQ(patches[t].rows_with(grid.rows_seen(t), [](const auto& record) { return std::isnan(record[0]); }), 0u);
+  }
+  sum_patches(grid, records);
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    for (std::size_t k = 0; k < records.nodes; ++k) {
+      EXPECT_FALSE(std::isnan(records(b, k)[0])) << "block " << b << ", node " << k;
+    }
+  }
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    Patch<Dim, double, 3> seen;
+    std::fill(seen.records.begin(), seen.records.end(), std::array<double, 4>{nowhere});
+    load_patch(grid, t, records, seen);
+    for (std::size_t place = 0; place < seen.records.size(); ++place) {
+      EXPECT_EQ(std::isnan(seen.records[place][0]),
+                (grid.rows_seen(t) >> place / static_cast<std::size_t>(Tile<Dim>::patch_edge) & 1) == 0);
+    }
+  }
+}
+
+TEST(SeenRows, HoldAllNodesThatParticlesSee) {
+  expect_seen_rows_to_hold_all_nodes_that_are_seen<2>();
+  expect_seen_rows_to_hold_all_nodes_that_are_seen<3>();
+}
+
+TEST(SeenRows, AreSummedAloneAndWhole) {
+  for (const bool of_all_tiles : {true, false}) {
+    expect_sums_of_seen_rows<2>(of_all_tiles);
+    expect_sums_of_seen_rows<3>(of_all_tiles);
+  }
+}
+
+TEST(SeenRows, AreClearedAndReadAlone) {
+  expect_patches_of_seen_rows<2>();
+  expect_patches_of_seen_rows<3>();
+}
+
+}  // namespace
+}  // namespace thawslide::mpm
