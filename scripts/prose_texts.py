@@ -69,10 +69,23 @@ class Pattern:
 
 
 @dataclass(frozen=True)
+class Occurrence:
+    """A rule on the number of matches in a sentence or a paragraph."""
+
+    rule: str
+    token: re.Pattern
+    most: int
+    scope: str
+    advice: str
+    counted: bool
+
+
+@dataclass(frozen=True)
 class Rules:
     """All rules."""
 
     patterns: list[Pattern]
+    occurrences: list[Occurrence]
     max_words: int
     word: re.Pattern
     abbreviations: tuple[str, ...]
@@ -90,14 +103,20 @@ class Findings:
 def read_rules(path):
     """Return the rules of a file."""
     table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    patterns = []
+    patterns, occurrences = [], []
     for rule in table["rule"]:
+        if "token" in rule:
+            token = re.compile(rule["token"])
+            occurrences.append(
+                Occurrence(rule["name"], token, rule["max"], rule["scope"], rule["advice"], rule["counted"])
+            )
+            continue
         flags = re.IGNORECASE if rule["ignore_case"] else re.NOFLAG
         whole_words = [rf"\b(?:{token})\b" for token in rule.get("tokens", [])]
         alike = [[expression, rule["advice"]] for expression in [*rule.get("raw", []), *whole_words]]
         for expression, advice in [*rule.get("replace", []), *alike]:
             patterns.append(Pattern(rule["name"], re.compile(expression, flags), advice, rule["counted"]))
-    return Rules(patterns, table["max_words"], re.compile(table["word"]), tuple(table["abbreviations"]))
+    return Rules(patterns, occurrences, table["max_words"], re.compile(table["word"]), tuple(table["abbreviations"]))
 
 
 def _joined(file, pieces):
@@ -290,7 +309,19 @@ def findings(texts, rules, justified=()):
                 words = text.chars[begin : match.end()] + re.match(r"\w*", text.chars[match.end() :]).group()
                 hit = (text.file, _line_at(text, begin), pattern.rule, words)
                 found.hits.append(Hit(*hit, pattern.advice_for(match), pattern.counted, reason))
-        for begin, end in sentences(text, rules):
+        spans = {"paragraph": [(0, len(text.chars))], "sentence": list(sentences(text, rules))}
+        for rule in rules.occurrences:
+            for begin, end in spans[rule.scope]:
+                number = len(rule.token.findall(text.chars[begin:end]))
+                if number > rule.most:
+                    hit = (
+                        text.file,
+                        _line_at(text, begin),
+                        rule.rule,
+                        f"{number} in '{text.chars[begin:end][:40]}...'",
+                    )
+                    found.hits.append(Hit(*hit, rule.advice, rule.counted))
+        for begin, end in spans["sentence"]:
             number = words_in(text.chars[begin:end], rules)
             if number > rules.max_words:
                 long = LongSentence(text.file, _line_at(text, begin), number, text.chars[begin:end].strip())

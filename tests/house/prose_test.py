@@ -23,7 +23,7 @@ def hits_in(page: str) -> list[tuple[int, str, str]]:
 
 def lengths_in(page: str, max_words: int = 0) -> list[int]:
     """Return the lengths of the sentences that have more words than a limit."""
-    rules = prose.Rules(RULES.patterns, max_words, RULES.word, RULES.abbreviations)
+    rules = prose.Rules(RULES.patterns, RULES.occurrences, max_words, RULES.word, RULES.abbreviations)
     return [sentence.words for sentence in prose.findings(prose.texts_of_page("a.md", page), rules).long]
 
 
@@ -32,6 +32,19 @@ def test_counts_are_within_their_limits() -> None:
         [ROOT / "scripts" / "prose-check", "--limits"], capture_output=True, text=True, timeout=60, check=False
     )
     assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
+def test_an_unused_justification_and_an_unknown_file_are_refused(tmp_path: Path) -> None:
+    limits = tmp_path / "limits.toml"
+    entry = '[[justified]]\nfile = "README.md"\nrule = "term"\nphrase = "no such phrase"\nreason = "none"\n'
+    limits.write_text((ROOT / "scripts" / "prose_limits.toml").read_text() + entry)
+    script = ROOT / "scripts" / "prose-check"
+    unused = subprocess.run([script, "--limits", limits], capture_output=True, text=True, timeout=60, check=False)
+    assert unused.returncode == 1
+    assert unused.stdout == "README.md: no hit for the justified phrase: no such phrase\n"
+    unknown = subprocess.run([script, "NONE.md"], capture_output=True, text=True, timeout=60, check=False)
+    assert unknown.returncode == 2
+    assert "no prose in NONE.md" in unknown.stderr
 
 
 def test_a_term_is_found_with_its_line_and_replacement() -> None:
@@ -72,6 +85,12 @@ def test_words_that_are_not_counted_are_reported() -> None:
     found = prose.findings(prose.texts_of_page("a.md", "A share, so that it stays where it is."), RULES)
     assert {hit.rule for hit in found.hits} == {"share", "so that", "where"}
     assert not any(hit.counted for hit in found.hits)
+
+
+def test_joints_and_long_paragraphs_are_reported() -> None:
+    page = "One: two; three. Four: five.\n\n" + "Word word. " * 56 + "\n\n" + "Word word. " * 55
+    found = prose.findings(prose.texts_of_page("a.md", page), RULES)
+    assert [(hit.line, hit.rule, hit.counted) for hit in found.hits] == [(1, "joints", False), (3, "paragraph", False)]
 
 
 def test_words_of_a_sentence_are_counted() -> None:
