@@ -12,9 +12,9 @@ KINDS = {
     ("once", "io"): "that call alone (input/output error)",
     ("onwards", "full"): "that call and all after it (disk full)",
     ("onwards", "denied"): "that call and all after it (permission denied)",
-    ("size", "size"): "nothing by itself, but files may be no larger than 1 to 20 kB (`ulimit -f`)",
-    ("disk", "disk"): "nothing by itself, but the disk has 8 to 200 kB (tmpfs), until there is room",
-    ("short", "full"): "half of what it writes arrives, nothing after it (disk full)",
+    ("size", "size"): "file size limited to 1 to 20 kB (`ulimit -f`)",
+    ("disk", "disk"): "disk limited to 8 to 200 kB (tmpfs), until there is space",
+    ("short", "full"): "half of the data of that call is written, and nothing after it (disk full)",
 }
 
 
@@ -26,10 +26,10 @@ def paragraph(text: str) -> str:
 def head() -> str:
     """Return what the page begins with."""
     return "# Reliability\n\n" + paragraph(
-        "What a run keeps when it is killed, when its disk fills up, and when its files are damaged, as tried by "
-        "`scripts/reliability`, which writes this page in about four hours on two cores, most of them fuzzing; a "
-        "sample of each part is in `./test`. What to do when a run has stopped is in the "
-        "[user guide](user-guide.md#when-a-run-stops)."
+        "This page reports how a run behaves when its process is killed, its disk fills up, or its files are damaged. "
+        "`scripts/reliability` runs the tests and generates the page in about four hours on two cores, mostly fuzzing. "
+        "`./test` contains a sample of each part. The [user guide](user-guide.md#when-a-run-stops) explains how to "
+        "continue a run that has stopped."
     )
 
 
@@ -53,15 +53,15 @@ def kills_text(found: dict[str, Any]) -> str:
     return (
         "## Kills\n\n"
         + paragraph(
-            "Each run is killed (SIGKILL) at a random moment of its time, from its first millisecond on, and "
-            "then resumed (`thawslide resume`; run again where it was killed before it had read its case). Every "
-            "file must be that of the run that nothing disturbed: history, probes, maps and checkpoint byte for "
-            "byte, snapshots and index in every number. Only `run.json`, which tells of processes, may differ."
+            "Each run is killed (SIGKILL) at a random moment, from its first millisecond on, and then resumed with "
+            "`thawslide resume`. A run that was killed before it had read its case is started again. Every file must be "
+            "identical to that of an undisturbed run: history, probes, maps and checkpoint byte for byte, snapshots and "
+            "index in every number. Only `run.json`, which describes processes, may differ."
         )
-        + "\n| case | seconds a run | runs | killed before their end | ended with the same bits |\n"
+        + "\n| case | seconds a run | runs | killed before their end | ended bitwise identical |\n"
         + "|---|---|---|---|---|\n"
         + "".join(lines)
-        + f"\n{sound} of {trials} ended with the same bits, without any repair by hand.\n"
+        + f"\n{sound} of {trials} ended with bitwise identical files, without any manual repair.\n"
         + findings_text(rows)
     )
 
@@ -77,12 +77,12 @@ def writes_text(found: dict[str, Any]) -> str:
     return (
         "## Writing that fails\n\n"
         + paragraph(
-            "Each call of a run that changes its folder (open, write, truncate, synchronise, rename, make a "
-            "folder) is made to fail in turn; in 3D, where maps alone are thousands, every 41st. The run must "
-            "end with an error that names the file, or go on where nothing is lost by it; then, with room again, "
-            "it is resumed and must end with the bits of the undisturbed run."
+            "Each system call by which a run changes its folder is made to fail in turn: open, write, truncate, "
+            "synchronize, rename, make a folder. In 3D, with thousands of calls for maps alone, every 41st call fails. "
+            "The run must end with an error that names the file, or continue if nothing is lost. With disk space "
+            "available again, it is resumed and must end bitwise identical to the undisturbed run."
         )
-        + "\n| case | what fails | tried | sound |\n|---|---|---|---|\n"
+        + "\n| case | failure | tried | passed |\n|---|---|---|---|\n"
         + "".join(lines)
         + findings_text(rows)
     )
@@ -95,8 +95,8 @@ def corruption_text(found: dict[str, Any]) -> str:
         "## Damaged checkpoints\n\n"
         + paragraph(
             f"One bit of one byte is changed in both checkpoints of a run that was killed, at {row['changed']:,} "
-            f"of their {row['bytes']:,} bytes. Detected and refused: {row['detected']:,}. Where only the newer "
-            "one is damaged the run goes on from the other (`tests/cli/resume_test.py`)."
+            f"of their {row['bytes']:,} bytes. Detected and refused: {row['detected']:,}. If only the newer "
+            "one is damaged, the run continues from the other (`tests/cli/resume_test.py`)."
         )
         + findings_text(found["rows"])
     )
@@ -108,11 +108,11 @@ def mistakes_text(found: dict[str, Any]) -> str:
     return (
         "## Wrong case files\n\n"
         + paragraph(
-            f"{row['cases']} case files, each wrong in one thing: every parameter with a value of another type, out of "
-            "its range, with a word that it does not take, and misspelt. Each must be refused with code 2, file and "
-            "line, what was found and what is allowed, before anything is written. Not told so: "
-            f"{len(row['findings'])}. The twenty commonest mistakes are tested word for word "
-            "(`tests/cli/mistakes_test.py`)."
+            f"Each of {row['cases']} case files has one error: a parameter with a value of another type, out of its "
+            "range, with an unknown option, or misspelt. All parameters are tested. Each file must be refused with code "
+            "2 before anything is written. The message must state file and line, the value found and the values "
+            f"allowed. Files without such a message: {len(row['findings'])}. The twenty commonest errors are tested word "
+            "for word (`tests/cli/mistakes_test.py`)."
         )
         + findings_text(found["rows"])
     )
@@ -134,19 +134,19 @@ def fuzzing_text(found: dict[str, Any]) -> str:
     ]
     told = [
         f"- `{row['target']}`, {whose}, {count} times: {words}\n"
-        for whose, of in (("ours", "ours"), ("of a library", "foreign"))
+        for whose, of in (("in Thawslide", "ours"), ("in a library", "foreign"))
         for row in rows
         for words, count in row[of].items()
     ]
     return (
         "## Fuzzing\n\n"
         + paragraph(
-            "What reads a file is given random bytes, guided by what they reach in the code: by libFuzzer, with the "
-            "sanitizers of addresses and undefined behaviour, and by atheris for what Python reads "
-            "([what each target's bytes are](developer-guide.md#fuzzing)). It must give a value, or an error that "
-            "names the file, in some seconds and within some gigabytes."
+            "Each reader of files gets random bytes, guided by code coverage. libFuzzer is used with the address and "
+            "undefined-behaviour sanitizers, and atheris for the readers in Python. The [developer "
+            "guide](developer-guide.md#fuzzing) lists the targets. A reader must return a value, or an error that "
+            "names the file, within a few seconds and a few gigabytes."
         )
-        + "\n| target | processor minutes | inputs tried | edges covered | findings of ours | of libraries | commit |\n"
+        + "\n| target | processor minutes | inputs tried | edges covered | findings in Thawslide | in libraries | commit |\n"
         + "|---|---|---|---|---|---|---|\n"
         + "".join(lines)
         + ("\n" + "".join(told) if told else "")
@@ -156,14 +156,14 @@ def fuzzing_text(found: dict[str, Any]) -> str:
 def soak_text(found: dict[str, Any]) -> str:
     """Return the part on a million steps."""
     row = found["rows"][0]
-    same = "the same" if row["same_bits"] else "NOT the same"
+    same = "bitwise identical" if row["same_bits"] else "NOT bitwise identical"
     lines = [
-        f"| {what}, largest | {of['first'][name]:.4g} J | {of['second'][name]:.4g} J |\n"
+        f"| maximum {what} | {of['first'][name]:.4g} J | {of['second'][name]:.4g} J |\n"
         for title, of in (("", row["energies"]), (", without viscosity", row["without_viscosity"]))
         for what, name in (
             (f"kinetic energy{title}", "kinetic_J"),
             (f"strain energy{title}", "strain_J"),
-            (f"residual of the mechanical account{title}", "mechanical_residual_J"),
+            (f"residual of the mechanical energy{title}", "mechanical_residual_J"),
         )
     ]
     bounded = "bounded" if row["energies"]["bounded"] else "NOT bounded"
@@ -172,20 +172,21 @@ def soak_text(found: dict[str, Any]) -> str:
     return (
         "## A million steps\n\n"
         + paragraph(
-            f"A block of {row['particles']} particles rests on level ground, {row['steps']:,} steps, in two runs side "
-            f"by side ({row['wall_s']:.0f} s each), with a viscosity_time of 0.002 s. History and checkpoint of the "
-            f"two runs are {same} bit for bit. Memory: {row['memory_after_a_tenth_kB'] / 1024:.1f} MB after a tenth of "
+            f"A block of {row['particles']} particles rests on level ground for {row['steps']:,} steps, in two "
+            f"simultaneous runs ({row['wall_s']:.0f} s each), with a viscosity_time of 0.002 s. History and checkpoint "
+            f"of the two runs are {same}. Memory: {row['memory_after_a_tenth_kB'] / 1024:.1f} MB after a tenth of "
             f"the steps, {row['memory_at_the_end_kB'] / 1024:.1f} MB at the end."
         )
-        + "\n| what | in the first tenth | in the second half |\n|---|---|---|\n"
+        + "\n| quantity | in the first tenth | in the second half |\n|---|---|---|\n"
         + "".join(lines)
         + "\n"
         + paragraph(
-            f"Energy is {bounded} with viscosity (no more in the second half than 1.5 times what the first tenth had) "
-            f"and {without} without: an elastic body that nothing damps flutters, and the steps feed it. "
-            + (f"The run says so: “{note}”." if note else "That run ended with code ")
-            + ("" if note else f"{row['code_without_viscosity']}.")
+            f"With viscosity, energy is {bounded}. The criterion is at most 1.5 times the energy of the first tenth in "
+            "the second half. "
+            f"Without viscosity it is {without}: an undamped elastic body flutters, and its energy grows with the steps. "
+            + ("The run prints:" if note else f"That run ended with code {row['code_without_viscosity']}.")
         )
+        + (f"\n```\n{paragraph(note)}```\n" if note else "")
     )
 
 

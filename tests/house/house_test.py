@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src"
 
-# What each room may include (ARCHITECTURE.md, "Rooms and directions"). "generated" is what CMake writes: version.hpp.
+# Modules that each module may include (ARCHITECTURE.md, "Modules and dependencies"). "generated" is version.hpp.
 ALLOWED = {
     "base": {"base"},
     "physics": {"base", "physics"},

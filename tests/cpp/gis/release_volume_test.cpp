@@ -142,9 +142,9 @@ void take_differences(const config::Case& parameters, double volume, Differences
 TEST(ReleaseVolume, IsThatOfThePolygonsTimesTheThickness) {
   verification::Record record(
       "Volume and mass of a release",
-      "Two odd polygons on rolling ground that falls by 27 degrees: put on the terrain model or cut out of it; "
-      "thickness "
-      "along the vertical or the normal, as a number, an attribute or a raster. Points each 5 m, cells of 6 m. Maps "
+      "Two irregular polygons are on undulating ground that falls by 27 degrees. The release is placed on the DEM or "
+      "cut out of it. Its thickness is vertical or normal, and a number, an attribute or a raster. Points each 5 m, "
+      "cells of 6 m. Maps "
       "after 20 steps.",
       "the integral of the thickness, along the normal over the cosine of the slope, over the polygons; maps hold the "
       "particles' volume",

@@ -8,7 +8,7 @@ using namespace plane_on_dem;
 
 // By the symmetries of the square the azimuths stand for 0, 7.5, 15, ... 45 degrees.
 TEST(PlanesOnDem, SlidesOrSticksOnAllAlike) {
-  Record record = make_record("Block on planes of a terrain model, four slopes and eight directions");
+  Record record = make_record("Block on planes of a DEM, four slopes and eight directions");
   for (const double slope : {0.0, 15.0, 30.0, 45.0}) {
     double least = HUGE_VAL, greatest = -HUGE_VAL;
     for (int k = 0; k < 8; ++k) {
@@ -33,7 +33,7 @@ TEST(PlanesOnDem, SlidesOrSticksOnAllAlike) {
 const std::vector<std::string> half_cells{"grid.cell=2.5", "time.step=0.0005", "material.matter.viscosity_time=0.01"};
 
 TEST(PlanesOnDem, CohesionBrakesInAllDirections) {
-  Record record = make_record("Block with cohesion on planes of a terrain model");
+  Record record = make_record("Block with cohesion on planes of a DEM");
   for (const double azimuth : {0.0, 52.5, 105.0, 157.5}) {
     expect_slide(record, {30.0, azimuth}, 10.0, 4e4, half_cells);
   }

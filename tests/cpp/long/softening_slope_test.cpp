@@ -71,11 +71,10 @@ Failure fail(double cell, const std::string& softening) {
 }
 
 TEST(SofteningSlope, DissipatesTheSameOnFinerCells) {
-  Record record(
-      "Slope that softens over a slip",
-      "A slope of 45 degrees, 200 m high, of rock that loses its cohesion from 160 to 20 kPa over a slip of 4 m "
-      "fails along shear bands a cell wide. Dissipated: plastic, viscous and basal friction work.",
-      "the same on cells of 20, 10 and 5 m", "refinement of the cell");
+  Record record("Slope that softens over a slip",
+                "A rock slope of 45 degrees, 200 m high, fails along shear bands a cell wide. The cohesion falls from "
+                "160 to 20 kPa over a slip of 4 m. Dissipated: plastic, viscous and basal friction work.",
+                "the same on cells of 20, 10 and 5 m", "refinement of the cell");
   const std::string per_slip = "material.rock.softening_slip=4.0";
   const Failure coarse = fail(20.0, per_slip), middle = fail(10.0, per_slip), fine = fail(5.0, per_slip);
   record.expect_near("mean displacement, cells of 20 m over 10 m", coarse.displacement / middle.displacement, 1.0,

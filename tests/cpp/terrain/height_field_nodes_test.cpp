@@ -304,8 +304,8 @@ TEST(HeightField, ErrorsFallWithTheSquareOfTheSpacing) {
     return nodes;
   };
   verification::Record record("Terrain models of a smooth surface",
-                              "Hills of 25 m and 6 m as terrain models with points each 20 m, 10 m and 5 m: what the "
-                              "nodes of cells of 20 m hold of the ground, and its height.",
+                              "Hills of 25 m and 6 m are DEMs with points each 20 m, 10 m and 5 m. The test evaluates "
+                              "the ground's area at nodes of cells of 20 m, and its height.",
                               "a model of the same surface with points each 0.625 m; of heights, the surface itself",
                               "linear interpolation errs by the square of the distance of points");
   const auto reference = nodes_of(ground(0.625));

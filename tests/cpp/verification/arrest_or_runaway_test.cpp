@@ -122,10 +122,10 @@ DrainedBand band_of(double thickness) {
 
 TEST(ArrestOrRunaway, IsDecidedByConductivity) {
   Record record("Arrest or runaway by permeability",
-                "rigid block on 10 degrees, friction 0.3, on a band column that drains through its top, at a speed of "
-                "its own at the start; k by bisection",
-                "k = A v/(mu/tan a - 1) of the steady drained band, A = mu beta_m gamma_w eta e/(3 C): with less it "
-                "runs away, with more it arrests",
+                "rigid block on 10 degrees, friction 0.3, on a band column that drains through its top, with an "
+                "initial speed; k by bisection",
+                "k = A v/(mu/tan a - 1) of the steady drained band, with A = mu beta_m gamma_w eta e/(3 C). With a "
+                "smaller k it runs away, with a larger k it arrests",
                 "closed form; after Goren and Aharonov (2009), not compared with their numbers");
   const double angle = slope * pi<double> / 180.0;
   Curve curve{"speed at the start (m/s)", "k between arrest and runaway (m/s)", {}, {}, {}};

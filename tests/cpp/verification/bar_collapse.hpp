@@ -209,10 +209,10 @@ inline std::vector<double> expect_measured(Record& record, double cell, const st
 inline Record make_record(const std::string& title) {
   return Record(
       title,
-      "A column of aluminium bars, 0.2 m wide and 0.1 m high, collapses next to a smooth wall on a floor that "
-      "holds it: friction angle 19.8 degrees, no cohesion, no dilation, 2650 kg/m3, bulk modulus 0.7 MPa, "
-      "Poisson's ratio 0.3. Nothing is fitted. The surface is the area of the material over windows of 10 mm, "
-      "the toe is where it is 1.5 mm thick, and material has failed if it has moved by 1 mm.",
+      "A column of aluminium bars, 0.2 m wide and 0.1 m high, collapses next to a smooth wall on a floor without "
+      "sliding. The bars have a friction angle of 19.8 degrees, no cohesion, no dilation, 2650 kg/m3, bulk modulus 0.7 "
+      "MPa and Poisson's ratio 0.3. Nothing is fitted. The surface is the area of the material over windows of 10 mm, "
+      "and the toe is where it is 1.5 mm thick. Material has failed if it has moved by 1 mm.",
       "measured surface and failure line",
       "LandslideSIM/MaterialPointSolver.jl, MIT licence; experiment of Bui et al. 2008 (inferred)");
 }

@@ -104,14 +104,12 @@ TEST(Substrates, SlidingDistanceOverTwo) {
   const double rest = start * start / (2.0 * gravity) - on_rock * to_border - mean * length;  // m, of v^2/2g
   const double of_block = to_border + length + rest / on_ice;
   const double of_body = of_block + (on_rock / on_ice - 1.0) * mean * 0.5 * height;
-  Record record(
-      "Sliding distance over two substrates",
-      "A block of 40 m x 20 m is thrown along level ground: at first on rock, with friction 0.3, and from 12.5 "
-      "m before its front on over a glacier, with friction 0.15 in place of the rock's. It comes to rest on "
-      "the glacier.",
-      "v^2/(2 g) = mu_1 b + (mu_1 + mu_2) L/2 + mu_2 (d - b - L); where the load leans forward by mu h/2, d is "
-      "longer by (mu_1/mu_2 - 1) (mu_1 + mu_2) h/4",
-      "energy of a rigid block, balance of its moments");
+  Record record("Sliding distance over two substrates",
+                "A block of 40 m x 20 m is thrown along level ground, at first on rock with friction 0.3. A glacier "
+                "with friction 0.15 begins 12.5 m before its front. The block comes to rest on the glacier.",
+                "v^2/(2 g) = mu_1 b + (mu_1 + mu_2) L/2 + mu_2 (d - b - L). If the load is shifted forward by mu h/2, "
+                "d is longer by (mu_1/mu_2 - 1) (mu_1 + mu_2) h/4",
+                "energy of a rigid block, balance of its moments");
   const std::string text =
       thrown + fmt::format(
                    "friction = \"constant\"\nfriction_angle = {:.15g}\n[substrate.glacier]\nx_min = {}\n"

@@ -86,8 +86,8 @@ double mean_cosine(double angle, double half) { return std::cos(angle) * std::si
 
 TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
   Record record("Pressure in a bend, rigid block",
-                "A slab 10 m thick comes down a slope of 40 degrees into an arc of 300 m radius and runs through it, "
-                "points of the profile each metre; as a rigid block with block.bends.",
+                "A slab 10 m thick slides down a slope of 40 degrees and through an arc of 300 m radius. The points of "
+                "the profile are 1 m apart. The slab is a rigid block with block.bends.",
                 "N = rho h (g cos + v^2/R)", "balance of momentum across the path");
   const config::Case parameters = paper_case(slide_into_bend(), {"block.bends=true"});
   const auto rows = sim::run_block(parameters);
@@ -181,8 +181,8 @@ TEST(BendPressure, OfTheSlideIsThatOfTheArc) {
     GTEST_SKIP() << "it looks at nodes, which a device keeps";
   }
   Record record("Pressure in a bend, deforming slide",
-                "The same slab, of broken rock (35 degrees, 1 kPa), in cells of 2.5 m: the force of the slide across "
-                "the ground, summed over nodes, in means over half a second.",
+                "The same slab consists of broken rock (35 degrees, 1 kPa), in cells of 2.5 m. The force of the slide "
+                "across the ground is summed over nodes and averaged over half a second.",
                 "sum over particles of m (g cos + v^2/r)", "balance of momentum across the path");
   Simulation<2, double> simulation(paper_case(slide_into_bend()));
   double largest = 0.0, most = 0.0;

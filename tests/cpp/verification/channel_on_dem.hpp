@@ -25,10 +25,11 @@ struct Course {
 inline double wedge_factor(double opening) { return 1.0 / std::sin(0.5 * opening * pi<double> / 180.0); }
 
 inline Record make_record(const std::string& title) {
-  return Record(title,
-                "An elastic fill, 60 m long, in a channel of V section that falls by 35 degrees, friction angle of the "
-                "ground 15 degrees, cells of 5 m, points of the DEM 1.25 m apart. Mean from 1 to 3 s.",
-                "apparent friction over that of the ground = 1/sin(a), a half the opening angle", "wedge in a groove");
+  return Record(
+      title,
+      "An elastic fill, 60 m long, slides in a channel of V section that falls by 35 degrees. The friction angle of "
+      "the ground is 15 degrees, cells are 5 m wide, and points of the DEM are 1.25 m apart. Mean from 1 to 3 s.",
+      "apparent friction over that of the ground = 1/sin(a), a half the opening angle", "wedge in a groove");
 }
 
 // Opening angle [degrees]; width of the fill in cells.

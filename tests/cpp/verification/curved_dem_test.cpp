@@ -59,7 +59,7 @@ TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
   constexpr double radius = 200.0, start = 40.0 * degree, azimuth = 205.0 * degree;
   Record record("A small block in a bowl",
                 "A block, 10 m square and 5 m high, slides from rest at 40 degrees down a spherical bowl of 200 m "
-                "radius given as a terrain model with points each 2.5 m, friction angle 10 degrees.",
+                "radius. The bowl is a DEM with points each 2.5 m; the friction angle is 10 degrees.",
                 "d(v^2)/dphi = -2 r g sin phi + 2 mu (r g cos phi + v^2), r that of the block's centre of mass",
                 "point on a circle with Coulomb friction");
   const Raster ground = raster_between(Place(-190.0, -190.0), Place(190.0, 190.0), 2.5, [](double x, double y) {
@@ -158,13 +158,14 @@ std::vector<double> run_along(double spacing, double turns, Curve& curve) {
 }
 
 TEST(HelicalChannel, BlockRunsLikeAPointOnTheSurface) {
-  Record record("A small block in a channel along a helix",
-                "A block, 10 m square and 5 m high, slides down one turn of a channel of circular section (60 m "
-                "radius) along a helix (150 m radius, 160 m pitch), friction angle 6 degrees; points each 2.5 m, on "
-                "cells of 2.5 m. Then a quarter of a turn with points twice and half as far apart.",
-                "a = g + N (n - mu v/|v|), N = II(v, v) + g n_z, by Runge-Kutta, on the parallel surface that the "
-                "block's centre of mass starts on",
-                "point on a surface with Coulomb friction");
+  Record record(
+      "A small block in a channel along a helix",
+      "A block, 10 m square and 5 m high, slides down one turn of a channel of circular section (60 m radius). The "
+      "channel follows a helix (150 m radius, 160 m pitch). The friction angle is 6 degrees; points and cells are 2.5 "
+      "m apart. A quarter of a turn is repeated with points twice and half as far apart.",
+      "a = g + N (n - mu v/|v|), N = II(v, v) + g n_z, by Runge-Kutta, on the parallel surface that the "
+      "block's centre of mass starts on",
+      "point on a surface with Coulomb friction");
   Curve curve;
   const std::vector<double> whole = run_along(2.5, 345.0 / 360.0, curve);
   for (std::size_t k = 0; k < whole.size(); ++k) {
@@ -184,8 +185,8 @@ TEST(HelicalChannel, BlockRunsLikeAPointOnTheSurface) {
   record.expect_order_at_least("distance of points [m]", spacings, "place along the channel after a quarter of a turn",
                                errors, 1.0, 0.0);
   record.explain(
-      "The block is late because the ground is made of triangles, at whose edges impact and viscosity take "
-      "energy: by a part that falls with the distance of the points. The same cells serve all three.");
+      "The block is late because the ground consists of triangles, at whose edges impact and viscosity dissipate "
+      "energy. This part falls with the distance of the points. The cells are the same in all three.");
   record.expect_near("place along the channel after a quarter of a turn, finest points, exact less found",
                      errors.back(), 0.0, 0.01);
 }

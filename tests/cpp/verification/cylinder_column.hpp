@@ -84,9 +84,9 @@ inline void expect_runout(Record& record, double aspect) {
 inline Record make_record(const std::string& title) {
   return Record(
       title,
-      "Columns of sand, 10 m in radius and of aspect ratio 0.5 to 2, fall apart on a flat terrain model; along "
-      "the ground the friction angle is 31 degrees, within 36.9, as of the columns in two dimensions. The runout is "
-      "that of the radius within which 99.5 % of the mass lies, which for a cone is 4 % less than its own. The front "
+      "Columns of sand, 10 m in radius and of aspect ratio 0.5 to 2, collapse on a flat DEM. The friction angle is 31 "
+      "degrees along the ground and 36.9 inside, as for the columns in two dimensions. The runout is that of the "
+      "radius within which 99.5 % of the mass lies, which for a cone is 4 % less than its own. The front "
       "is thinner than a cell, which shortens the runout: docs/laboratory.md shows how it approaches the experiments "
       "on finer cells.",
       "runout over radius 1.24 a, above a = 1.7 1.6 a^(1/2)", "fits to experiments, Lube et al. 2004");

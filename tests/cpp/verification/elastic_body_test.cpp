@@ -146,10 +146,10 @@ TEST(ElasticImpact, ComesWhereTheEdgesMeet) {
     EXPECT_GT(unchecked.energy, 1.5);
   }
   record.explain(
-      "Without the check the ground acts on a node as soon as it sees the edge of the bar, when it holds next to no "
-      "mass: the bar is squeezed a cell above the ground and leaves with 1.8 to 1.9 times its energy. With it the "
-      "ground waits until the particles' edges arrive; what is lost then is what the lowest nodes carry, as in the "
-      "impact above.");
+      "Without the check, the ground acts on a node as soon as the edge of the bar is in its support, when it has "
+      "almost no mass. The bar is then compressed a cell above the ground and leaves with 1.8 to 1.9 times its energy. "
+      "With the check, the ground acts when the particles' edges arrive. The loss is then the energy of the lowest "
+      "nodes, as in the impact above.");
   record.expect_order("cell [m]", cells, "height of the lower end at the first force, unchecked [m]", early, 1.0, 0.01);
 }
 

@@ -88,7 +88,7 @@ void sweep_up(const std::string& where) {
                 "A block slides without friction over level ground on which, from its front on, a bed 2 m deep lies "
                 "that withstands nothing.",
                 "m = m_0 + rho_b d w (x - x_0), m v = m_0 v_0, kinetic energy (m_0 v_0)^2/(2 m)",
-                "inelastic collision with matter at rest: momentum is kept");
+                "inelastic collision with material at rest: momentum is kept");
   sim::Simulation<Dim, double> simulation(
       paper_case(thrown<Dim>(20.0, 8.0) +
                  "[basal]\nfriction = \"constant\"\nfriction_angle = 0.0\n[bed]\nlaw = \"strength\"\n"
@@ -142,7 +142,7 @@ void take_up_by_friction(const std::string& where) {
   const double velocity = speed - mu * gravity * 3.0;
   const double taken = start * (std::pow(velocity / speed, -(1.0 - mu_bed / mu)) - 1.0);
   record.expect_near("velocity over the exact one", now.velocity / velocity, 1.0, 1e-2);
-  record.expect_near("mass taken up over the exact one", now.taken / taken, 1.0, 3e-2);
+  record.expect_near("entrained mass over the exact one", now.taken / taken, 1.0, 3e-2);
   record.expect_near("momentum left over, as a share", now.residual, 0.0, 1e-13);
 }
 

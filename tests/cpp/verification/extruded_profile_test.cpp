@@ -83,9 +83,9 @@ sim::Simulation<3, double> in_space() {
 }
 
 TEST(ExtrudedProfile, RunsAsInTwoDimensions) {
-  Record record("A profile extruded to a terrain model",
+  Record record("A profile extruded to a DEM",
                 "Debris, 40 m long and 7.5 m thick, is pushed over the edge of a shelf, down 35 degrees and out on a "
-                "plain: along a profile in 2D, and in 3D on a terrain model of it, 2.5 m wide between smooth walls.",
+                "plain. It moves along a profile in 2D, and in 3D on a DEM of it, 2.5 m wide between smooth walls.",
                 "mean velocity of the 2D run", "symmetry");
   auto profile = in_profile();
   auto space = in_space();

@@ -115,10 +115,10 @@ void expect_convergence(Record& record, double frozen, double k_ice, double k_wa
 }
 
 const std::string few_cells =
-    "Conductivity and temperature gradient are continuous, so theory gives 2. The zone that freezes is one to four of "
-    "these cells thick, and where fronts stand in them shows: 1.7 and 2.1 here (of one conductivity and of the "
-    "mixture's), "
-    "1.9 and 1.4 from 0.05 to 0.025 m, 1.7 over all from 0.2 to 0.025 m.";
+    "Conductivity and temperature gradient are continuous, so theory gives 2. The freezing zone is one to four of "
+    "these cells thick, and the position of fronts within cells has an effect. The order is 1.7 and 2.1 here (with one "
+    "conductivity, and with that of the mixture). It is 1.9 and 1.4 from 0.05 to 0.025 m, and 1.7 in total from 0.2 to "
+    "0.025 m.";
 
 TEST(Freezing, FrontsOfLunardini) {
   Record record("Fronts of the three-zone solution", "InterFrost T1, wholly frozen at -1 C or at -4 C.",

@@ -65,14 +65,13 @@ double runout_of_lube(double aspect) { return aspect < 1.8 ? 1.2 * aspect : 1.9 
 double height_of_lube(double aspect) { return aspect < 1.15 ? aspect : std::pow(aspect, 0.4); }
 
 TEST(GranularColumn, RunsOutAsExperimentsDo) {
-  Record record(
-      "Collapse of granular columns",
-      "Columns 10 m wide and of aspect ratio 0.5 to 6 fall apart; along the ground the friction angle is 31 "
-      "degrees, within 36.9, which on planes of sliding without dilation is the same. Tall columns leave "
-      "less height than sand: their fall has no other loss here than friction. On finer cells columns of aspect "
-      "ratio 1 run further (docs/laboratory.md).",
-      "runout over width 1.2 a, above a = 1.8 1.9 a^(2/3); height over width a, above a = 1.15 a^0.4",
-      "fits to experiments, Lube et al. 2005");
+  Record record("Collapse of granular columns",
+                "Columns 10 m wide and of aspect ratio 0.5 to 6 collapse. The friction angle is 31 degrees along the "
+                "ground and 36.9 inside, which is equivalent on slip planes without dilation. Tall columns leave less "
+                "height than sand, because friction is the only loss in their fall here. On finer cells, columns of "
+                "aspect ratio 1 travel further (docs/laboratory.md).",
+                "runout over width 1.2 a, above a = 1.8 1.9 a^(2/3); height over width a, above a = 1.15 a^0.4",
+                "fits to experiments, Lube et al. 2005");
   Curve curve{"aspect ratio", "runout over width", {}, {}, {}, "fit to experiments"};
   for (const double aspect : {0.5, 1.0, 1.5, 3.0, 6.0}) {
     const Deposit deposit = collapse(aspect);
@@ -136,8 +135,8 @@ void expect_thin_flow_of_a_dam_break(Record& record, double slope) {
 
 TEST(DamBreak, RunsAsTheThinFlowOfRitter) {
   Record record("Dry dam break",
-                "Matter without strength, 5 m deep and 60 m long, let go at its front over smooth ground: level, and "
-                "sloping by 20 degrees, where all of it slides as it spreads.",
+                "Material without strength, 5 m deep and 60 m long, is released at its front on smooth ground. The "
+                "ground is level, or slopes by 20 degrees; on the slope all of the material slides as it spreads.",
                 "front at 2 c t + g sin t^2/2, c = sqrt(g cos h); depth (front - x)^2/(9 g cos t^2)",
                 "Ritter 1892; Mangeney et al. 2000");
   expect_thin_flow_of_a_dam_break(record, 0.0);

@@ -104,11 +104,10 @@ Seen leave(int threads) {
 }
 
 TEST(LeavingDem, AccountsCloseAndThreadsDoNotMatter) {
-  Record record(
-      "A slide that leaves the terrain model",
-      "Debris with heat and pore pressure runs 4 s down a gully; what comes over the edge of the terrain model "
-      "is removed and counted. Largest residual of the accounts, each half second.",
-      "accounts close; one thread and two give the same bits", "conservation");
+  Record record("A slide that leaves the DEM",
+                "Debris with heat and pore pressure runs 4 s down a gully; particles beyond the edge of the DEM are "
+                "removed and counted. Maximum residual of the budgets, each half second.",
+                "budgets close; results of one and two threads are bitwise identical", "conservation");
   const Seen one = leave(1), two = leave(2);
   record.expect_near("mass, over the slide's", one.mass, 0.0, 1e-12);
   record.expect_near("momentum, over weight times time", one.momentum, 0.0, 1e-11);

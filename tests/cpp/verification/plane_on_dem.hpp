@@ -116,13 +116,12 @@ inline void expect_rest(Record& record, const Plane& plane, double friction_angl
 }
 
 inline Record make_record(const std::string& title) {
-  return Record(
-      title,
-      "An elastic block, 40 m square in the map and 20 m high, on a planar terrain model that falls in any "
-      "direction to the grid.",
-      "a = g (sin - mu cos) - c A/m; heat = work of friction = (mu m g cos + c A) times the way; at rest below the "
-      "friction angle; A the area in the map over the cosine",
-      "Coulomb friction with cohesion");
+  return Record(title,
+                "An elastic block, 40 m square in the map and 20 m high, on a planar DEM that falls in any direction "
+                "to the grid.",
+                "a = g (sin - mu cos) - c A/m; heat = work of friction = (mu m g cos + c A) times the path; at rest "
+                "below the friction angle. A is the area in the map over the cosine",
+                "Coulomb friction with cohesion");
 }
 
 }  // namespace plane_on_dem

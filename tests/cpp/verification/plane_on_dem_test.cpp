@@ -7,7 +7,7 @@ namespace {
 using namespace plane_on_dem;
 
 TEST(PlaneOnDem, SlidesOrSticks) {
-  Record record = make_record("Block on planes of a terrain model");
+  Record record = make_record("Block on planes of a DEM");
   expect_slide(record, {15.0, 22.5}, 10.0);
   const Slide along_x = expect_slide(record, {30.0, 0.0}, 15.0);
   const Slide askew = expect_slide(record, {30.0, 217.5}, 15.0);

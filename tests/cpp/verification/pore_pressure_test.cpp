@@ -104,9 +104,9 @@ TEST(Consolidation, OfAMeltedColumn) {
   record.draw(curve);
   record.expect_order("cell [m]", cells, "rms error of pressure [MPa]", errors, 1.0, 0.1);
   record.explain(
-      "The pressure of the free surface acts on all particles in the upper half of the top cell, so the drained "
-      "boundary lies a share of a cell below the top; the manufactured field above, which does not see this, is of "
-      "order 2.");
+      "The pressure of the free surface acts on all particles in the upper half of the top cell. The drained boundary "
+      "is therefore a fraction of a cell below the top. The manufactured field above, without this effect, is of order "
+      "2.");
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ double left_of_noise(double tilt, const std::vector<std::string>& sets) {
 
 TEST(RestNoise, OfABlockIsFilteredOut) {
   Record record("A block at rest that was shaken",
-                "A block of 20 by 8 m with viscosity, on level ground and on a slope of 25 degrees that holds it; each "
-                "particle begins with a velocity of its own, 1 m/s a component at random. Speeds 4 s later, filtered "
+                "A block of 20 by 8 m with viscosity is on level ground, and on a slope of 25 degrees that holds it. "
+                "Each particle has a random initial velocity, 1 m/s per component. Speeds 4 s later, filtered "
                 "40 times (FMPM of order 2) and not.",
                 "nothing moves", "a body at rest");
   for (const double tilt : {0.0, 25.0}) {

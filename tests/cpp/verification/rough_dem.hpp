@@ -34,10 +34,10 @@ inline Treatment noise_and_filter(double rms, unsigned seed) {
 inline Record make_record(const std::string& title) {
   return Record(
       title,
-      "Loose rock, 60 m long, on a slope of 35 degrees with a friction angle of 15 degrees, cells of 5 m; white "
-      "noise on the points of the DEM, filtered by terrain.smooth = \"auto\". Mean from 1 to 3 s.",
+      "Loose rock, 60 m long, slides on a slope of 35 degrees with a friction angle of 15 degrees, on cells of 5 m. "
+      "The points of the DEM have white noise, filtered by terrain.smooth = \"auto\". Mean from 1 to 3 s.",
       "that of the clean ground: 1 on the plane, 1/sin(a) in a V of half an opening angle a",
-      "noise of the terrain model is no friction");
+      "noise of the DEM is no friction");
 }
 
 // A slab of 40 m x 10 m across the slope; noise and distance of points in cells.

@@ -14,9 +14,8 @@ TEST(RoughDem, FilteredAddsNoFriction) {
   expect_wedge_with_noise(record, 0.5, 0.08);
   expect_wedge_with_noise(record, 1.0, 0.12);
   record.explain(
-      "A filter rounds the valley: by itself, one of 0.75 cells takes 9 % of the friction of a wedge here, and one of "
-      "a "
-      "cell, which points a cell apart need, 12 %.");
+      "A filter rounds the valley. A filter of 0.75 cells alone reduces the friction of a wedge here by 9 %. A filter "
+      "of one cell, which points a cell apart need, reduces it by 12 %.");
 }
 
 }  // namespace

@@ -131,8 +131,8 @@ TEST(SlipOnPlane, WithConduction) {
   record.expect_order_at_least("cell over 1e4 [mm]", sizes, "rms error of tau/tau0, 0.5 to 1 m", errors, 1.0, 0.1);
   record.explain(
       "Order 1 is what remains when the cells are much smaller than the layer of heat; here they are about as large, "
-      "and the error falls faster. Near the end the base opens for single steps, which scatters the ratio of forces: "
-      "under the weak gravity, 1e-4 m/s2, a clearance of 1e-10 m is a whole step's fall.");
+      "and the error falls faster. Near the end the base opens for single steps, which scatters the ratio of forces. "
+      "Under the weak gravity, 1e-4 m/s2, a clearance of 1e-10 m is the fall of a whole step.");
   record.expect_near("rms error of tau/tau0 on the finest cells", errors.back(), 0.0, 1e-3);
 }
 

@@ -148,8 +148,8 @@ struct Turning {
 
 TEST(CurvedTerrain, SwingsLikeThePendulumWithFriction) {
   Record record("A slide in a circular arc",
-                "A body 10 m thick and 43 m long slides from rest at 40 degrees down an arc "
-                "of 400 m radius given as a polyline, friction angle 10 degrees.",
+                "A body 10 m thick and 43 m long slides from rest at 40 degrees down an arc of 400 m radius. The arc "
+                "is a polyline; the friction angle is 10 degrees.",
                 "w^2 = A sin phi + B cos phi + K exp(a phi)", "pendulum with Coulomb friction");
   for (const double cell : {5.0, 2.5}) {
     const std::string file = testing::TempDir() + "arc.csv";

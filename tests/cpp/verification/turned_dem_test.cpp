@@ -101,12 +101,11 @@ double front_in_valley(int quarters, double shift) {
 }
 
 TEST(TurnedTerrain, SlideEndsAtTheSamePlace) {
-  Record record(
-      "A slide turned and shifted against the grid",
-      "Debris runs from rest to rest down a rough valley of a terrain model and out on a plain; the same with "
-      "valley, release and domain turned by a quarter, and with the grid shifted by half a cell of 2.5 m along "
-      "each axis.",
-      "the same front", "symmetry");
+  Record record("A slide turned and shifted against the grid",
+                "Debris slides from rest to rest down a rough valley of a DEM and out on a plain. The run is repeated "
+                "with valley, release and domain turned by a quarter, and with the grid shifted by half a cell of 2.5 "
+                "m along each axis.",
+                "the same front", "symmetry");
   const double front = front_in_valley(0, 0.0);
   EXPECT_GT(front, 60.0) << "the slide has gone far";
   record.expect_near("front in the turned valley, less that in the first [m]", front_in_valley(1, 0.0) - front, 0.0,

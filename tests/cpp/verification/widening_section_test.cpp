@@ -46,7 +46,7 @@ TEST(WideningSection, HalvesTheDepthWhereTheWidthDoubles) {
   constexpr double depth = 2.5, speed = 40.0, time = 4.0;
   Record record(
       "Flow into a wider channel",
-      "Matter without strength or friction, 2.5 m deep and 80 m long, runs at 40 m/s from a channel 20 m wide "
+      "Material without strength or friction, 2.5 m deep and 80 m long, runs at 40 m/s from a channel 20 m wide "
       "into one 40 m wide.",
       "depth and speed of the middle by h u b = const, u^2/2 + g h = const", "Bernoulli");
   Simulation<2, double> simulation(
@@ -89,8 +89,8 @@ double spread(int n, double rate, double time) {
 TEST(WideningSection, SpreadsAsAParaboloidAboutItsAxis) {
   constexpr double radius = 50.0, depth = 5.0, time = 6.0, rate = 2.0 * gravity * depth / (radius * radius);
   Record record("Paraboloid that spreads",
-                "Matter without strength or friction, 5 m deep at x = 0 and 50 m long, spreads over level ground: in a "
-                "section as wide everywhere, and in one as wide as x, which is a sector about the axis.",
+                "Material without strength or friction, 5 m deep at x = 0 and 50 m long, spreads over level ground. "
+                "The section has a constant width, or the width x, which is a sector about the axis.",
                 "mean x over that at the start: s(t) with s'' = 2 g h0/(R0^2 s^(n + 1)), n = 1 and 2", "Thacker 1981");
   ASSERT_NEAR(spread(2, rate, time), std::sqrt(1.0 + rate * time * time), 1e-6);
   std::string vertices = "[0.0, 0.0]";
