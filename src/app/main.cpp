@@ -180,7 +180,8 @@ int run_program(int count, char** arguments) {
   make_new
       ->add_option(
           "--resolution", new_options.resolution,
-          "quick: for travel distance and speed; standard: for thickness and area too; fine: half of its cells")
+          "quick: for travel distance and speed; standard: for thickness and area too; fine: cells half as large as "
+          "those of standard")
       ->check(CLI::IsMember({"quick", "standard", "fine"}))
       ->excludes(cell)
       ->option_text("default quick");

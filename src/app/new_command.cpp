@@ -16,6 +16,7 @@
 #include "app/time_estimate.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/thousands.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 
@@ -245,8 +246,8 @@ int make_new_case(const NewOptions& options) {
   const std::optional<RunCost> cost = cost_of_run(folder);
   new_folder.keep();
 
-  fmt::print("{}: a release of {:.4g} m3, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
-             (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
+  fmt::print("{}: a release of {} m3, {:.3g} m thick, on {} m cells\n", (folder / "case.toml").string(),
+             with_commas(proposal.volume, 4), proposal.thickness, proposal.cell);
   if (cost) {
     fmt::print("{}", resolution_text(proposal, resolution, *cost));
   } else {

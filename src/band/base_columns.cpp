@@ -171,6 +171,7 @@ void BaseColumns<Dim, Real>::take_from_nodes(const Stencil& stencil, Real dt, co
     if (!nodes.contact.holds(b)) {
       return;
     }
+    THAWSLIDE_ASSERT(nodes.base_state.holds(b), "block {} has contact and no state of the base", b);
     const auto* contacts = &nodes.contact(b, 0);
     const auto* states = &nodes.base_state(b, 0);
     stencil.for_each_in(corner, [&](std::size_t node, Real weight) {

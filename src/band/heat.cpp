@@ -1,6 +1,7 @@
 #include "band/heat.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -73,8 +74,18 @@ void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real d
       return state.rows_with(grid.rows_seen(t), warms) != 0;
     };
     const auto* own = nodes.state.of_block(static_cast<std::size_t>(grid.blocks_about_tile(t)[own_block]));
+    const auto any_of_own_warms = [&] {
+      constexpr int edge = mpm::Tile<Dim>::edge;
+      for (auto rows = mpm::rows_in_block<Dim, own_block>(grid.rows_seen(t)); rows != 0; rows &= rows - 1) {
+        const auto* row = own + std::countr_zero(rows) * edge;
+        if (std::any_of(row, row + edge, warms)) {
+          return true;
+        }
+      }
+      return false;
+    };
     const auto& batches = grid.batches(t);
-    const bool changes = std::any_of(own, own + nodes.state.nodes, warms) ||
+    const bool changes = any_of_own_warms() ||
                          std::any_of(batches.begin(), batches.end(),
                                      [&](const auto& batch) {
                                        return any(!half_negligible(particles.conduction_in_cell.load(batch)));

@@ -7,15 +7,26 @@
 
 namespace thawslide::physics {
 
-// Whether material with an open gap stays at its apex. Dilation would compress it in shear, a cut-off leaves it
-// strength across the gap, and an apex that moves away as the material softens lets it bear tension. Strength: of
-// Mohr-Coulomb.
+// Whether material with an open gap stays at its apex c/tan(phi). Dilation would compress it in shear, and a cut-off
+// leaves it strength across the gap. As the material softens, c and sin(phi) fall in proportion; an apex that moves
+// outwards on the way, at any of some hundred shares of it, lets the material bear tension. Strength: of Mohr-Coulomb.
 template <class Strength>
 [[nodiscard]] bool gap_is_free(const Strength& strength) {
-  const auto apex = [](auto cohesion, auto degrees) { return cohesion / std::tan(degrees * pi<double> / 180.0); };
-  return strength.dilation_angle == 0 && std::isinf(strength.tension_cutoff) &&
-         apex(strength.residual_cohesion, strength.residual_friction_angle) <=
-             apex(strength.cohesion, strength.friction_angle);
+  constexpr int shares = 100;
+  constexpr double round_off = 1e-12;
+  const auto sine = [](auto degrees) { return std::sin(static_cast<double>(degrees) * pi<double> / 180.0); };
+  const auto between = [](double start, double end, double share) { return start + share * (end - start); };
+  const auto apex = [&](double softened) {
+    const double s = between(sine(strength.friction_angle), sine(strength.residual_friction_angle), softened);
+    return between(static_cast<double>(strength.cohesion), static_cast<double>(strength.residual_cohesion), softened) *
+           std::sqrt(1.0 - s * s) / s;
+  };
+  bool moves_out = false;
+  for (int k = 1; k <= shares; ++k) {
+    const double before = apex(static_cast<double>(k - 1) / shares), after = apex(static_cast<double>(k) / shares);
+    moves_out = moves_out || after > before * (1.0 + round_off);
+  }
+  return strength.dilation_angle == 0 && std::isinf(strength.tension_cutoff) && !moves_out;
 }
 
 // The density once the gap is closed, at which elastic stiffness acts again [kg/m3]. A gap sums the volumetric strains

@@ -74,7 +74,6 @@ def test_the_times_of_the_others_follow_from_the_cells(
     """Cells half as large cost 16 times as much."""
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", THICKNESS)
     found = dict(re.findall(r"--resolution (\w+): cells of \S+ m, about ([^;]+);", outcome.stdout))
-    assert seconds_of(found["standard"]) > 60.0
     assert seconds_of(found["fine"]) == pytest.approx(16.0 * seconds_of(found["standard"]), rel=0.02)
 
 

@@ -102,6 +102,9 @@ TEST(FreeGap, DilationAndACutoffLetMaterialThatIsTornApartBearStress) {
   const Strength<double> apex_that_moves_away{35.0, 0.0, 1e6, 1e6, infinity, 0.3, 20.0};
   EXPECT_FALSE(gap_is_free(apex_that_moves_away));
   EXPECT_GT(strained_at_random<true>(apex_that_moves_away).largest_change, 1e4);
+  const Strength<double> apex_that_moves_away_and_back{40.0, 0.0, 1e6, 4.3e5, infinity, 0.3, 20.0};
+  EXPECT_LT(4.3e5 / std::tan(20.0 * pi<double> / 180.0), 1e6 / std::tan(40.0 * pi<double> / 180.0));
+  EXPECT_FALSE(gap_is_free(apex_that_moves_away_and_back));
 }
 
 }  // namespace
