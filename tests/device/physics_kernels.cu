@@ -11,6 +11,7 @@
 #include "physics/contact.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/entrainment.hpp"
+#include "physics/free_gap.hpp"
 #include "physics/freezing.hpp"
 #include "physics/heat_content.hpp"
 #include "physics/kinematics.hpp"
@@ -102,6 +103,7 @@ __global__ void yield_and_gap(MohrCoulomb<Real> law, Elastic<Real> elastic, Real
   const Tensor trial = stress_increment(elastic, borne);
   result.put(law.may_yield<Dim>(trial, plastic_strain) ? Real(1) : Real(0));
   result.put(law.cohesion(plastic_strain));
+  result.put(density_with_gap_closed(row.take(), row.take()));
   const Principal<Real> own = principal<Dim>(trial);
   result.put<6>(from_principal(own));
   result.put(Elastic<Real>::from_young_poisson(row.take(), row.take()).p_wave_modulus());
@@ -151,20 +153,23 @@ template __global__ void heat<LinearCurve<Real>>(HeatContent<Real, LinearCurve<R
 template <class Curve>
 __global__ void band_column(ColumnModel<Real, Curve> model, const Real* temperatures, const ColumnDrive<Real>* drives,
                             BandColumn<Real>* columns, ColumnAccount<Real>* accounts, BandMeans<Real>* means,
-                            ColumnVolumes<Real>* volumes) {
+                            ColumnVolumes<Real>* volumes, Real* liquid) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
   ColumnDrive<Real> drive = drives[k];
   drive.body_heat = body_enthalpy(model, temperatures[k]);
   accounts[k] = step_column(model, drive, columns[k]);
   means[k] = band_means(model, drive.normal_pressure, columns[k]);
   volumes[k] = column_volumes(model, drive.normal_pressure, columns[k]);
+  liquid[k] = liquid_volume(model, columns[k]);
 }
 template __global__ void band_column<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, const Real*,
                                                           const ColumnDrive<Real>*, BandColumn<Real>*,
-                                                          ColumnAccount<Real>*, BandMeans<Real>*, ColumnVolumes<Real>*);
+                                                          ColumnAccount<Real>*, BandMeans<Real>*, ColumnVolumes<Real>*,
+                                                          Real*);
 template __global__ void band_column<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const Real*,
                                                         const ColumnDrive<Real>*, BandColumn<Real>*,
-                                                        ColumnAccount<Real>*, BandMeans<Real>*, ColumnVolumes<Real>*);
+                                                        ColumnAccount<Real>*, BandMeans<Real>*, ColumnVolumes<Real>*,
+                                                        Real*);
 
 template <class Curve>
 __global__ void join_columns(ColumnModel<Real, Curve> model, const Real* shares, const BandColumn<Real>* others,

@@ -59,7 +59,8 @@ TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
   const HistoryRow block = run_block(parameters).back();
   const auto* columns = simulation.band_columns();
   const auto expect_middle = [&](const char* name, const auto& of, double start) {
-    const double middle = median_over_base(simulation, [&](const auto& piece) { return of(columns->means_now(piece)); });
+    const double middle =
+        median_over_base(simulation, [&](const auto& piece) { return of(columns->means_now(piece)); });
     EXPECT_NEAR(middle - start, value_of(block, name) - start, 0.02 * (value_of(block, name) - start)) << name;
   };
   EXPECT_NEAR(value_of(history_row(simulation), "mean_velocity_m_s"), value_of(block, "velocity_m_s"),
