@@ -11,7 +11,6 @@
 #include "app/setup_facts.hpp"
 #include "app/setup_json.hpp"
 #include "app/setup_picture.hpp"
-#include "app/time_estimate.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/read_case.hpp"

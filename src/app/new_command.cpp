@@ -11,12 +11,11 @@
 #include "app/commands.hpp"
 #include "app/names_in_case.hpp"
 #include "app/notes_of_setup.hpp"
-#include "app/resolution_text.hpp"
+#include "app/progress.hpp"
 #include "app/run_loop.hpp"
-#include "app/time_estimate.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "base/thousands.hpp"
+#include "base/rounding.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 
@@ -184,6 +183,35 @@ std::string without_places(std::string message, const std::string& file) {
     message.replace(at, is_place ? end + 1 - at : file.size(), is_place ? "" : "the case");
   }
   return message;
+}
+
+// Of a run to time.end.
+struct RunCost {
+  double steps = 0.0;
+  double seconds = 0.0;  // of wall time
+  int threads = 1;
+};
+
+// The first lines are of the proposed cell and its cost. The others are of the named resolutions except `chosen`, whose
+// times follow from that cost and the cells. chosen: a name, or empty if the user gave the cell.
+std::string resolution_text(const config::Proposal& proposal, const std::string& chosen, const RunCost& cost) {
+  std::string purpose, others;
+  for (const config::ResolutionFacts& each : config::resolutions) {
+    if (chosen == each.name) {
+      purpose = fmt::format("; {}", each.purpose);
+      continue;
+    }
+    const double cell =
+        config::cell_of(each.resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
+    const double seconds = cost.seconds * config::run_time_factor(proposal.cell, cell, 3);
+    others += fmt::format("             --resolution {}: cells of {:g} m, about {}; {}\n", each.name, cell,
+                          duration_text(seconds), each.purpose);
+  }
+  return fmt::format(
+      "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {} on {} "
+      "thread{}\n{}",
+      chosen.empty() ? "" : chosen + ", ", proposal.cell, purpose, with_commas(proposal.particles, 3),
+      with_commas(cost.steps, 3), duration_text(cost.seconds), cost.threads, cost.threads == 1 ? "" : "s", others);
 }
 
 // Tries the first steps of the case, and throws whatever would refuse it before them. Without a cost, the run fails in

@@ -1,6 +1,7 @@
 #include "app/notes_of_setup.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "config/notices.hpp"
@@ -33,11 +34,28 @@ double steps_to_end(const sim::Simulation<Dim, double>& simulation) {
   return time.stepping == config::Stepping::fixed ? std::max(1.0, std::ceil(steps - 0.5)) : std::ceil(steps);
 }
 
+template <int Dim>
+double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
+  constexpr double most_seconds = 0.5;
+  constexpr int most_steps = 200;
+  const auto start = std::chrono::steady_clock::now();
+  double elapsed = 0.0;
+  int steps = 0;
+  while (steps < most_steps && elapsed < most_seconds && simulation.time() < simulation.parameters().time.end) {
+    simulation.step(simulation.next_step(simulation.parameters().time.end));
+    ++steps;
+    elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  return elapsed / steps;
+}
+
 template void add_notes_of_setup<2>(const sim::Simulation<2, double>&, const std::vector<sim::BodyFigures>&,
                                     const DiskNeed&, const std::filesystem::path&, Notes&);
 template void add_notes_of_setup<3>(const sim::Simulation<3, double>&, const std::vector<sim::BodyFigures>&,
                                     const DiskNeed&, const std::filesystem::path&, Notes&);
 template double steps_to_end<2>(const sim::Simulation<2, double>&);
 template double steps_to_end<3>(const sim::Simulation<3, double>&);
+template double measured_step_seconds<2>(sim::Simulation<2, double>&);
+template double measured_step_seconds<3>(sim::Simulation<3, double>&);
 
 }  // namespace thawslide::app

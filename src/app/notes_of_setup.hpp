@@ -1,4 +1,4 @@
-// What to know of a case before it runs: what is unusual, and what is most likely not meant.
+// Facts about a case before it runs: what is unusual or probably unintended, and how long the run will take.
 #pragma once
 
 #include <filesystem>
@@ -17,5 +17,9 @@ void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const st
 // As many steps as a run takes, if all are as long as the first one.
 template <int Dim>
 [[nodiscard]] double steps_to_end(const sim::Simulation<Dim, double>& simulation);
+
+// Seconds of wall time that one step takes now; takes some steps.
+template <int Dim>
+[[nodiscard]] double measured_step_seconds(sim::Simulation<Dim, double>& simulation);
 
 }  // namespace thawslide::app

@@ -1,8 +1,12 @@
-// Bounds in few digits. One that is rounded to the nearest number of few digits may lie on the wrong side of itself,
-// and who follows the advice is refused again.
+// Numbers in few digits, for people. A bound that is rounded to the nearest number of few digits may lie on the wrong
+// side of itself, and who follows the advice is refused again.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace thawslide {
 
@@ -21,6 +25,17 @@ inline double rounded_up(double number, int digits) {
 inline double rounded_down(double number, int digits) {
   const double digit = last_digit(number, digits);
   return std::floor(number / digit * (1.0 + 1e-12)) * digit;
+}
+
+// A number of 1 or more with so many significant digits, without decimals, and with commas between thousands: "10,000".
+inline std::string with_commas(double number, int digits) {
+  const double digit = std::max(1.0, last_digit(number, digits));
+  std::string text = fmt::format("{:.0f}", std::round(number / digit) * digit);
+  for (std::size_t place = text.size(); place > 3;) {
+    place -= 3;
+    text.insert(place, ",");
+  }
+  return text;
 }
 
 }  // namespace thawslide

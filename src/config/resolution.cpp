@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/rounding.hpp"
-#include "base/thousands.hpp"
 #include "config/fitting_cell.hpp"
 
 namespace thawslide::config {
@@ -69,6 +69,23 @@ std::string maps_comment(const BodyOnCells& body) {
       "need\n"
       "# {:g}: cells of {:.9g} m (`thawslide new --resolution standard`), at about {} times the run time.\n",
       cells_for_maps, finer, times_words(run_time_factor(body.cell, finer, body.dimension)));
+}
+
+Resolution resolution_named(const std::string& name) {
+  const auto* const found = std::find_if(resolutions.begin(), resolutions.end(),
+                                         [&](const ResolutionFacts& facts) { return name == facts.name; });
+  if (found == resolutions.end()) {
+    throw std::out_of_range(name);
+  }
+  return found->resolution;
+}
+
+double cell_of(Resolution resolution, double thickness, double median_thickness, int particles_per_axis) {
+  if (resolution == Resolution::quick) {
+    return round_down(thickness * particles_per_axis / proposed_particles);
+  }
+  const double standard = round_down(median_thickness / cells_for_maps);
+  return resolution == Resolution::standard ? standard : 0.5 * standard;
 }
 
 }  // namespace thawslide::config
