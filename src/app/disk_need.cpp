@@ -28,8 +28,8 @@ constexpr double bytes_beside_points = 1e4;  // of a snapshot, and of a checkpoi
 constexpr double most_of_free = 0.9;         // what a run may take of the free disk without a word
 constexpr double gigabyte = 1e9;
 
-// Whole intervals until the end, and the start; no more than there are steps, unless these are cut to the intervals.
-// The last fixed step may stop short of the end.
+// Number of whole intervals until the end, plus one for the start. It is limited to the number of steps, unless steps
+// are cut to the intervals. The last fixed step may end before the end of the run.
 double count_of(const config::Time& time, double interval, double steps, bool cuts_steps) {
   const bool is_fixed = time.stepping == config::Stepping::fixed;
   const double last = is_fixed ? std::min(time.end, steps * time.step) : time.end;

@@ -185,15 +185,15 @@ std::string without_places(std::string message, const std::string& file) {
   return message;
 }
 
-// Of a run to time.end.
+// Estimated cost of a run to time.end.
 struct RunCost {
   double steps = 0.0;
   double seconds = 0.0;  // of wall time
   int threads = 1;
 };
 
-// The first lines are of the proposed cell and its cost. The others are of the named resolutions except `chosen`, whose
-// times follow from that cost and the cells. chosen: a name, or empty if the user gave the cell.
+// The first lines state the proposed cell and its cost. The other lines state the named resolutions except `chosen`;
+// their times follow from that cost and the cells. chosen: a name, or empty if the user specified the cell.
 std::string resolution_text(const config::Proposal& proposal, const std::string& chosen, const RunCost& cost) {
   std::string purpose, others;
   for (const config::ResolutionFacts& each : config::resolutions) {
@@ -214,8 +214,8 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
       with_commas(cost.steps, 3), duration_text(cost.seconds), cost.threads, cost.threads == 1 ? "" : "s", others);
 }
 
-// Tries the first steps of the case, and throws whatever would refuse it before them. Without a cost, the run fails in
-// its first steps.
+// Runs the first steps of the case and returns the cost of a run, or nothing if these steps fail. Throws the errors
+// that refuse the case before its first step.
 std::optional<RunCost> cost_of_run(const fs::path& folder) {
   try {
     const config::Case made = config::read_case(folder);
@@ -225,7 +225,7 @@ std::optional<RunCost> cost_of_run(const fs::path& folder) {
     const double steps = steps_to_end(simulation);
     return RunCost{steps, measured_step_seconds(simulation) * steps, thread_count()};
   } catch (const RunError&) {
-    return {};  // the case stands, and `check` and `run` give the reason
+    return {};  // the case is kept; `check` and `run` report the reason
   } catch (const UserError& error) {
     throw UserError(fmt::format("no case was made, as it would not run: {}",
                                 without_places(error.what(), (folder / "case.toml").string())));
@@ -283,7 +283,7 @@ int make_new_case(const NewOptions& options) {
                (folder / "case.toml").string());
   }
   config::BodyOnCells body = config::release_on_cells(proposal);
-  body.has_maps = resolution.empty() || !cost;  // else the text above names the cells for maps
+  body.has_maps = resolution.empty() || !cost;  // otherwise the text above states the cells for maps
   if (const std::string note = config::resolution_note(body, "--cell"); !note.empty()) {
     fmt::print("note: {}\n", note);
   }

@@ -18,7 +18,7 @@ void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const st
 template <int Dim>
 [[nodiscard]] double steps_to_end(const sim::Simulation<Dim, double>& simulation);
 
-// Seconds of wall time that one step takes now; takes some steps.
+// Wall-clock seconds per step, measured on some steps, which advance the simulation.
 template <int Dim>
 [[nodiscard]] double measured_step_seconds(sim::Simulation<Dim, double>& simulation);
 

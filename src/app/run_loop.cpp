@@ -60,8 +60,8 @@ class RemovalWatch {
   bool told_;
 };
 
-// Settles a case that asks for it; a body that fails on the way leaves its files as any other run does. Returns
-// whether a signal left it time to settle.
+// Settles the body if the case requires it. If this fails, files are written as for any other failed run. Returns false
+// if a signal interrupted it.
 template <int Dim>
 bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
   if (!simulation.needs_settling()) {
@@ -126,7 +126,7 @@ class Loop {
     output_.start_clock();
   }
 
-  // Returns the exit code; throws RunError where the run failed. What there is has been written in either case.
+  // Returns the exit code; throws RunError if the run failed. In both cases, all results so far have been written.
   int run() {
     catch_signals();
     try {
@@ -152,8 +152,8 @@ class Loop {
   }
 
  private:
-  // A row follows the first adaptive step that reaches its moment, but for round-off: snapshots, on which steps are
-  // made to end, have their rows. Fixed steps are the nearest ones.
+  // A row follows the first adaptive step that reaches its time, within round-off. Adaptive steps end at snapshots, so
+  // each snapshot can have a row of the same time. With fixed steps, a row follows the nearest step.
   static constexpr double round_off = 1e-6;  // of a step
 
   [[nodiscard]] Schedule schedule(double interval, double early = 0.5) const {
@@ -168,7 +168,7 @@ class Loop {
   void step() {
     const double before = output_.wall_seconds();
     output_.before_step(simulation_);
-    // Rows and checkpoints follow a step near their moment: they change no step.
+    // Rows and checkpoints follow a step near their time and change no step.
     simulation_.step(simulation_.next_step(std::min(snapshots_.next(), times_.end)));
     seconds_in_steps_ += output_.wall_seconds() - before;
     set_thread_count(threads_.after_step(seconds_in_steps_));

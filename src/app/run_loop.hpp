@@ -10,8 +10,8 @@ template <int Dim>
 int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
                   const std::filesystem::path& folder);
 
-// Returns the exit code: done, stopped by a signal, or not written; in each case what there is has been written. Throws
-// RunError where the run failed.
+// Returns the exit code: done, stopped by a signal, or not written. In each case, all results so far have been written.
+// Throws RunError if the run failed.
 template <int Dim>
 int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder);
 

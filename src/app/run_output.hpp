@@ -24,10 +24,10 @@ namespace thawslide::app {
 class Schedule {
  public:
   // Goes on from `begin`, reached by a step of `last_step` (0: nothing has run yet), as if it had run up to there.
-  // early: share of a step by which a step may end before a moment and reach it; the end is reached by half a step.
+  // early: fraction of a step by which a step may end before a time and still reach it; for the end it is 0.5.
   Schedule(double interval, double begin, double last_step, double end, double early = 0.5);
   [[nodiscard]] double next() const { return next_; }
-  // True if the time has come; moves on to the next moment.
+  // Returns whether the next time is reached, and then advances to the following one.
   bool reached(double time, double step);
 
  private:
