@@ -132,7 +132,7 @@ typename BaseColumns<Dim, Real>::Nearby BaseColumns<Dim, Real>::slide_near(const
     return v - v.dot(piece.normal) * piece.normal;
   };
   Real mass = 0;
-  Vector<Real, Dim> places = Vector<Real, Dim>::Zero(), velocities = Vector<Real, Dim>::Zero();  // by mass
+  Vector<Real, Dim> places = Vector<Real, Dim>::Zero(), velocities = Vector<Real, Dim>::Zero();  // times mass
   Matrix<Real, Dim> squares = Matrix<Real, Dim>::Zero(), together = Matrix<Real, Dim>::Zero();
   stencil.for_each_with_place([&](std::size_t b, std::size_t node, Real weight, const Vector<Real, Dim>& from_piece) {
     const Real of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
@@ -249,10 +249,10 @@ void BaseColumns<Dim, Real>::part_long_pieces(Real most, const Ground& ground) {
   }
 }
 
-// Shear parts pieces without end, and where the slide comes together they crowd. Two in one part of the lattice, nearer
-// than half of its size along each axis, that together are no larger than a cell become one: a square, where the middle
-// of both was. Pieces that were laid beside each other and move along keep more distance. Of those in one part, each in
-// its turn joins the smallest before it.
+// Shear splits pieces repeatedly, and they accumulate where the flow converges. Two pieces in one part of the lattice
+// become one if they are nearer than half of its size along each axis and together no larger than a cell. The result is
+// a square at their common centre. Pieces that were created next to each other and move together keep more distance.
+// The pieces of one part are visited in order, and each joins the smallest one before it.
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground) {
   const Real largest = static_cast<Real>(largest_joined * std::pow(grid.cell(), Dim - 1));
@@ -294,7 +294,7 @@ void BaseColumns<Dim, Real>::join_small_pieces(const mpm::SparseGrid<Dim, Real>&
   keep_only(joined);
 }
 
-// The pieces that have not left, in their order.
+// Removes the pieces marked in `left`; the others keep their order.
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::keep_only(const std::vector<std::uint8_t>& left) {
   std::size_t kept = 0;

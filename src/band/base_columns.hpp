@@ -77,7 +77,7 @@ class BaseColumns {
   BaseColumns(ColumnsModel<Real> model, const Vector<Real, Dim>& gravity)
       : model_(std::move(model)), gravity_(gravity) {}
 
-  // Fills nodes.base_state of the blocks with contact. To be called before each take, which uses the same stencils.
+  // Fills nodes.base_state of the blocks with contact. Call it before each take, which uses the same stencils.
   void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes);
 
   // After contact, at the positions that to_nodes has seen: what contact does in dt to all pieces (load, heat, slip),
@@ -94,7 +94,7 @@ class BaseColumns {
   void step(Real thickness, Real duration);
 
   [[nodiscard]] const std::vector<BasePiece<Dim, Real>>& pieces() const { return pieces_; }
-  // Of its column since the last step, under the load of now.
+  // Means of the column after its last step, with the pore pressure under the present load.
   [[nodiscard]] static physics::BandMeans<Real> means_now(const BasePiece<Dim, Real>& piece) {
     physics::BandMeans<Real> means = piece.means;
     means.pore_pressure = physics::band_pressure(piece.load, piece.column);
@@ -116,13 +116,14 @@ class BaseColumns {
   using Stencil = BaseStencil<Dim, Real>;
 
   using Lattice = std::array<int, Dim - 1>;  // a cell of the horizontal lattice on which pieces are laid
-  // A part of a cell of the lattice. On steep ground the cell comes in parts along each axis, since a piece sees no
-  // further than its stencil.
+  // A part of a lattice cell. On steep ground a cell is divided along each axis, because a piece reaches only the nodes
+  // of its stencil.
   struct LatticePart {
-    Lattice cell, part, parts;  // parts: how many
+    Lattice cell, part, parts;  // parts: number along each axis
     auto operator<=>(const LatticePart&) const = default;
   };
-  // Of a node in contact: the point of the ground below it, its cell, and the parts on ground as steep.
+  // Foot of a node in contact: its point on the ground, the lattice cell of this point, and the number of parts of a
+  // cell on ground of this slope.
   struct Foot {
     Lattice cell, parts;
     Vector<Real, Dim> place;

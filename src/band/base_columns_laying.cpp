@@ -1,4 +1,4 @@
-// Where pieces of base are laid as the slide comes to ground that none covers.
+// Creation of basal pieces on ground that the slide reaches and no piece covers.
 #include <algorithm>
 #include <atomic>
 
@@ -64,8 +64,8 @@ bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>&
   });
 }
 
-// Where nodes in contact have their feet: of those that see no piece, and of those with so much contact that a piece
-// should lie there. In order of blocks and nodes.
+// Feet of nodes in contact, in order of blocks and nodes: of those that no piece reaches, and of those with so much
+// contact that a piece is needed there.
 template <int Dim, class Real>
 std::vector<typename BaseColumns<Dim, Real>::Foot> BaseColumns<Dim, Real>::feet_in_contact(
     const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
@@ -97,8 +97,8 @@ std::vector<typename BaseColumns<Dim, Real>::Foot> BaseColumns<Dim, Real>::feet_
   return feet;
 }
 
-// The parts of lattice cells in which there are feet, in order and each once. The first foot in a cell says how many
-// parts it comes in.
+// Parts of lattice cells that contain feet, sorted and each once. The first foot in a cell determines the number of its
+// parts.
 template <int Dim, class Real>
 std::vector<typename BaseColumns<Dim, Real>::LatticePart> BaseColumns<Dim, Real>::parts_below(
     const mpm::SparseGrid<Dim, Real>& grid, std::vector<Foot> feet) const {
@@ -115,12 +115,12 @@ std::vector<typename BaseColumns<Dim, Real>::LatticePart> BaseColumns<Dim, Real>
   return result;
 }
 
-// Leaves those that no piece covers. A piece covers the parts whose middle lies within three quarters of their size of
-// its own along each axis.
+// Removes the parts that a piece covers. A piece covers a part if their centres differ by less than three quarters of
+// the part's size along each axis.
 template <int Dim, class Real>
 void BaseColumns<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid,
                                                std::vector<LatticePart>& parts) const {
-  constexpr auto last = static_cast<std::size_t>(Dim - 2);  // the axis along which cells follow one another in order
+  constexpr auto last = static_cast<std::size_t>(Dim - 2);  // the axis that varies fastest in the order of cells
   std::vector<std::uint8_t> covered(parts.size(), 0);
   parallel_for(pieces_.size(), [&](std::size_t p) {
     const Vector<Real, Dim>& position = pieces_[p].position;

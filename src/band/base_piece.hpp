@@ -34,7 +34,7 @@ struct BasePiece {
   bool touched = false;     // has ever carried load
   physics::BandColumn<Real> column;
   physics::BandMeans<Real> means{};  // of the column at its last step, under the load at that time
-  Real liquid = 0;                   // water in the column then, per area [m]
+  Real liquid = 0;                   // liquid water in the column then, per area [m]
 };
 
 template <int Dim, class Real>
@@ -99,8 +99,8 @@ class BaseStencil {
     }
   }
 
-  // Calls visit(block, node, weight, from_piece) for each of its nodes, x fastest. from_piece: its place seen from the
-  // piece [m].
+  // Calls visit(block, node, weight, from_piece) for each of its nodes, x fastest. from_piece: vector from the piece to
+  // the node [m].
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each_with_place(const Visit& visit) const {
     Vector<Real, Dim> from_piece;
@@ -184,7 +184,7 @@ class BaseStencil {
   const std::int32_t* about_ = nullptr;  // blocks about that of the node below the piece
   int local_ = 0;                        // that node, in its tile
   Real cell_ = 0;                        // [m]
-  std::array<Real, Dim> first_;          // place of the first node along each axis, seen from the piece [m]
+  std::array<Real, Dim> first_;          // from the piece to the first node along each axis [m]
   std::array<std::array<Real, width>, Dim> weight_;
   int direction_[Dim][width], shift_[Dim][width];  // along each axis: to its block, and from the node below
   int of_first_[Dim] = {};                         // nodes along each axis in the first block

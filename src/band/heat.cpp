@@ -32,8 +32,9 @@ NodalHeat<Real> solve_with_tangent(const mpm::SparseGrid<Dim, Real>& grid, const
       });
 }
 
-// Where temperatures change, the sums of particles with their secant capacity stand in the patches; elsewhere those
-// with the tangent still do, and with them the rates, but for what conditions at faces bring. Returns that heat [J].
+// In blocks in which temperatures change, patches contain the sums of particles with their secant capacity. Other
+// patches still contain the sums with the tangent; rates there are unchanged except for the conditions at faces.
+// Returns the heat through faces [J].
 template <int Dim, class Real>
 Real solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                        bool first_step, mpm::Nodes<Dim, Real>& nodes) {
@@ -96,12 +97,12 @@ void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real d
   grid.mark_blocks_about(marks.changing_tiles, marks.changing_blocks);
 }
 
-// The tiles, and of these the batches, that see nodes which hold friction heat without linear weight.
+// Selects tiles, and batches of these, in whose reach nodes without linear weight have friction heat.
 template <int Dim, class Real>
 struct SeesOrphanHeat {
   const mpm::SparseGrid<Dim, Real>& grid;
   const mpm::SparseRecordsOf<mpm::OrphanHeat, Dim, Real>& orphan_heat;
-  std::vector<std::uint64_t>& rows;  // by tile, of its patch (Tile::rows_from): those that hold some
+  std::vector<std::uint64_t>& rows;  // by tile: rows of its patch (Tile::rows_from) with such heat
 
   [[nodiscard]] bool operator()(std::size_t tile) const {
     mpm::PatchOf<mpm::OrphanHeat, Dim, Real> heat;

@@ -38,7 +38,7 @@ struct ColumnsModel {
 template <int Dim, class Real>
 physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasePiece<Dim, Real>& piece);
 
-// Keeps in the piece what others ask of its column between two steps.
+// Stores means and liquid water of the column in the piece, for use until its next step.
 template <int Dim, class Real>
 void keep_means(const ColumnsModel<Real>& model, BasePiece<Dim, Real>& piece);
 

@@ -51,7 +51,7 @@ struct StepExtremes {
 // By material, whether gaps are free (physics/free_gap.hpp).
 template <class Real>
 struct FreeGaps {
-  const Real* of_material;  // 1: they are, 0: they bear stress
+  const Real* of_material;  // 1: free, 0: gaps bear stress
 
   // The particle's density at which elastic stiffness acts [kg/m3].
   template <class Particles>
