@@ -224,7 +224,7 @@ class PatchMinima {
   static constexpr Real largest = std::numeric_limits<Real>::max();
 
  public:
-  // rows: that the particles see (Tile::rows_from).
+  // rows: those in which the particles have nodes (Tile::rows_from).
   PatchMinima(Patch<Dim, Real, Components>& patch, std::uint64_t rows) : patch_(patch) {
     patch.for_rows(rows, [](auto* row) {
       std::for_each_n(row, Tile<Dim>::patch_edge, [](auto& record) { record[Component] = largest; });

@@ -5,8 +5,8 @@
 
 namespace thawslide::mpm {
 
-// The sums of a block's records, of what the particles of the tiles added that takes(t) names. Returns the rows of the
-// block that particles see, a bit each; what stands in the others is of no step.
+// Sums the contributions of particles to a block's records, from the tiles for which takes(t) is true. Returns the rows
+// of the block in which particles have nodes, one bit per row. Records of other rows have no meaning.
 template <class Name, int Dim, class Real, class Takes>
 std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
                         const Takes& takes) {
@@ -17,7 +17,7 @@ template <class Name, int Dim, class Real>
 std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes) {
   return sum_block<Name>(grid, block, nodes, every_tile);
 }
-// For a name that is lowered the smallest numbers, after the sums of its record.
+// For a name reduced by minimum: the smallest numbers. Call it after summing the record of the name.
 template <IsLowered Name, int Dim, class Real, class Takes>
 void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes, const Takes& takes) {
   auto& records = nodes.template of<Name>();
@@ -27,8 +27,8 @@ void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, 
   });
 }
 
-// Calls begin(block), which tells the rows of nodes to visit, a bit each, and then of_node(node, account) for these, in
-// each block; returns the sum of the accounts.
+// For each block, calls begin(block), which returns the rows of nodes to visit, one bit per row, and then
+// of_node(node, account) for their nodes. Returns the sum of the accounts.
 template <class Account, int Dim, class Real, class Begin, class OfNode>
 Account node_pass(const SparseGrid<Dim, Real>& grid, const Begin& begin, const OfNode& of_node) {
   constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);

@@ -1,5 +1,5 @@
-// The nodes that the patch of a tile shares with the blocks about it, row by row along the first axis. Particles of a
-// tile see few of its patch's rows, and only these are cleared, summed, read and visited.
+// Nodes that the patch of a tile shares with the blocks around it, row by row along the first axis. The particles of a
+// tile have nodes in few rows of its patch; only these rows are cleared, summed, read and visited.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ THAWSLIDE_ALWAYS_INLINE void for_each_direction(const Body& body) {
   unrolled<static_cast<std::size_t>(Tile<Dim>::stencil)>(body);
 }
 
-// A tile that lies in direction d from a block sees it in the opposite one.
+// From a tile in direction d of a block, the block is in the opposite direction.
 template <int Dim>
 constexpr std::size_t opposite(std::size_t direction) {
   return static_cast<std::size_t>(Tile<Dim>::stencil) - 1 - direction;
@@ -58,7 +58,7 @@ THAWSLIDE_ALWAYS_INLINE void for_shared_rows(const Visit& visit) {
   }
 }
 
-// Whether a row that begins at a place of the patch is one of `rows`, a bit each (Tile::rows_from).
+// Returns whether the row of a node of the patch is among `rows`, one bit per row (Tile::rows_from).
 template <int Dim>
 constexpr bool holds_row(std::uint64_t rows, std::size_t in_patch) {
   return (rows >> in_patch / static_cast<std::size_t>(Tile<Dim>::patch_edge) & 1) != 0;
@@ -74,7 +74,7 @@ constexpr std::uint64_t shared_rows() {
   return rows;
 }
 
-// As for_shared_rows, of those rows alone that are among `rows`.
+// Same as for_shared_rows, but only for rows among `rows`.
 template <int Dim, std::size_t Direction, class Visit>
 THAWSLIDE_ALWAYS_INLINE void for_seen_rows(std::uint64_t rows, const Visit& visit) {
   if ((rows & shared_rows<Dim, Direction>()) == 0) {
@@ -88,8 +88,8 @@ THAWSLIDE_ALWAYS_INLINE void for_seen_rows(std::uint64_t rows, const Visit& visi
                                       });
 }
 
-// Calls visit(block_place, patch_place) for each node that block and patch share, or of those rows alone that are among
-// `rows`.
+// Calls visit(block_place, patch_place) for each node that block and patch share, only for rows among `rows` if these
+// are specified.
 template <int Dim, std::size_t Direction, class Visit>
 THAWSLIDE_ALWAYS_INLINE void for_shared_nodes(const Visit& visit, std::uint64_t rows = ~std::uint64_t{0}) {
   for_seen_rows<Dim, Direction>(rows, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {
@@ -99,7 +99,8 @@ THAWSLIDE_ALWAYS_INLINE void for_shared_nodes(const Visit& visit, std::uint64_t 
   });
 }
 
-// The rows of a block of which a patch with these rows has nodes, a bit each; the patch lies in this direction from it.
+// Rows of a block that share nodes with these rows of a patch, one bit per row. The patch lies in this direction from
+// the block.
 template <int Dim, std::size_t Direction>
 THAWSLIDE_ALWAYS_INLINE std::uint32_t rows_in_block(std::uint64_t rows_of_patch) {
   std::uint32_t rows = 0;

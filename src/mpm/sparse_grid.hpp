@@ -49,7 +49,7 @@ class SparseGrid {
   [[nodiscard]] const std::vector<OccupiedTile>& tiles() const { return tiles_; }
   // The particles of tile t in batches, in canonical order.
   [[nodiscard]] const std::vector<TileBatch<Dim, Real>>& batches(std::size_t t) const { return batches_[t]; }
-  // The rows of tile t's patch (Tile::rows_from) in which its particles see nodes.
+  // Rows of tile t's patch (Tile::rows_from) in which its particles have nodes.
   [[nodiscard]] std::uint64_t rows_seen(std::size_t t) const { return made_[t].rows_seen; }
   // Keys of the active blocks: occupied tiles and their neighbours, ascending.
   [[nodiscard]] const std::vector<std::uint64_t>& blocks() const { return blocks_; }
@@ -93,7 +93,7 @@ class SparseGrid {
     bool changed;  // some of its particles came, left or moved within
   };
 
-  // What is known of a tile's batches.
+  // Properties of a tile's batches.
   struct MadeBatches {
     std::uint64_t rows_seen;
     std::uint32_t broken;  // batches that are not contiguous
@@ -144,7 +144,7 @@ class SparseGrid {
   int calls_ = 0;                  // since particles were sorted in memory
   std::vector<MadeBatches> made_;  // by tile
   std::size_t fewest_broken_ = 0;  // right after the last sorting
-  double scattered_ = 0;           // what the order has cost since: see note_order
+  double scattered_ = 0;           // cost of the order since then: see note_order
 };
 
 }  // namespace thawslide::mpm

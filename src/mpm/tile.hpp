@@ -89,8 +89,8 @@ struct Tile {
     }
     return n;
   }
-  // Rows of a patch, along the first axis, a bit each: those of the nodes that a particle sees, by the lowest one's
-  // place in the patch.
+  // Rows of a patch along the first axis that contain the nodes of a particle, one bit per row. lowest: place of its
+  // lowest node in the patch.
   static_assert(patch_rows <= 64);
   static constexpr std::uint64_t rows_from(std::int32_t lowest) {
     constexpr std::uint64_t three = 7;

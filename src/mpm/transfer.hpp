@@ -35,18 +35,18 @@ struct Patch {
   alignas(cache_line) std::array<Record, static_cast<std::size_t>(Tile<Dim>::patch_nodes)> records;
 
   void clear() { std::fill_n(records.front().data(), records.size() * records.front().size(), Real(0)); }
-  // Calls visit(record) for the first one of each row; rows: a bit each (Tile::rows_from).
+  // Calls visit(record) with the first record of each row. rows: one bit per row (Tile::rows_from).
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_rows(std::uint64_t rows, const Visit& visit) {
     for (; rows != 0; rows &= rows - 1) {
       visit(&records[static_cast<std::size_t>(std::countr_zero(rows) * Tile<Dim>::patch_edge)]);
     }
   }
-  // Clears these rows alone.
+  // Clears only these rows.
   void clear(std::uint64_t rows) {
     for_rows(rows, [](Record* row) { std::fill_n(row->data(), Tile<Dim>::patch_edge * row->size(), Real(0)); });
   }
-  // Those of these rows in which is(record) is true for some record.
+  // Returns those of these rows in which is(record) is true for at least one record.
   template <class Is>
   [[nodiscard]] std::uint64_t rows_with(std::uint64_t rows, const Is& is) {
     std::uint64_t found = 0;
@@ -151,7 +151,7 @@ class SparseRecords {
 
 inline constexpr auto every_tile = [](std::size_t /*tile*/) { return true; };
 
-// The rows of a block, a bit each, in which particles see nodes.
+// Rows of a block in which particles have nodes, one bit per row.
 template <int Dim, class Real>
 std::uint32_t rows_seen_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block) {
   const std::int32_t* tiles = grid.tiles_about_block(block);
@@ -163,9 +163,9 @@ std::uint32_t rows_seen_in_block(const SparseGrid<Dim, Real>& grid, std::size_t 
   return seen;
 }
 
-// Sums at the nodes of one block of what the patches of the tiles that takes(t) names hold, always in the same order:
-// the block's own tile, then those about it; of each patch the rows alone that its particles see. Returns the rows of
-// the block, a bit each, that particles of any tile see: the other records stay as they were.
+// Sums patches at the nodes of one block, from the tiles for which takes(t) is true, always in the same order: the
+// block's own tile, then those around it. Only rows in which a patch's own particles have nodes are added. Returns the
+// rows of the block in which particles of any tile have nodes, one bit per row; other records are not computed.
 template <int Dim, class Real, int Components, class Takes>
 std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
                                    std::span<Patch<Dim, Real, Components>> patches,
@@ -222,13 +222,13 @@ std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_
 #ifndef NDEBUG
   for (std::uint32_t rows = Tile<Dim>::all_rows & ~seen; rows != 0; rows &= rows - 1) {
     std::fill_n(records[static_cast<std::size_t>(std::countr_zero(rows)) * edge].data(), edge * size,
-                std::numeric_limits<Real>::quiet_NaN());  // nobody reads them
+                std::numeric_limits<Real>::quiet_NaN());  // never read
   }
 #endif
   return seen;
 }
 
-// The same at the nodes of all blocks, 0 in rows that no particle sees; then(block) follows once a block has its sums.
+// Same at the nodes of all blocks, with 0 in rows without nodes of particles. Calls then(block) after each sum.
 template <int Dim, class Real, int Components, class Then>
 void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes, const Then& then) {
   constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);
@@ -272,7 +272,7 @@ void take_smallest_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block
   });
 }
 
-// Copies what the nodes about tile t hold into a patch, of those rows alone that its particles see.
+// Copies the records of the nodes around tile t into a patch, only in rows in which its particles have nodes.
 template <int Dim, class Real, template <int, class, int> class Records, int Components>
 void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const Records<Dim, Real, Components>& nodes,
                 Patch<Dim, Real, Components>& patch) {
