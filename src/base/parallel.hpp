@@ -64,7 +64,7 @@ void parallel_for(std::size_t count, const Body& body) {
   parallel_for(count, calls_at_a_time(count), body);
 }
 
-// Whether any of the calls body(k), k = 0 .. count-1, returns true; calls that had not begun by then may be left out.
+// Returns whether body(k) is true for any k = 0 .. count-1. Calls may be skipped after the first true result.
 template <class Body>
 [[nodiscard]] bool parallel_any(std::size_t count, const Body& body) {
   std::atomic<bool> found{false};

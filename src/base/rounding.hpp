@@ -1,5 +1,5 @@
-// Numbers in few digits, for people. A bound that is rounded to the nearest number of few digits may lie on the wrong
-// side of itself, and who follows the advice is refused again.
+// Numbers with few digits, for messages. A bound that is rounded to the nearest such number may be on the wrong side of
+// the exact one: a user who follows the advice would be refused again.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,7 +27,8 @@ inline double rounded_down(double number, int digits) {
   return std::floor(number / digit * (1.0 + 1e-12)) * digit;
 }
 
-// A number of 1 or more with so many significant digits, without decimals, and with commas between thousands: "10,000".
+// Formats a number of at least 1 with this number of significant digits, without decimals, with commas between
+// thousands: "10,000".
 inline std::string with_commas(double number, int digits) {
   const double digit = std::max(1.0, last_digit(number, digits));
   std::string text = fmt::format("{:.0f}", std::round(number / digit) * digit);

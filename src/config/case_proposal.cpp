@@ -22,7 +22,7 @@ namespace {
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
-constexpr double rest_speed = 0.05;                         // m/s: what `run` calls at rest where a case does not say
+constexpr double rest_speed = 0.05;                         // m/s: the default of `run` for a case without the key
 constexpr double block_cells = 4.0;  // the domain is a multiple of, so that the cell may be doubled twice
 constexpr double snapshots = 40.0;   // about as many
 

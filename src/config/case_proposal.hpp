@@ -43,7 +43,7 @@ struct Proposal {
 // The domain holds every point of the DEM that lies below a line that falls by the reach angle from the release's
 // highest point, and all of the release, which may reach a cell of the DEM beyond the points that have a thickness. The
 // cell is that of the resolution. dem: NaN where there is no data; thickness: vertical [m], on points of the same
-// places. `cell`: of the grid [m], where the user gives it; 0: none.
+// places. `cell`: size of the grid's cells [m] if the user specifies it; 0: not specified.
 [[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell = 0.0,
                                Resolution resolution = Resolution::quick);
 
@@ -52,7 +52,7 @@ struct Proposal {
 
 inline constexpr int margin_cells = 4;  // between the release and the sides of the domain
 
-// Sets the cell, to the given one unless that is 0, and the number of particles; needs volume and thicknesses.
+// Sets the cell and the number of particles; needs volume and thicknesses. `cell` as above.
 void propose_cell(Proposal& proposal, int dimension, double cell = 0.0, Resolution resolution = Resolution::quick);
 
 // Sets the end and the interval between snapshots, for a slide that may go so far [m].

@@ -207,7 +207,7 @@ bool is_from_command_line(const Case& parameters, const std::string& key) {
   return place_of(parameters, key).starts_with("--");
 }
 
-// A short trial of a case that stops at rest: the command line gives the end and says nothing of rest.
+// A short trial of a case that stops at rest: the command line sets the end, but no key of rest.
 bool is_shortened_trial(const Case& parameters) {
   return is_from_command_line(parameters, "time.end") && !is_from_command_line(parameters, "time.stop_at_rest") &&
          !is_from_command_line(parameters, "time.rest_time");
@@ -216,7 +216,7 @@ bool is_shortened_trial(const Case& parameters) {
 void doubt_output(const Case& parameters, Doubts& doubts) {
   const Time& time = parameters.time;
   const bool is_fixed = time.stepping == Stepping::fixed;
-  // Nothing is written more than once a step, and adaptive steps are cut to the moments of snapshots.
+  // Nothing is written more than once a step, and adaptive steps are cut to the times of snapshots.
   const double snapshots = std::min(time.end / time.output_interval, is_fixed ? time.end / time.step : infinity);
   if (time.output_interval > time.end) {
     doubts.add(

@@ -1,5 +1,5 @@
 // Numbers of particles and cells that results need across the thickness of a body, the cost of a finer cell,
-// and the resolutions that `thawslide new` offers by name.
+// and the named resolutions of `thawslide new`.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ struct BodyOnCells {
 
 enum class Resolution { quick, standard, fine };
 
-// A resolution by name, and the results that it is good for.
+// A named resolution and the results for which it suffices.
 struct ResolutionFacts {
   Resolution resolution;
   const char* name;
@@ -58,12 +58,12 @@ inline constexpr std::array<ResolutionFacts, 3> resolutions{
 // Throws std::out_of_range for another name.
 [[nodiscard]] Resolution resolution_named(const std::string& name);
 
-// The cell [m] of a release in space. thickness: half of its volume is where it is thinner; median_thickness: half of
-// its area is [m].
+// Cell size [m] for a release in 3D. thickness [m]: half of the volume is where the release is thinner.
+// median_thickness [m]: half of the area is where it is thinner.
 //   quick      thickness * particles_per_axis / proposed_particles
 //   standard   median_thickness / cells_for_maps
 //   fine       half of standard
-// quick and standard in few digits, and rounded down.
+// quick and standard are rounded down to few digits.
 [[nodiscard]] double cell_of(Resolution resolution, double thickness, double median_thickness, int particles_per_axis);
 
 }  // namespace thawslide::config

@@ -118,7 +118,7 @@ double edge_thickness(const Release& release, const std::vector<int>& steps_insi
   return largest;
 }
 
-// Of the plane that the terrain is on average.
+// Slope of the mean plane of the terrain.
 double slope_below(const Release& release, const Raster& dem) {
   double x = 0.0, y = 0.0, points = 0.0;
   release.for_each_point([&](int column, int row) {

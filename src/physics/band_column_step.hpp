@@ -13,7 +13,7 @@ struct BandMeans {
   Real temperature, pore_pressure, saturation, solid_fraction;  // [C], [Pa], S, n_e of Eq. 2
 };
 
-// Of a whole column, per area [m]: by how much water lifts the slide, and the volume of voids.
+// Volumes of a whole column per area [m]: the opening by which water lifts the slide, and the voids.
 template <class Real>
 struct ColumnVolumes {
   Real opening, gas_void;

@@ -1,4 +1,4 @@
-// Open gaps (physics/tension_gap.hpp) that are free: elastic stress answers to no strain (theory, chapter 9).
+// Free open gaps (physics/tension_gap.hpp): elastic stress does not change with strain (theory, chapter 9).
 #pragma once
 
 #include <cmath>
@@ -7,9 +7,9 @@
 
 namespace thawslide::physics {
 
-// Whether material with an open gap stays at its apex c/tan(phi). Dilation would compress it in shear, and a cut-off
-// leaves it strength across the gap. As the material softens, c and sin(phi) fall in proportion; an apex that moves
-// outwards on the way, at any of some hundred shares of it, lets the material bear tension. Strength: of Mohr-Coulomb.
+// Returns whether material with an open gap stays at its apex c/tan(phi). Dilation would compress it in shear, and a
+// cut-off leaves strength across the gap. Softening reduces c and sin(phi) by the same fraction of their ranges. If the
+// apex moves outwards in any of 100 parts of it, the material can bear tension. Strength: Mohr-Coulomb parameters.
 template <class Strength>
 [[nodiscard]] bool gap_is_free(const Strength& strength) {
   constexpr int shares = 100;

@@ -1,4 +1,4 @@
-// What is said of a run that failed: which particle, where, when, and what likely caused it.
+// Message of a failed run: the particle, the place, the time and the likely cause.
 #include <algorithm>
 #include <cmath>
 

@@ -10,7 +10,7 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double round_off = 1e-9;  // of times that add up, of a step
+constexpr double round_off = 1e-9;  // of summed times, as a fraction of a step
 
 // What to do about a limit that has become a small part of what it was.
 std::string advice_on(LimitKind kind) {
@@ -63,7 +63,7 @@ double Simulation<Dim, Real>::next_step(double until) const {
   const double dt = adaptive_step();
   stop_if_step_collapses(dt);
   const double left = until - time_;
-  const double steps = std::ceil(left / dt * (1.0 - round_off));  // else what rounding leaves takes a step more
+  const double steps = std::ceil(left / dt * (1.0 - round_off));  // else a rounding remainder takes one more step
   return left / std::max(1.0, steps);
 }
 

@@ -136,7 +136,7 @@ void Simulation<Dim, Real>::momentum_to_grid() {
   force_of_walls_ = mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
 }
 
-// The state of the base comes from band columns at nodes that see some. Only other nodes need that of the particles.
+// Nodes within reach of band columns get the state of the base from these. Only other nodes need that of the particles.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::press_on_ground() {
   if (!model_.ground) {

@@ -61,10 +61,10 @@ class Simulation {
   [[nodiscard]] bool needs_settling() const;
   // Does that; then everything but the stress is as at the start. Nothing happens in a case that does not ask for it.
   // goes_on: asked before each step; once it says no, false is returned, and there is no run to go on with. Throws
-  // RunError when a particle fails on the way.
+  // RunError if a particle becomes invalid.
   bool settle(const std::function<bool()>& goes_on = [] { return true; });
 
-  // One time step of dt [s]. Throws RunError when a particle fails; the state then is that of the failed step.
+  // One time step of dt [s]. Throws RunError if a particle becomes invalid; the state is then that of the failed step.
   void step(double dt);
 
   // From now on steps are taken on a device. Throws UserError, with the key, for what no device does yet; a step throws

@@ -16,7 +16,7 @@ constexpr double wave_share = 1.0;       // of cell / P-wave speed, with viscosi
 constexpr double particle_share = 0.5;   // of cell / particle speed: a particle may not pass a node unseen
 constexpr double diffusion_share = 1.0;  // of length^2 / (2 Dim diffusivity)
 
-// Wave speeds [m/s]: by the stiffness that acts, and of the material's viscosity, which acts on opened material too.
+// Wave speeds [m/s]: elastic with the stiffness that acts; viscous for viscosity, which also acts on opened material.
 struct WaveSpeeds {
   double elastic, viscous;
 };
@@ -54,7 +54,7 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
   const double cell = parameters.grid.cell;
   if (parameters.mechanics.enabled) {
     band::Extreme lightest = found.density, stiffest = found.elastic_density;
-    if (model.bed_density > Real(0)) {  // what is taken up of it counts from the start
+    if (model.bed_density > Real(0)) {  // entrained material is included from the start
       lightest.lower({static_cast<double>(model.bed_density)});
       stiffest.lower({static_cast<double>(model.bed_density)});
     }

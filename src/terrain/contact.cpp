@@ -113,9 +113,9 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
                      const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
                      Real dt, mpm::Nodes<Dim, Real>& nodes) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
-  thread_local std::vector<std::uint8_t> room;  // by block: whether some node is loaded; kept: a step allocates nothing
+  thread_local std::vector<std::uint8_t> room;  // by block: 1 if a node is loaded; kept: a step allocates nothing
   room.assign(grid.blocks().size(), 0);
-  auto& loaded = room;  // of this thread, for all of them
+  auto& loaded = room;  // of the calling thread, shared by all threads
   nodes.base.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (!ground.any_candidate(b)) {
@@ -139,8 +139,8 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
       }
     }
   });
-  // A node that a hovering slide does not reach has its share of the ground below it all the same. Only loaded nodes
-  // ask for those about them.
+  // The covered ground is also needed at nodes that a hovering slide does not reach. Only loaded nodes use that of the
+  // nodes around them.
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     const std::int32_t* about = grid.blocks_about_block(b);
     if (!ground.any_candidate(b) || std::none_of(about, about + mpm::Tile<Dim>::stencil, [&](std::int32_t other) {
