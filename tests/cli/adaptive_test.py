@@ -1,4 +1,4 @@
-"""Adaptive steps: rows of the history follow them, snapshots end them, and a resumed run has the same bits."""
+"""Adaptive steps: rows of the history follow them, snapshots end them, and a resumed run is bitwise identical."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from conftest import (
     snapshot_files,
 )
 
-END, ROWS, SNAPSHOTS = 3.0, 0.09, 0.45  # s; some moments are of both, and steps end at those alone
+END, ROWS, SNAPSHOTS = 3.0, 0.09, 0.45  # s; each snapshot has a row; steps end at snapshots only
 WORDS = sets(time__stepping="adaptive", time__end=END, time__history_interval=ROWS, time__output_interval=SNAPSHOTS)
 
 
 @pytest.fixture(scope="module")
 def whole(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of the run that nothing stopped."""
+    """Return the folder of a run without interruption."""
     run = tmp_path_factory.mktemp("runs") / "whole"
     assert thawslide("run", LAMPLUGH, "--output", run, *WORDS).returncode == 0
     return run
@@ -39,7 +39,7 @@ def test_a_row_follows_the_first_step_that_reaches_its_moment(thawslide: Program
     moments = [*np.arange(0.0, END, ROWS), END]
     round_off = 1e-9
     assert rows.tolist() == [steps[np.argmax(steps > moment - round_off)] for moment in moments]
-    assert np.any(rows > np.array(moments) + 1e-4), "some are between moments, or nothing is tested"
+    assert np.any(rows > np.array(moments) + 1e-4), "no row is late: the test has no effect"
 
 
 def test_rows_change_no_step_and_snapshots_are_on_time(thawslide: Program, whole: Path, tmp_path: Path) -> None:
@@ -52,7 +52,7 @@ def test_rows_change_no_step_and_snapshots_are_on_time(thawslide: Program, whole
         assert all(values.tobytes() == second[key].tobytes() for key, values in first.items()), one.name
     rows = history(whole)["time_s"]
     late = [float(np.min(np.abs(rows - moment))) for moment in np.arange(0.0, END, SNAPSHOTS)]
-    assert late == pytest.approx(np.zeros(len(late)), abs=1e-9), "moments of snapshots have their rows"
+    assert late == pytest.approx(np.zeros(len(late)), abs=1e-9), "each snapshot has a row of its time"
 
 
 @pytest.mark.parametrize("percent", [10, 40])

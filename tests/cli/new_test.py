@@ -65,7 +65,7 @@ def test_two_commands_to_maps(thawslide: Program, tmp_path: Path, slope: Slope, 
 def test_a_run_ends_once_its_slide_has_come_to_rest(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
-    """Without the key it goes on to its end, with the same front and deposit."""
+    """Without the key the run continues to time.end, with the same front and deposit."""
     folder = tmp_path / "slide"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS, "--cell", 12).returncode == 0
     words = sets(time__end=40, time__rest_time=2, basal__friction="constant", basal__friction_angle=20)

@@ -104,7 +104,7 @@ TEST(CaseProposal, NamesAreTextsOfToml) {
   EXPECT_NE(section.find("\nfile = " + escaped + "\n"), std::string::npos) << section;
 }
 
-// With the speed by which a run without the key judges rest.
+// The value is the rest speed of a run without the key.
 TEST(CaseProposal, RunsEndOnceTheSlideHasComeToRest) {
   const std::string line = fmt::format("\nstop_at_rest = {:g}  # m/s; ", sim::usual_rest_speed);
   const Proposal proposal = propose(dem_points(), release_at(20, 15, 20.0), 20.0);

@@ -181,7 +181,7 @@ TEST(Notices, DoubtARestThatNeverCounts) {
                                      "never stops at rest."});
 }
 
-// A case that stops at rest is tried for a moment without a note; a file whose own end is too early gets one.
+// A short trial of a case that stops at rest causes no warning. An end in the file that is too early causes one.
 TEST(Notices, LeaveAShortTrialOfACaseThatStopsAtRestAlone) {
   const Change rests{"end = 2.0", "end = 2.0\nstop_at_rest = 0.1\nrest_time = 20.0"};
   const std::string text = changed({with_columns[0], with_columns[1], rests});

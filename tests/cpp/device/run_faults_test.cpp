@@ -1,4 +1,4 @@
-// Runs on a device that fail, are refused, or go on from a checkpoint.
+// Runs on a device that fail, are refused, or continue from a checkpoint.
 #include <filesystem>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// Rows of nodes that particles see: what lies outside them in a patch reaches no node, and inside them no number is
+// Rows in which particles have nodes: numbers of other rows of a patch reach no node, and no number of these rows is
 // missing.
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double cell = 5.0;
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
-// Few particles, so that most rows of most tiles are not seen.
+// Few particles: most rows of most tiles contain no nodes of particles.
 template <int Dim>
 struct Sprinkled {
   Particles<Dim, double> particles;
@@ -33,7 +33,7 @@ struct Sprinkled {
     grid.update(particles, 0);
   }
 
-  // Whether a particle of tile t sees the node at a place of its patch.
+  // Returns whether the node at a place of tile t's patch belongs to a particle of the tile.
   [[nodiscard]] bool sees(std::size_t t, int place) const {
     for (const auto& batch : grid.batches(t)) {
       for (const std::int32_t lowest : batch.nodes.first) {
@@ -66,10 +66,10 @@ void expect_seen_rows_to_hold_all_nodes_that_are_seen() {
       unseen += any ? 0 : 1;
     }
   }
-  EXPECT_GT(unseen, 0u);  // else nothing is left out
+  EXPECT_GT(unseen, 0u);  // otherwise the test has no effect
 }
 
-// Every node of every patch has a number of its own; outside the seen rows it is none.
+// Every node of every patch has a number; outside the seen rows it is NaN.
 template <int Dim>
 void expect_sums_of_seen_rows(bool of_all_tiles) {
   Sprinkled<Dim> scene;
@@ -118,7 +118,7 @@ void expect_sums_of_seen_rows(bool of_all_tiles) {
   EXPECT_GT(left_out, 0u);
 }
 
-// What a patch without unseen rows would be: all that particles see is there, and sum_patches leaves no node out.
+// Patches contain all numbers that particles read, although other rows are left out; sum_patches sets every node.
 template <int Dim>
 void expect_patches_of_seen_rows() {
   Sprinkled<Dim> scene;

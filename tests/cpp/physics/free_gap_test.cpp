@@ -1,4 +1,4 @@
-// Why the limit on the step goes by the density with the gap closed: material that is torn apart answers to no strain
+// Reason for the step limit with the density of the closed gap: the stress of torn material does not change with strain
 // before its gap has closed, and its volume is then that of t = 0.
 #include "physics/free_gap.hpp"
 
@@ -29,7 +29,7 @@ class Element {
   explicit Element(const Strength<double>& strength)
       : law_(MohrCoulomb<double, friction_falls>::make(elastic, strength)) {}
 
-  // As mpm/stress_kernel.hpp.
+  // Same update as in mpm/stress_kernel.hpp.
   void strain(const Square& gradient) {
     const auto increment = strain_increment<double, 3>(gradient);
     const double closing = closing_strain(gap, increment.strain[0] + increment.strain[1] + increment.strain[2]);
@@ -53,7 +53,7 @@ struct Seen {
   double largest_change = 0.0, largest_volume_error = 0.0, largest_gap = 0.0;  // stress [Pa]
 };
 
-// Strains with the gap open, after the material has softened; the stress of before is that after the first tenth.
+// Strains the softened material with its gap open. The change of stress is that since the gap was opened.
 template <bool friction_falls>
 Seen strained_at_random(const Strength<double>& strength) {
   Element<friction_falls> element(strength);
@@ -88,7 +88,7 @@ TEST(FreeGap, MaterialThatIsTornApartAnswersToNoStrainWithoutDilationAndCutoff) 
     ASSERT_TRUE(gap_is_free(strength));
     const Seen seen = falls ? strained_at_random<true>(strength) : strained_at_random<false>(strength);
     EXPECT_GT(seen.largest_gap, 0.5);
-    EXPECT_LT(seen.largest_change, 1e-3) << "of stress, in Pa, where 1e-3 of strain gives 5e5";
+    EXPECT_LT(seen.largest_change, 1e-3) << "change of stress [Pa]; an elastic strain of 1e-3 gives 5e5";
     EXPECT_LT(seen.largest_volume_error, 0.01) << "elastic strain and round-off";
   }
 }

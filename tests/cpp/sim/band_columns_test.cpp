@@ -268,7 +268,7 @@ TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
   Simulation<3, double> other(case_from_text(column_slab(3)));
   other.restore_band_columns(states[0]);
   EXPECT_EQ(other.band_columns()->state(), states[0]);
-  // What pieces keep of their columns besides is computed again from these.
+  // The other data of pieces are computed again from their columns.
   const auto& restored = other.band_columns()->pieces();
   ASSERT_FALSE(pieces.empty());
   ASSERT_EQ(restored.size(), pieces.size());

@@ -1,4 +1,4 @@
-// How long the steps of a run may be, and how they end.
+// Limits of the time step, and the ends of steps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,7 +87,7 @@ enabled = false
 
 constexpr double opening = 3.0;  // volume over that of the closed gap
 
-// The limit once a particle of a material, 17 or 117, has been torn apart.
+// The limit after a particle of the material, 17 or 117, has been torn apart.
 StepLimit limit_with_gap(Simulation<2, double>& simulation, const std::string& material) {
   auto& particles = simulation.particles();
   const std::int64_t id = material == "free" ? 17 : 117;

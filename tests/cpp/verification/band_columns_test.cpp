@@ -44,7 +44,7 @@ AtEnd slide(const std::vector<std::string>& more) {
   return result;
 }
 
-// Half of the base floats after 4.4 s, which columns resolve to one of their steps.
+// Half of the base is fully liquefied after 4.4 s; columns resolve this time to one of their steps.
 constexpr const char* fine_column_step = "band.column_step=0.05";
 
 TEST(BandColumnsVerification, SameHeatPressureAndMotionOnAnyMesh) {

@@ -96,8 +96,8 @@ Distance distance_on(const std::string& text, const std::vector<std::string>& se
 }
 
 // From rock onto a glacier: while a rigid block crosses the border, friction falls in proportion to what is across.
-// What slows it acts at its base and its mass above: its load leans forward, by mu h/2 on average (from the balance of
-// moments), and comes to the border earlier by as much.
+// Friction acts at its base, below its centre of mass. Its load is therefore shifted forward, by mu h/2 on average
+// (from the balance of moments), and reaches the border earlier by the same distance.
 TEST(Substrates, SlidingDistanceOverTwo) {
   constexpr double on_rock = 0.3, on_ice = 0.15, start = 20.0, border = 52.5, gravity = 9.81;
   const double to_border = border - length, mean = 0.5 * (on_rock + on_ice);
