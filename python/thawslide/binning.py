@@ -75,7 +75,7 @@ def spread(grid: Grid, x: Numbers, y: Numbers, width: float, amounts: list[Numbe
 def gather(grid: Grid, snapshot: Snapshot, width: float) -> Columns:
     """Return what stands on the cells of a grid; `width` [m] is the simulator's grid cell.
 
-    Particles of a run that failed, whose place or volume is no number, are left out.
+    Particles of a failed run without a valid position or volume are left out.
     """
     mass = np.asarray(snapshot["mass"], dtype=np.float64)
     volume = np.asarray(snapshot["volume"], dtype=np.float64)

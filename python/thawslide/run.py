@@ -208,7 +208,7 @@ class Run:
 
     @property
     def rest_since(self) -> float:
-        """Time on the run's own clock since when the slide has been at rest [s]; inf if it is not."""
+        """Time of the run since which the slide has been at rest [s]; inf if it is not."""
         since = self.facts.get("rest_since_s")
         return float(since) if self.facts.get("at_rest") is True and since is not None else float("inf")
 

@@ -1,6 +1,6 @@
 """Temperature, pore pressure, saturation and friction of the shear band over time (paper Fig. 20).
 
-For a band of columns: basal stresses, how hot it is and how near to boiling.
+For a band of columns: basal stresses, temperature, and how near it is to boiling.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The energy ledger: every mechanical and thermal account since the start, and the residuals."""
+"""The energy budget: every mechanical and thermal term since the start, and the residuals."""
 
 from __future__ import annotations
 

@@ -68,7 +68,7 @@ def draw_targets(
 def motion(run: Run) -> Figure:
     """Draw (a) mean and largest velocity, (b) mean displacement, runout and the travel distance of the front.
 
-    Particles of a slide at rest vibrate without moving on, therefore the largest velocity ends where rest begins.
+    Particles of a slide at rest vibrate without net motion. The largest velocity is therefore drawn until rest only.
     """
     history = run.history
     time = run.shown_time

@@ -1,4 +1,4 @@
-"""The water balance of band columns: what they hold, took in and lost, and the residual."""
+"""The water budget of band columns: content, intake, losses and the residual."""
 
 from __future__ import annotations
 
