@@ -7,7 +7,6 @@
 #include "base/raster.hpp"
 #include "config/case.hpp"
 #include "config/resolution.hpp"
-#include "config/resolution.hpp"
 #include "config/taper_proposal.hpp"
 
 namespace thawslide::config {
