@@ -53,7 +53,7 @@ struct ResolutionFacts {
 inline constexpr std::array<ResolutionFacts, 3> resolutions{
     {{Resolution::quick, "quick", "for travel distance and speed"},
      {Resolution::standard, "standard", "for thickness and area too"},
-     {Resolution::fine, "fine", "the difference is half of the error of standard"}}};
+     {Resolution::fine, "fine", "differs from standard by half the error of standard"}}};
 
 // Throws std::out_of_range for another name.
 [[nodiscard]] Resolution resolution_named(const std::string& name);
