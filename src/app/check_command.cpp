@@ -22,14 +22,14 @@ namespace {
 
 // What a card would make of the run, tried from where the trial on the processor has come to.
 template <int Dim>
-CardFacts facts_of_card(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim>& records, double steps) {
-  CardFacts facts = look_for_card();
+GpuFacts gpu_facts(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim>& records, double steps) {
+  GpuFacts facts = detect_gpu();
   if (!facts.why_not.empty()) {
     return facts;
   }
   const double end = simulation.parameters().time.end;
   try {
-    take_steps_on<Dim>("gpu", simulation);
+    use_device<Dim>("gpu", simulation);
     if (simulation.time() < end) {
       simulation.step(simulation.next_step(end));  // particles go to the card
       records.after_step(simulation);
@@ -41,7 +41,7 @@ CardFacts facts_of_card(sim::Simulation<Dim, double>& simulation, sim::RunRecord
       return facts;
     }
     facts.seconds = measured_step_seconds<Dim>(simulation) * steps;
-    facts.used = facts.free - look_for_card().free;
+    facts.used = facts.free - detect_gpu().free;
   } catch (const std::runtime_error& error) {  // what was found on the processor holds all the same
     facts.why_not = error.what();
   }
@@ -119,7 +119,7 @@ int check_case(const CheckOptions& options) {
     const auto tell = [&] { fmt::print("{}", options.json ? json_of(facts) : text_of(facts)); };
     try {
       facts.seconds = measured_step_seconds<Dim>(simulation) * facts.steps;
-      facts.card = facts_of_card<Dim>(simulation, records, facts.steps);
+      facts.gpu = gpu_facts<Dim>(simulation, records, facts.steps);
     } catch (const RunError& error) {  // what was known before holds all the same
       facts.error = error.what();
       tell();

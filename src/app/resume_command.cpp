@@ -145,7 +145,7 @@ template <int Dim>
 int start_anew(const fs::path& folder, const Continuation& next) {
   Notes notes;
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
-  take_steps_on<Dim>(next.device, simulation);
+  use_device<Dim>(next.device, simulation);
   say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   for (const std::string& note : next.earlier.parts.back().notes) {
     say("note: {}\n", note);
@@ -219,7 +219,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
   } catch (const UserError& error) {
     throw UserError(fmt::format("{}: {}", checkpoint.file.string(), error.what()));
   }
-  take_steps_on<Dim>(next.device, simulation);
+  use_device<Dim>(next.device, simulation);
   const double end = next.parameters.time.end, half_a_step = 0.5 * simulation.last_step();
   const double had_come_to = std::max(next.earlier.simulated_time,
                                       io::last_time_in_history(folder / "history.csv").value_or(simulation.time()));

@@ -35,7 +35,7 @@ int run_case(const RunOptions& options) {
       add_notes_of_setup(simulation, sim::body_figures(simulation),
                          disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, notes);
     }
-    const std::string device = take_steps_on<Dim>(options.device, simulation);
+    const std::string device = use_device<Dim>(options.device, simulation);
     const io::RunLock lock = io::make_run_folder(folder, options.overwrite);
     RunOutput<Dim> output(folder, simulation);
     say("{}: {} particles, {:g} s to simulate, on {} thread{}{}\n",

@@ -48,7 +48,7 @@ struct SetupFacts {
   std::string disk_folder;                                    // where the run would go
   double seconds = std::numeric_limits<double>::quiet_NaN();  // of wall time, from the first steps
   int threads = 1;
-  CardFacts card;
+  GpuFacts gpu;
   std::string error;    // what the first steps ended with; empty: nothing
   std::string picture;  // its file; empty: none
 };

@@ -38,15 +38,14 @@ struct TellColumns {
 template <class Backend, int Dim, class Real>
 class BandColumns {
  public:
-  BandColumns(Backend& backend, ColumnsOnProcessor<Real> processor)
-      : backend_(backend), processor_(std::move(processor)) {}
+  BandColumns(Backend& backend, ColumnsOnProcessor<Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
 
-  [[nodiscard]] bool exist() const { return static_cast<bool>(processor_.states); }
+  [[nodiscard]] bool exist() const { return static_cast<bool>(cpu_.states); }
 
   // To be called after blocks changed.
   void update(const std::vector<std::uint64_t>& blocks) {
     if (exist()) {
-      asked_.set(processor_.take_blocks(blocks));
+      asked_.set(cpu_.take_blocks(blocks));
       records_.resize(asked_.size() * TellColumns<Dim, Real>::block_nodes * columns_read<Dim>);
     }
   }
@@ -56,7 +55,7 @@ class BandColumns {
     if (!exist()) {
       return nullptr;
     }
-    states_.set(processor_.states());
+    states_.set(cpu_.states());
     return states_.data();
   }
 
@@ -65,13 +64,13 @@ class BandColumns {
     if (exist()) {
       backend_.for_each(asked_.size() * TellColumns<Dim, Real>::block_nodes,
                         TellColumns<Dim, Real>{nodes, asked_.data(), records_.data()});
-      processor_.follow(records_.get());
+      cpu_.follow(records_.get());
     }
   }
 
  private:
   Backend& backend_;
-  ColumnsOnProcessor<Real> processor_;
+  ColumnsOnProcessor<Real> cpu_;
   Array<std::uint32_t, Backend> asked_{backend_};
   Array<Real, Backend> states_{backend_}, records_{backend_};
 };

@@ -1,4 +1,4 @@
-// A card, by CUDA: to be compiled by nvcc. What goes wrong is thrown as a CardError.
+// A card, by CUDA: to be compiled by nvcc. What goes wrong is thrown as a GpuError.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -19,9 +19,9 @@
 
 namespace thawslide::device {
 
-class CardError : public Failure {
+class GpuError : public Failure {
  public:
-  explicit CardError(cudaError_t code, const char* doing)
+  explicit GpuError(cudaError_t code, const char* doing)
       : Failure(std::string(doing) + ": " + cudaGetErrorString(code)), code_(code) {}
   [[nodiscard]] cudaError_t code() const { return code_; }
 
@@ -32,7 +32,7 @@ class CardError : public Failure {
 inline void expect_done(cudaError_t code, const char* doing) {
   if (code != cudaSuccess) {
     static_cast<void>(cudaGetLastError());  // or the next call would tell of it again
-    throw CardError(code, doing);
+    throw GpuError(code, doing);
   }
 }
 
@@ -89,7 +89,7 @@ class Cuda {
  public:
   // The card that the process uses; throws where there is none that this program is for.
   explicit Cuda(Launching launching = Launching::in_graphs) : launching_(launching) {
-    expect_done(cudaGetDevice(&card_), "looking for a card");
+    expect_done(cudaGetDevice(&gpu_), "looking for a card");
     cudaFuncAttributes attributes;
     expect_done(cudaFuncGetAttributes(&attributes, run_each<NoWork>), "asking the card to run this program");
   }
@@ -220,7 +220,7 @@ class Cuda {
 
   using Clock = std::chrono::steady_clock;
 
-  int card_ = 0;
+  int gpu_ = 0;
   Launching launching_;
   CudaGraphs graphs_;
   cudaError_t failed_ = cudaSuccess;  // of launches that nobody has been told of yet

@@ -138,10 +138,9 @@ struct BedBelowNodes {
 template <class Backend, int Dim, class Real>
 class ErodibleBed {
  public:
-  ErodibleBed(Backend& backend, BedOnProcessor<Dim, Real> processor)
-      : backend_(backend), processor_(std::move(processor)) {}
+  ErodibleBed(Backend& backend, BedOnProcessor<Dim, Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
 
-  [[nodiscard]] bool exists() const { return static_cast<bool>(processor_.share_out); }
+  [[nodiscard]] bool exists() const { return static_cast<bool>(cpu_.share_out); }
 
   // To be called after blocks changed.
   void update(const std::vector<std::uint64_t>& blocks, const Ground<Backend, Dim, Real>& ground) {
@@ -160,7 +159,7 @@ class ErodibleBed {
     backend_.for_each(covered_.size(), Fill<std::uint8_t>{covered_.data(), 0});
     loads_.resize(of_candidates.size());
     records_.resize(of_candidates.size() * bed_told<Dim>);
-    processor_.take_columns(stacks.columns, of_candidates);
+    cpu_.take_columns(stacks.columns, of_candidates);
   }
 
   // The base has been asked: what candidate nodes may take.
@@ -173,21 +172,21 @@ class ErodibleBed {
         CoverBed<Dim, Real>{tables, particles, sizes, ground.sees_candidates(), cell, stack_.data(), covered_.data()});
     backend_.for_each(parts_.size(), PackParts<Dim>{covered_.data(), parts_.data()});
     backend_.for_each(loads_.size(), TellLoad<Dim, Real>{nodes, ground.candidates(), loads_.data()});
-    available_.set(processor_.share_out(parts_.get(), loads_.get()));
+    available_.set(cpu_.share_out(parts_.get(), loads_.get()));
     backend_.for_each(loads_.size(), OfferBed<Dim, Real>{available_.data(), records_.data()});
   }
 
-  [[nodiscard]] BedBelowNodes<Dim, Real> below_nodes() { return {processor_.matter, records_.data()}; }
+  [[nodiscard]] BedBelowNodes<Dim, Real> below_nodes() { return {cpu_.matter, records_.data()}; }
 
   // Contact has been resolved.
   void collect(const NodeViews<Dim, Real>& nodes, const std::uint32_t* candidates) {
     backend_.for_each(loads_.size(), TellPressure<Dim, Real>{nodes, candidates, records_.data()});
-    processor_.collect(records_.get());
+    cpu_.collect(records_.get());
   }
 
  private:
   Backend& backend_;
-  BedOnProcessor<Dim, Real> processor_;
+  BedOnProcessor<Dim, Real> cpu_;
   Array<std::uint32_t, Backend> stack_{backend_}, parts_{backend_};
   Array<std::uint8_t, Backend> covered_{backend_};
   Array<Real, Backend> loads_{backend_}, available_{backend_}, records_{backend_};

@@ -19,11 +19,11 @@ class StepPasses {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
   // So many particles of the processor's memory, copied.
-  StepPasses(Backend& used, const StepModel<Dim, Real>& known, const mpm::ParticleView<Dim, Real>& of_processor,
+  StepPasses(Backend& used, const StepModel<Dim, Real>& known, const mpm::ParticleView<Dim, Real>& of_cpu,
              std::size_t count, const AskGround<Dim, Real>& ask_ground)
       : backend(used),
         model(known),
-        particles(used, of_processor, count),
+        particles(used, of_cpu, count),
         cells(used, known.cell),
         ground(used, ask_ground),
         sizes_(used, known.half_sizes, Real(1)) {}

@@ -69,7 +69,7 @@ class Simulation {
 
   // From now on steps are taken on a device. Throws UserError, with the key, for what no device does yet; a step throws
   // DeviceError where the device fails.
-  void take_steps_on(const std::string& device, device::MakeStep<Dim, Real> make);
+  void use_device(const std::string& device, device::MakeStep<Dim, Real> make);
 
   // Particles join between two steps, with ids that none has had. They are in no band until the next step.
   void append(const std::vector<NewParticle<Dim, Real>>& joining);

@@ -10,7 +10,7 @@
 namespace thawslide::sim {
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_steps_on(const std::string& device, device::MakeStep<Dim, Real> make) {
+void Simulation<Dim, Real>::use_device(const std::string& device, device::MakeStep<Dim, Real> make) {
   const std::string missing = not_on_devices(parameters_, model_);
   if (!missing.empty()) {
     throw UserError(fmt::format("{}: no step on {} does {} yet. Run it on the processor: --device cpu",
@@ -140,16 +140,16 @@ void Simulation<Dim, Real>::leave_device() {
   bed_of_device_.reset();
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                               \
-  template void Simulation<Dim, Real>::take_steps_on(const std::string&, device::MakeStep<Dim, Real>); \
-  template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;                  \
-  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                        \
-  template void Simulation<Dim, Real>::take_step_on_device();                                          \
-  template bool Simulation<Dim, Real>::nothing_befell_on_device() const;                               \
-  template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;      \
-  template void Simulation<Dim, Real>::copy_particles_back() const;                                    \
-  template void Simulation<Dim, Real>::bring_particles_back() const;                                   \
-  template const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells&) const;      \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                            \
+  template void Simulation<Dim, Real>::use_device(const std::string&, device::MakeStep<Dim, Real>); \
+  template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;               \
+  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                     \
+  template void Simulation<Dim, Real>::take_step_on_device();                                       \
+  template bool Simulation<Dim, Real>::nothing_befell_on_device() const;                            \
+  template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;   \
+  template void Simulation<Dim, Real>::copy_particles_back() const;                                 \
+  template void Simulation<Dim, Real>::bring_particles_back() const;                                \
+  template const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells&) const;   \
   template void Simulation<Dim, Real>::leave_device();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -1,6 +1,6 @@
 """Whole cases by the code of a card, from start to end.
 
-On thawslide_rehearsal, whose card is the processor; or, with THAWSLIDE_ON_CARD=1, on the program itself and a card.
+On thawslide_rehearsal, whose card is the processor; or, with THAWSLIDE_ON_GPU=1, on the program itself and a card.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ TOLERANCE = 1e-6
 @pytest.fixture(scope="session")
 def on_card() -> Path:
     """Return the program, built if need be; skip where there is no nvcc."""
-    if os.environ.get("THAWSLIDE_ON_CARD"):
+    if os.environ.get("THAWSLIDE_ON_GPU"):
         return PROCESSOR
     if shutil.which("nvcc") is None and not Path(os.environ.get("CUDA_HOME", "/usr/local/cuda"), "bin/nvcc").exists():
         pytest.skip("no nvcc")

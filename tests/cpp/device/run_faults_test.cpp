@@ -10,14 +10,14 @@ namespace {
 
 TEST(DeviceRun, EndsWithTheSameWords) {
   const config::Case parameters = sliding_bodies<2>();
-  Simulation<2, double> on_processor(parameters), on_device(parameters);
-  on_device.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
-  for (Simulation<2, double>* simulation : {&on_processor, &on_device}) {
+  Simulation<2, double> emulated(parameters), on_device(parameters);
+  on_device.use_device("a card", emulated_gpu<2>(ThreadOrder::forward));
+  for (Simulation<2, double>* simulation : {&emulated, &on_device}) {
     for (std::size_t p = 0; p < simulation->particles().size(); ++p) {
       simulation->particles().velocity(p, 0) = -500.0;
     }
   }
-  const std::string expected = error_of(on_processor);
+  const std::string expected = error_of(emulated);
   EXPECT_NE(expected.find("left the domain"), std::string::npos) << expected;
   EXPECT_EQ(error_of(on_device), expected);
 }
@@ -46,10 +46,10 @@ std::string told_of_failure(int sound, int steps) {
   Simulation<2, double> simulation(sliding_bodies<2>());
   const auto at_start = fields_by_id(simulation.particles());
   const auto make = [sound](const auto& model, const auto& particles, std::size_t count, auto ask) {
-    return std::make_unique<BreaksDown>(
-        in_place_of_a_card<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)), sound);
+    return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
+                                        sound);
   };
-  simulation.take_steps_on("a card", make);
+  simulation.use_device("a card", make);
   std::string told;
   try {
     for (int k = 0; k < steps; ++k) {
@@ -72,9 +72,9 @@ TEST(DeviceRun, TellsOfADeviceThatFails) {
 TEST(DeviceRun, TellsOfADeviceThatFailsAsABodySettles) {
   Simulation<2, double> simulation(sliding_bodies<2>(
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"}));
-  simulation.take_steps_on("a card", [](const auto& model, const auto& particles, std::size_t count, auto ask) {
-    return std::make_unique<BreaksDown>(
-        in_place_of_a_card<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)), 3);
+  simulation.use_device("a card", [](const auto& model, const auto& particles, std::size_t count, auto ask) {
+    return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
+                                        3);
   });
   EXPECT_THROW(simulation.settle(), DeviceError);
 }
@@ -84,7 +84,7 @@ TEST(DeviceRun, GoesOnFromACheckpoint) {
   const config::Case parameters = sliding_bodies<2>({"time.stepping=\"adaptive\""});
   Simulation<2, double> whole(parameters), first(parameters);
   for (Simulation<2, double>* simulation : {&whole, &first}) {
-    simulation->take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+    simulation->use_device("a card", emulated_gpu<2>(ThreadOrder::forward));
   }
   const auto go_on = [](Simulation<2, double>& simulation, int steps) {
     for (int k = 0; k < steps; ++k) {
@@ -99,7 +99,7 @@ TEST(DeviceRun, GoesOnFromACheckpoint) {
   for (const bool on_device : {false, true}) {
     Simulation<2, double> second(parameters);
     if (on_device) {
-      second.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::backward));
+      second.use_device("a card", emulated_gpu<2>(ThreadOrder::backward));
     }
     std::vector<double> numbers;
     io::read_checkpoint<2, double>(io::newest_checkpoint(folder), second.particles(), numbers);
@@ -127,7 +127,7 @@ TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
   for (const auto& [parameters, told] : cases) {
     Simulation<2, double> simulation(parameters);
     try {
-      simulation.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+      simulation.use_device("a card", emulated_gpu<2>(ThreadOrder::forward));
       ADD_FAILURE() << told;
     } catch (const UserError& error) {
       EXPECT_NE(std::string(error.what()).find("no step on a card does " + told + " yet"), std::string::npos)

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "../../device/on_processor.hpp"
+#include "../../device/emulated.hpp"
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
 #include "base/error.hpp"
@@ -22,8 +22,8 @@ using namespace testing_support;
 using device::Host, device::ThreadOrder;
 
 template <int Dim>
-device::MakeStep<Dim, double> in_place_of_a_card(ThreadOrder order) {
-  return device::on_processor<Dim>(order);
+device::MakeStep<Dim, double> emulated_gpu(ThreadOrder order) {
+  return device::emulated<Dim>(order);
 }
 
 // Leaves all to other steps, for tests that change some of it.
@@ -67,7 +67,7 @@ class CountsCopies final : public PassesOn<Dim> {
 template <int Dim>
 device::MakeStep<Dim, double> counting_copies(ThreadOrder order, int& copies) {
   return [order, &copies](const auto& model, const auto& particles, std::size_t count, auto ask) {
-    return std::make_unique<CountsCopies<Dim>>(in_place_of_a_card<Dim>(order)(model, particles, count, std::move(ask)),
+    return std::make_unique<CountsCopies<Dim>>(emulated_gpu<Dim>(order)(model, particles, count, std::move(ask)),
                                                copies);
   };
 }
@@ -82,10 +82,9 @@ config::Case sliding_bodies(const std::vector<std::string>& more = {}, const std
 template <int Dim>
 void expect_the_same_particles(const Simulation<Dim, double>& found, const Simulation<Dim, double>& expected) {
   const auto numbers = fields_by_id(found.particles());
-  for (const auto& [name, of_processor] : fields_by_id(expected.particles())) {
-    ASSERT_EQ(numbers.at(name).size(), of_processor.size()) << name;
-    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
-        << name;
+  for (const auto& [name, of_cpu] : fields_by_id(expected.particles())) {
+    ASSERT_EQ(numbers.at(name).size(), of_cpu.size()) << name;
+    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_cpu.data(), of_cpu.size() * sizeof(double)), 0) << name;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "device/card.hpp"
+#include "device/gpu.hpp"
 #include "sim/base_table.hpp"
 #include "sim/body_figures.hpp"
 #include "sim/history.hpp"
@@ -16,12 +16,12 @@
 namespace thawslide::sim {
 
 template <int Dim, class Real>
-class SimulationOnCard : public Simulation<Dim, Real> {
+class SimulationOnGpu : public Simulation<Dim, Real> {
  public:
-  explicit SimulationOnCard(const config::Case& parameters, const config::Site& site = {})
+  explicit SimulationOnGpu(const config::Case& parameters, const config::Site& site = {})
       : Simulation<Dim, Real>(parameters, site) {
     try {
-      this->take_steps_on("a card", device::on_card<Dim>());
+      this->use_device("a card", device::on_gpu<Dim>());
     } catch (const UserError& refused) {
       std::printf("on the processor: %s\n", refused.what());
     }
@@ -30,4 +30,4 @@ class SimulationOnCard : public Simulation<Dim, Real> {
 
 }  // namespace thawslide::sim
 
-#define Simulation SimulationOnCard
+#define Simulation SimulationOnGpu

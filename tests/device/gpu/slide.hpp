@@ -15,7 +15,7 @@
 #include "device/step_model.hpp"
 #include "mpm/particle_view.hpp"
 
-namespace thawslide::card_test {
+namespace thawslide::gpu_test {
 
 using Real = double;
 
@@ -210,4 +210,4 @@ device::AskProcessor<Dim, Real> terrain_of_slide() {
   return ask;
 }
 
-}  // namespace thawslide::card_test
+}  // namespace thawslide::gpu_test

@@ -9,7 +9,7 @@
 
 #include "slide.hpp"
 
-namespace thawslide::card_test {
+namespace thawslide::gpu_test {
 
 enum class Variant {
   plain,
@@ -162,4 +162,4 @@ device::AskProcessor<Dim, Real> processor_of(Variant variant, const std::shared_
   return ask;
 }
 
-}  // namespace thawslide::card_test
+}  // namespace thawslide::gpu_test

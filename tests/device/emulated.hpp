@@ -7,6 +7,6 @@
 namespace thawslide::device {
 
 template <int Dim>
-MakeStep<Dim, double> on_processor(ThreadOrder order = ThreadOrder::forward);
+MakeStep<Dim, double> emulated(ThreadOrder order = ThreadOrder::forward);
 
 }  // namespace thawslide::device

@@ -16,14 +16,14 @@
 #include <string>
 #include <vector>
 
-#include "device/card.hpp"
+#include "device/gpu.hpp"
 #include "measure.hpp"
 #include "sim/path_line.hpp"
 
-namespace thawslide::card_test {
+namespace thawslide::gpu_test {
 namespace {
 
-constexpr int no_card = 5;
+constexpr int no_gpu = 5;
 constexpr double tolerance = 1e-12;
 constexpr Size in_plane{20, 1, 8}, in_space{8, 5, 4};
 
@@ -152,21 +152,20 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
   }
   return numbers;
 }
-bool tell_numbers(const std::string& what, const std::vector<double>& of_processor,
-                  const std::vector<double>& of_card) {
+bool tell_numbers(const std::string& what, const std::vector<double>& of_cpu, const std::vector<double>& of_gpu) {
   std::size_t same = 0;
-  bool well = of_card.size() == of_processor.size();
-  for (std::size_t k = 0; well && k < of_card.size(); ++k) {
-    same += std::memcmp(&of_card[k], &of_processor[k], sizeof of_card[k]) == 0 ? 1 : 0;
-    well = std::abs(of_card[k] - of_processor[k]) <= tolerance * std::max(1.0, std::abs(of_processor[k]));
+  bool well = of_gpu.size() == of_cpu.size();
+  for (std::size_t k = 0; well && k < of_gpu.size(); ++k) {
+    same += std::memcmp(&of_gpu[k], &of_cpu[k], sizeof of_gpu[k]) == 0 ? 1 : 0;
+    well = std::abs(of_gpu[k] - of_cpu[k]) <= tolerance * std::max(1.0, std::abs(of_cpu[k]));
   }
-  std::printf("%-60s %zu of %zu numbers have the same bits: %s\n", what.c_str(), same, of_processor.size(),
+  std::printf("%-60s %zu of %zu numbers have the same bits: %s\n", what.c_str(), same, of_cpu.size(),
               well ? "well" : "beyond what is allowed");
   return well;
 }
 
-bool tell_looks(const std::string& when, const std::vector<double>& of_processor, const std::vector<double>& of_card) {
-  return tell_numbers(when + "looks at particles", of_processor, of_card);
+bool tell_looks(const std::string& when, const std::vector<double>& of_cpu, const std::vector<double>& of_gpu) {
+  return tell_numbers(when + "looks at particles", of_cpu, of_gpu);
 }
 
 template <int Dim>
@@ -176,27 +175,27 @@ bool compare_slides(const device::MakeStep<Dim, Real>& make, const device::MakeS
   seed(size, start);
   bool well = true;
   const std::string dim = Dim == 2 ? "2D, " : "3D, ";
-  const auto processor = steps_of(device::on_processor<Dim>(), start);
-  const auto card = steps_of(make, start), again = steps_of(make_again, start);
-  ParticleMemory<Dim> of_processor(start.size()), of_card(start.size()), of_second(start.size());
+  const auto processor = steps_of(device::emulated<Dim>(), start);
+  const auto gpu = steps_of(make, start), again = steps_of(make_again, start);
+  ParticleMemory<Dim> of_cpu(start.size()), of_gpu(start.size()), of_second(start.size());
   int done = 0;
   for (const int steps : {1, 20, 60}) {
-    const auto sums = take_steps(*processor, done, steps), of_this_card = take_steps(*card, done, steps);
+    const auto sums = take_steps(*processor, done, steps), of_this_gpu = take_steps(*gpu, done, steps);
     if (steps == 20) {
       again->sort_in_memory();  // which may change nothing
     }
     take_steps(*again, done, steps);
     done = steps;
     well = (steps < 60 || tell_work(sums)) && well;
-    processor->copy_to(of_processor.view());
-    card->copy_to(of_card.view());
+    processor->copy_to(of_cpu.view());
+    gpu->copy_to(of_gpu.view());
     again->copy_to(of_second.view());
     const std::string when = dim + std::to_string(start.size()) + " particles, " + std::to_string(steps) + " steps, ";
-    well = (steps > 1 || tell_looks(when, looks(*processor, sums), looks(*card, of_this_card))) && well;
+    well = (steps > 1 || tell_looks(when, looks(*processor, sums), looks(*gpu, of_this_gpu))) && well;
     // Round-off grows from step to step: it is held to the tolerance after the first one.
-    const Comparison found = compare(of_processor, of_card);
+    const Comparison found = compare(of_cpu, of_gpu);
     well = tell((when + "card against processor").c_str(), found, false) || steps > 1 ? well : false;
-    well = tell((when + "card against card").c_str(), compare(of_card, of_second), true) && well;
+    well = tell((when + "card against card").c_str(), compare(of_gpu, of_second), true) && well;
   }
   return well;
 }
@@ -204,38 +203,37 @@ bool compare_slides(const device::MakeStep<Dim, Real>& make, const device::MakeS
 // What else models choose: the same bits on both, of particles, looks and what the processor is told amid steps.
 template <int Dim>
 bool compare_variant(const device::MakeStep<Dim, Real>& make, const Size& size, const NamedVariant& of) {
-  ParticleMemory<Dim> start(size.particles(Dim)), of_processor(start.size()), of_card(start.size());
+  ParticleMemory<Dim> start(size.particles(Dim)), of_cpu(start.size()), of_gpu(start.size());
   seed(size, start);
-  const auto told = std::make_shared<Told>(), told_by_card = std::make_shared<Told>();
-  const auto processor = steps_of(device::on_processor<Dim>(), start, of.variant, told);
-  const auto card = steps_of(make, start, of.variant, told_by_card);
+  const auto told = std::make_shared<Told>(), reported_by_gpu = std::make_shared<Told>();
+  const auto processor = steps_of(device::emulated<Dim>(), start, of.variant, told);
+  const auto gpu = steps_of(make, start, of.variant, reported_by_gpu);
   bool well = true;
   int done = 0;
   for (const int steps : {1, 12}) {
-    const auto sums = take_steps(*processor, done, steps), of_this_card = take_steps(*card, done, steps);
+    const auto sums = take_steps(*processor, done, steps), of_this_gpu = take_steps(*gpu, done, steps);
     done = steps;
-    processor->copy_to(of_processor.view());
-    card->copy_to(of_card.view());
+    processor->copy_to(of_cpu.view());
+    gpu->copy_to(of_gpu.view());
     const std::string when =
         (Dim == 2 ? "2D, " : "3D, ") + std::string(of.name) + ", " + std::to_string(steps) + " steps, ";
-    well =
-        (tell((when + "card against processor").c_str(), compare(of_processor, of_card), false) || steps > 1) && well;
+    well = (tell((when + "card against processor").c_str(), compare(of_cpu, of_gpu), false) || steps > 1) && well;
     if (steps == 1) {
-      well = tell_looks(when, looks(*processor, sums), looks(*card, of_this_card)) && well;
-      well = (told->empty() || tell_numbers(when + "what the processor is told", *told, *told_by_card)) && well;
+      well = tell_looks(when, looks(*processor, sums), looks(*gpu, of_this_gpu)) && well;
+      well = (told->empty() || tell_numbers(when + "what the processor is told", *told, *reported_by_gpu)) && well;
     }
   }
   return well;
 }
 
-double free_memory() { return device::find_card().free; }
+double free_memory() { return device::find_gpu().free; }
 
 void measure(std::size_t particles) {
   std::map<std::string, double> stages;
   const auto keep = [&](const std::string& stage, double seconds) { stages[stage] = seconds; };
-  const Measured found = measured(device::on_card<3>(), particles, Variant::plain, 5.0, free_memory, keep);
+  const Measured found = measured(device::on_gpu<3>(), particles, Variant::plain, 5.0, free_memory, keep);
   const Measured one_by_one =
-      measured(device::on_card<3>(device::Launching::one_by_one), particles, Variant::plain, 5.0, free_memory);
+      measured(device::on_gpu<3>(device::Launching::one_by_one), particles, Variant::plain, 5.0, free_memory);
   std::printf("3D, %zu particles, %.0f %% yielding: %.4g million particle-steps a second, %.4g ms a step\n",
               found.particles, 100 * found.yielding, static_cast<double>(found.particles) / found.seconds_a_step / 1e6,
               1e3 * found.seconds_a_step);
@@ -258,35 +256,34 @@ bool compare_all(const device::MakeStep<Dim, Real>& make, const device::MakeStep
 }
 
 // One of whose runs launches its kernels as graphs, and another each by itself.
-bool compare_cards() {
+bool compare_gpus() {
   constexpr auto one_by_one = device::Launching::one_by_one;
-  const bool well = compare_all<2>(device::on_card<2>(), device::on_card<2>(one_by_one), in_plane);
-  return compare_all<3>(device::on_card<3>(), device::on_card<3>(one_by_one), in_space) && well;
+  const bool well = compare_all<2>(device::on_gpu<2>(), device::on_gpu<2>(one_by_one), in_plane);
+  return compare_all<3>(device::on_gpu<3>(), device::on_gpu<3>(one_by_one), in_space) && well;
 }
 
 int run(const std::string& what, std::size_t particles) {
   if (what == "--rehearse") {
     constexpr auto order = device::ThreadOrder::shuffled;
     constexpr auto other = device::ThreadOrder::backward;
-    const bool well_2d = compare_all<2>(device::on_processor<2>(order), device::on_processor<2>(other), in_plane);
-    const bool well =
-        compare_all<3>(device::on_processor<3>(order), device::on_processor<3>(other), in_space) && well_2d;
-    print_table(device::on_processor<3>(order), {2000}, 0.0, [] { return 0.0; });
+    const bool well_2d = compare_all<2>(device::emulated<2>(order), device::emulated<2>(other), in_plane);
+    const bool well = compare_all<3>(device::emulated<3>(order), device::emulated<3>(other), in_space) && well_2d;
+    print_table(device::emulated<3>(order), {2000}, 0.0, [] { return 0.0; });
     return well ? 0 : 1;
   }
-  const device::Card card = device::find_card();
-  if (!card.is_usable) {
-    std::fprintf(stderr, "nothing was run: %s\n", card.why_not.c_str());
-    return no_card;
+  const device::Gpu gpu = device::find_gpu();
+  if (!gpu.is_usable) {
+    std::fprintf(stderr, "nothing was run: %s\n", gpu.why_not.c_str());
+    return no_gpu;
   }
-  std::printf("%s\n", card.name.c_str());
+  std::printf("%s\n", gpu.name.c_str());
   if (what == "--table") {
-    print_table(device::on_card<3>(),
+    print_table(device::on_gpu<3>(),
                 {100'000, 1'000'000, 10'000'000, 50'000'000, 100'000'000, 150'000'000, 200'000'000, 300'000'000}, 5.0,
                 free_memory);
     return 0;
   }
-  const bool well = what == "--speed" || compare_cards();
+  const bool well = what == "--speed" || compare_gpus();
   if (what.empty()) {
     measure(100'000);
     measure(10'000'000);
@@ -297,7 +294,7 @@ int run(const std::string& what, std::size_t particles) {
 }
 
 }  // namespace
-}  // namespace thawslide::card_test
+}  // namespace thawslide::gpu_test
 
 int main(int count, char** arguments) {
   const std::string what = count > 1 ? arguments[1] : "";
@@ -309,7 +306,7 @@ int main(int count, char** arguments) {
     return 2;
   }
   try {
-    return thawslide::card_test::run(what, static_cast<std::size_t>(particles));
+    return thawslide::gpu_test::run(what, static_cast<std::size_t>(particles));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "the card failed: %s\n", error.what());
     return 1;

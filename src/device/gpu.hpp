@@ -1,4 +1,4 @@
-// Whether there is a card, which, and steps on it. Built where nvcc is found; THAWSLIDE_WITH_CARD is defined then.
+// Whether there is a card, which, and steps on it. Built where nvcc is found; THAWSLIDE_WITH_GPU is defined then.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace thawslide::device {
 
-struct Card {
+struct Gpu {
   bool is_usable = false;
   std::string name, why_not;
   double free = 0.0;  // memory [bytes]
 };
-Card find_card();
+Gpu find_gpu();
 
-// Steps on the card that find_card found, in double precision. What goes wrong on the way
+// Steps on the card that find_gpu found, in double precision. What goes wrong on the way
 // is thrown as a Failure that says what the card was doing.
 template <int Dim>
-MakeStep<Dim, double> on_card(Launching launching = Launching::in_graphs);
+MakeStep<Dim, double> on_gpu(Launching launching = Launching::in_graphs);
 
 }  // namespace thawslide::device

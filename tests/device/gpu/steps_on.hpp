@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "../on_processor.hpp"
+#include "../emulated.hpp"
 #include "variants.hpp"
 
-namespace thawslide::card_test {
+namespace thawslide::gpu_test {
 
 template <int Dim>
 using Steps = device::AnyStep<Dim, Real>;
@@ -19,4 +19,4 @@ std::unique_ptr<Steps<Dim>> steps_of(const device::MakeStep<Dim, Real>& make, co
   return make(model_of<Dim>(variant), particles.view(), particles.size(), processor_of<Dim>(variant, told));
 }
 
-}  // namespace thawslide::card_test
+}  // namespace thawslide::gpu_test

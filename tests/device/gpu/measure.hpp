@@ -11,7 +11,7 @@
 
 #include "steps_on.hpp"
 
-namespace thawslide::card_test {
+namespace thawslide::gpu_test {
 
 struct Measured {
   std::size_t particles = 0;
@@ -130,4 +130,4 @@ inline void print_table(const device::MakeStep<3, Real>& make, const std::vector
   }
 }
 
-}  // namespace thawslide::card_test
+}  // namespace thawslide::gpu_test
