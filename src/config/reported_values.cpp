@@ -39,7 +39,7 @@ class TargetsReader {
   ReportedValues read() {
     try {
       const TableCsv table = read_table_csv(file_, needed, largest_targets_file);
-      take_columns(table);
+      set_columns(table);
       for (const TableCsv::Row& row : table.rows) {
         take_row(row);
       }
@@ -56,7 +56,7 @@ class TargetsReader {
     found_.mistakes.push_back(fmt::format("{}:{}: {}", file_, line, words));
   }
 
-  void take_columns(const TableCsv& table) {
+  void set_columns(const TableCsv& table) {
     std::vector<std::string> times;
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
       const std::string& name = table.columns[k];

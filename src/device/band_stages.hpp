@@ -17,7 +17,7 @@ class BandStages {
 
  public:
   // sums: of the step, in the device's memory.
-  BandStages(Passes& passes, const AskProcessor<Dim, Real>& ask, StepSums<Dim, Real>* sums)
+  BandStages(Passes& passes, const HostCallbacks<Dim, Real>& ask, StepSums<Dim, Real>* sums)
       : passes_(passes),
         sums_(sums),
         columns_(passes.backend, passes.model.cell, passes.model.half_sizes, ask.slope_cosine, ask.normal_gravity),
@@ -78,7 +78,7 @@ class BandStages {
   void drain_pore_pressure(Real dt) {
     columns_.sum(passes_.cells.tables(), passes_.particles.view());
     if (passes_.model.band.needs_normal_load()) {
-      passes_.run(passes_.linear(), TakeLoad<Dim, Real>{columns_.loading(passes_.cells.tables())});
+      passes_.run(passes_.linear(), AddPressureLoad<Dim, Real>{columns_.loading(passes_.cells.tables())});
     }
     if (find_seepage(SeepingBefore<Dim, Real>{{passes_.particles.view(), passes_.model.band, hydraulic()}})) {
       seep(dt);

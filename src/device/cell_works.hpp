@@ -96,7 +96,7 @@ struct TakeFirst {
   }
 };
 
-struct TellDifference {
+struct FlagDifference {
   const std::uint64_t *a, *b;
   std::uint32_t* any_differs;
 

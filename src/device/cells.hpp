@@ -78,7 +78,7 @@ class Cells {
       return true;
     }
     fill(mark_, std::uint32_t{0});
-    backend_.for_each(tile_keys_.size(), TellDifference{tile_keys_.data(), former_tile_keys_.data(), mark_.data()});
+    backend_.for_each(tile_keys_.size(), FlagDifference{tile_keys_.data(), former_tile_keys_.data(), mark_.data()});
     return mark_.get(0) != 0;
   }
 

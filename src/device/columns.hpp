@@ -49,7 +49,7 @@ class Columns {
     for (Array<Real, Backend>* numbers : {&thickness_, &top_, &load_per_depth_}) {
       numbers->resize(keys_.size());
     }
-    ask_terrain();
+    query_terrain();
   }
 
   // The columns from positions, volumes and masses.
@@ -75,16 +75,16 @@ class Columns {
 
  private:
   // What the processor asks of the terrain at columns, and the answers.
-  struct Asked {
+  struct ColumnQuery {
     band::OfPlace<Dim, Real> ask;
     std::vector<Real> known;
     Array<Real, Backend> values;
   };
 
-  void ask_terrain() {
+  void query_terrain() {
     const std::vector<std::uint64_t> keys = keys_.get();
     const std::vector<std::int32_t> before = places_in(known_keys_, keys);
-    for (Asked* asked : {&slope_cosine_, &normal_gravity_}) {
+    for (ColumnQuery* asked : {&slope_cosine_, &normal_gravity_}) {
       std::vector<Real> values(keys.size(), Real(1));
       for (std::size_t k = 0; asked->ask && k < keys.size(); ++k) {
         values[k] = before[k] != absent ? asked->known[static_cast<std::size_t>(before[k])]
@@ -103,7 +103,7 @@ class Columns {
 
   Backend& backend_;
   Real cell_;
-  Asked slope_cosine_, normal_gravity_;
+  ColumnQuery slope_cosine_, normal_gravity_;
   std::vector<std::uint64_t> known_keys_;  // of the columns
   BodySizes<Backend, Real> sizes_;         // of particles [m]
   FirstOfKeys<Backend> first_{backend_};

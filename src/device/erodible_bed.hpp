@@ -88,7 +88,7 @@ struct PackParts {
 // How candidate nodes press on the ground; with what they may take, the records that they begin with; and what of these
 // the processor is told. A thread a candidate.
 template <int Dim, class Real>
-struct TellLoad {
+struct PackLoad {
   NodeViews<Dim, Real> nodes;
   const std::uint32_t* candidates;
   Real* loads;
@@ -101,21 +101,21 @@ struct OfferBed {
   Real* records;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    Real* record = records + k * bed_told<Dim>;
-    for (std::size_t c = 0; c < bed_told<Dim>; ++c) {
+    Real* record = records + k * bed_record_size<Dim>;
+    for (std::size_t c = 0; c < bed_record_size<Dim>; ++c) {
       record[c] = Real(0);
     }
     record[mpm::BedLayout<Dim>::available] = available[k];
   }
 };
 template <int Dim, class Real>
-struct TellPressure {
+struct PackPressure {
   NodeViews<Dim, Real> nodes;
   const std::uint32_t* candidates;
   Real* records;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    Real* record = records + k * bed_told<Dim>;
+    Real* record = records + k * bed_record_size<Dim>;
     const Real* contact = nodes.contact_at(candidates[k]);
     if (record[mpm::BedLayout<Dim>::taken] > Real(0)) {
       record[mpm::BedLayout<Dim>::size] = contact[mpm::Contact::normal_force] / contact[mpm::Contact::area];
@@ -131,14 +131,14 @@ struct BedBelowNodes {
 
   [[nodiscard]] THAWSLIDE_HD terrain::BedBelowNode<Dim, Real> below(std::size_t candidate, Real area, Real strength,
                                                                     Real dt, Real mass) const {
-    return {&matter, records + candidate * bed_told<Dim>, area, strength, dt, mass};
+    return {&matter, records + candidate * bed_record_size<Dim>, area, strength, dt, mass};
   }
 };
 
 template <class Backend, int Dim, class Real>
 class ErodibleBed {
  public:
-  ErodibleBed(Backend& backend, BedOnProcessor<Dim, Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
+  ErodibleBed(Backend& backend, HostBed<Dim, Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
 
   [[nodiscard]] bool exists() const { return static_cast<bool>(cpu_.share_out); }
 
@@ -158,8 +158,8 @@ class ErodibleBed {
     covered_.resize(stacks.columns.size() * parts_of_column<Dim>);
     backend_.for_each(covered_.size(), Fill<std::uint8_t>{covered_.data(), 0});
     loads_.resize(of_candidates.size());
-    records_.resize(of_candidates.size() * bed_told<Dim>);
-    cpu_.take_columns(stacks.columns, of_candidates);
+    records_.resize(of_candidates.size() * bed_record_size<Dim>);
+    cpu_.set_columns(stacks.columns, of_candidates);
   }
 
   // The base has been asked: what candidate nodes may take.
@@ -171,7 +171,7 @@ class ErodibleBed {
         tables.tiles, threads, 0,
         CoverBed<Dim, Real>{tables, particles, sizes, ground.sees_candidates(), cell, stack_.data(), covered_.data()});
     backend_.for_each(parts_.size(), PackParts<Dim>{covered_.data(), parts_.data()});
-    backend_.for_each(loads_.size(), TellLoad<Dim, Real>{nodes, ground.candidates(), loads_.data()});
+    backend_.for_each(loads_.size(), PackLoad<Dim, Real>{nodes, ground.candidates(), loads_.data()});
     available_.set(cpu_.share_out(parts_.get(), loads_.get()));
     backend_.for_each(loads_.size(), OfferBed<Dim, Real>{available_.data(), records_.data()});
   }
@@ -180,13 +180,13 @@ class ErodibleBed {
 
   // Contact has been resolved.
   void collect(const NodeViews<Dim, Real>& nodes, const std::uint32_t* candidates) {
-    backend_.for_each(loads_.size(), TellPressure<Dim, Real>{nodes, candidates, records_.data()});
+    backend_.for_each(loads_.size(), PackPressure<Dim, Real>{nodes, candidates, records_.data()});
     cpu_.collect(records_.get());
   }
 
  private:
   Backend& backend_;
-  BedOnProcessor<Dim, Real> cpu_;
+  HostBed<Dim, Real> cpu_;
   Array<std::uint32_t, Backend> stack_{backend_}, parts_{backend_};
   Array<std::uint8_t, Backend> covered_{backend_};
   Array<Real, Backend> loads_{backend_}, available_{backend_}, records_{backend_};

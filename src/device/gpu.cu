@@ -1,19 +1,19 @@
 // The backend of a card, and what is known of the card.
 #include "device/cuda_backend.hpp"
 #include "device/gpu.hpp"
-#include "device/step_on.hpp"
+#include "device/solver_impl.hpp"
 
 namespace thawslide::device {
 
 template <int Dim>
-MakeStep<Dim, double> on_gpu(Launching launching) {
+SolverFactory<Dim, double> on_gpu(Launching launching) {
   return [launching](const StepModel<Dim, double>& model, const mpm::ParticleView<Dim, double>& particles,
-                     std::size_t count, AskProcessor<Dim, double> ask) {
+                     std::size_t count, HostCallbacks<Dim, double> ask) {
     return steps_on<Cuda>(model, particles, count, std::move(ask), launching);
   };
 }
-template MakeStep<2, double> on_gpu<2>(Launching);
-template MakeStep<3, double> on_gpu<3>(Launching);
+template SolverFactory<2, double> on_gpu<2>(Launching);
+template SolverFactory<3, double> on_gpu<3>(Launching);
 
 Gpu find_gpu() {
   Gpu gpu;

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "device/any_step.hpp"
 #include "device/launching.hpp"
+#include "device/solver.hpp"
 
 namespace thawslide::device {
 
@@ -18,6 +18,6 @@ Gpu find_gpu();
 // Steps on the card that find_gpu found, in double precision. What goes wrong on the way
 // is thrown as a Failure that says what the card was doing.
 template <int Dim>
-MakeStep<Dim, double> on_gpu(Launching launching = Launching::in_graphs);
+SolverFactory<Dim, double> on_gpu(Launching launching = Launching::in_graphs);
 
 }  // namespace thawslide::device

@@ -47,16 +47,16 @@ template <class Backend, int Dim, class Real>
 class LayerThickness {
  public:
   LayerThickness(Backend& backend, LayerAtMiddle<Dim> at_middle)
-      : ask_(std::move(at_middle)), stack_(backend), at_middle_(backend) {}
+      : host_(std::move(at_middle)), stack_(backend), at_middle_(backend) {}
 
-  [[nodiscard]] bool exists() const { return static_cast<bool>(ask_); }
+  [[nodiscard]] bool exists() const { return static_cast<bool>(host_); }
 
   // To be called after blocks changed.
   void update(const std::vector<std::uint64_t>& blocks) {
     const Stacks<Dim> stacks(blocks);
     std::vector<double> at_middle;
     for (const ColumnIndex<Dim>& column : stacks.columns) {
-      at_middle.push_back(ask_(column));
+      at_middle.push_back(host_(column));
     }
     stack_.set(stacks.of_block);
     at_middle_.set(at_middle);
@@ -67,7 +67,7 @@ class LayerThickness {
   }
 
  private:
-  LayerAtMiddle<Dim> ask_;
+  LayerAtMiddle<Dim> host_;
   Array<std::uint32_t, Backend> stack_;
   Array<double, Backend> at_middle_;
 };

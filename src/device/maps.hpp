@@ -27,7 +27,7 @@ class Maps {
 
   // Of particles that stand where a step has brought them, by the tiles that it began with.
   void sum(const mpm::MapCells& cells, const TileTables<3>& tables, const mpm::ParticleView<3, Real>& particles,
-           MapLook& look) {
+           MapSample& look) {
     if (!knows_tiles_ || !(cells == places_.cells)) {
       number_cells(cells, tables);
       known_keys_ = keys_.get();

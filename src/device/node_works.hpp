@@ -76,7 +76,7 @@ struct FacesAtNode {
 
 // What all nodes need to know of the step.
 template <int Dim, class Real>
-struct NodesInStep {
+struct NodeStageArgs {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
   TileTables<Dim> tables;
@@ -124,7 +124,7 @@ struct SetState {
 // How a candidate node presses on the ground, and what the slide covers of it.
 template <int Dim, class Real>
 struct PressOnGround {
-  NodesInStep<Dim, Real> step;
+  NodeStageArgs<Dim, Real> step;
   const std::uint32_t* candidates;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
@@ -139,7 +139,7 @@ struct PressOnGround {
                                          step.nodes.near_ground_at(node)[mpm::NearGround::clearance], step.dt,
                                          state.mass, Real(state.momentum.dot(known.normal)));
     }
-    const std::size_t local = node % NodesInStep<Dim, Real>::block_nodes;
+    const std::size_t local = node % NodeStageArgs<Dim, Real>::block_nodes;
     base[mpm::BaseLayout::covered] =
         known.area * terrain::covered_share<Dim, Real>(local, known.normal, [&](int direction, int further) {
           return filled(node, static_cast<std::size_t>(direction), static_cast<std::size_t>(further));
@@ -161,7 +161,7 @@ struct PressOnGround {
 
 // What a law of the base asks of a candidate node, and what the laws answer.
 template <class Real>
-struct BaseOfNode {
+struct ContactInput {
   physics::basal::ContactNode<Real> node;
   Real area;  // [m2]; 0: it is not in contact
   // mu_e; the pore pressure that relieves it, drag, c_S [Pa]
@@ -169,18 +169,18 @@ struct BaseOfNode {
 };
 
 template <int Dim, class Real>
-struct AskOfBase {
-  NodesInStep<Dim, Real> step;
+struct GatherContactInput {
+  NodeStageArgs<Dim, Real> step;
   const std::uint32_t* candidates;
   Real smallest_area, gravity;
   const Real* columns;  // records of BaseState of the candidates; null where there are no band columns
-  BaseOfNode<Real>* bases;
+  ContactInput<Real>* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     using mpm::BaseLayout;
     const std::size_t node = candidates[k];
     const NodeViews<Dim, Real>& nodes = step.nodes;
-    BaseOfNode<Real>& base = bases[k];
+    ContactInput<Real>& base = bases[k];
     base.area = Real(0);
     const Real load = nodes.base_at(node)[BaseLayout::load];
     if (!step.has_mass(node) || !(load > Real(0))) {
@@ -208,7 +208,7 @@ struct AskOfBase {
   // Neighbour n of 3^Dim, x fastest.
   THAWSLIDE_HD bool find_beside(std::size_t node, std::size_t n, std::size_t& other) const {
     using T = mpm::Tile<Dim>;
-    typename T::Index index = T::node({}, static_cast<int>(node % NodesInStep<Dim, Real>::block_nodes));
+    typename T::Index index = T::node({}, static_cast<int>(node % NodeStageArgs<Dim, Real>::block_nodes));
     for (std::size_t a = 0; a < Dim; ++a) {
       index[a] += static_cast<int>(n % 3) - 1;
       n /= 3;
@@ -220,15 +220,15 @@ struct AskOfBase {
 
 // A friction law's answers, or a cohesion law's, at the nodes on one substrate.
 template <class Law, int Dim, class Real>
-struct AskFriction {
+struct EvaluateFriction {
   Law law;
   int substrate;
   const terrain::GroundAtNode<Dim, Real>* known;
   const std::uint32_t* candidates;
-  BaseOfNode<Real>* bases;
+  ContactInput<Real>* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    BaseOfNode<Real>& base = bases[k];
+    ContactInput<Real>& base = bases[k];
     if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
       base.friction = law.coefficient(base.node);
       base.drag = physics::basal::drag_of(law, base.node);
@@ -237,15 +237,15 @@ struct AskFriction {
   }
 };
 template <class Law, int Dim, class Real>
-struct AskCohesion {
+struct EvaluateCohesion {
   Law law;
   int substrate;
   const terrain::GroundAtNode<Dim, Real>* known;
   const std::uint32_t* candidates;
-  BaseOfNode<Real>* bases;
+  ContactInput<Real>* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    BaseOfNode<Real>& base = bases[k];
+    ContactInput<Real>& base = bases[k];
     if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
       base.cohesion = law.cohesion(base.node);
     }
@@ -271,9 +271,9 @@ struct ResolveContact {
   };
   using Sum = terrain::ContactWork<Dim, Real>;
 
-  NodesInStep<Dim, Real> step;
+  NodeStageArgs<Dim, Real> step;
   const std::int32_t* number;  // by node, among the candidates; null: there is no ground
-  const BaseOfNode<Real>* bases;
+  const ContactInput<Real>* bases;
   physics::FrictionClamp clamp;
   bool cap_pressure;
   Real heat_fraction;
@@ -323,7 +323,7 @@ struct ResolveContact {
   }
   THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, const FacesAtNode<Dim, Real>& walls,
                           terrain::NodeState<Dim, Real>& state, Sum& work, Real* contact) const {
-    const BaseOfNode<Real>& base = bases[candidate];
+    const ContactInput<Real>& base = bases[candidate];
     const Real held = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief, base.cohesion,
                                                 clamp, cap_pressure) +
                       base.drag;
@@ -342,7 +342,7 @@ struct MapBack {
   using Part = Real;
   using Sum = Real;
 
-  NodesInStep<Dim, Real> step;
+  NodeStageArgs<Dim, Real> step;
 
   THAWSLIDE_HD void visit(std::size_t node, Part& work) const {
     const NodeViews<Dim, Real>& nodes = step.nodes;

@@ -106,7 +106,7 @@ struct SeepageFlows {
 
 // The normal load of a particle, from columns in whose loads per depth stand for the cosine.
 template <int Dim, class Real>
-struct TakeLoad {
+struct AddPressureLoad {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;

@@ -30,7 +30,7 @@ class Step {
  public:
   // So many particles of the processor's memory, copied.
   Step(Backend& backend, const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles,
-       std::size_t count, const AskProcessor<Dim, Real>& ask)
+       std::size_t count, const HostCallbacks<Dim, Real>& ask)
       : passes_(backend, model, particles, count, ask.ground),
         sums_(backend, 1),
         band_(passes_, ask, sums_.data()),
@@ -96,7 +96,7 @@ class Step {
   std::vector<Vector<Real, Dim>> places_of_strays() {
     return strays_.places(passes_, strays_kernel(), sums_.get(0).strays);
   }
-  void look_at_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapLook& look) {
+  void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& look) {
     if constexpr (Dim == 3) {
       look.moments = passes_.sum_over_particles(SumMoments{}, moments_);
       maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), look);
@@ -153,14 +153,14 @@ class Step {
   }
 
   void resolve_contact(Real time, Real dt) {
-    const NodesInStep<Dim, Real> step = passes_.nodes_in_step(time, dt);
+    const NodeStageArgs<Dim, Real> step = passes_.nodes_in_step(time, dt);
     if (passes_.ground.exists()) {
       const SeesCandidates<Dim> sees = passes_.ground.sees_candidates();
       passes_.run(passes_.momentum(sees),
                   terrain::AddNearGround<Dim, Real>{passes_.model.phases, passes_.model.lubrication});
       passes_.template sum<mpm::NearGround, mpm::Clearance>(sees);
-      ask_of_base(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground, band_columns_.states(),
-                  bases_.data());
+      evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
+                            band_columns_.states(), bases_.data());
     }
     if (bed_.exists()) {
       bed_.share_out(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.ground, passes_.model.cell,
@@ -179,7 +179,7 @@ class Step {
   }
 
   template <class Beds>
-  void resolve_contact(const NodesInStep<Dim, Real>& step, const Beds& beds) {
+  void resolve_contact(const NodeStageArgs<Dim, Real>& step, const Beds& beds) {
     const std::size_t blocks = step.tables.blocks;
     passes_.keep(block_pass<Dim>(passes_.backend, blocks,
                                  ResolveContact<Beds, Dim, Real>{
@@ -260,7 +260,7 @@ class Step {
   BandColumns<Backend, Dim, Real> band_columns_;
   ErodibleBed<Backend, Dim, Real> bed_;
   Array<Real, Backend> free_gaps_{passes_.backend};
-  Array<BaseOfNode<Real>, Backend> bases_{passes_.backend};
+  Array<ContactInput<Real>, Backend> bases_{passes_.backend};
   Strays<Backend, Dim, Real> strays_{passes_.backend};
   Front<Backend, Dim, Real> front_{passes_.backend};
   Array<mpm::WatchedSums<Real>, Backend> watched_{passes_.backend, 1};

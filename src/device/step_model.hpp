@@ -81,7 +81,7 @@ struct StepModel {
 // Tells what the nodes of a block know of the ground: of all nodes, x fastest; and returns whether the ground is known
 // everywhere below the block and a cell about it. Empty where there is no ground.
 template <int Dim, class Real>
-using AskGround = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
+using GroundQuery = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
 
 // Thickness of the cells along the ground at the middle of a column of cells, by its indices along the horizontal axes
 // [m] (terrain/layer_thickness.hpp); empty: it is one cell.
@@ -90,53 +90,53 @@ using LayerAtMiddle = std::function<double(const std::array<int, Dim - 1>&)>;
 
 // Band columns, which lie under the slide and are the processor's; empty where there are none.
 template <class Real>
-struct ColumnsOnProcessor {
+struct HostColumns {
   // Told of the active blocks, by ascending key, when they have changed: returns the numbers of those whose nodes it
   // asks for.
-  std::function<std::vector<std::uint32_t>(const std::vector<std::uint64_t>& blocks)> take_blocks;
+  std::function<std::vector<std::uint32_t>(const std::vector<std::uint64_t>& blocks)> update_blocks;
   // Records of BaseState of the nodes that may touch the ground, in the order of blocks and nodes.
   std::function<const std::vector<Real>&()> states;
-  // After contact: a record of columns_read<Dim> numbers of each node of the blocks that were asked for.
+  // After contact: a record of column_record_size<Dim> numbers of each node of the blocks that were asked for.
   std::function<void(const std::vector<Real>& nodes)> follow;
 };
 // Of a node: the record of Contact, mass [kg] and mid-step velocity [m/s].
 template <int Dim>
-inline constexpr std::size_t columns_read = static_cast<std::size_t>(mpm::Contact::size<Dim> + 1 + Dim);
+inline constexpr std::size_t column_record_size = static_cast<std::size_t>(mpm::Contact::size<Dim> + 1 + Dim);
 
 // The erodible bed, which is the processor's; empty where there is none.
 template <int Dim, class Real>
-struct BedOnProcessor {
+struct HostBed {
   using Columns = std::vector<std::array<int, Dim - 1>>;  // by the indices of their nodes along the horizontal axes
 
   terrain::BedMatter<Real> matter;
   // Told of the columns of the active blocks and of those that the nodes stand in that may touch the ground, when
   // blocks have changed; some are beyond the domain.
-  std::function<void(const Columns& of_blocks, const Columns& of_candidates)> take_columns;
+  std::function<void(const Columns& of_blocks, const Columns& of_candidates)> set_columns;
   // Told which parts of the former the slide has come to cover (terrain/bed.hpp) and how the latter press on the
   // ground: what of the bed is available to these [kg].
   std::function<const std::vector<Real>&(const std::vector<std::uint32_t>& parts, const std::vector<Real>& loads)>
       share_out;
-  // After contact: a record of bed_told<Dim> numbers of each of the latter.
+  // After contact: a record of bed_record_size<Dim> numbers of each of the latter.
   std::function<void(const std::vector<Real>& nodes)> collect;
 };
 // Of a node: the record of BedLayout, and the normal pressure where it has taken some of the bed [Pa].
 template <int Dim>
-inline constexpr std::size_t bed_told = static_cast<std::size_t>(mpm::BedLayout<Dim>::size) + 1;
+inline constexpr std::size_t bed_record_size = static_cast<std::size_t>(mpm::BedLayout<Dim>::size) + 1;
 
 // What the processor is asked amid a step.
 template <int Dim, class Real>
-struct AskProcessor {
-  AskGround<Dim, Real> ground;
+struct HostCallbacks {
+  GroundQuery<Dim, Real> ground;
   // As band/flow_depth.hpp asks. Without the slope's cosine thickness is vertical; the gravity is needed for loads
   // only.
   band::OfPlace<Dim, Real> slope_cosine, normal_gravity;
   LayerAtMiddle<Dim> layer_at_middle;
-  ColumnsOnProcessor<Real> columns;
-  BedOnProcessor<Dim, Real> bed;
+  HostColumns<Real> columns;
+  HostBed<Dim, Real> bed;
 };
 
 // What maps and the way of the centre of mass take after a step, in space.
-struct MapLook {
+struct MapSample {
   std::vector<std::uint64_t> keys;  // of cells that the slide may be above, ascending (mpm::map_cell_key)
   std::vector<mpm::MapSums> sums;   // of these
   mpm::MassMoments moments;

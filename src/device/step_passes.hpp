@@ -20,12 +20,12 @@ class StepPasses {
 
   // So many particles of the processor's memory, copied.
   StepPasses(Backend& used, const StepModel<Dim, Real>& known, const mpm::ParticleView<Dim, Real>& of_cpu,
-             std::size_t count, const AskGround<Dim, Real>& ask_ground)
+             std::size_t count, const GroundQuery<Dim, Real>& query_ground)
       : backend(used),
         model(known),
         particles(used, of_cpu, count),
         cells(used, known.cell),
-        ground(used, ask_ground),
+        ground(used, query_ground),
         sizes_(used, known.half_sizes, Real(1)) {}
   StepPasses(const StepPasses&) = delete;
   StepPasses& operator=(const StepPasses&) = delete;
@@ -89,7 +89,7 @@ class StepPasses {
     return nodes.template of<Name>();
   }
   [[nodiscard]] NodeViews<Dim, Real> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
-  [[nodiscard]] NodesInStep<Dim, Real> nodes_in_step(Real time, Real dt) {
+  [[nodiscard]] NodeStageArgs<Dim, Real> nodes_in_step(Real time, Real dt) {
     return {cells.tables(), views(), model.faces,          model.gravity,       model.cell,      model.mass_damping,
             time,           dt,      model.distance_check, model.pore_pressure, model.base_holds};
   }

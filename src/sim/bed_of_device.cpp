@@ -8,11 +8,11 @@
 namespace thawslide::sim {
 
 template <int Dim, class Real>
-device::BedOnProcessor<Dim, Real> Simulation<Dim, Real>::bed_on_processor() {
+device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed() {
   if (bed_in_reach() == nullptr) {
     return {};
   }
-  using Columns = typename device::BedOnProcessor<Dim, Real>::Columns;
+  using Columns = typename device::HostBed<Dim, Real>::Columns;
   bed_of_device_ = std::make_unique<BedOfDevice<Dim, Real>>();
   return {bed_->matter(),
           [this](const Columns& of_blocks, const Columns& of_candidates) {
@@ -49,13 +49,12 @@ device::BedOnProcessor<Dim, Real> Simulation<Dim, Real>::bed_on_processor() {
               if (record[mpm::BedLayout<Dim>::taken] > Real(0)) {
                 bed_->collect(node.column, record, record[mpm::BedLayout<Dim>::size]);
               }
-              record += device::bed_told<Dim>;
+              record += device::bed_record_size<Dim>;
             }
           }};
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) \
-  template device::BedOnProcessor<Dim, Real> Simulation<Dim, Real>::bed_on_processor();
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -7,11 +7,11 @@ namespace thawslide::sim {
 
 template <int Dim, class Real>
 BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_body() const {
-  if (!device_step_) {
+  if (!device_solver_) {
     return sum_over_particles(nullptr);
   }
   BodySums<Dim, Real> sums;
-  on_device([&] { sums = device_step_->sum_over_body(sums_of_particle()); });
+  on_device([&] { sums = device_solver_->sum_over_body(sums_of_particle()); });
   return sums;
 }
 

@@ -85,12 +85,12 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
 }
 
 template <int Dim, class Real>
-device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell) {
-  device::AskProcessor<Dim, Real> ask;
+device::HostCallbacks<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell) {
+  device::HostCallbacks<Dim, Real> ask;
   if (model.ground) {
     ask.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
       std::array<terrain::GroundAtNode<Dim, double>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> found;
-      terrain::ask_ground<Dim>(*model.ground, model.substrates.get(), block, cell, found.data());
+      terrain::query_ground<Dim>(*model.ground, model.substrates.get(), block, cell, found.data());
       std::transform(found.begin(), found.end(), nodes, [](const auto& node) {
         return terrain::GroundAtNode<Dim, Real>{node.candidate,
                                                 node.substrate,
@@ -116,7 +116,7 @@ device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model
   template std::string not_on_devices<Dim, Real>(const config::Case&, const Model<Dim, Real>&);                  \
   template device::StepModel<Dim, Real> device_model_of<Dim, Real>(const config::Case&, const Model<Dim, Real>&, \
                                                                    bool);                                        \
-  template device::AskProcessor<Dim, Real> terrain_for_device<Dim, Real>(const Model<Dim, Real>&, double);
+  template device::HostCallbacks<Dim, Real> terrain_for_device<Dim, Real>(const Model<Dim, Real>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

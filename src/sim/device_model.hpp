@@ -20,6 +20,6 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
 
 // What is asked of the model's terrain, which must outlive it.
 template <int Dim, class Real>
-device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell);
+device::HostCallbacks<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell);
 
 }  // namespace thawslide::sim

@@ -17,9 +17,9 @@ mpm::OnWay Simulation<Dim, Real>::front(const LineView& line) const {
     way.origin[a] = model_.origin[static_cast<int>(a)];
   }
   const auto mass = static_cast<double>(sum_over_body().mass);
-  if (device_step_) {
+  if (device_solver_) {
     mpm::OnWay found;
-    on_device([&] { found = device_step_->front(way, mass); });
+    on_device([&] { found = device_solver_->front(way, mass); });
     return found;
   }
   const std::vector<std::uint32_t>& order = grid_.order();

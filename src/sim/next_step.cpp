@@ -39,7 +39,7 @@ std::string advice_on(LimitKind kind) {
 
 template <int Dim, class Real>
 band::StepExtremes Simulation<Dim, Real>::extremes() const {
-  const bool are_told = device_step_ && parameters_.time.stepping == config::Stepping::adaptive;
+  const bool are_told = device_solver_ && parameters_.time.stepping == config::Stepping::adaptive;
   return are_told ? device_sums_.extremes : extremes_of(model_, particles());
 }
 

@@ -110,7 +110,7 @@ void Simulation<Dim, Real>::mark_left_particles() {
     // The tile's own block stands in the middle of those about it; its ground is looked at a cell further.
     // After steps of a device tiles may be those of long ago: all particles are looked at.
     const auto own = static_cast<std::size_t>(grid_.blocks_about_tile(t)[mpm::Tile<Dim>::stencil / 2]);
-    if (!device_step_ && !ground_.partly_unknown(own)) {
+    if (!device_solver_ && !ground_.partly_unknown(own)) {
       return;
     }
     for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {

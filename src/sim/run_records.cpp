@@ -135,7 +135,7 @@ void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     const std::vector<PieceBelow> pieces = pieces_below(simulation);
     const std::vector<PieceBelow>* below = simulation.band_columns() != nullptr ? &pieces : nullptr;
-    if (const device::MapLook* look = simulation.look_at_map(maps_->cells())) {
+    if (const device::MapSample* look = simulation.sample_map(maps_->cells())) {
       const double mass = std::accumulate(look->sums.begin(), look->sums.end(), 0.0,
                                           [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });
       THAWSLIDE_ASSERT(std::abs(mass - look->moments.mass) <= round_off<double> * look->moments.mass,

@@ -40,7 +40,7 @@ void Simulation<Dim, Real>::step(double dt) {
   if (step_number_ == 0) {
     start_watch();  // once more: who set the run up may have changed the state
   }
-  if (make_step_) {
+  if (make_solver_) {
     stopwatch_.time("step_on_device", [&] { take_step_on_device(); });
   } else {
     take_step_here();

@@ -14,7 +14,7 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "config/case.hpp"
-#include "device/any_step.hpp"
+#include "device/solver.hpp"
 #include "mpm/front.hpp"
 #include "mpm/motion.hpp"
 #include "sim/bed_of_device.hpp"
@@ -69,7 +69,7 @@ class Simulation {
 
   // From now on steps are taken on a device. Throws UserError, with the key, for what no device does yet; a step throws
   // DeviceError where the device fails.
-  void use_device(const std::string& device, device::MakeStep<Dim, Real> make);
+  void use_device(const std::string& device, device::SolverFactory<Dim, Real> make);
 
   // Particles join between two steps, with ids that none has had. They are in no band until the next step.
   void append(const std::vector<NewParticle<Dim, Real>>& joining);
@@ -125,7 +125,7 @@ class Simulation {
   // The particle at the front along a line, or along the x axis where the line has no segments. There must be one.
   [[nodiscard]] mpm::OnWay front(const LineView& line = {}) const;
   // What maps take of a step that a device took; null after one of the processor.
-  [[nodiscard]] const device::MapLook* look_at_map(const mpm::MapCells& cells) const;
+  [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& cells) const;
   // Of a step of the processor.
   [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const {
     THAWSLIDE_ASSERT(device_name_.empty(), "nodes are asked for, which {} keeps", device_name_);
@@ -239,9 +239,9 @@ class Simulation {
   void band_columns_follow(const mpm::SparseGrid<Dim, Real>& grid, const terrain::GroundOnGrid<Dim, Real>& ground,
                            mpm::Nodes<Dim, Real>& nodes);
   // Where a device takes the steps (columns_of_device.cpp).
-  [[nodiscard]] device::ColumnsOnProcessor<Real> columns_on_processor();
+  [[nodiscard]] device::HostColumns<Real> host_columns();
   // The same (bed_of_device.cpp).
-  [[nodiscard]] device::BedOnProcessor<Dim, Real> bed_on_processor();
+  [[nodiscard]] device::HostBed<Dim, Real> host_bed();
   void start_ledger();
   [[nodiscard]] std::vector<Vector<double, Dim - 1>> places_below_slide(
       const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const;
@@ -259,11 +259,11 @@ class Simulation {
   mutable mpm::SparseGrid<Dim, Real> grid_;
   mutable terrain::GroundOnGrid<Dim, Real> ground_;
   mpm::Nodes<Dim, Real> nodes_;
-  device::MakeStep<Dim, Real> make_step_;  // empty: the processor takes the steps
+  device::SolverFactory<Dim, Real> make_solver_;  // empty: the processor takes the steps
   // Null: particles have changed here since, or the device has failed.
-  mutable std::unique_ptr<device::AnyStep<Dim, Real>> device_step_;
+  mutable std::unique_ptr<device::Solver<Dim, Real>> device_solver_;
   device::StepSums<Dim, Real> device_sums_;  // of its last step
-  mutable device::MapLook map_look_;         // the last one
+  mutable device::MapSample map_sample_;     // the last one
   std::string device_name_;
   band::FlowDepth<Dim, Real> flow_depth_;
   std::optional<band::BaseColumns<Dim, Real>> band_columns_;

@@ -10,7 +10,7 @@
 namespace thawslide::sim {
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::use_device(const std::string& device, device::MakeStep<Dim, Real> make) {
+void Simulation<Dim, Real>::use_device(const std::string& device, device::SolverFactory<Dim, Real> make) {
   const std::string missing = not_on_devices(parameters_, model_);
   if (!missing.empty()) {
     throw UserError(fmt::format("{}: no step on {} does {} yet. Run it on the processor: --device cpu",
@@ -18,7 +18,7 @@ void Simulation<Dim, Real>::use_device(const std::string& device, device::MakeSt
   }
   leave_device();
   device_name_ = device;
-  make_step_ = std::move(make);
+  make_solver_ = std::move(make);
 }
 
 // Work that the device does for the step. Of particles that stood on one that failed only what was brought back last is
@@ -29,25 +29,25 @@ void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
     work();
   } catch (const device::Failure& error) {
     particles_are_here_ = grid_is_here_ = device_has_failed_ = true;
-    device_step_.reset();
+    device_solver_.reset();
     throw DeviceError(fmt::format("{} failed at step {}: {}", device_name_, step_number_, error.what()));
   }
 }
 
 template <int Dim, class Real>
 device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
-  if (!device_step_) {
-    device::AskProcessor<Dim, Real> ask = terrain_for_device(model_, parameters_.grid.cell);
-    ask.columns = columns_on_processor();
-    ask.bed = bed_on_processor();
-    device_step_ = make_step_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
-                              particles_.size(), std::move(ask));
+  if (!device_solver_) {
+    device::HostCallbacks<Dim, Real> ask = terrain_for_device(model_, parameters_.grid.cell);
+    ask.columns = host_columns();
+    ask.bed = host_bed();
+    device_solver_ = make_solver_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
+                                  particles_.size(), std::move(ask));
   }
   if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
-    device_step_->sort_in_memory();
+    device_solver_->sort_in_memory();
   }
   particles_are_here_ = grid_is_here_ = false;
-  return device_step_->step(static_cast<Real>(time_), dt_);
+  return device_solver_->step(static_cast<Real>(time_), dt_);
 }
 
 template <int Dim, class Real>
@@ -78,12 +78,12 @@ void Simulation<Dim, Real>::take_step_on_device() {
 
 template <int Dim, class Real>
 bool Simulation<Dim, Real>::nothing_befell_on_device() const {
-  if (!device_step_ || bad_.id >= 0) {
+  if (!device_solver_ || bad_.id >= 0) {
     return false;
   }
   std::vector<Vector<Real, Dim>> strays;
   if (device_sums_.strays > 0) {
-    on_device([&] { strays = device_step_->places_of_strays(); });
+    on_device([&] { strays = device_solver_->places_of_strays(); });
   }
   return !any_has_left(strays);
 }
@@ -107,7 +107,7 @@ bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>& p
 template <int Dim, class Real>
 void Simulation<Dim, Real>::copy_particles_back() const {
   if (!particles_are_here_) {
-    on_device([&] { device_step_->copy_to(mpm::view_of(particles_)); });
+    on_device([&] { device_solver_->copy_to(mpm::view_of(particles_)); });
     particles_are_here_ = true;
   }
 }
@@ -124,32 +124,32 @@ void Simulation<Dim, Real>::bring_particles_back() const {
 }
 
 template <int Dim, class Real>
-const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells& cells) const {
-  if (!device_step_) {
+const device::MapSample* Simulation<Dim, Real>::sample_map(const mpm::MapCells& cells) const {
+  if (!device_solver_) {
     return nullptr;
   }
-  on_device([&] { device_step_->look_at_map(cells, map_look_); });
-  return &map_look_;
+  on_device([&] { device_solver_->sample_map(cells, map_sample_); });
+  return &map_sample_;
 }
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::leave_device() {
   bring_particles_back();
-  device_step_.reset();
+  device_solver_.reset();
   grid_of_device_.reset();
   bed_of_device_.reset();
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                            \
-  template void Simulation<Dim, Real>::use_device(const std::string&, device::MakeStep<Dim, Real>); \
-  template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;               \
-  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                     \
-  template void Simulation<Dim, Real>::take_step_on_device();                                       \
-  template bool Simulation<Dim, Real>::nothing_befell_on_device() const;                            \
-  template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;   \
-  template void Simulation<Dim, Real>::copy_particles_back() const;                                 \
-  template void Simulation<Dim, Real>::bring_particles_back() const;                                \
-  template const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells&) const;   \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                 \
+  template void Simulation<Dim, Real>::use_device(const std::string&, device::SolverFactory<Dim, Real>); \
+  template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;                    \
+  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                          \
+  template void Simulation<Dim, Real>::take_step_on_device();                                            \
+  template bool Simulation<Dim, Real>::nothing_befell_on_device() const;                                 \
+  template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;        \
+  template void Simulation<Dim, Real>::copy_particles_back() const;                                      \
+  template void Simulation<Dim, Real>::bring_particles_back() const;                                     \
+  template const device::MapSample* Simulation<Dim, Real>::sample_map(const mpm::MapCells&) const;       \
   template void Simulation<Dim, Real>::leave_device();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

@@ -94,8 +94,8 @@ mpm::WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const {
                                             static_cast<Real>(parameters_.guards.smallest_volume),
                                             static_cast<Real>(parameters_.guards.largest_volume)};
   mpm::WatchedSums<Real> seen;
-  if (device_step_) {
-    on_device([&] { seen = device_step_->watch(look); });
+  if (device_solver_) {
+    on_device([&] { seen = device_solver_->watch(look); });
     return seen;
   }
   return mpm::sum_over_particles<mpm::WatchedSums<Real>>(grid_, [&](std::uint32_t p) { return look(particles_, p); });

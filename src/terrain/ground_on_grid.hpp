@@ -36,8 +36,8 @@ bool is_ground_known(const Surface<Dim>& surface, std::uint64_t block, double ce
 
 // What the nodes of a block learn of the ground. `substrates`: null where it is all of one kind.
 template <int Dim>
-void ask_ground(const Surface<Dim>& surface, const Substrates* substrates, std::uint64_t block, double cell,
-                GroundAtNode<Dim, double>* nodes) {
+void query_ground(const Surface<Dim>& surface, const Substrates* substrates, std::uint64_t block, double cell,
+                  GroundAtNode<Dim, double>* nodes) {
   using T = mpm::Tile<Dim>;
   const typename T::Index first = first_node_of<Dim>(block);
   surface.at_block(first, cell, T::edge, nodes);
@@ -146,7 +146,7 @@ class GroundOnGrid {
 
   void learn(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
     std::array<GroundAtNode<Dim, double>, static_cast<std::size_t>(T::nodes)> nodes;
-    ask_ground<Dim>(surface, substrates, keys_[k], cell, nodes.data());
+    query_ground<Dim>(surface, substrates, keys_[k], cell, nodes.data());
     any_candidate_[k] = 0;
     partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], cell) ? 0 : 1;
     for (std::size_t n = 0; n < nodes.size(); ++n) {

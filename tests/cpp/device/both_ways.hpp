@@ -25,12 +25,12 @@ using device::Host, device::HostGroup, device::ThreadOrder;
 
 // What a pass needs beside weights and kernels: its records, what of tiles it takes, and whether its sums are asked for
 // at what the ground knows of a node.
-template <class Records, class Takes, class Asked>
+template <class Records, class Takes, class ColumnQuery>
 struct Pass {
   std::string name;
   Records& records;
   Takes takes;
-  Asked asked;
+  ColumnQuery asked;
   bool shows_barriers = true;  // what it leaves is other where a barrier is missing
 };
 inline constexpr auto everywhere = [](const auto& /*ground*/) { return true; };
@@ -104,8 +104,8 @@ inline void take_sum(const band::DrainedWater<double>& sum, std::vector<double>&
 using Bits = std::map<std::string, std::vector<double>>;
 
 // on_device: the patches there; null: those of the scene's nodes.
-template <class Name, int Dim, class Asked>
-void take_patches_of(Scene<Dim>& scene, const Asked& asked, const double* on_device, Bits& bits) {
+template <class Name, int Dim, class ColumnQuery>
+void take_patches_of(Scene<Dim>& scene, const ColumnQuery& asked, const double* on_device, Bits& bits) {
   constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
   auto& of_name = bits[typeid(Name).name()];
   const auto patches = scene.nodes.template of<Name>().patches(scene.grid.tiles().size());
@@ -145,8 +145,8 @@ struct PatchesOf<mpm::RecordList<Names...>> {
     };
     (clear_one(scene.nodes.template of<Names>().patches(scene.grid.tiles().size())), ...);
   }
-  template <int Dim, class Asked>
-  static void take([[maybe_unused]] Scene<Dim>& scene, [[maybe_unused]] const Asked& asked,
+  template <int Dim, class ColumnQuery>
+  static void take([[maybe_unused]] Scene<Dim>& scene, [[maybe_unused]] const ColumnQuery& asked,
                    [[maybe_unused]] const double* on_device, [[maybe_unused]] Bits& bits) {
     (take_patches_of<Names>(scene, asked, on_device, bits), ...);
   }
@@ -155,8 +155,8 @@ struct PatchesOf<mpm::RecordList<Names...>> {
 
 // Runs a pass by run(particles, sums) on a copy of the scene's particles; run returns the patches on the device, or
 // null.
-template <class Adds, int Dim, class Asked, class Run>
-Bits bits_of(Scene<Dim>& scene, const Asked& asked, const Run& run) {
+template <class Adds, int Dim, class ColumnQuery, class Run>
+Bits bits_of(Scene<Dim>& scene, const ColumnQuery& asked, const Run& run) {
   mpm::Particles<Dim, double> particles;
   particles.affine_velocity.keep(true);
   particles.viscous_stress.keep(true);
@@ -182,8 +182,8 @@ struct NumbersOfPatch<mpm::RecordList<Name, Names...>> {
 };
 
 // The pass of some kernels as a device runs it; returns its patches.
-template <int Dim, class Records, class Takes, class Asked, class Weights, class... Kernels>
-std::vector<double> run_on_device(Host host, const Pass<Records, Takes, Asked>& pass, Scene<Dim>& scene,
+template <int Dim, class Records, class Takes, class ColumnQuery, class Weights, class... Kernels>
+std::vector<double> run_on_device(Host host, const Pass<Records, Takes, ColumnQuery>& pass, Scene<Dim>& scene,
                                   const Weights& weights, mpm::Particles<Dim, double>& particles,
                                   std::vector<double>& sums, const Kernels&... kernels) {
   using Reads = mpm::AllOf<typename Kernels::Reads...>;
@@ -211,8 +211,8 @@ std::vector<double> run_on_device(Host host, const Pass<Records, Takes, Asked>& 
 }
 
 // The pass of some kernels by lanes and by groups.
-template <int Dim, class Records, class Takes, class Asked, class Weights, class... Kernels>
-void expect_the_bits_of_lanes(const Pass<Records, Takes, Asked>& pass, Scene<Dim>& scene, const Weights& weights,
+template <int Dim, class Records, class Takes, class ColumnQuery, class Weights, class... Kernels>
+void expect_the_bits_of_lanes(const Pass<Records, Takes, ColumnQuery>& pass, Scene<Dim>& scene, const Weights& weights,
                               const Kernels&... kernels) {
   const std::string& name = pass.name;
   using Adds = mpm::AllOf<typename Kernels::Adds...>;

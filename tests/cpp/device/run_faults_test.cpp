@@ -25,7 +25,7 @@ TEST(DeviceRun, EndsWithTheSameWords) {
 // Steps until it breaks down, or until particles are asked for.
 class BreaksDown final : public PassesOn<2> {
  public:
-  BreaksDown(std::unique_ptr<device::AnyStep<2, double>> steps, int sound) : PassesOn(std::move(steps)), left_(sound) {}
+  BreaksDown(std::unique_ptr<device::Solver<2, double>> steps, int sound) : PassesOn(std::move(steps)), left_(sound) {}
 
   device::StepSums<2, double> step(double time, double dt) override {
     if (left_-- == 0) {

@@ -22,19 +22,19 @@ using namespace testing_support;
 using device::Host, device::ThreadOrder;
 
 template <int Dim>
-device::MakeStep<Dim, double> emulated_gpu(ThreadOrder order) {
+device::SolverFactory<Dim, double> emulated_gpu(ThreadOrder order) {
   return device::emulated<Dim>(order);
 }
 
 // Leaves all to other steps, for tests that change some of it.
 template <int Dim>
-class PassesOn : public device::AnyStep<Dim, double> {
+class PassesOn : public device::Solver<Dim, double> {
  public:
-  explicit PassesOn(std::unique_ptr<device::AnyStep<Dim, double>> steps) : steps_(std::move(steps)) {}
+  explicit PassesOn(std::unique_ptr<device::Solver<Dim, double>> steps) : steps_(std::move(steps)) {}
 
   device::StepSums<Dim, double> step(double time, double dt) override { return steps_->step(time, dt); }
   mpm::WatchedSums<double> watch(const mpm::LookAtParticle<Dim, double>& look) override { return steps_->watch(look); }
-  void look_at_map(const mpm::MapCells& cells, device::MapLook& look) override { steps_->look_at_map(cells, look); }
+  void sample_map(const mpm::MapCells& cells, device::MapSample& look) override { steps_->sample_map(cells, look); }
   band::BodySums<Dim, double> sum_over_body(const band::SumsOfParticle<Dim, double>& of_particle) override {
     return steps_->sum_over_body(of_particle);
   }
@@ -46,14 +46,14 @@ class PassesOn : public device::AnyStep<Dim, double> {
   [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
 
  private:
-  std::unique_ptr<device::AnyStep<Dim, double>> steps_;
+  std::unique_ptr<device::Solver<Dim, double>> steps_;
 };
 
 // Counts how often particles come back.
 template <int Dim>
 class CountsCopies final : public PassesOn<Dim> {
  public:
-  CountsCopies(std::unique_ptr<device::AnyStep<Dim, double>> steps, int& copies)
+  CountsCopies(std::unique_ptr<device::Solver<Dim, double>> steps, int& copies)
       : PassesOn<Dim>(std::move(steps)), copies_(copies) {}
 
   void copy_to(const mpm::ParticleView<Dim, double>& particles) override {
@@ -65,7 +65,7 @@ class CountsCopies final : public PassesOn<Dim> {
   int& copies_;
 };
 template <int Dim>
-device::MakeStep<Dim, double> counting_copies(ThreadOrder order, int& copies) {
+device::SolverFactory<Dim, double> counting_copies(ThreadOrder order, int& copies) {
   return [order, &copies](const auto& model, const auto& particles, std::size_t count, auto ask) {
     return std::make_unique<CountsCopies<Dim>>(emulated_gpu<Dim>(order)(model, particles, count, std::move(ask)),
                                                copies);

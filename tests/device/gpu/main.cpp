@@ -143,8 +143,8 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
   for (const auto& [along, height] : strays) {
     numbers.insert(numbers.end(), {along, height});
   }
-  device::MapLook map;
-  steps.look_at_map({-0.3, -0.2, 1.4, 0.7, 1.0 / 1.4, 1.0 / 0.7, 100, 100, 0.25 * cell}, map);
+  device::MapSample map;
+  steps.sample_map({-0.3, -0.2, 1.4, 0.7, 1.0 / 1.4, 1.0 / 0.7, 100, 100, 0.25 * cell}, map);
   numbers.insert(numbers.end(), {map.moments.mass, map.moments.mass_x, map.moments.mass_y});
   for (const mpm::MapSums& of_cell : map.sums) {
     numbers.insert(numbers.end(), {of_cell.column.volume, of_cell.column.mass, of_cell.column.momentum_x,
@@ -169,7 +169,7 @@ bool tell_looks(const std::string& when, const std::vector<double>& of_cpu, cons
 }
 
 template <int Dim>
-bool compare_slides(const device::MakeStep<Dim, Real>& make, const device::MakeStep<Dim, Real>& make_again,
+bool compare_slides(const device::SolverFactory<Dim, Real>& make, const device::SolverFactory<Dim, Real>& make_again,
                     const Size& size) {
   ParticleMemory<Dim> start(size.particles(Dim));
   seed(size, start);
@@ -202,7 +202,7 @@ bool compare_slides(const device::MakeStep<Dim, Real>& make, const device::MakeS
 
 // What else models choose: the same bits on both, of particles, looks and what the processor is told amid steps.
 template <int Dim>
-bool compare_variant(const device::MakeStep<Dim, Real>& make, const Size& size, const NamedVariant& of) {
+bool compare_variant(const device::SolverFactory<Dim, Real>& make, const Size& size, const NamedVariant& of) {
   ParticleMemory<Dim> start(size.particles(Dim)), of_cpu(start.size()), of_gpu(start.size());
   seed(size, start);
   const auto told = std::make_shared<Told>(), reported_by_gpu = std::make_shared<Told>();
@@ -246,7 +246,7 @@ void measure(std::size_t particles) {
 
 // make: what takes the place of `on a card`; make_again: the same in another way, whose bits must be the same.
 template <int Dim>
-bool compare_all(const device::MakeStep<Dim, Real>& make, const device::MakeStep<Dim, Real>& make_again,
+bool compare_all(const device::SolverFactory<Dim, Real>& make, const device::SolverFactory<Dim, Real>& make_again,
                  const Size& size) {
   bool well = compare_slides<Dim>(make, make_again, size);
   for (const NamedVariant& variant : variants) {

@@ -48,10 +48,10 @@ inline std::vector<Real> plastic_strain_by_id(const ParticleMemory<3>& particles
 }
 
 // free_memory: of the device, now [bytes]. stage: told the name and the seconds a step of each stage, if it is given.
-using TellStage = std::function<void(const std::string&, double)>;
-inline Measured measured(const device::MakeStep<3, Real>& make, std::size_t particles, Variant variant,
+using ReportStage = std::function<void(const std::string&, double)>;
+inline Measured measured(const device::SolverFactory<3, Real>& make, std::size_t particles, Variant variant,
                          double seconds_at_least, const std::function<double()>& free_memory,
-                         const TellStage& stage = {}) {
+                         const ReportStage& stage = {}) {
   const Size size = size_of(particles);
   ParticleMemory<3> memory(size.particles(3));
   seed(size, memory);
@@ -110,7 +110,7 @@ inline void print_row(const Measured& found) {
 }
 
 // The table of docs/gpu.md, as Markdown: each size elastic and yielding, up to what does not fit any more.
-inline void print_table(const device::MakeStep<3, Real>& make, const std::vector<std::size_t>& sizes,
+inline void print_table(const device::SolverFactory<3, Real>& make, const std::vector<std::size_t>& sizes,
                         double seconds_at_least, const std::function<double()>& free_memory) {
   std::printf(
       "| particles | yielding [%%] | a step [ms] | million particle-steps a second | a row of the history [ms] | all "

@@ -182,7 +182,7 @@ band::SumsOfParticle<Dim, Real> sums_of_particle() {
 
 // Of a plane along the grid.
 template <int Dim>
-bool ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
+bool query_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
   using T = mpm::Tile<Dim>;
   const Real face = Dim == 2 ? cell : cell * cell;
   for (int k = 0; k < T::nodes; ++k) {
@@ -201,10 +201,10 @@ bool ask_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
 }
 
 template <int Dim>
-device::AskProcessor<Dim, Real> terrain_of_slide() {
+device::HostCallbacks<Dim, Real> terrain_of_slide() {
   using Place = Vector<Real, Dim - 1>;
-  device::AskProcessor<Dim, Real> ask;
-  ask.ground = ask_ground<Dim>;
+  device::HostCallbacks<Dim, Real> ask;
+  ask.ground = query_ground<Dim>;
   ask.slope_cosine = [](const Place& /*place*/) { return 1.0; };
   ask.normal_gravity = [](const Place& /*place*/) { return 9.81 * std::cos(slope * pi<Real> / 180.0); };
   return ask;

@@ -9,11 +9,11 @@
 namespace thawslide::gpu_test {
 
 template <int Dim>
-using Steps = device::AnyStep<Dim, Real>;
+using Steps = device::Solver<Dim, Real>;
 
 // told: what the processor's part in the steps is told.
 template <int Dim>
-std::unique_ptr<Steps<Dim>> steps_of(const device::MakeStep<Dim, Real>& make, const ParticleMemory<Dim>& particles,
+std::unique_ptr<Steps<Dim>> steps_of(const device::SolverFactory<Dim, Real>& make, const ParticleMemory<Dim>& particles,
                                      Variant variant = Variant::plain,
                                      const std::shared_ptr<Told>& told = std::make_shared<Told>()) {
   return make(model_of<Dim>(variant), particles.view(), particles.size(), processor_of<Dim>(variant, told));

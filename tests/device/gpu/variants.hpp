@@ -89,7 +89,7 @@ using Told = std::vector<Real>;
 
 // Columns that are the same everywhere. Nodes that may touch the ground are those of one layer of each lowest block.
 template <int Dim>
-device::ColumnsOnProcessor<Real> columns_below(const std::shared_ptr<Told>& told) {
+device::HostColumns<Real> columns_below(const std::shared_ptr<Told>& told) {
   const auto states = std::make_shared<std::vector<Real>>();
   return {[states](const std::vector<std::uint64_t>& blocks) {
             std::array<terrain::GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> nodes;
@@ -101,7 +101,7 @@ device::ColumnsOnProcessor<Real> columns_below(const std::shared_ptr<Told>& told
             states->clear();
             std::vector<std::uint32_t> asked;
             for (std::size_t b = 0; b < blocks.size(); ++b) {
-              ask_ground<Dim>(blocks[b], nodes.data());
+              query_ground<Dim>(blocks[b], nodes.data());
               for (const auto& node : nodes) {
                 if (node.candidate) {
                   states->insert(states->end(), state.begin(), state.end());
@@ -117,12 +117,12 @@ device::ColumnsOnProcessor<Real> columns_below(const std::shared_ptr<Told>& told
 
 // A bed without end, of which a node may take more where much of its column is covered.
 template <int Dim>
-device::BedOnProcessor<Dim, Real> bed_below(const std::shared_ptr<Told>& told) {
-  using Bed = device::BedOnProcessor<Dim, Real>;
+device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Told>& told) {
+  using Bed = device::HostBed<Dim, Real>;
   Bed bed;
   bed.matter = {terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
   const auto available = std::make_shared<std::vector<Real>>();
-  bed.take_columns = [](const typename Bed::Columns& /*of_blocks*/, const typename Bed::Columns& /*of_candidates*/) {};
+  bed.set_columns = [](const typename Bed::Columns& /*of_blocks*/, const typename Bed::Columns& /*of_candidates*/) {};
   bed.share_out = [told, available](const std::vector<std::uint32_t>& parts,
                                     const std::vector<Real>& loads) -> const std::vector<Real>& {
     Real covered = 0;
@@ -142,11 +142,11 @@ device::BedOnProcessor<Dim, Real> bed_below(const std::shared_ptr<Told>& told) {
 }
 
 template <int Dim>
-device::AskProcessor<Dim, Real> processor_of(Variant variant, const std::shared_ptr<Told>& told) {
-  device::AskProcessor<Dim, Real> ask = terrain_of_slide<Dim>();
+device::HostCallbacks<Dim, Real> processor_of(Variant variant, const std::shared_ptr<Told>& told) {
+  device::HostCallbacks<Dim, Real> ask = terrain_of_slide<Dim>();
   if (variant == Variant::unknown_ground) {
     ask.ground = [](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
-      ask_ground<Dim>(block, nodes);
+      query_ground<Dim>(block, nodes);
       return mpm::Tile<Dim>::index(block)[0] < 5;
     };
   }

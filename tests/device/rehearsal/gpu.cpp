@@ -7,11 +7,11 @@
 namespace thawslide::device {
 
 template <int Dim>
-MakeStep<Dim, double> on_gpu(Launching /*launching*/) {
+SolverFactory<Dim, double> on_gpu(Launching /*launching*/) {
   return emulated<Dim>(ThreadOrder::shuffled);
 }
-template MakeStep<2, double> on_gpu<2>(Launching);
-template MakeStep<3, double> on_gpu<3>(Launching);
+template SolverFactory<2, double> on_gpu<2>(Launching);
+template SolverFactory<3, double> on_gpu<3>(Launching);
 
 Gpu find_gpu() { return {true, "the processor in a card's place", "", 8e9}; }
 

@@ -1,26 +1,26 @@
-// The step on one backend, as an AnyStep.
+// The step on one backend, as an Solver.
 #pragma once
 
 #include <utility>
 #include <vector>
 
-#include "device/any_step.hpp"
+#include "device/solver.hpp"
 #include "device/step.hpp"
 
 namespace thawslide::device {
 
 template <class Backend, class Shape, int Dim, class Real>
-class StepOn final : public AnyStep<Dim, Real> {
+class SolverImpl final : public Solver<Dim, Real> {
  public:
   // backend: what Backend is made of.
   template <class... Words>
-  StepOn(const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
-         AskProcessor<Dim, Real> ask, Words&&... backend)
+  SolverImpl(const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
+             HostCallbacks<Dim, Real> ask, Words&&... backend)
       : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask)) {}
 
   StepSums<Dim, Real> step(Real time, Real dt) override { return step_.step(time, dt); }
   mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) override { return step_.watch(look); }
-  void look_at_map(const mpm::MapCells& cells, MapLook& look) override { step_.look_at_map(cells, look); }
+  void sample_map(const mpm::MapCells& cells, MapSample& look) override { step_.sample_map(cells, look); }
   band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) override {
     return step_.sum_over_body(of_particle);
   }
@@ -38,13 +38,13 @@ class StepOn final : public AnyStep<Dim, Real> {
 
 // With the shape functions that the model asks for.
 template <class Backend, int Dim, class Real, class... Words>
-std::unique_ptr<AnyStep<Dim, Real>> steps_on(const StepModel<Dim, Real>& model,
-                                             const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
-                                             AskProcessor<Dim, Real> ask, const Words&... backend) {
-  std::unique_ptr<AnyStep<Dim, Real>> made;
+std::unique_ptr<Solver<Dim, Real>> steps_on(const StepModel<Dim, Real>& model,
+                                            const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
+                                            HostCallbacks<Dim, Real> ask, const Words&... backend) {
+  std::unique_ptr<Solver<Dim, Real>> made;
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
-    made = std::make_unique<StepOn<Backend, decltype(shape), Dim, Real>>(model, particles, count, std::move(ask),
-                                                                         backend...);
+    made = std::make_unique<SolverImpl<Backend, decltype(shape), Dim, Real>>(model, particles, count, std::move(ask),
+                                                                             backend...);
   });
   return made;
 }

@@ -20,19 +20,19 @@ namespace thawslide::device {
 
 // What goes wrong with the device is thrown as a Failure; what goes wrong with the processor's part as it is.
 template <int Dim, class Real>
-class AnyStep {
+class Solver {
  public:
-  AnyStep() = default;
-  virtual ~AnyStep() = default;
-  AnyStep(const AnyStep&) = delete;
-  AnyStep& operator=(const AnyStep&) = delete;
+  Solver() = default;
+  virtual ~Solver() = default;
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
 
   // One step of dt [s] from a time [s] on.
   virtual StepSums<Dim, Real> step(Real time, Real dt) = 0;
   // What a look at the particles after a step finds.
   virtual mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) = 0;
   // The same for maps, in space.
-  virtual void look_at_map(const mpm::MapCells& cells, MapLook& look) = 0;
+  virtual void sample_map(const mpm::MapCells& cells, MapSample& look) = 0;
   // What a row of the history sums.
   virtual band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) = 0;
   // The particle at the front, of those whose mass together is so much [kg].
@@ -50,7 +50,7 @@ class AnyStep {
 
 // Copies so many particles to a device, where steps go on from them.
 template <int Dim, class Real>
-using MakeStep = std::function<std::unique_ptr<AnyStep<Dim, Real>>(
-    const StepModel<Dim, Real>&, const mpm::ParticleView<Dim, Real>&, std::size_t count, AskProcessor<Dim, Real>)>;
+using SolverFactory = std::function<std::unique_ptr<Solver<Dim, Real>>(
+    const StepModel<Dim, Real>&, const mpm::ParticleView<Dim, Real>&, std::size_t count, HostCallbacks<Dim, Real>)>;
 
 }  // namespace thawslide::device
